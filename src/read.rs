@@ -112,8 +112,9 @@ impl fmt::Display for Unread {
             Unread::NotPlain(what) => write!(f, "it is {what}, and only plain files are read"),
             Unread::NoRoom([length, room]) => write!(
                 f,
-                "it has {} MB, and there are {} MB of memory to read it in",
-                length / 1_000_000,
+                "it has {} MB, and there are {} MB of memory to read it in; `mms judge` and `mms diagnose` take more \
+                 with `--max-memory MB`",
+                length.div_ceil(1_000_000),
                 room / 1_000_000
             ),
             Unread::TooLong(kind) => write!(

@@ -134,7 +134,8 @@ impl Meaning {
         snapshot: &'a Snapshot,
         dimension: usize,
     ) -> Result<Values<'a>, Mistake> {
-        let columns = self.wanted(dimension).map_err(|mistake| mistake.of(&snapshot.path))?;
+        let columns =
+            self.wanted(snapshot, dimension).map_err(|mistake| mistake.of(&snapshot.path))?;
         let of = |column: &Column| array(snapshot, column.place);
         let rows = of(&columns[0]).rows();
         if let Some(other) = columns.iter().map(of).find(|other| other.rows() != rows) {
@@ -163,7 +164,7 @@ impl Meaning {
     }
 
     /// The columns that a field of that dimension has.
-    fn wanted(&self, dimension: usize) -> Result<Vec<Column>, Mistake> {
+    fn wanted(&self, snapshot: &Snapshot, dimension: usize) -> Result<Vec<Column>, Mistake> {
         let pairs = || pairs_of((0..dimension).collect());
         let found = match self.role.form() {
             Form::Scalar => vec![self.columns.first().filter(|_| self.columns.len() == 1)],
@@ -177,7 +178,7 @@ impl Meaning {
             }
         };
         let found: Option<Vec<Column>> = found.into_iter().map(|it| it.map(|it| it.1)).collect();
-        found.ok_or_else(|| self.misfit(dimension))
+        found.ok_or_else(|| self.misfit(snapshot, dimension))
     }
 
     /// The rows of a matrix over Voigt's components that a field of that dimension has: in a plane all but 33.
@@ -225,7 +226,7 @@ impl Meaning {
             .or_else(|| self.nth(row * size.filter(|&size| row < size && column < size)? + column))
     }
 
-    fn misfit(&self, dimension: usize) -> Mistake {
+    fn misfit(&self, snapshot: &Snapshot, dimension: usize) -> Mistake {
         let (symbol, source, found) = (self.role.symbol(), &self.source, self.columns.len());
         let expected = match self.role.form() {
             Form::Scalar => 1,
@@ -233,16 +234,36 @@ impl Meaning {
             Form::Tensor | Form::Symmetric => dimension * dimension,
             Form::Voigt => (dimension * (dimension + 1) / 2).pow(2),
         };
-        let advice = match (self.role.form(), found) {
-            (Form::Tensor | Form::Symmetric, 3 | 4 | 6) => format!(
-                "; is it in the order of Voigt? then name its entries row by row, as in `--map {symbol}={source}:0,{source}:3,..`"
-            ),
-            _ => format!("; name them with `--map {symbol}=..`"),
+        let is_tensor = matches!(self.role.form(), Form::Tensor | Form::Symmetric);
+        // The entries in the order of the columns, and which of these are the rows.
+        let orders: &[(&str, &[usize])] = match (dimension, found) {
+            (1, 3 | 4 | 6) => &[("11 first", &[0])],
+            (2, 3) => &[("11, 22, 12", &[0, 2, 2, 1])],
+            (2, 6) => &[("11, 22, 33, 12, ..", &[0, 3, 3, 1])],
+            (3, 6) => &[
+                ("11, 22, 33, 12, 23, 13", &[0, 3, 5, 3, 1, 4, 5, 4, 2]),
+                ("11, 22, 33, 12, 13, 23", &[0, 3, 4, 3, 1, 5, 4, 5, 2]),
+                ("11, 22, 33, 23, 13, 12", &[0, 5, 4, 5, 1, 3, 4, 3, 2]),
+            ],
+            _ => &[],
+        };
+        let said = |(entries, rows): &(&str, &[usize])| {
+            let listed = self.listed(snapshot, rows.iter().copied());
+            format!("; if they are {entries}, say `--map {symbol}={listed}`")
+        };
+        let advice = match is_tensor && !self.has_names() && !orders.is_empty() {
+            true => orders.iter().map(said).collect(),
+            false => format!("; name {expected} with `--map {symbol}=..`, row by row"),
         };
         Mistake::new(format!(
             "`{source}`, read as {}, has {found} component(s), and of {dimension} dimension(s) {expected} are expected{advice}",
             self.role.name()
         ))
+    }
+
+    /// Whether the names of its columns tell rows and columns of a matrix.
+    fn has_names(&self) -> bool {
+        self.columns.iter().any(|(part, _)| matches!(part, Part::Entry(..)))
     }
 
     /// Refuses four numbers of a symmetric tensor in a plane that cannot be 11, 12, 21, 22, for 12 is not 21; or that are no
@@ -253,8 +274,8 @@ impl Meaning {
         numbers: &[f64],
         dimension: usize,
     ) -> Result<(), Mistake> {
-        let has_names = self.columns.iter().any(|(part, _)| matches!(part, Part::Entry(..)));
-        let is_four = self.columns.len() == 4 && dimension == 2 && self.mapped < 2 && !has_names;
+        let is_four =
+            self.columns.len() == 4 && dimension == 2 && self.mapped < 2 && !self.has_names();
         if self.role.form() != Form::Symmetric || !is_four {
             return Ok(());
         }

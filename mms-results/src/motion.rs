@@ -45,12 +45,14 @@ pub fn resolve<'a>(
     let mut known = Known {
         snapshot,
         place_name: of(Role::Place).map(|it| it.mapping(snapshot, dimension)).unwrap_or_default(),
+        is_called_x: of(Role::Place).is_some_and(|it| it.source == "x"),
         reference: values(Role::Reference)?,
         position: values(Role::Position)?,
         place: values(Role::Place)?,
         displacement: values(Role::Displacement)?.filter(|it| !it.is_of_cells),
     };
     known.hold_rows().map_err(|mistake| mistake.of(&snapshot.path))?;
+    known.is_called_x &= known.reference.is_some();
     let given = (known.reference.take(), known.displacement.take());
     let motion =
         known.motion(given, outside, back).map_err(|mistake| mistake.of(&snapshot.path))?;
@@ -66,6 +68,8 @@ struct Known<'a> {
     snapshot: &'a Snapshot,
     /// What `--map` takes to name the places.
     place_name: String,
+    /// Whether they are called x, which is no X where X is given.
+    is_called_x: bool,
     reference: Option<Values<'a>>,
     position: Option<Values<'a>>,
     place: Option<Values<'a>>,
@@ -179,8 +183,11 @@ impl<'a> Known<'a> {
         let step = points.len().div_ceil(TRIED);
         let mut has_moved = false;
         for x in points.step_by(step) {
-            // What is not decided may be there.
-            let Ok(found) = back(x, place.rounding) else { continue };
+            let Ok(found) = back(x, place.rounding) else {
+                // What is not decided may be there, and have moved.
+                has_moved = true;
+                continue;
+            };
             let Some(reference) = found else {
                 let how = "points taken as X: as x, some would be where no point of the body is";
                 return Ok(motion(place.clone(), None, how));
@@ -232,7 +239,7 @@ impl<'a> Known<'a> {
         }
     }
 
-    /// Refuses an x that is not X + u, and places that are neither X nor that.
+    /// Refuses an x that is not X + u, and places of another name that are neither X nor that.
     fn hold_agreement(&self, motion: &Motion<'_>) -> Result<(), Mistake> {
         let Some(u) = &motion.displacement else { return Ok(()) };
         if self.position.is_none() && self.place.is_none() {
@@ -248,8 +255,9 @@ impl<'a> Known<'a> {
         };
         let of_position = self.position.as_ref().and_then(|it| Some((it, differs(it, &present)?)));
         let of_place = self.place.as_ref().and_then(|it| {
-            differs(it, &reference.numbers)?;
-            Some((it, differs(it, &present)?))
+            let of_present = differs(it, &present)?;
+            (self.is_called_x || differs(it, &reference.numbers).is_some())
+                .then_some((it, of_present))
         });
         let Some((given, at)) = of_position.or(of_place) else { return Ok(()) };
         let row = at / given.components;

@@ -186,7 +186,7 @@ fn add(
         return Ok(());
     }
     let (role, symbol) = (role.name(), role.symbol());
-    let other = if is_component { &array.name } else { &source };
+    let other = if known.source == source { &array.name } else { &source };
     Err(Mistake::new(format!(
         "both `{}` and `{other}` may be {role}: say which with `--map {symbol}=NAME`; an array of cells is `cells:NAME`",
         known.source

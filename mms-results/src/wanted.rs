@@ -71,7 +71,7 @@ impl<'a> Wanted<'a> {
         if needed <= room {
             return Ok(());
         }
-        let [needed, room] = [needed, room].map(|bytes| bytes / 1_000_000);
+        let (needed, room) = (needed.div_ceil(1_000_000), room / 1_000_000);
         Err(Mistake::new(format!(
             "{what} takes {needed} MB of memory to read, and there are {room} MB: {}",
             self.advice

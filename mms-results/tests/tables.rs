@@ -38,6 +38,7 @@ fn indices_and_comments_of_programs_are_passed_over() {
         format!("#,X,Y,ux,uy\n{rows}"),
         format!("#,X,Y,ux,uy\n{indexed}"),
         format!("  X   Y  ux uy\n  {blanks}"),
+        format!("** job 3\n// of today\n! X Y ux uy\n{blanks}"),
         format!("X,Y,ux,uy,\n{}", rows.replace('\n', ",\n")),
         format!("Index,Material,X,Y,ux,uy\n{}", indexed.replace(",0.", ",steel,0.")),
     ] {
@@ -124,12 +125,14 @@ fn an_x_that_contradicts_u_is_refused_by_its_line() {
         said.starts_with("file:3: x = [0.75, 0.2501] contradicts X + u = [0.75, 0.25]"),
         "{said}"
     );
-    // Points are X or x.
-    let points = |x: &str| text(x).replace("current_position_x,current_position_y", "x,y");
+    // Points are X or x, and x is no X.
+    let points = |x: &str| text(x).replace("current_position_x,current_position_y", "pos_x,pos_y");
     assert!(motion(&points("0.75,0.25")).is_ok());
     assert!(motion(&points("0.75,0.75")).unwrap_err().starts_with("file:3: x = [0.75, 0.75]"));
-    let still = "X,Y,x,y,ux,uy\n0,0,0,0,0.1,0\n0.5,0.5,0.5,0.5,0.25,-0.25\n";
-    assert!(motion(still).is_ok());
+    let still =
+        |names: &str| format!("X,Y,{names},ux,uy\n0,0,0,0,0,0\n0.5,0.5,0.5,0.5,0.25,-0.25\n");
+    assert!(motion(&still("pos_x,pos_y")).is_ok());
+    assert!(motion(&still("x,y")).unwrap_err().starts_with("file:3: x = [0.5, 0.5] contradicts"));
 }
 
 #[test]
@@ -194,6 +197,17 @@ fn four_components_of_a_symmetric_tensor_are_asked_for_unless_they_are_rows() {
     }
     let voigt = read_as("1,2,3,4", &["sigma=sigma:0,sigma:3,sigma:3,sigma:1"]);
     assert_eq!(voigt, Ok(vec![1.0, 4.0, 4.0, 2.0]));
+    for (names, order) in [("s_0,s_1,s_2", "s_0,s_2,s_2,s_1"), ("s1,s2,s3,s4,s5,s6", "s1,s4,s4,s2")]
+    {
+        let text = format!("{names}\n{}\n", ["1"].repeat(names.split(',').count()).join(","));
+        let snapshot = read(&text.replace('s', "sig"), &everything(&[])).unwrap();
+        let meanings = recognise(&snapshot, &[], &|_| true).unwrap();
+        let said = meanings[0].values(&snapshot, 2).unwrap_err().what;
+        assert!(
+            said.ends_with(&format!("say `--map sigma={}`", order.replace('s', "sig"))),
+            "{said}"
+        );
+    }
     let rows = read_as("1,2,3,4", &["sigma=sigma:0,sigma:1,sigma:2,sigma:3"]);
     assert_eq!(rows, Ok(vec![1.0, 2.0, 3.0, 4.0]));
 }

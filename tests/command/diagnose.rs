@@ -162,7 +162,7 @@ fn six_columns_of_a_stress_need_names() {
     folder.write("law.csv", "F11,F12,F21,F22,s0,s1,s2,s3,s4,s5\n1,0,0,1,0,0,0,0,0,0\n");
     let run = folder
         .mms("diagnose travelling_wave_2d law.csv --quantity stress --map sigma=s0,s1,s2,s3,s4,s5");
-    run.exits(2).complains("is it in the order of Voigt?");
+    run.exits(2).complains("if they are 11, 22, 33, 12, .., say `--map sigma=s0,s3,s3,s1`");
 }
 
 #[test]

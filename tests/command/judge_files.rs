@@ -129,7 +129,7 @@ fn files_that_take_more_memory_than_they_may_are_refused_before_they_are_read() 
     };
     judge("0")
         .exits(2)
-        .complains("moose_8.csv: cannot read it: it has 0 MB, and there are 0 MB of memory");
+        .complains("moose_8.csv: cannot read it: it has 1 MB, and there are 0 MB of memory");
     // One mesh has no order.
     judge("100").exits(1).prints("norms of u");
 }

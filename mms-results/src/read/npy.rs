@@ -45,7 +45,8 @@ impl Head {
 
 /// Reads a file of one array, which is called `array`.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
-    wanted.take("`array`", bytes.len() / 8)?;
+    let numbers = Head::of(bytes).map_or(0, |head| head.numbers());
+    wanted.take("`array`", numbers.min(bytes.len()))?;
     let array = array("array", bytes)?;
     Ok(Snapshot { of_points: vec![array], ..Snapshot::default() })
 }

@@ -12,6 +12,9 @@ const MOST_TIMES: usize = 10_000;
 /// How many columns a table may have.
 const MOST_COLUMNS: usize = 1_000_000;
 
+/// How a comment begins.
+const MARKS: [&str; 5] = ["#", "%", "!", "//", "**"];
+
 /// What a column of times may be called.
 const TIMES: [&str; 4] = ["time", "t", "timevalue", "time_value"];
 
@@ -71,7 +74,8 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<Table, Mistake> {
 }
 
 fn is_comment(line: &str) -> bool {
-    line.trim_start().starts_with(['#', '%'])
+    let line = line.trim_start();
+    MARKS.iter().any(|mark| line.starts_with(mark))
 }
 
 /// What stands between the columns of a table.
@@ -132,8 +136,7 @@ impl<'a> Header<'a> {
     /// A line as a header. A `#` before it is no name.
     fn of((line, text): Line<'a>) -> Self {
         let text = if is_comment(text) {
-            let marks = |it: char| it == '#' || it == '%';
-            text.trim_start().trim_start_matches(marks)
+            text.trim_start().trim_start_matches(|it| MARKS.concat().contains(it))
         } else {
             text
         };

@@ -379,7 +379,7 @@ impl Arrays {
         let components = attribute(node, "NumberOfComponents")?.max(1);
         let expected = rows.map(|rows| count(rows, components, kind)).transpose()?;
         let name = node.attribute("Name").unwrap_or("").to_owned();
-        let format = &Declared { format, name: &name, numbers: expected };
+        let format = &Declared { format, numbers: expected };
         let found = match node.attribute("format") {
             None | Some("ascii") => format.ascii(node, kind),
             Some("binary") => {
@@ -425,14 +425,13 @@ impl Arrays {
 /// An array of which it is known, as a rule, how many numbers it has.
 struct Declared<'a> {
     format: &'a Format<'a>,
-    name: &'a str,
     numbers: Option<usize>,
 }
 
 impl Declared<'_> {
     /// Takes room for the array.
     fn take(&self, numbers: usize) -> Result<(), Mistake> {
-        self.format.wanted.take(&format!("`{}`", self.name), numbers)
+        self.format.wanted.take("it", numbers)
     }
 
     /// The numbers of an array in text.
