@@ -21,7 +21,7 @@ const TIME_LIMIT: f64 = 3600.0;
 /// The Courant number of time steps where nothing is said.
 const COURANT: f64 = 0.4;
 
-/// Half the width that the interval of an order may have where nothing is said.
+/// How far an order may be from the expected one, if nothing is said.
 const TOLERANCE: f64 = 0.15;
 
 /// A solver, and what it is run on.
@@ -83,7 +83,7 @@ pub struct Study {
     pub end: Option<f64>,
     /// The expected orders, as `mms judge` takes them.
     pub order: Vec<Spanned<String>>,
-    /// Half the width that the interval of the order may have.
+    /// How far the order may be from the expected one.
     pub tolerance: f64,
     /// What is judged; all that is found, where nothing is said.
     pub quantity: Vec<Spanned<String>>,

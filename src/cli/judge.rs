@@ -57,10 +57,10 @@ pub struct Judge {
     errors: Option<PathBuf>,
     #[command(flatten)]
     results: results::Options,
-    /// The order to judge against. That of H1 is one less, and so is that of stresses and strains where cells are known, if
-    /// it is not given by NAME. NAME is a norm, a quantity, QUANTITY:NORM or a column; `time` is the order in dt where h and dt
+    /// The order to judge against: without it 2, and of results one more than the degree of their cells. That of H1 is one
+    /// less, and so is that of stresses and strains where cells are known, if it is not given by NAME. NAME is a norm, a quantity, QUANTITY:NORM or a column; `time` is the order in dt where h and dt
     /// are refined each by itself.
-    #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',', default_value = "2")]
+    #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',')]
     expected_order: Vec<Order>,
     /// How far the observed order may be from the expected one.
     #[arg(long, value_name = "W", value_parser = positive, default_value_t = TOLERANCE)]

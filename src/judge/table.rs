@@ -35,8 +35,10 @@ impl FromStr for Order {
 /// The orders that are expected: of all norms, or of those that a name is given of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orders {
-    /// Of what no other is given of; that of H1 is one less.
+    /// The order of what no other is given of; that of H1 is one less.
     pub usual: f64,
+    /// Whether that was given.
+    pub is_given: bool,
     /// Of a norm, a quantity or a column; that of `time` is of dt, in a grid of h and dt.
     pub named: Vec<(String, f64)>,
     /// How narrow intervals must be.
@@ -50,11 +52,18 @@ pub const OF: char = ':';
 pub const TIME: &str = "time";
 
 impl Orders {
-    /// Of what was given; the last of a name counts, and 2 where no order is given of all.
+    /// Orders that were given; the last of a name counts, and the usual one is 2 if none is given.
     pub fn new(given: &[Order], tolerance: f64) -> Self {
         let usual = given.iter().rev().find(|it| it.name.is_none());
         let named = given.iter().rev().filter_map(|it| Some((it.name.clone()?, it.order)));
-        Orders { usual: usual.map_or(2.0, |it| it.order), named: named.collect(), tolerance }
+        let (is_given, usual) = (usual.is_some(), usual.map_or(2.0, |it| it.order));
+        Orders { usual, is_given, named: named.collect(), tolerance }
+    }
+
+    /// The same for elements of a degree: the usual order is one more, unless it was given.
+    pub fn of_degree(self, degree: u32) -> Self {
+        let usual = if self.is_given { self.usual } else { f64::from(degree + 1) };
+        Self { usual, ..self }
     }
 
     fn find(&self, names: &[&str]) -> Option<f64> {

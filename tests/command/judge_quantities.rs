@@ -310,6 +310,43 @@ fn stresses_of_cells_have_an_order_of_their_own() {
         .complains("`--expected-order P:l7=..`: it is not judged");
 }
 
+/// A mesh of n lines of three nodes, with the exact u at its nodes: the error is that of interpolation.
+fn quadratic_lines(folder: &Folder, n: usize) -> String {
+    let places = (0..=2 * n).map(|at| at as f64 / (2 * n) as f64);
+    let rows: String = places.clone().map(|x| format!("{x}\n")).collect();
+    folder.write("nodes.csv", &format!("X\n{rows}"));
+    let eval = "eval axis_aligned_1d --points nodes.csv --time 0.01 --quantity u --json";
+    let document = folder.mms(eval).exits(0).json();
+    let points: String = places.map(|x| format!("{x} 0 0\n")).collect();
+    let cells = (0..n).map(|at| format!("3 {} {} {}\n", 2 * at, 2 * at + 2, 2 * at + 1));
+    let u = document["points"].as_array().expect("points").iter();
+    let u = u.map(|it| format!("{:?}\n", numbers(&it["displacement"])[0]));
+    format!(
+        "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {} double\n{points}CELLS {n} \
+         {}\n{}CELL_TYPES {n}\n{}POINT_DATA {}\nSCALARS u double 1\nLOOKUP_TABLE default\n{}",
+        2 * n + 1,
+        4 * n,
+        cells.collect::<String>(),
+        "21\n".repeat(n),
+        2 * n + 1,
+        u.collect::<String>()
+    )
+}
+
+/// u of elements of degree 2 is of third order, and its gradient of second.
+#[test]
+fn elements_of_degree_2_have_an_order_more() {
+    let folder = Folder::new();
+    for n in [8, 16, 32, 64] {
+        folder.write(&format!("{n}.vtk"), &quadratic_lines(&folder, n));
+    }
+    let judge = "judge axis_aligned_1d 8.vtk 16.vtk 32.vtk 64.vtk --time 0.01 --map X=points";
+    let run = folder.mms(judge).exits(0);
+    run.prints("expected order: 3, one more than the degree of the cells");
+    run.prints("pass: observed order 3.0").prints("expected 3");
+    folder.mms(&format!("{judge} --expected-order 2")).exits(1).prints("expected 2");
+}
+
 /// A table of the bar with errors of second order, and of a solver's tolerance that is the same on all meshes.
 fn iterated(folder: &Folder, name: &str, n: usize, tolerance: f64) {
     folder.write(

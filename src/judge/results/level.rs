@@ -116,6 +116,8 @@ pub struct Found {
     pub errors: Vec<Errors>,
     /// The shortest and the longest of the longest edges of cells, where there are such.
     pub sizes: Option<[f64; 2]>,
+    /// The lowest degree of its cells, if there are such.
+    pub degree: Option<u32>,
     /// What part of the body is there, and how fine.
     pub covered: Covered,
     /// The type of cells that are not known, where there are such and no others.
@@ -249,7 +251,9 @@ impl Reading<'_> {
             );
         }
         let unknown = mesh.unknown().filter(|_| sizes.is_none());
-        Ok(Found { errors, sizes, covered, unknown, how: motion.how.clone(), passed_over })
+        let degree = mesh.full().map(|(_, shape, _)| shape.degree()).min();
+        let how = motion.how.clone();
+        Ok(Found { errors, sizes, degree, covered, unknown, how, passed_over })
     }
 
     /// All quantities of a snapshot that are judged, but tractions.

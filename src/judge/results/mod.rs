@@ -114,7 +114,9 @@ pub fn measure(
     notes.push(format!("X: {}", levels[0].found.how));
     let samplings: Vec<Sampling> = quantities.iter().map(|(_, sampling)| *sampling).collect();
     hold_evidence(&levels[0], &samplings)?;
-    let orders = &expected::named(orders);
+    let degree = levels.iter().filter_map(|it| it.found.degree).min();
+    notes.extend(remarks::order(degree, orders));
+    let orders = &expected::named(orders).of_degree(degree.unwrap_or(1));
     expected::hold_orders(&quantities, orders, has_steps)?;
     notes.extend(remarks::norms(&quantities));
     notes.push(remarks::left_out(&common, &levels, &own));

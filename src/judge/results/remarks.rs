@@ -10,6 +10,7 @@ use super::Level;
 use super::iterative::HUNDRED;
 use super::level::{Errors, Sampling};
 use super::times::Common;
+use crate::judge::table::Orders;
 
 /// The times.
 pub fn compared(common: &Common) -> String {
@@ -48,6 +49,16 @@ pub fn norms(quantities: &[(Quantity, Sampling)]) -> Vec<String> {
         .into_values()
         .map(|(symbols, says)| format!("norms of {}: {says}", symbols.join(", ")))
         .collect()
+}
+
+/// The order that elements of degree 2 and more promise, unless another was given.
+pub fn order(degree: Option<u32>, orders: &Orders) -> Option<String> {
+    let degree = degree.filter(|degree| *degree > 1 && !orders.is_given)?;
+    Some(format!(
+        "expected order: {}, one more than the degree of the cells; if the time step falls with h, it may be 2, which \
+         `--expected-order 2` says",
+        degree + 1
+    ))
 }
 
 /// What was left out, and why.
