@@ -107,7 +107,7 @@ fn meant(name: &str) -> Vec<Role> {
     let unclear = UNCLEAR.iter().filter(|(word, _)| *word == plain(stem));
     let mut roles: Vec<Role> = unclear.flat_map(|(_, roles)| *roles).collect();
     roles.extend(Role::called(name));
-    roles.extend(Role::called(stem));
+    roles.extend(Role::called(stem).filter(|role| role.form() != Form::Scalar));
     match name {
         "X" | "Y" | "Z" => roles.push(Role::Reference),
         "x" | "y" | "z" => roles.push(Role::Place),
@@ -140,13 +140,10 @@ pub fn recognise(
     let is_mapped = |role: Role| map.iter().any(|mapping| mapping.role == role);
     let taken: Vec<Place> =
         found.iter().flat_map(|it| it.columns.iter().map(|(_, column)| column.place)).collect();
-    let group = |place: Place, array: &Array| match understand(place, array) {
-        Some(it) => it.source,
-        None => stem(&array.name).to_owned(),
-    };
-    let settled: Vec<String> = taken.iter().map(|it| group(*it, array(snapshot, *it))).collect();
+    let settled: Vec<String> =
+        taken.iter().filter_map(|it| group(*it, array(snapshot, *it))).collect();
     for (place, array) in arrays(snapshot).filter(|(place, _)| !taken.contains(place)) {
-        if array.components == 1 && settled.contains(&group(place, array)) {
+        if group(place, array).is_some_and(|it| settled.contains(&it)) {
             continue;
         }
         hold_clear(&array.name, &|role| wants(role) && !is_mapped(role))
@@ -163,6 +160,14 @@ pub fn recognise(
         add(&mut found, understood, columns, array).map_err(|it| it.of(&snapshot.path))?;
     }
     Ok(found)
+}
+
+/// The name of all components of which an array is one, if it is.
+fn group(place: Place, array: &Array) -> Option<String> {
+    match understand(place, array) {
+        Some(Understood { part, source, .. }) => part.map(|_| source),
+        None => split(&array.name).filter(|_| array.components == 1).map(|(base, _)| base.into()),
+    }
 }
 
 /// Adds an array to what was found, or to the components of what it is one of.

@@ -172,6 +172,10 @@ fn advice_on_names_leads_to_what_it_says() {
         assert_eq!(*stress.values(&snapshot, 2).unwrap().numbers, [1.0, 2.0, 2.0, 3.0]);
         assert!(found(&snapshot, &[sigma, "X=x,y"], None).is_ok());
     }
+    // What is left of a group is no other quantity; what has its name alone is.
+    let rest = read("X,Y,u,u_1\n0,0,1,2\n", &everything(&[])).unwrap();
+    let of_rest = recognise(&rest, &maps(&["W=u_1"]), &|_| true).unwrap();
+    assert!(of_rest.iter().any(|it| it.role == Role::Displacement));
     let twice = read("X,Y,ux,u_x,uy\n0,0,0,0,0\n", &everything(&[])).unwrap();
     assert!(found(&twice, &[], None).unwrap_err().what.contains("both `u` and `u_x`"));
     let many: String = (0..1000).map(|at| format!(",n{at}")).collect();
