@@ -5,7 +5,8 @@
 //! says which of them are displacement, velocity and so on; [`norm`] measures them, over points or by quadrature over
 //! [cells](cell), or [block by block](comparison) of the exact solution; [`pairing`] finds the same points in two results,
 //! [`own`] leaves out ghosts and what is there twice, and [`lattice`] finds neighbours.
-//! [`write`](mod@write) makes such files of a state that is known.
+//! [`write`](mod@write) makes such files of a state that is known. [`wanted`] says which arrays are read, in how much
+//! memory.
 //!
 //! Nothing here opens a file, knows a field, or decides whether an error is small.
 

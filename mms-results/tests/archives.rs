@@ -163,6 +163,20 @@ fn vtk_unpacks_what_is_needed_and_declared() {
 }
 
 #[test]
+fn a_block_of_vtk_is_held_to_its_checksum() {
+    let mut packed = compress_to_vec_zlib(&1.5_f64.to_le_bytes(), 6);
+    let read = |packed: &[u8]| {
+        let header = [1, 8, 0, packed.len() as u32].map(u32::to_le_bytes).concat();
+        let text = STANDARD.encode(header) + &STANDARD.encode(packed);
+        let bytes = [&vtu(1, &[("u", "format=\"binary\"", &text)])[..], b"</VTKFile>"].concat();
+        one(&bytes, &everything(&[])).map(|it| it.of_points[0].values.clone())
+    };
+    assert_eq!(read(&packed), Ok(vec![1.5]));
+    *packed.last_mut().unwrap() ^= 1;
+    assert!(read(&packed).unwrap_err().what.contains("not zlib"));
+}
+
+#[test]
 fn words_in_an_array_of_a_known_name_are_refused() {
     let text = |name: &str| {
         let text = String::from_utf8(vtu(1, &[(name, "", "0")])).unwrap() + "</VTKFile>";
