@@ -38,7 +38,7 @@ pub(crate) fn with_baseline(title: &str, all: &[Compared], verdict: Verdict) -> 
 
 /// How far two results differ.
 pub(crate) fn differences(a: &str, b: &str, same: &Same) -> (String, Value) {
-    let Same { differences: all, alone, paired, .. } = same;
+    let Same { differences: all, alone, words, paired, .. } = same;
     let mut table = plain(["array", "time", "largest", "relative", "where"]);
     for it in all {
         table.add_row([
@@ -54,6 +54,9 @@ pub(crate) fn differences(a: &str, b: &str, same: &Same) -> (String, Value) {
     if !alone.is_empty() {
         text += &format!("\n\nin one of them alone: {}", shown(&alone.join(", ")));
     }
+    if !words.is_empty() {
+        text += &format!("\n\nwords, which are not compared: {}", shown(&words.join(", ")));
+    }
     if !same.is_finite() {
         text += "\n\nsome of these numbers are not finite: a run has failed";
     }
@@ -62,6 +65,6 @@ pub(crate) fn differences(a: &str, b: &str, same: &Same) -> (String, Value) {
             "array": it.name, "time": it.time, "largest": it.largest, "relative": it.relative(), "where": it.place,
         })
     });
-    let document = json!({ "source": [a, b], "paired": paired, "differences": document.collect::<Vec<_>>(), "alone": alone });
+    let document = json!({ "source": [a, b], "paired": paired, "differences": document.collect::<Vec<_>>(), "alone": alone, "words": words });
     (text, document)
 }

@@ -79,6 +79,9 @@ fn numbers_that_are_missing_or_contradict_each_other_are_no_pass() {
     let same = folder.mms("judge --same nan.csv nan.csv").exits(1);
     same.prints("nan.csv:5").prints("not finite");
     write("word.csv", 8, &|at, x| format!("{x},{},{x},0\n", if at == 3 { "-" } else { "0" }));
+    folder.write("label.csv", "X,u,material\n0.5,1,steel\n");
+    let same = folder.mms("judge --same label.csv label.csv --json").exits(0).json();
+    assert_eq!(same["words"], serde_json::json!(["material"]));
     folder.mms("judge --same word.csv word.csv").exits(2).complains("word.csv:5: column `u`");
 }
 

@@ -346,22 +346,22 @@ impl Found {
                 name = cursor.needed("a name")?;
             }
             let (components, rows) = (cursor.integer()?, cursor.integer()?);
-            let is_read = match of {
-                Of::Whole => is_time(name),
-                Of::Points | Of::Cells => cursor.wanted.reads(name),
-            };
-            if cursor.passes_words(components.saturating_mul(rows))? {
-                if of != Of::Whole && cursor.wanted.need(name) == Need::Must {
-                    return Err(Mistake::new(format!("`{name}`: expected numbers, found words")));
+            let is_words = cursor.passes_words(components.saturating_mul(rows))?;
+            if is_words && of != Of::Whole && cursor.wanted.need(name) == Need::Must {
+                return Err(Mistake::new(format!("`{name}`: expected numbers, found words")));
+            }
+            let is_needed = if of == Of::Whole { is_time(name) } else { cursor.wanted.reads(name) };
+            if is_words || !is_needed {
+                if !is_words {
+                    let kind = cursor.kind()?;
+                    cursor.pass(rows, components, kind)?;
+                }
+                if of != Of::Whole {
+                    self.snapshot.unread.push(name.to_owned());
                 }
                 continue;
             }
             let kind = cursor.kind()?;
-            if !is_read {
-                cursor.pass(rows, components, kind)?;
-                self.snapshot.unread.push(name.to_owned());
-                continue;
-            }
             let array = cursor.array(name, rows, components, kind)?;
             if of != Of::Whole && array.rows() != self.rows(of) {
                 return Err(Mistake::new(format!(

@@ -38,6 +38,8 @@ pub struct Same {
     pub differences: Vec<Difference>,
     /// The names of those that one has.
     pub alone: Vec<String>,
+    /// The names of those that hold words, and are not compared.
+    pub words: Vec<String>,
     /// How points were paired.
     pub paired: String,
     /// The positions of the differences, by their names.
@@ -67,8 +69,10 @@ pub fn same(a: &Results, b: &Results, map: &[Mapping]) -> anyhow::Result<Same> {
         }
         same.compare(one, other, map)?;
     }
-    same.alone.sort();
-    same.alone.dedup();
+    for names in [&mut same.alone, &mut same.words] {
+        names.sort();
+        names.dedup();
+    }
     Ok(same)
 }
 
@@ -85,6 +89,7 @@ impl Same {
             let missing = from.keys().filter(|(name, _)| !has(name));
             self.alone.extend(missing.map(|(name, _)| (*name).to_owned()));
         }
+        self.words.extend(one.unread.iter().chain(&other.unread).cloned());
         let (points, by) = pairing::points(one, other, map).map_err(placed)?;
         let cells = pairing::cells(one, other, &points).map_err(placed)?;
         self.paired = match by {
