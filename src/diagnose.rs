@@ -8,9 +8,9 @@ use mms_diagnosis::scene::{Evidence, LawOf, TangentOf};
 use mms_diagnosis::state::{Computed, Response};
 use mms_diagnosis::table::Measure;
 use mms_results::Snapshot;
+use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, resolve};
 use mms_results::names::{Mapping, Meaning, Role, Values, recognise, wanted};
-use mms_results::norm::Mesh;
 
 use crate::judge::results::{Results, placed, room};
 use crate::session::exact::Exact;

@@ -5,9 +5,10 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use mms_results::mesh::Mesh;
 use mms_results::motion::{hold_distinct, resolve};
 use mms_results::names::{Role, everything, recognise, wanted};
-use mms_results::norm::Mesh;
+use mms_results::own;
 use mms_results::pairing::{cells, points};
 use mms_results::{Contents, parse};
 
@@ -23,6 +24,7 @@ fuzz_target!(|bytes: &[u8]| {
     };
     let Ok(Contents::Snapshots(found)) = parse(bytes, &read) else { return };
     for snapshot in &found {
+        let _ = own::keep(&mut snapshot.clone());
         if let Ok(meanings) = recognise(snapshot, &[], &wants) {
             let mut half = |x: &[f64], _: f64| Ok(Some(x.iter().map(|x| x / 2.0).collect()));
             for back in [None, Some(&mut half as _)] {
@@ -30,7 +32,7 @@ fuzz_target!(|bytes: &[u8]| {
                 let _ = hold_distinct(snapshot, &motion.reference);
                 let places = &motion.reference.numbers;
                 let mesh = Mesh { cells: &snapshot.cells, points: places, dimension: 2 };
-                let _ = (mesh.sizes(), mesh.middles(), mesh.volumes());
+                let _ = (mesh.sizes(), mesh.middles(), mesh.volumes(), mesh.free_edges(&|_| true));
             }
         }
     }

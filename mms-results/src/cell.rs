@@ -13,6 +13,10 @@ use std::sync::LazyLock;
 /// Reference coordinates; those beyond the dimension are 0.
 pub type Local = [f64; 3];
 
+/// How many points of Gauss quadrature has along an axis: it is exact for the square of a polynomial of degree 4, two degrees above
+/// the highest of a cell, and one less of a triangle.
+pub(crate) const ALONG: usize = 5;
+
 /// What the polynomials of a cell are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Space {
@@ -56,9 +60,6 @@ impl Space {
         all.filter(|it| self.holds(*it)).collect()
     }
 }
-
-/// How far from an apex a place beside it is, in parts of the height.
-const BESIDE: f64 = 1e-3;
 
 /// A kind of cell as data: its number in VTK, dimension, corners, the corners in whose middle each other node lies, and
 /// its polynomials.
@@ -234,23 +235,17 @@ impl Shape {
         pairs.filter(|&[a, b]| is_edge(a, b)).collect()
     }
 
-    /// Where the largest error of a cell may be, besides inside: its nodes. At an apex slopes have no value, and a place
-    /// beside it is taken.
-    pub fn extremes(&self) -> impl Iterator<Item = Local> {
-        let is_apex = |at: Local| self.space == Space::Pyramid && at[2] == 1.0;
-        let beside = [0.5, 0.5, 1.0 - BESIDE];
-        self.nodes.iter().map(move |&at| if is_apex(at) { beside } else { at })
-    }
-
-    /// Places and weights of a quadrature that is exact for polynomials of twice the degree of the functions and three
-    /// more: that of the square of an error is of a higher order than the error.
-    pub fn quadrature(&self) -> Vec<(Local, f64)> {
-        let points = gauss(self.degree() as usize + 3);
+    /// The place that stands for one of a unit cube, and by how much the volume there is smaller. A triangle is a square one
+    /// of whose edges is drawn together to a corner, a tetrahedron a cube.
+    pub(crate) fn of_cube(&self, [x, y, z]: Local) -> (Local, f64) {
         match (self.space, self.dimension) {
-            (Space::Complete(_), 2) => collapsed(&points, false),
-            (Space::Complete(_), _) => collapsed(&points, true),
-            (Space::Wedge, _) => prism(&points),
-            (_, dimension) => product(&points, dimension),
+            (Space::Complete(_), 2) => ([x, y * (1.0 - x), 0.0], 1.0 - x),
+            (Space::Wedge, _) => ([x, y * (1.0 - x), z], 1.0 - x),
+            (Space::Complete(_), _) => {
+                let rest = (1.0 - x) * (1.0 - y);
+                ([x, y * (1.0 - x), z * rest], (1.0 - x) * rest)
+            }
+            _ => ([x, y, z], 1.0),
         }
     }
 }
@@ -303,7 +298,7 @@ fn functions(nodes: &[Local], monomials: &[[u32; 3]]) -> Vec<Vec<f64>> {
 }
 
 /// Gauss's points and weights on [0, 1]: the roots of Legendre's polynomial, by Newton's method.
-fn gauss(count: usize) -> Vec<(f64, f64)> {
+pub(crate) fn gauss(count: usize) -> Vec<(f64, f64)> {
     let n = count as f64;
     (0..count)
         .map(|k| {
@@ -320,41 +315,6 @@ fn gauss(count: usize) -> Vec<(f64, f64)> {
             }
             ((1.0 - x) / 2.0, 1.0 / ((1.0 - x * x) * slope * slope))
         })
-        .collect()
-}
-
-fn product(points: &[(f64, f64)], dimension: usize) -> Vec<(Local, f64)> {
-    let mut all = vec![([0.0; 3], 1.0)];
-    for axis in 0..dimension {
-        let extended = all.iter().flat_map(|&(at, weight)| {
-            points.iter().map(move |&(x, w)| {
-                let mut at: Local = at;
-                at[axis] = x;
-                (at, weight * w)
-            })
-        });
-        all = extended.collect();
-    }
-    all
-}
-
-/// The points of a square or a cube whose faces are drawn together to the corner of a triangle or a tetrahedron.
-fn collapsed(points: &[(f64, f64)], is_solid: bool) -> Vec<(Local, f64)> {
-    let place = |([x, y, z], weight): (Local, f64)| match is_solid {
-        false => ([x, y * (1.0 - x), 0.0], weight * (1.0 - x)),
-        true => {
-            let rest = (1.0 - x) * (1.0 - y);
-            ([x, y * (1.0 - x), z * rest], weight * (1.0 - x) * rest)
-        }
-    };
-    product(points, 2 + usize::from(is_solid)).into_iter().map(place).collect()
-}
-
-/// The points of a triangle along a line.
-fn prism(points: &[(f64, f64)]) -> Vec<(Local, f64)> {
-    let triangle = collapsed(points, false).into_iter();
-    triangle
-        .flat_map(|([x, y, _], weight)| points.iter().map(move |&(z, w)| ([x, y, z], weight * w)))
         .collect()
 }
 
@@ -378,10 +338,20 @@ mod tests {
     #[test]
     fn quadrature_is_exact_to_its_degree() {
         for shape in Shape::all() {
-            let degree = 2 * shape.degree() + 3;
+            let degree = 2 * ALONG as u32 - 1 - (shape.dimension as u32 - 1);
             for exponents in Space::Complete(degree).monomials(shape.dimension) {
-                let sum: f64 =
-                    shape.quadrature().iter().map(|&(at, w)| w * value(exponents, at)).sum();
+                let along = gauss(ALONG);
+                let all = (0..along.len().pow(shape.dimension as u32)).map(|mut index| {
+                    let (mut cube, mut weight) = ([0.0; 3], 1.0);
+                    for to in &mut cube[..shape.dimension] {
+                        (*to, weight) =
+                            (along[index % along.len()].0, weight * along[index % along.len()].1);
+                        index /= along.len();
+                    }
+                    let (at, factor) = shape.of_cube(cube);
+                    weight * factor * value(exponents, at)
+                });
+                let sum: f64 = all.sum();
                 let exact = integral(shape, exponents);
                 assert!((sum - exact).abs() < 1e-14, "{} {exponents:?}: {sum} {exact}", shape.kind);
             }

@@ -4,6 +4,7 @@ mod archives;
 mod files;
 mod memory;
 mod norms;
+mod over_cells;
 mod pairing;
 mod tables;
 mod write;

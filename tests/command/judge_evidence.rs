@@ -195,6 +195,27 @@ fn points_fill_the_body_or_a_part_that_is_asked_for() {
     run.exits(1);
 }
 
+/// A plate that has as many points across as along is full.
+#[test]
+fn points_that_are_nearer_along_one_axis_fill_the_body() {
+    let folder = Folder::new();
+    let wave = include_str!("../../fields/travelling_wave_2d.toml");
+    let edges = "upper = [\"length\", \"length\"]";
+    assert!(wave.contains(edges));
+    folder.write("thin.toml", &wave.replace(edges, "upper = [\"length\", \"length/1000\"]"));
+    let of = |at: usize| (at as f64 + 0.5) / 10.0;
+    let places = |across: usize| -> String {
+        let rows =
+            (0..10 * across).map(|at| format!("{},{}\n", of(at / across), of(at % across) / 1e3));
+        "X,Y\n".to_owned() + &rows.collect::<String>()
+    };
+    for (across, code) in [(10, 0), (5, 2)] {
+        folder.write("points.csv", &places(across));
+        state(&folder, "thin.toml", "points.csv", "plate.csv", "--time 0.0158 --quantity u");
+        folder.mms("judge thin.toml plate.csv").exits(code);
+    }
+}
+
 #[test]
 fn ghosts_do_not_count() {
     let run = judge("ghost_4.pvtu ghost_8.pvtu", "--time 0.0158 --map X=points --json").exits(0);

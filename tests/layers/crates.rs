@@ -163,9 +163,9 @@ pub const CRATES: &[Crate] = &[
         layers: &[
             "cell lattice mistake role snapshot",
             "norm own wanted",
-            "comparison meaning",
+            "comparison meaning mesh",
             "names",
-            "motion read write",
+            "motion over_cells read write",
             "pairing",
         ],
     },

@@ -1,9 +1,11 @@
 //! What part of the body results cover, and how far their points are from each other.
 
+use std::f64::consts::TAU;
+
 use anyhow::ensure;
 use mms_mechanics::extent::Extent;
 use mms_results::lattice::Lattice;
-use mms_results::norm::Mesh;
+use mms_results::mesh::Mesh;
 use mms_spec::Face;
 
 use super::ALIKE;
@@ -147,50 +149,72 @@ pub fn of_points(points: &[f64], exact: &Exact, rounding: f64) -> Covered {
     }
 }
 
-/// A place of the body that is far from all points; or a layer at a side of a box without one.
+/// A place of the body that is far from all points, in lengths and in parts of its edges too: a plate may have as many points
+/// across as along.
 fn empty(
     lattice: &Lattice<'_>,
     points: &[f64],
     body: &Extent<f64>,
     spacing: f64,
 ) -> Option<Vec<f64>> {
-    let (dimension, reach) = (body.dimension(), EMPTY * spacing);
-    let [lower, upper] = match body {
-        Extent::Box([lower, upper]) => [lower.clone(), upper.clone()],
-        Extent::Annulus([_, outer], _) => [vec![-outer; 2], vec![*outer; 2]],
-    };
-    let bounds = (0..dimension).map(|axis| {
-        let along = || points.iter().skip(axis).step_by(dimension).copied();
-        [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
-    });
-    if let Extent::Box(_) = body {
-        let middle = || lower.iter().zip(&upper).map(|(a, b)| (a + b) / 2.0).collect::<Vec<_>>();
-        for (axis, [least, most]) in bounds.enumerate() {
-            for (side, gap) in
-                [(lower[axis], least - lower[axis]), (upper[axis], upper[axis] - most)]
-            {
-                if gap > reach / 2.0 {
-                    let mut place = middle();
-                    place[axis] = side;
-                    return Some(place);
-                }
-            }
+    let found = far(lattice, points, body, EMPTY * spacing)?;
+    let dimension = body.dimension();
+    let parts: Vec<f64> = points.chunks(dimension).flat_map(|it| parts(body, it)).collect();
+    let spacing = (dimension as f64 / parts.len() as f64).powf(1.0 / dimension as f64);
+    let unit = Extent::Box([vec![0.0; dimension], vec![1.0; dimension]]);
+    far(&Lattice::new(&parts, dimension, spacing), &parts, &unit, EMPTY * spacing)?;
+    Some(found)
+}
+
+/// Where a point is from one end of the body to the other, along each edge of a box, along the angle and the radius of a ring.
+fn parts(body: &Extent<f64>, point: &[f64]) -> Vec<f64> {
+    match body {
+        Extent::Box([lower, upper]) => {
+            let edges = lower.iter().zip(upper).zip(point);
+            edges.map(|((a, b), x)| (x - a) / (b - a)).collect()
+        }
+        Extent::Annulus([inner, outer], [first, last]) => {
+            let turned = (point[1].atan2(point[0]) - first).rem_euclid(TAU);
+            vec![turned / (last - first), (point[0].hypot(point[1]) - inner) / (outer - inner)]
         }
     }
-    // Places so near to each other that none of them misses an empty part by much.
-    let step = reach / 2.0;
-    let counts: Vec<usize> =
-        lower.iter().zip(&upper).map(|(a, b)| ((b - a) / step).ceil() as usize + 1).collect();
-    let place = |mut index: usize| -> Vec<f64> {
-        let along = |axis: usize| {
-            let at = index % counts[axis];
-            index /= counts[axis];
-            (lower[axis] + at as f64 * step).min(upper[axis])
-        };
-        (0..dimension).map(along).collect()
+}
+
+/// A place of the body that is as far from all points; or one at a side of a box beside which a layer of half that has none.
+fn far(lattice: &Lattice<'_>, points: &[f64], body: &Extent<f64>, reach: f64) -> Option<Vec<f64>> {
+    let dimension = body.dimension();
+    let lengths = match body {
+        Extent::Box([lower, upper]) => {
+            for axis in 0..dimension {
+                let along = || points.iter().skip(axis).step_by(dimension).copied();
+                let below = along().fold(f64::INFINITY, f64::min) - lower[axis];
+                let above = upper[axis] - along().fold(f64::NEG_INFINITY, f64::max);
+                for (side, gap) in [(0.0, below), (1.0, above)] {
+                    if gap > reach / 2.0 {
+                        let mut parts = vec![0.5; dimension];
+                        parts[axis] = side;
+                        return Some(body.point(&parts));
+                    }
+                }
+            }
+            lower.iter().zip(upper).map(|(a, b)| b - a).collect()
+        }
+        Extent::Annulus([inner, outer], [first, last]) => {
+            vec![outer * (last - first), outer - inner]
+        }
     };
-    let places = (0..counts.iter().product()).map(place);
-    let mut places = places.filter(|it| body.distance(it) == 0.0);
+    // Places so near to each other that none of them misses an empty part by much.
+    let counts: Vec<usize> =
+        lengths.iter().map(|it| (2.0 * it / reach).ceil().max(1.0) as usize).collect();
+    let place = |mut index: usize| -> Vec<f64> {
+        let part = |count: &usize| {
+            let at = index % (count + 1);
+            index /= count + 1;
+            at as f64 / *count as f64
+        };
+        body.point(&counts.iter().map(part).collect::<Vec<_>>())
+    };
+    let mut places = (0..counts.iter().map(|it| it + 1).product()).map(place);
     // Most have a point beside them, in the same cell of the lattice.
     let is_alone = |place: &[f64]| lattice.near(place, 0.0).next().is_none();
     places.find(|it| is_alone(it) && lattice.within(it, reach).next().is_none())

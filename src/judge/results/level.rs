@@ -1,9 +1,9 @@
 //! The errors of one snapshot.
 
 use anyhow::{anyhow, bail};
+use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, hold_distinct, resolve};
 use mms_results::names::{Form, Mapping, Meaning, Role, Values, all_names, recognise, wanted};
-use mms_results::norm::Mesh;
 use mms_results::{Snapshot, Stored};
 use mms_spec::quantity::Quantity;
 

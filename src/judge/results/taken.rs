@@ -2,9 +2,11 @@
 
 use anyhow::{anyhow, bail};
 use mms_results::comparison::Comparison;
+use mms_results::mesh::Mesh;
 use mms_results::motion::Motion;
 use mms_results::names::Values;
-use mms_results::norm::{Asked, Mesh, largest, lengths};
+use mms_results::norm::{largest, lengths};
+use mms_results::over_cells::{Asked, Carried};
 use mms_results::{Mistake, Snapshot, Stored};
 use mms_spec::quantity::Quantity;
 
@@ -137,18 +139,17 @@ impl Taken<'_> {
             (quantity == Quantity::Displacement).then_some(Quantity::DisplacementGradient);
         let exact = &mut *self.exact;
         let mut asked = |asked: Asked, places: &[f64]| {
-            let found = match (asked, gradient) {
-                (Asked::Values, _) => exact.values(quantity, time, places),
-                (Asked::Gradients, Some(gradient)) => exact.values(gradient, time, places),
-                (Asked::Gradients, None) => Ok(vec![0.0; places.len() * components]),
-            };
+            let of = if asked == Asked::Gradients { gradient } else { None };
+            let found = exact.values(of.unwrap_or(quantity), time, places);
             found.map_err(|error| Mistake::new(format!("{error:#}")))
         };
-        let measured = self.mesh.measure(&values.numbers, components, &mut asked);
+        let (values_of_points, has_gradient) = (&values.numbers, gradient.is_some());
+        let carried = Carried { values: values_of_points, components, has_gradient };
+        let measured = self.mesh.measure(carried, &mut asked);
         let found = measured.map_err(|mistake| placed(mistake.of(&self.snapshot.path)))?;
         let value = found.value;
         let mut norms = vec![("l1", value.l1), ("l2", value.l2), ("linf", value.linf)];
-        norms.extend(gradient.map(|_| ("h1", found.gradient.l2)));
+        norms.extend(gradient.map(|_| ("h1", found.h1)));
         // Rounding in a value is one in a gradient over the size of a cell.
         let size = self.mesh.sizes().map_or(1.0, |[shortest, _]| shortest);
         let of_norm =

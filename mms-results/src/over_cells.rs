@@ -1,0 +1,588 @@
+//! Norms over cells: l2 and h1 by quadrature, l1 and linf by a polynomial that goes through the errors at its points.
+//!
+//! The length of an error has a kink where the error is 0, and its maximum may be on an edge. A quadrature of few points
+//! sees neither: l1 would be 7 % too small, linf 12 %. So the errors at the points of Gauss, a grid in the unit cube from which each
+//! kind of cell is made, are taken as a polynomial along each axis. Its values on a finer grid cost no exact solution:
+//! they are interpolated axis by axis, and integrated for l1 in cells where errors point to more than one side. The maximum is
+//! looked for in those cells alone that may have a larger error than the largest that is known. Where polynomials have their
+//! largest values, the exact solution is asked for in the end.
+
+use crate::Mistake;
+use crate::cell::{ALONG, Local, Shape, gauss};
+use crate::mesh::Mesh;
+use crate::norm::{Norms, lengths};
+
+/// What of the exact solution is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// Its values: so many components at each place.
+    Values,
+    /// Their derivatives by X: row by row, as many more as there are dimensions.
+    Gradients,
+}
+
+/// The exact solution at places X, whose coordinates stand one after the other.
+pub type Exact<'a> = &'a mut dyn FnMut(Asked, &[f64]) -> Result<Vec<f64>, Mistake>;
+
+/// What points of a mesh carry.
+#[derive(Clone, Copy, Debug)]
+pub struct Carried<'a> {
+    /// Numbers of all points.
+    pub values: &'a [f64],
+    /// Numbers of a point.
+    pub components: usize,
+    /// Whether the error of the gradient is asked for, too.
+    pub has_gradient: bool,
+}
+
+/// The norms of an error over the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OverCells {
+    /// Of the error.
+    pub value: Norms,
+    /// The seminorm of H1, by the root of the body's measure; 0 where it was not asked for.
+    pub h1: f64,
+}
+
+/// How many points of quadrature are taken at once.
+const BATCH: usize = 8192;
+
+/// How many parts of an axis have two points of Gauss each for l1, by the dimension.
+const PARTS: [usize; 3] = [64, 8, 6];
+/// How many parts have ends where the maximum is looked for.
+const STEPS: [usize; 3] = [64, 12, 6];
+
+/// How much larger than at points of quadrature the error of a cell may be anywhere in it.
+const BETWEEN: f64 = 1.5;
+/// From what part of its largest error on, a cell may have its maximum beside a place.
+const HIGH: f64 = 0.9;
+/// From what part of the largest error on, polynomials are compared by the exact solution.
+const NEAR: f64 = 0.97;
+/// How many places are compared so at most, and in how many rounds, each with a smaller step than the one before.
+const COMPARED: usize = 512;
+const ROUNDS: usize = 10;
+const SHRINKS: f64 = 0.7;
+
+/// A square matrix of one to three rows; of fewer than three that of the unit beyond.
+type Matrix = [[f64; 3]; 3];
+
+/// The functions of a kind of cell at a point of quadrature.
+struct Point {
+    weight: f64,
+    /// What part of the volume of the cube is about the point, over its weight.
+    factor: f64,
+    functions: Vec<f64>,
+    /// By the axes of the cell.
+    slopes: [Vec<f64>; 3],
+}
+
+/// A kind of cell with its quadrature, and with matrices that interpolate along an axis.
+struct Table {
+    shape: &'static Shape,
+    points: Vec<Point>,
+    fine: Interpolation,
+    ends: Interpolation,
+}
+
+/// Values of Lagrange's polynomials at places along an axis.
+struct Interpolation {
+    places: Vec<(f64, f64)>,
+    /// By the places.
+    rows: Vec<Vec<f64>>,
+}
+
+impl Interpolation {
+    /// From some knots to places with weights.
+    fn new(knots: &[f64], places: Vec<(f64, f64)>) -> Self {
+        let rows = places.iter().map(|(x, _)| lagrange(knots, *x)).collect();
+        Interpolation { places, rows }
+    }
+
+    /// Numbers on the grid of these places, from those on a grid of knots; so many at a point, the last axis first.
+    fn apply(&self, numbers: &[f64], dimension: usize, size: usize, room: &mut [Vec<f64>; 2]) {
+        let (from, to) = (self.rows[0].len(), self.rows.len());
+        let [result, other] = room;
+        result.clear();
+        result.extend(numbers);
+        for axis in 0..dimension {
+            std::mem::swap(result, other);
+            let (before, behind) =
+                (to.pow(axis as u32), from.pow((dimension - 1 - axis) as u32) * size);
+            result.clear();
+            result.resize(before * to * behind, 0.0);
+            let blocks =
+                other.chunks_exact(from * behind).zip(result.chunks_exact_mut(to * behind));
+            for (own, results) in blocks {
+                for (row, result) in self.rows.iter().zip(results.chunks_exact_mut(behind)) {
+                    for (factor, own) in row.iter().zip(own.chunks_exact(behind)) {
+                        result.iter_mut().zip(own).for_each(|(to, it)| *to += factor * it);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The place and the weight of a point of the grid.
+    fn point(&self, mut index: usize, dimension: usize) -> (Local, f64) {
+        let (mut at, mut weight) = ([0.0; 3], 1.0);
+        for axis in (0..dimension).rev() {
+            let (x, own) = self.places[index % self.places.len()];
+            index /= self.places.len();
+            (at[axis], weight) = (x, weight * own);
+        }
+        (at, weight)
+    }
+}
+
+/// The polynomials that are 1 at one knot and 0 at the others, at a place.
+fn lagrange(knots: &[f64], x: f64) -> Vec<f64> {
+    let factor = |at: usize, other: usize| match at == other {
+        true => 1.0,
+        false => (x - knots[other]) / (knots[at] - knots[other]),
+    };
+    let all = 0..knots.len();
+    all.clone().map(|at| all.clone().map(|other| factor(at, other)).product()).collect()
+}
+
+impl Table {
+    /// With so many points along an axis.
+    fn new(shape: &'static Shape, count: usize) -> Self {
+        let (dimension, along) = (shape.dimension, gauss(count));
+        let knots: Vec<f64> = along.iter().map(|it| it.0).collect();
+        let parts = PARTS[dimension - 1];
+        let in_parts = |places: &[(f64, f64)]| -> Vec<(f64, f64)> {
+            let part = |at: usize| {
+                places.iter().map(move |(x, w)| ((at as f64 + x) / parts as f64, w / parts as f64))
+            };
+            (0..parts).flat_map(part).collect()
+        };
+        let steps = STEPS[dimension - 1];
+        let ends = (0..=steps).map(|at| (at as f64 / steps as f64, 0.0)).collect();
+        let quadrature = Interpolation::new(&knots, along);
+        let point = |index: usize| {
+            let (cube, weight) = quadrature.point(index, dimension);
+            let (at, factor) = shape.of_cube(cube);
+            let slopes = |axis: usize| match axis < dimension {
+                true => shape.derivatives(at, axis),
+                false => Vec::new(),
+            };
+            let slopes = [slopes(0), slopes(1), slopes(2)];
+            Point { weight, factor, functions: shape.values(at), slopes }
+        };
+        Table {
+            shape,
+            points: (0..knots.len().pow(dimension as u32)).map(point).collect(),
+            fine: Interpolation::new(&knots, in_parts(&gauss(2))),
+            ends: Interpolation::new(&knots, ends),
+        }
+    }
+
+    /// The position of a kind of cell among those that are known, which it joins.
+    fn among(known: &mut Vec<Table>, shape: &'static Shape, count: usize) -> usize {
+        let found = known.iter().position(|it| it.shape.kind() == shape.kind());
+        found.unwrap_or_else(|| {
+            known.push(Table::new(shape, count));
+            known.len() - 1
+        })
+    }
+}
+
+/// The points of quadrature of some cells, and what was computed there.
+#[derive(Default)]
+struct Batch {
+    /// Each cell, and the position of its table.
+    cells: Vec<(usize, usize)>,
+    places: Vec<f64>,
+    weights: Vec<f64>,
+    /// What volume is about a point, over its weight in the cube.
+    densities: Vec<f64>,
+    values: Vec<f64>,
+    gradients: Vec<f64>,
+    /// What the nodes of a cell carry.
+    nodes: Vec<f64>,
+}
+
+/// A place in a cell where its error is large.
+#[derive(Clone, Copy)]
+struct Peak {
+    error: f64,
+    cell: usize,
+    table: usize,
+    /// In the cube.
+    at: Local,
+}
+
+/// What was found so far.
+#[derive(Default)]
+struct Found {
+    volume: f64,
+    first: f64,
+    second: f64,
+    gradient: f64,
+    /// The largest error, and its cell: where the exact solution was asked for.
+    largest: (f64, usize),
+    /// The largest error of a polynomial.
+    best: f64,
+    peaks: Vec<Peak>,
+    /// Memory of what is done with a cell.
+    room: [Vec<f64>; 2],
+    numbers: Vec<f64>,
+}
+
+impl Mesh<'_> {
+    /// The volume of each point: the integral of its function over the cells, as in a lumped mass.
+    ///
+    /// # Errors
+    /// A cell that is flat, or turned inside out.
+    pub fn volumes(&self) -> Result<Vec<f64>, Mistake> {
+        let mut volumes = vec![0.0; self.points.len() / self.dimension];
+        let none = Carried { values: &[], components: 0, has_gradient: false };
+        let mut tables = Vec::new();
+        let mut batch = Batch::default();
+        for (cell, shape, points) in self.full() {
+            // Exact for the function of a point, times the volume of a cell with straight edges.
+            let table = Table::among(&mut tables, shape, shape.degree() as usize + 2);
+            batch.clear();
+            self.place(&mut batch, cell, &tables[table], points, none)?;
+            for (weight, at) in batch.weights.iter().zip(&tables[table].points) {
+                let parts = points.iter().zip(&at.functions);
+                parts.for_each(|(&point, value)| volumes[point] += weight * value);
+            }
+        }
+        Ok(volumes)
+    }
+
+    /// The norms over the body of what its points carry.
+    ///
+    /// # Errors
+    /// A cell that is flat, or turned inside out; what the exact solution says.
+    pub fn measure(&self, carried: Carried<'_>, exact: Exact<'_>) -> Result<OverCells, Mistake> {
+        let mut found = Found::default();
+        let mut tables: Vec<Table> = Vec::new();
+        let mut batch = Batch::default();
+        for (cell, shape, points) in self.full() {
+            let table = Table::among(&mut tables, shape, ALONG);
+            self.place(&mut batch, cell, &tables[table], points, carried)?;
+            batch.cells.push((cell, table));
+            if batch.weights.len() >= BATCH {
+                self.add(&mut found, &mut batch, &tables, carried, exact)?;
+            }
+        }
+        self.add(&mut found, &mut batch, &tables, carried, exact)?;
+        if found.volume.is_nan() || found.volume <= 0.0 {
+            return Err(Mistake::new("no cell of the dimension of the field"));
+        }
+        self.climb(&mut found, &tables, carried, exact)?;
+        let (linf, at) = found.largest;
+        let root = |sum: f64| (sum / found.volume).sqrt();
+        let value = Norms { l1: found.first / found.volume, l2: root(found.second), linf, at };
+        Ok(OverCells { value, h1: root(found.gradient) })
+    }
+
+    /// Adds the points of quadrature of a cell to a batch.
+    fn place(
+        &self,
+        batch: &mut Batch,
+        cell: usize,
+        table: &Table,
+        points: &[usize],
+        Carried { values, components, has_gradient }: Carried<'_>,
+    ) -> Result<(), Mistake> {
+        let dimension = self.dimension;
+        // X and what is carried, node by node.
+        let size = dimension + components;
+        let own = |&point: &usize| {
+            let carried = &values[point * components..][..components];
+            self.point(point).iter().chain(carried).copied()
+        };
+        batch.nodes.clear();
+        batch.nodes.extend(points.iter().flat_map(own));
+        // The same at a point, and their derivatives by the axes of the cell.
+        let mut sums = vec![0.0; 4 * size];
+        let mut sign = 0.0;
+        for Point { weight, factor, functions, slopes } in &table.points {
+            sums.fill(0.0);
+            let by = [functions, &slopes[0], &slopes[1], &slopes[2]];
+            for (by, sums) in by.into_iter().zip(sums.chunks_exact_mut(size)) {
+                for (factor, node) in by.iter().zip(batch.nodes.chunks_exact(size)) {
+                    sums.iter_mut().zip(node).for_each(|(to, it)| *to += factor * it);
+                }
+            }
+            // dX_i/dxi_j.
+            let mut jacobian = UNIT;
+            for (row, column) in
+                (0..dimension * dimension).map(|it| (it / dimension, it % dimension))
+            {
+                jacobian[row][column] = sums[(1 + column) * size + row];
+            }
+            let (determinant, inverse) = inverted(&jacobian);
+            let is_sound =
+                determinant * sign >= 0.0 && determinant != 0.0 && determinant.is_finite();
+            if !is_sound {
+                return Err(Mistake::new(format!(
+                    "cell {cell} is flat, or folded: det dX/dxi = {determinant:e}"
+                )));
+            }
+            sign = determinant.signum();
+            let density = factor * determinant.abs();
+            batch.weights.push(weight * density);
+            batch.densities.push(density);
+            batch.places.extend(&sums[..dimension]);
+            batch.values.extend(&sums[dimension..size]);
+            if has_gradient {
+                for component in dimension..size {
+                    let by = |axis: usize| {
+                        let along = |j: usize| sums[(1 + j) * size + component] * inverse[j][axis];
+                        (0..dimension).map(along).sum::<f64>()
+                    };
+                    batch.gradients.extend((0..dimension).map(by));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the errors of a batch, which is empty then.
+    fn add(
+        &self,
+        found: &mut Found,
+        batch: &mut Batch,
+        tables: &[Table],
+        Carried { components, has_gradient, .. }: Carried<'_>,
+        exact: Exact<'_>,
+    ) -> Result<(), Mistake> {
+        if batch.weights.is_empty() {
+            return Ok(());
+        }
+        let less = |numbers: &mut [f64], exact: &[f64]| {
+            numbers.iter_mut().zip(exact).for_each(|(to, it)| *to -= it);
+        };
+        less(&mut batch.values, &exact(Asked::Values, &batch.places)?);
+        if has_gradient {
+            less(&mut batch.gradients, &exact(Asked::Gradients, &batch.places)?);
+            let squares = batch.gradients.chunks_exact(components * self.dimension).map(square);
+            found.gradient +=
+                batch.weights.iter().zip(squares).map(|(weight, it)| weight * it).sum::<f64>();
+        }
+        let mut first = 0;
+        for &(cell, table) in &batch.cells {
+            let own = first..first + tables[table].points.len();
+            first = own.end;
+            let errors = &batch.values[own.start * components..own.end * components];
+            let of_points = [&batch.weights[own.clone()], &batch.densities[own]];
+            found.see((cell, table), &tables[table], errors, of_points);
+        }
+        batch.clear();
+        Ok(())
+    }
+
+    /// Asks for the exact solution where polynomials have their largest values, and beside these places, by parabolas uphill.
+    fn climb(
+        &self,
+        found: &mut Found,
+        tables: &[Table],
+        carried: Carried<'_>,
+        exact: Exact<'_>,
+    ) -> Result<(), Mistake> {
+        found.keep_peaks();
+        let dimension = self.dimension;
+        found.peaks.iter_mut().for_each(|it| it.error = 0.0);
+        let mut step = 0.5 / STEPS[dimension - 1] as f64;
+        for _ in 0..ROUNDS {
+            let beside = |peak: &Peak| {
+                let at = peak.at;
+                let moved = (0..2 * dimension).map(move |which| {
+                    let (axis, by) = (which / 2, if which % 2 == 0 { -step } else { step });
+                    let mut at = at;
+                    at[axis] = (at[axis] + by).clamp(0.0, 1.0);
+                    at
+                });
+                std::iter::once(at).chain(moved)
+            };
+            let tried: Vec<Peak> = found
+                .peaks
+                .iter()
+                .flat_map(|peak| beside(peak).map(|at| Peak { at, ..*peak }))
+                .collect();
+            let errors = self.errors_at(&tried, tables, carried, exact)?;
+            for (peak, errors) in found.peaks.iter_mut().zip(errors.chunks(2 * dimension + 1)) {
+                peak.error = errors.iter().copied().fold(peak.error, f64::max);
+                for (axis, beside) in errors[1..].chunks(2).enumerate() {
+                    let (rise, bend) =
+                        (beside[1] - beside[0], 2.0 * errors[0] - beside[0] - beside[1]);
+                    let far = if bend > 0.0 {
+                        (rise / (2.0 * bend)).clamp(-1.0, 1.0)
+                    } else {
+                        rise.signum()
+                    };
+                    peak.at[axis] = (peak.at[axis] + far * step).clamp(0.0, 1.0);
+                }
+            }
+            step *= SHRINKS;
+        }
+        let larger = |most: (f64, usize), it: &Peak| match it.error > most.0 {
+            true => (it.error, it.cell),
+            false => most,
+        };
+        found.largest = found.peaks.iter().fold(found.largest, larger);
+        Ok(())
+    }
+
+    /// The errors at places of cells.
+    fn errors_at(
+        &self,
+        all: &[Peak],
+        tables: &[Table],
+        Carried { values, components, .. }: Carried<'_>,
+        exact: Exact<'_>,
+    ) -> Result<Vec<f64>, Mistake> {
+        let (mut places, mut computed) = (Vec::new(), Vec::new());
+        for peak in all {
+            let start = peak.cell.checked_sub(1).map_or(0, |before| self.cells.ends[before]);
+            let points = &self.cells.points[start..self.cells.ends[peak.cell]];
+            let shape = tables[peak.table].shape;
+            let functions = shape.values(shape.of_cube(peak.at).0);
+            let sum = |of: &[f64], size: usize, to: &mut Vec<f64>| {
+                let each = |k: usize| {
+                    let parts = points.iter().zip(&functions);
+                    parts.map(|(point, n)| n * of[point * size + k]).sum::<f64>()
+                };
+                to.extend((0..size).map(each));
+            };
+            sum(self.points, self.dimension, &mut places);
+            sum(values, components, &mut computed);
+        }
+        let exact = exact(Asked::Values, &places)?;
+        Ok(lengths(&computed, &exact, components).collect())
+    }
+}
+
+impl Found {
+    /// Adds the errors of a cell at its points of quadrature, with the weights and densities there.
+    fn see(
+        &mut self,
+        (cell, table): (usize, usize),
+        of: &Table,
+        errors: &[f64],
+        [weights, densities]: [&[f64]; 2],
+    ) {
+        let components = errors.len() / weights.len();
+        let (mut mean, mut first, mut largest) = (vec![0.0; components], 0.0, 0.0_f64);
+        for (weight, error) in weights.iter().zip(errors.chunks_exact(components)) {
+            let square = square(error);
+            mean.iter_mut().zip(error).for_each(|(to, it)| *to += it);
+            self.volume += weight;
+            self.second += weight * square;
+            first += weight * square.sqrt();
+            largest = largest.max(square);
+        }
+        let largest = largest.sqrt();
+        if largest > self.largest.0 {
+            self.largest = (largest, cell);
+        }
+        let along = |error: &[f64]| mean.iter().zip(error).map(|(a, b)| a * b).sum::<f64>();
+        // Where all errors point to the side of their mean, none of them is 0 between. A line costs little.
+        let is_smooth = of.shape.dimension > 1
+            && errors.chunks_exact(components).all(|error| along(error) >= 0.0);
+        self.first += if is_smooth { first } else { self.integral(of, errors, densities) };
+        if BETWEEN * largest > self.best {
+            self.search((cell, table), of, errors, components);
+        }
+    }
+
+    /// The integral of the length of a polynomial.
+    fn integral(&mut self, of: &Table, errors: &[f64], densities: &[f64]) -> f64 {
+        let dimension = of.shape.dimension;
+        let components = errors.len() / densities.len();
+        let size = components + 1;
+        let pairs = errors.chunks_exact(components).zip(densities);
+        self.numbers.clear();
+        pairs.for_each(|(error, density)| self.numbers.extend(error.iter().chain([density])));
+        of.fine.apply(&self.numbers, dimension, size, &mut self.room);
+        let lengths = self.room[0].chunks_exact(size);
+        let sum: f64 = lengths.map(|it| it[components] * square(&it[..components]).sqrt()).sum();
+        // All weights along an axis are alike.
+        of.fine.places[0].1.powi(dimension as i32) * sum
+    }
+
+    /// Looks for the maximum of a polynomial: at the ends of parts, and from the largest there by a parabola along each axis.
+    fn search(
+        &mut self,
+        (cell, table): (usize, usize),
+        of: &Table,
+        errors: &[f64],
+        components: usize,
+    ) {
+        let dimension = of.shape.dimension;
+        of.ends.apply(errors, dimension, components, &mut self.room);
+        self.numbers.clear();
+        self.numbers.extend(self.room[0].chunks_exact(components).map(square));
+        let squares = &self.numbers;
+        let least = HIGH * HIGH * squares.iter().copied().fold(0.0, f64::max);
+        let steps = STEPS[dimension - 1];
+        let side = steps + 1;
+        for (at, &own) in squares.iter().enumerate().filter(|(_, own)| **own >= least) {
+            let (mut place, mut most) = (of.ends.point(at, dimension).0, own);
+            for axis in 0..dimension {
+                let stride = side.pow((dimension - 1 - axis) as u32);
+                let along = at / stride % side;
+                if along == 0 || along == steps {
+                    continue;
+                }
+                let (before, after) = (squares[at - stride], squares[at + stride]);
+                let bend = 2.0 * own - before - after;
+                // Elsewhere it is larger, and that is a peak of its own.
+                if bend > 0.0 && before.max(after) <= own {
+                    place[axis] += (after - before) / (2.0 * bend) / steps as f64;
+                    most += (after - before).powi(2) / (8.0 * bend);
+                }
+            }
+            let error = most.sqrt();
+            self.best = self.best.max(error);
+            if error > NEAR * self.best {
+                self.peaks.push(Peak { error, cell, table, at: place });
+            }
+        }
+        if self.peaks.len() > 4 * COMPARED {
+            self.keep_peaks();
+        }
+    }
+
+    /// Keeps the peaks that may be the largest.
+    fn keep_peaks(&mut self) {
+        self.peaks.retain(|it| it.error > NEAR * self.best);
+        self.peaks.sort_by(|a, b| b.error.total_cmp(&a.error));
+        self.peaks.truncate(COMPARED);
+    }
+}
+
+fn square(numbers: &[f64]) -> f64 {
+    numbers.iter().map(|it| it * it).sum()
+}
+
+impl Batch {
+    fn clear(&mut self) {
+        self.cells.clear();
+        let numbers = [
+            &mut self.places,
+            &mut self.weights,
+            &mut self.densities,
+            &mut self.values,
+            &mut self.gradients,
+        ];
+        numbers.into_iter().for_each(Vec::clear);
+    }
+}
+
+const UNIT: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// The determinant and the inverse of a matrix, by cofactors.
+fn inverted(matrix: &Matrix) -> (f64, Matrix) {
+    let cofactor = |row: usize, column: usize| {
+        let [r1, r2, c1, c2] = [row + 1, row + 2, column + 1, column + 2].map(|it| it % 3);
+        matrix[r1][c1] * matrix[r2][c2] - matrix[r1][c2] * matrix[r2][c1]
+    };
+    let determinant: f64 = (0..3).map(|column| matrix[0][column] * cofactor(0, column)).sum();
+    let inverse = [0, 1, 2].map(|row| [0, 1, 2].map(|column| cofactor(column, row) / determinant));
+    (determinant, inverse)
+}
