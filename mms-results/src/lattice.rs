@@ -70,6 +70,14 @@ impl<'a> Lattice<'a> {
         all.filter(move |(_, distance)| *distance <= reach)
     }
 
+    /// Whether there is a point within a distance of a place.
+    pub fn has_within(&self, place: &[f64], reach: f64) -> bool {
+        // Most often there is one in the same cell.
+        let is_beside = self.step * (self.size as f64).sqrt() <= reach;
+        is_beside && self.near(place, 0.0).next().is_some()
+            || self.within(place, reach).next().is_some()
+    }
+
     /// How far each point of every so many is from the nearest other one; nothing of a point that is alone.
     pub fn distances(&self, every: usize) -> Vec<f64> {
         let count = self.points.len() / self.size;

@@ -2,8 +2,9 @@
 //!
 //! A file is known by its content: a table with a header, VTK in XML or in the legacy format, NumPy. What is read is a
 //! [`Snapshot`]: points, cells, and named arrays of numbers, each with the precision in which it was stored. [`names`]
-//! says which of them are displacement, velocity and so on; [`norm`] measures them, over points or by quadrature over
-//! [cells](cell), or [block by block](comparison) of the exact solution; [`pairing`] finds the same points in two results,
+//! says which of them are displacement, velocity and so on; [`norm`] measures them over points,
+//! [`over_cells`] over the [cells](cell) of a [`mesh`], and [`comparison`] block by block of the exact solution;
+//! [`pairing`] finds the same points in two results,
 //! [`own`] leaves out ghosts and what is there twice, and [`lattice`] finds neighbours.
 //! [`write`](mod@write) makes such files of a state that is known. [`wanted`] says which arrays are read, in how much
 //! memory.

@@ -32,10 +32,10 @@ pub struct Covered {
     pub cells: usize,
     /// Points.
     pub points: usize,
-    /// h: the edge of a cube as large as a cell, or as what belongs to a point.
+    /// h: the edge of a cube as large as a cell, or as what belongs to a point; or how far neighbouring points are.
     pub size: f64,
-    /// How far neighbouring points are from each other, where there are no cells and all are as far.
-    pub neighbour: Option<f64>,
+    /// Whether there are no cells, and neighbouring points are all as far from each other.
+    pub is_even: bool,
     /// What is missing, in a word: `the cells cover 0.5 of the body`.
     pub part: Option<String>,
 }
@@ -77,7 +77,7 @@ pub fn of_cells(
     let cells = mesh.full().count();
     let size = (measure / cells as f64).powf(1.0 / dimension as f64);
     let points = mesh.points.len() / dimension;
-    Ok(Covered { cells, points, size, neighbour: None, part })
+    Ok(Covered { cells, points, size, is_even: false, part })
 }
 
 /// A share with three digits, of nearly all with what is missing.
@@ -127,11 +127,6 @@ pub fn of_points(points: &[f64], exact: &Exact, rounding: f64) -> Covered {
     let mean = distances.iter().sum::<f64>() / distances.len() as f64;
     let range = |pick: fn(f64, f64) -> f64| distances.iter().copied().reduce(pick);
     let is_even = range(f64::max).zip(range(f64::min)).is_some_and(|(a, b)| a <= ALIKE * b);
-    // A point on a face has half of its neighbourhood in the body, on an edge a quarter.
-    let mut parts = vec![1.0; count];
-    let rows = exact.faces(points, rounding).into_iter().flat_map(|(_, rows)| rows);
-    rows.for_each(|row| parts[row] /= 2.0);
-    let all: f64 = parts.iter().sum();
     let part = empty(&lattice, points, body, spacing).map(|place| {
         format!(
             "the points leave part of the body empty: within {:.2e}, {EMPTY} spacings of {count} points that fill it, \
@@ -139,14 +134,18 @@ pub fn of_points(points: &[f64], exact: &Exact, rounding: f64) -> Covered {
             EMPTY * spacing
         )
     });
+    // A point on a face has half of its neighbourhood in the body, on an edge a quarter.
+    let neighbourhoods = || {
+        let mut parts = vec![1.0; count];
+        let rows = exact.faces(points, rounding).into_iter().flat_map(|(_, rows)| rows);
+        rows.for_each(|row| parts[row] /= 2.0);
+        parts.iter().sum::<f64>()
+    };
+    let neighbour = (is_even || part.is_some()).then_some(mean).filter(|it| *it > 0.0);
+    let size = neighbour
+        .unwrap_or_else(|| (body.measure() / neighbourhoods()).powf(1.0 / dimension as f64));
     let few = (count < 1 << dimension).then(|| format!("{count} points fill no body"));
-    Covered {
-        cells: 0,
-        points: count,
-        size: (body.measure() / all).powf(1.0 / dimension as f64),
-        neighbour: (is_even || part.is_some()).then_some(mean).filter(|it| *it > 0.0),
-        part: part.or(few),
-    }
+    Covered { cells: 0, points: count, size, is_even: neighbour.is_some(), part: part.or(few) }
 }
 
 /// A place of the body that is far from all points, in lengths and in parts of its edges too: a plate may have as many points
@@ -205,7 +204,7 @@ fn far(lattice: &Lattice<'_>, points: &[f64], body: &Extent<f64>, reach: f64) ->
     };
     // Places so near to each other that none of them misses an empty part by much.
     let counts: Vec<usize> =
-        lengths.iter().map(|it| (2.0 * it / reach).ceil().max(1.0) as usize).collect();
+        lengths.iter().map(|it| (1.5 * it / reach).ceil().max(1.0) as usize).collect();
     let place = |mut index: usize| -> Vec<f64> {
         let part = |count: &usize| {
             let at = index % (count + 1);
@@ -215,9 +214,7 @@ fn far(lattice: &Lattice<'_>, points: &[f64], body: &Extent<f64>, reach: f64) ->
         body.point(&counts.iter().map(part).collect::<Vec<_>>())
     };
     let mut places = (0..counts.iter().map(|it| it + 1).product()).map(place);
-    // Most have a point beside them, in the same cell of the lattice.
-    let is_alone = |place: &[f64]| lattice.near(place, 0.0).next().is_none();
-    places.find(|it| is_alone(it) && lattice.within(it, reach).next().is_none())
+    places.find(|it| !lattice.has_within(it, reach))
 }
 
 /// What is said of points that leave part of the body empty.

@@ -274,16 +274,14 @@ fn lengths(
     }
     let covered = || levels.iter().map(|level| &level.found.covered);
     let of_cells: Option<Vec<[f64; 2]>> = levels.iter().map(|level| level.found.sizes).collect();
-    let neighbours: Option<Vec<f64>> = covered().map(|it| it.neighbour).collect();
-    let (says, sizes) = match (&of_cells, neighbours) {
-        (Some(_), _) => ("(measure of the cells / their number)^(1/D)", None),
-        (None, Some(distances)) => {
-            ("the distance of neighbouring points, for there are no cells", Some(distances))
+    let says = match &of_cells {
+        Some(_) => "(measure of the cells / their number)^(1/D)",
+        None if covered().all(|it| it.is_even) => {
+            "the distance of neighbouring points, for there are no cells"
         }
-        (None, None) => (
-            "(measure of the body / points)^(1/D), for there are no cells; of a point on a face half is counted",
-            None,
-        ),
+        None => {
+            "(measure of the body / points)^(1/D), for there are no cells; of a point on a face half is counted"
+        }
     };
     notes.push(format!("h: {says}; give others with `--h`"));
     if let Some(sizes) = of_cells {
@@ -296,7 +294,7 @@ fn lengths(
             ));
         }
     }
-    Ok(sizes.unwrap_or_else(|| covered().map(|it| it.size).collect()))
+    Ok(covered().map(|it| it.size).collect())
 }
 
 /// What is judged of a quantity.
