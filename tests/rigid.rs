@@ -278,7 +278,8 @@ fn composed(inner: &Field, quantity: Quantity, at: &Sample<Precise>) -> Vec<Prec
         | Quantity::StrainEnergy
         | Quantity::SecondPiolaKirchhoff
         | Quantity::Pressure
-        | Quantity::VonMises => value,
+        | Quantity::VonMises
+        | Quantity::SmallStrain => value,
     }
 }
 

@@ -71,8 +71,8 @@ pub enum Entry {
 pub fn quantity(name: &str) -> Result<Quantity, String> {
     match evaluated(name)? {
         found if found.is_on_request() => Err(format!(
-            "the quantity {} is not compiled; `mms eval`, `mms state` and `mms judge` derive it from cauchy_stress and \
-             first_piola_kirchhoff",
+            "the quantity {} is not compiled; `mms eval`, `mms state` and `mms judge` derive it from cauchy_stress, \
+             first_piola_kirchhoff or displacement_gradient",
             quoted(found.name())
         )),
         found => Ok(found),

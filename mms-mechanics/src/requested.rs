@@ -1,7 +1,7 @@
-//! Quantities on request: S, pressure and von Mises stress.
+//! Quantities on request: S, pressure, von Mises stress and the small strain.
 //!
-//! The last two are of three dimensions. So the stress is that of H with the rows and columns that a field lacks, which are 0:
-//! plane strain, or uniaxial strain, as W has it. A rigid motion on top changes none of the three:
+//! Pressure and von Mises stress are of three dimensions. So the stress is that of H with the rows and columns that a field lacks, which are 0:
+//! plane strain, or uniaxial strain, as W has it. A rigid motion on top changes none of the stresses:
 //!
 //! ```text
 //! S = F^-1 P     p = -tr(sigma)/3     von Mises = sqrt(3/2 s:s),  s = sigma + p I
@@ -52,6 +52,15 @@ pub fn requested(
             let first = law.first_piola_kirchhoff(graph, &strain);
             let second = if is_small { first } else { strain.inverse.mul(graph, &first) };
             Tensor::from_fn(dimension, |row, column| second.at(row, column)).components().to_vec()
+        }
+        Quantity::SmallStrain => {
+            let own = derivation.quantities.get(&Quantity::DisplacementGradient);
+            let gradient =
+                own.map_or(gradient, |own| Tensor::from_components(dimension, own.clone()));
+            let transposed = gradient.transpose();
+            let sum = gradient.add(graph, &transposed);
+            let half = graph.number(HALF);
+            sum.scale(graph, half).components().to_vec()
         }
         Quantity::Pressure => {
             let stress = cauchy(graph, &law, &strain, is_small);

@@ -143,7 +143,8 @@ impl<'a> Twin<'a> {
             | Quantity::StrainEnergy
             | Quantity::SecondPiolaKirchhoff
             | Quantity::Pressure
-            | Quantity::VonMises => inner.clone(),
+            | Quantity::VonMises
+            | Quantity::SmallStrain => inner.clone(),
             Quantity::DivP | Quantity::DivSigma | Quantity::Traction => {
                 self.rotation.apply(graph, inner)
             }

@@ -282,7 +282,8 @@ fn vanishes_with_the_strain(quantity: Quantity) -> bool {
         | Quantity::Traction
         | Quantity::SecondPiolaKirchhoff
         | Quantity::Pressure
-        | Quantity::VonMises => true,
+        | Quantity::VonMises
+        | Quantity::SmallStrain => true,
         Quantity::Position
         | Quantity::Velocity
         | Quantity::Acceleration

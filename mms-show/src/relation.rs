@@ -105,6 +105,9 @@ pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
         Quantity::Pressure => {
             &[Scalar("p"), EQUALS, MINUS, Over(&[Word("tr"), Tensor("sigma")], &[Scalar("3")])]
         }
+        Quantity::SmallStrain => {
+            &[Scalar("2"), Tensor("epsilon"), EQUALS, Tensor("H"), Sign("+"), Raised("H", "T")]
+        }
         Quantity::VonMises => &[Word("von Mises"), EQUALS, Function("f", &[Tensor("sigma")])],
     }
 }

@@ -77,7 +77,7 @@ quantities! {
         NominalStress, CauchyStress, KirchhoffStress, DivP, DivSigma, BodyForce, BodyForceDensity,
         CurrentBodyForceDensity, Traction,
     }
-    on_request { SecondPiolaKirchhoff, Pressure, VonMises, }
+    on_request { SecondPiolaKirchhoff, Pressure, VonMises, SmallStrain, }
     Displacement "displacement" "u" Vector "m" "Displacement u(X, t).",
     Position "position" "x" Vector "m" "Current position x = X + u.",
     Velocity "velocity" "v" Vector "m/s" "Velocity v = du/dt at fixed X.",
@@ -102,6 +102,7 @@ quantities! {
     Traction "traction" "T" Vector "Pa" "Traction P N on reference area, for the reference unit normal N.",
     SecondPiolaKirchhoff "second_piola_kirchhoff" "S" Tensor "Pa" "Second Piola-Kirchhoff stress S = F^-1 P.",
     Pressure "pressure" "p" Scalar "Pa" "Pressure p = -tr(sigma)/3, the stress out of the plane included.",
+    SmallStrain "strain" "strain" Tensor "1" "Small strain eps = (H + H^T)/2.",
     VonMises "von_mises" "von_mises" Scalar "Pa" "Von Mises stress sqrt(3/2 s:s) of the deviator s of sigma in three dimensions.",
 }
 

@@ -80,7 +80,7 @@ fn measured(
     let (map, wanted, weight) = (&options.map, &options.quantities, options.weight);
     let reading = Reading { map, wanted, weight, memory: None, is_part: false };
     let all: Vec<Results> =
-        files.iter().map(|file| reading.find(file)).collect::<anyhow::Result<_>>()?;
+        files.iter().map(|file| reading.find(file, exact)).collect::<anyhow::Result<_>>()?;
     let h: Vec<f64> = jobs.iter().map(|job| planned.size(job)).collect();
     // One file without a time is of the end.
     let is_end = |it: &Results| matches!(it.snapshots.as_slice(), [Snapshot { time: None, .. }]);

@@ -50,7 +50,7 @@ pub struct Eval {
     /// The time.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: String,
-    /// Quantities, separated by commas, or `all` but second_piola_kirchhoff, pressure and von_mises, which are derived where
+    /// Quantities, separated by commas, or `all` but second_piola_kirchhoff, pressure, von_mises and strain, which are derived where
     /// they are named.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
     quantity: Vec<String>,

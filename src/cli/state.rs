@@ -57,7 +57,7 @@ pub struct State {
     /// The times.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, required = true, allow_hyphen_values = true)]
     time: Vec<f64>,
-    /// The quantities beside X, separated by commas, or `all` but second_piola_kirchhoff, pressure and von_mises, which are
+    /// The quantities beside X, separated by commas, or `all` but second_piola_kirchhoff, pressure, von_mises and strain, which are
     /// derived where they are named.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     quantity: Vec<String>,

@@ -34,7 +34,9 @@ impl Beyond {
         let is_small = *kind == Kind::SmallStrain;
         match quantity {
             _ if quantity.shape() != Shape::Tensor => None,
-            Quantity::DisplacementGradient | Quantity::GreenLagrange => Some(Beyond::Zero),
+            Quantity::DisplacementGradient | Quantity::GreenLagrange | Quantity::SmallStrain => {
+                Some(Beyond::Zero)
+            }
             Quantity::CauchyStress => Some(Beyond::Cauchy),
             Quantity::FirstPiolaKirchhoff
             | Quantity::NominalStress

@@ -77,6 +77,32 @@ fn a_state_has_the_reference_volume_twice() {
     }
 }
 
+/// Its small strain is a quantity too, and what a column `strain` holds. Where other strains are meant, only by name.
+#[test]
+fn a_column_of_strains_holds_the_small_strain() {
+    let folder = Folder::new();
+    let eval = format!("eval {FIELD} --at 0.3,0.4 --time 0.01 --quantity H,strain --json");
+    let point = folder.mms(&eval).exits(0).json()["points"][0].clone();
+    let h = numbers(&point["displacement_gradient"]);
+    let shear = (h[1] + h[2]) / 2.0;
+    near("strain", &numbers(&point["strain"]), &[h[0], shear, shear, h[3]], 1.0);
+    let state = |field: &str| {
+        let command =
+            format!("state {field} --cells 4 --time 0.01 --quantity u,strain -o {field}.csv");
+        folder.mms(&command).exits(0);
+    };
+    let compared = |field: &str, more: &str| -> Vec<String> {
+        let command = format!("judge {field} {field}.csv --json {more}");
+        let document = folder.mms(&command).json();
+        let quantities = document["quantities"].as_array().expect("quantities");
+        quantities.iter().map(|it| it["name"].as_str().expect("a name").into()).collect()
+    };
+    [FIELD, "travelling_wave_2d"].into_iter().for_each(state);
+    assert_eq!(compared(FIELD, ""), ["displacement", "strain"]);
+    assert_eq!(compared("travelling_wave_2d", ""), ["displacement"]);
+    assert_eq!(compared("travelling_wave_2d", "--quantity strain"), ["strain"]);
+}
+
 /// The solver's own results, of the updated formulation too: sigma is that of its F.
 #[test]
 fn a_run_writes_the_one_stress() {

@@ -52,7 +52,7 @@ pub const CRATES: &[Crate] = &[
             "misread",
             "finite material small_strain",
             "derivation",
-            "boundary requested rigid simplify",
+            "boundary requested rest rigid simplify",
             "output",
             "sample",
         ],

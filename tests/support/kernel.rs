@@ -73,7 +73,10 @@ macro_rules! kernel {
                         normal[0] = T::from_f64(1.0);
                         at.traction(x, normal).to_vec()
                     }
-                    Quantity::SecondPiolaKirchhoff | Quantity::Pressure | Quantity::VonMises => {
+                    Quantity::SecondPiolaKirchhoff
+                    | Quantity::Pressure
+                    | Quantity::VonMises
+                    | Quantity::SmallStrain => {
                         panic!("no field is compiled with {}", quantity.name())
                     }
                 }

@@ -114,9 +114,12 @@ impl Judge {
             memory: options.max_memory,
             is_part: options.part,
         };
-        let all =
-            self.files.iter().map(|file| reading.find(file)).collect::<anyhow::Result<_>>()?;
-        let tighter = options.tighter.as_deref().map(|it| reading.find(it)).transpose()?;
+        let all = self
+            .files
+            .iter()
+            .map(|file| reading.find(file, exact))
+            .collect::<anyhow::Result<_>>()?;
+        let tighter = options.tighter.as_deref().map(|it| reading.find(it, exact)).transpose()?;
         let comparison = Comparison {
             sizes: &options.h,
             times: &options.time,

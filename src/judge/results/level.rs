@@ -160,14 +160,14 @@ impl Reading<'_> {
     ///
     /// # Errors
     /// As of [`Results::find`].
-    pub fn find(&self, given: &str) -> anyhow::Result<Results> {
+    pub fn find(&self, given: &str, exact: &Exact) -> anyhow::Result<Results> {
         let (room, advice) = room(self.memory);
-        let wants = |role: Role| self.wants(role);
+        let wants = |role: Role| self.wants(role, exact);
         Results::find(given, &wanted(self.map, &wants).within(room, advice))
     }
 
-    /// Whether an array of that meaning is needed.
-    fn wants(&self, role: Role) -> bool {
+    /// Whether an array of that meaning is needed. A strain is the small one where the material knows no other, or by name.
+    fn wants(&self, role: Role, exact: &Exact) -> bool {
         let is_place =
             matches!(role, Role::Reference | Role::Position | Role::Place | Role::Displacement);
         let is_weight = matches!(role, Role::Volume | Role::Mass);
@@ -175,7 +175,10 @@ impl Reading<'_> {
             return is_place || self.weight == Some(role);
         }
         let role = if role == Role::Normal { Role::Traction } else { role };
-        self.wanted.is_empty() || quantity(role).is_some_and(|it| self.wanted.contains(&it))
+        if self.wanted.is_empty() {
+            return role != Role::SmallStrain || exact.is_small_strain();
+        }
+        quantity(role).is_some_and(|it| self.wanted.contains(&it))
     }
 
     /// Measures a snapshot at a time.
@@ -190,7 +193,8 @@ impl Reading<'_> {
         exact: &mut Exact,
     ) -> anyhow::Result<Found> {
         let dimension = exact.dimension;
-        let meanings = recognise(snapshot, self.map, &|role| self.wants(role)).map_err(placed)?;
+        let meanings =
+            recognise(snapshot, self.map, &|role| self.wants(role, exact)).map_err(placed)?;
         let outside = |point: &[f64]| exact.body.distance(point);
         let motion = {
             let mut back = exact.back(time, snapshot.rows());
@@ -265,7 +269,8 @@ impl Reading<'_> {
         snapshot: &'b Snapshot,
         exact: &Exact,
     ) -> anyhow::Result<Vec<(Quantity, Values<'b>)>> {
-        let meanings = recognise(snapshot, self.map, &|role| self.wants(role)).map_err(placed)?;
+        let meanings =
+            recognise(snapshot, self.map, &|role| self.wants(role, exact)).map_err(placed)?;
         let outside = |point: &[f64]| exact.body.distance(point);
         let time = snapshot.time.map_or(exact.window[0], |time| time.value);
         let mut back = exact.back(time, snapshot.rows());
