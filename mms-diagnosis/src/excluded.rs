@@ -1,4 +1,4 @@
-//! What results with a small error exclude: mistakes that would have made a larger one.
+//! Mistakes that results with a small error exclude, since they would have made one that is twice as large.
 //!
 //! The error of a mistake is that which it adds to a run of this project's own solver, on a grid no finer than that of the results: a
 //! root mean square over the body, the largest over times, as that of the results is.
@@ -40,7 +40,8 @@ pub enum Shown {
         /// The least distance from it that is shown.
         least: f64,
     },
-    /// None: the error of the mistake, or of the largest that it may be, is so many times that of the results, less than once.
+    /// None: the error of the mistake, or of the largest that it may be, is so many times that of the results, less than
+    /// [`NOTICED`].
     Never(f64),
 }
 
@@ -65,6 +66,11 @@ impl Excluded {
         !matches!(self.shown, Shown::Never(_))
     }
 }
+
+/// A mistake is noticed if its error is so many times that of the results. Then no order of the sum is near that of a right
+/// solver, whatever part of the right error the mistake takes away: that takes 1.65 of an error that does not fall with h, where
+/// the right one has order 2 and meshes are refined by 2. The rest is the uncertainty of a run on another mesh.
+pub const NOTICED: f64 = 2.0;
 
 /// Steps times particles that a run may take: a fraction of a second, of which there are a hundred.
 const MOST_WORK: f64 = 3e5;
@@ -137,7 +143,7 @@ where
     fn shown(&self, hypothesis: &Hypothesis<D>) -> Shown {
         let Size::Any { right, first, .. } = &hypothesis.size else {
             return match self.times(hypothesis, &[]) {
-                Some(times) if times < 1.0 => Shown::Never(times),
+                Some(times) if times < NOTICED => Shown::Never(times),
                 times => Shown::Always(times),
             };
         };
@@ -147,7 +153,7 @@ where
         let farthest = hypothesis.farthest();
         match least < farthest {
             true => Shown::From { right: right[0], least },
-            false => Shown::Never(farthest / least),
+            false => Shown::Never(NOTICED * farthest / least),
         }
     }
 
@@ -162,6 +168,7 @@ where
             at[axis] += step;
             match self.times(hypothesis, &at) {
                 Some(times) if times > 0.0 => {
+                    let times = times / NOTICED;
                     last = step.abs() / times;
                     if (times - 1.0).abs() < NEAR {
                         break;
@@ -202,7 +209,7 @@ where
 
 /// How often a size is looked for.
 const ROUNDS: usize = 3;
-/// An error is that of the results within this part of it.
+/// The error of a mistake is that which is noticed, within this part of it.
 const NEAR: f64 = 0.2;
 /// By how many times a size changes at most.
 const FARTHEST: f64 = 1e3;

@@ -18,16 +18,27 @@ pub struct Norms {
 pub(crate) struct Sums {
     weight: f64,
     first: f64,
-    second: f64,
+    /// Sums of squares of small, usual and large errors, each scaled by [`SCALES`] (J. L. Blue, ACM Trans. Math. Softw. 4,
+    /// 1978, 15-23).
+    second: [f64; 3],
     largest: f64,
     at: usize,
 }
+
+/// Errors between these have squares that neither underflow nor overflow.
+const USUAL: [f64; 2] = [1e-140, 1e140];
+
+/// Powers of two that bring errors below, between and above into that range.
+const SCALES: [f64; 3] =
+    [f64::from_bits((1023 + 600) << 52), 1.0, f64::from_bits((1023 - 600) << 52)];
 
 impl Sums {
     pub(crate) fn add(&mut self, at: usize, weight: f64, error: f64) {
         self.weight += weight;
         self.first += weight * error;
-        self.second += weight * error * error;
+        let size = usize::from(error >= USUAL[0]) + usize::from(error > USUAL[1]);
+        let scaled = error * SCALES[size];
+        self.second[size] += weight * scaled * scaled;
         if error > self.largest {
             (self.largest, self.at) = (error, at);
         }
@@ -35,7 +46,12 @@ impl Sums {
 
     pub(crate) fn norms(self) -> Norms {
         let Sums { weight, first, second, largest, at } = self;
-        Norms { l1: first / weight, l2: (second / weight).sqrt(), linf: largest, at }
+        let size = second.iter().rposition(|it| *it > 0.0).unwrap_or(1);
+        // What is two sizes smaller does not count.
+        let step = SCALES[2];
+        let smaller = if size > 0 { second[size - 1] * step * step } else { 0.0 };
+        let l2 = ((second[size] + smaller) / weight).sqrt() / SCALES[size];
+        Norms { l1: first / weight, l2, linf: largest, at }
     }
 
     /// `None` without a weight above 0.
@@ -52,7 +68,16 @@ pub fn lengths(computed: &[f64], exact: &[f64], components: usize) -> impl Itera
 
 /// The length of a difference.
 pub(crate) fn length(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    let differences = || a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    let square: f64 = differences().map(|it| it * it).sum();
+    if (USUAL[0]..USUAL[1]).contains(&square) {
+        return square.sqrt();
+    }
+    let most = differences().fold(0.0, f64::max);
+    if most == 0.0 || !most.is_finite() {
+        return square.sqrt();
+    }
+    differences().map(|it| (it / most).powi(2)).sum::<f64>().sqrt() * most
 }
 
 /// The norms of errors at points, each with its weight, or all alike. `None` where there are none, or their weights

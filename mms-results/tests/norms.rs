@@ -22,6 +22,26 @@ fn norms_over_points_are_their_definitions() {
     assert_eq!(over_points(errors.iter().copied(), Some(&[0.0, 0.0])), None);
 }
 
+/// Norms of errors times a power of two are those of the errors times it, however small or large that makes them.
+#[test]
+fn norms_neither_underflow_nor_overflow() {
+    let errors = [3.0, 4.0, 12.0, 1.0, 0.25, 7.0];
+    let norms = |scale: f64| {
+        let computed: Vec<f64> = errors.iter().map(|it| it * scale).collect();
+        of_differences(&computed, &[0.0; 6], 2, None).expect("norms")
+    };
+    let usual = norms(1.0);
+    for power in [-1000, -600, -465, -464, 464, 465, 600, 1000] {
+        let (scale, found) = (2f64.powi(power), norms(2f64.powi(power)));
+        let near = |a: f64, b: f64| (a / scale / b - 1.0).abs() < 1e-14;
+        assert!(near(found.l1, usual.l1) && near(found.l2, usual.l2), "2^{power}: {found:?}");
+        assert!(near(found.linf, usual.linf), "2^{power}: {found:?}");
+    }
+    // Errors on both sides of where the scale changes.
+    let mixed = over_points([0.9e140, 1.1e140, 0.9e140], None).expect("norms");
+    assert!((mixed.l2 / (2.83_f64 / 3.0).sqrt() - 1e140).abs() < 1e126, "{mixed:?}");
+}
+
 /// The exact numbers come in blocks of any size.
 #[test]
 fn a_comparison_is_that_of_all_points_at_once() {

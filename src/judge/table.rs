@@ -252,10 +252,11 @@ impl Table {
         Ok(quantities)
     }
 
-    /// The errors of a column; where a field is empty a run stopped.
+    /// The errors of a column. A run stopped if a field is empty, or its number is not finite.
     fn errors(&self, column: &Column) -> anyhow::Result<Vec<Option<f64>>> {
-        let error = |cell: &Cell| match cell.text.as_str() {
-            "" => Ok(None),
+        let error = |cell: &Cell| match cell.text.parse::<f64>() {
+            Ok(number) if !number.is_finite() => Ok(None),
+            _ if cell.text.is_empty() => Ok(None),
             _ => self.number(cell, "an error", "0 or above", |it| it >= 0.0).map(Some),
         };
         self.column(column).into_iter().flatten().map(error).collect()

@@ -461,7 +461,7 @@ fn what_a_small_error_excludes_would_make_a_larger_one() {
     let mu = [LAMBDA, MU * (1.0 + least("mu_factor"))];
     for moduli in [lambda, mu] {
         let times = added(&Mistaken { moduli, ..right });
-        assert!((0.7..1.4).contains(&times), "{moduli:?}: {times}");
+        assert!((1.4..2.8).contains(&times), "twice the error, {moduli:?}: {times}");
     }
     let swapped = added(&Mistaken { moduli: [MU, LAMBDA], ..right });
     match shown("moduli_swapped") {
