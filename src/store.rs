@@ -453,7 +453,7 @@ mod tests {
         assert_eq!(locks().count(), 0);
     }
 
-    /// Of a claim that is given up again and again, one process at a time has the right.
+    /// A claim that is given up again and again belongs to one process at a time.
     #[test]
     fn a_lock_of_a_removed_file_is_no_claim() {
         let (_folder, store) = store();

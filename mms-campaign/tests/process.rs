@@ -176,7 +176,7 @@ fn a_folder_is_emptied_for_the_next_run() {
     );
 }
 
-/// Whoever kills the supervisor leaves a run that nobody ends: its folder is not used again.
+/// A run whose supervisor was killed goes on: its folder is not used again.
 #[test]
 fn a_folder_in_which_something_may_still_write_is_left_alone() {
     let parent = tempfile::tempdir().unwrap();

@@ -85,7 +85,7 @@ fn fibres_are_refused_from_where_they_give_way() {
     }
 }
 
-/// What no range moves is judged for the defaults, by which a fluid is a material too.
+/// Moduli that no range moves are judged for the defaults, by which a fluid is a material too.
 #[test]
 fn moduli_without_a_range_are_not_looked_at() {
     let fluid = "model = \"neo_hookean\"\nlambda = \"a\"\nmu = 0\ndensity = \"1 + X*a\"";

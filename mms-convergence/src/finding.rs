@@ -7,7 +7,7 @@ use crate::share::{Share, lower, rounding};
 use crate::term::{Term, second_term};
 use crate::verdict::Verdict;
 
-/// What theory says, and how far an order may be from it.
+/// An order that theory promises, and how far the observed one may be from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
     /// p.

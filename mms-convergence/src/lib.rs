@@ -15,16 +15,16 @@
 //! | 3 | two orders p1, p2 | the [interval](Estimate): p1, p2, and p2 + 1.25 (p2 - p1)/(r - 1), where the drift may lead |
 //! | 4 and more, or replicates | ln e = ln C + p ln h | the interval of 95 % by Student's t, from the scatter |
 //! | 3 and more | e = C h^p + D h^(p-1) + E h^(p+1) | the [share](Share) that D has of the finest error, which decides |
-//! | 3 and more | e = C h^p + D h^q, q of 0, p - 1, p + 1, p + 2 | the [second term](Term), its share and where it takes over |
+//! | 3 and more | e = C h^p + D h^q, q of 0, p - 1, p + 1, p + 2 | the [second term](Term) that explains a drift, its share and where it takes over |
 //! | 4 and more | e = e0 + C h^p | the [limit](Limit): consistent, if the interval of e0 holds 0 |
 //!
-//! A share s of the term h^(p-1) lowers the order on the finest level by s. It is known to within u, which is 0.8 standard
-//! deviations: of the scatter about the fit, of a further level that is off by 2 %, and of printed digits. Errors that
-//! follow a power law to 0.1 % are judged by its order, and two levels by theirs, instead of p - s.
+//! A share s of the term h^(p-1) lowers the order on the finest level by s. It is known to within u, three quarters of its
+//! standard deviation. The scatter behind u is that about the fit, of a further level that is off by 2.5 %, and of
+//! printed digits. Errors that follow a power law to 0.1 % are judged by its order instead of p - s, and two levels by theirs.
 //!
 //! * `pass`: s + u is the tolerance at most, and the order is not above.
-//! * `fail`: s - u is more than the tolerance, or a plateau that fits better lowers the order by more; or a run stopped. Of
-//!   three levels the order of the finest pair is low, too.
+//! * `fail`: s - u is more than the tolerance, and the order of the finest pair is low too. So it is if errors level off:
+//!   e0 is known to a fifth, and lowers the order by twice the tolerance. A run that stopped is a `fail`.
 //! * `not asymptotic`: else; so too if the order is above p by more than the tolerance and u.
 //! * `exact to round-off`: who measured knows that every error is nothing but round-off ([`Sequence::exact`]).
 //!

@@ -15,7 +15,7 @@ pub const CONSTANT_TOLERANCE: f64 = 0.01;
 /// The outcome of a study; the worse, the later.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// What was compared shows nothing of the solver.
+    /// The values that were compared show nothing of the solver.
     NoEvidence,
     /// Every error is round-off: there is no order to observe, and nothing left of the error.
     Exact,

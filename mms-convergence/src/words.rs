@@ -67,10 +67,9 @@ impl Finding {
     }
 
     fn because(&self, expected: Expected) -> String {
-        let p = expected.order;
         match self.reason {
             Reason::Exact => "; no error is more than rounding makes".into(),
-            Reason::Settled | Reason::Above => String::new(),
+            Reason::Settled | Reason::Below | Reason::Above => String::new(),
             Reason::Stopped => "; a run stopped".into(),
             Reason::NoOrder => "; an error is exactly zero, or nothing fits".into(),
             Reason::TooFewLevels => {
@@ -83,13 +82,10 @@ impl Finding {
                 "; the digits of the errors leave the order open: give errors with more digits"
                     .into()
             }
-            Reason::Below => self.share_says(p).unwrap_or_default(),
-            Reason::Open => {
-                let share = self.share_says(p);
-                let share = share.unwrap_or_else(|| "; the order is not settled".into());
-                let limit = expected.tolerance;
-                format!("{share}, and +-{limit} is allowed: give finer meshes, or more of them")
-            }
+            Reason::Open => format!(
+                "; the levels do not tell whether it is within +-{}: give finer ones, or more",
+                expected.tolerance
+            ),
         }
     }
 
@@ -97,7 +93,7 @@ impl Finding {
     fn share_says(&self, p: f64) -> Option<String> {
         let (share, [low, high]) = (self.share?, self.share?.lowers(p));
         Some(format!(
-            "; an error of order {} lowers the order on the finest mesh by {low:.2} to {high:.2}",
+            "an error of order {} lowers the order on the finest mesh by {low:.2} to {high:.2}",
             share.order
         ))
     }
@@ -116,6 +112,8 @@ impl Finding {
             Basis::Digits => Some("the interval is from the digits of the two errors".into()),
             Basis::Nothing => None,
         }));
+        let is_asked = matches!(self.reason, Reason::Below | Reason::Open);
+        lines.extend(self.share_says(expected.order).filter(|_| is_asked));
         lines.extend(
             self.material_term(expected).map(|term| term.sentence(expected.order, symbol, name)),
         );

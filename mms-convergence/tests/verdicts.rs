@@ -304,8 +304,12 @@ fn words_name_the_norm_the_levels_and_the_reason() {
     let square: fn(f64) -> f64 = |x| x * x;
     let layer = says(&three([square, |x| x.powf(1.5), |x| x]));
     assert!(layer.starts_with("fail: observed order 1.50, between 1.46"), "{layer}");
-    let decided = "(l2; 4 levels, h = 0.0800 to h = 0.0100), expected 2; an error of order 1";
+    let decided = "(l2; 4 levels, h = 0.0800 to h = 0.0100), expected 2\n";
     assert!(layer.contains(decided), "{layer}");
+    assert!(
+        layer.contains("an error of order 1 lowers the order on the finest mesh by"),
+        "{layer}"
+    );
     assert!(layer.contains("a layer at a face where the order is 1.0"), "{layer}");
     assert!(says(&three([|x| x.powi(3); 3])).contains("an error that changes its sign"));
     let hidden = says(&three([|x| 0.8 * x * x + 0.2 * x; 3]));

@@ -23,7 +23,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// What this measure is called of a field: at small strain there is one stress, P.
+    /// The measure under which a field knows this one: at small strain there is one stress, P.
     fn known<const D: usize>(self, exact: &Exact<'_, D>) -> Self {
         if exact.field.is_small_strain() { Measure::FirstPiola } else { self }
     }

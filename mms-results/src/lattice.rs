@@ -13,7 +13,7 @@ pub struct Lattice<'a> {
 }
 
 impl<'a> Lattice<'a> {
-    /// Of points of so many coordinates, with cells of that edge.
+    /// Sorts points of so many coordinates into cells of that edge.
     pub fn new(points: &'a [f64], size: usize, step: f64) -> Self {
         let mut lattice = Lattice { points, size, step, all: Vec::new(), bounds: [[0; 3]; 2] };
         let cell = |(at, point): (usize, &[f64])| (lattice.cell(point, 0.0), at);

@@ -1,4 +1,4 @@
-//! What a quantity is made of: columns of arrays, and the numbers in them.
+//! The columns of arrays that a quantity is made of, and the numbers in them.
 
 use std::borrow::Cow;
 
@@ -6,7 +6,7 @@ use crate::norm::largest_if_finite;
 use crate::role::{Form, Role};
 use crate::{Array, Mistake, Snapshot, Stored};
 
-/// What part of the largest number two entries of a symmetric tensor may differ by.
+/// The difference of two entries of a symmetric tensor that is allowed, as a part of the largest number.
 const SYMMETRIC: f64 = 1e-5;
 
 /// A strain that is larger is none.
@@ -39,7 +39,7 @@ pub(crate) struct Column {
     pub component: usize,
 }
 
-/// What a quantity is made of.
+/// The columns that a quantity is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Meaning {
     /// The quantity.
@@ -77,7 +77,7 @@ impl Values<'_> {
 }
 
 impl Meaning {
-    /// What `--map` takes to name it.
+    /// The text by which `--map` names it.
     pub(crate) fn mapping(&self, snapshot: &Snapshot, dimension: usize) -> String {
         match self.columns.first() {
             Some((_, first)) if self.is_one_array() => name(snapshot, first.place).to_owned(),
@@ -85,7 +85,7 @@ impl Meaning {
         }
     }
 
-    /// What `--map` takes to name its numbers of these positions one by one.
+    /// The text by which `--map` names its numbers of these positions one by one.
     fn listed(&self, snapshot: &Snapshot, order: impl IntoIterator<Item = usize>) -> String {
         let column = |(_, column): &(Part, Column)| {
             let name = name(snapshot, column.place);

@@ -66,7 +66,7 @@ pub fn resolve<'a>(
 /// What is known of the points.
 struct Known<'a> {
     snapshot: &'a Snapshot,
-    /// What `--map` takes to name the places.
+    /// The text by which `--map` names the places.
     place_name: String,
     /// Whether they are called x, which is no X where X is given.
     is_called_x: bool,
@@ -79,7 +79,7 @@ struct Known<'a> {
 /// How many roundings x may differ by from X + u: of each, and as many where digits are cut off.
 const ROUNDINGS: f64 = 4.0;
 
-/// What part of x they may differ by besides: a solver adds up both step by step, in single precision perhaps.
+/// The difference of both that is allowed besides, as a part of x: a solver may add up both in single precision.
 const STEPS: f64 = 1e-6;
 
 /// At how many points it is tried whether a point of the body is there.

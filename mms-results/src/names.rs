@@ -70,7 +70,7 @@ impl std::str::FromStr for Mapping {
     }
 }
 
-/// What to read of files in which these roles are looked for, and those of `map`.
+/// The arrays to read of files in which these roles are looked for, and those of `map`.
 pub fn wanted<'a>(map: &'a [Mapping], wants: &'a dyn Fn(Role) -> bool) -> Wanted<'a> {
     Wanted::new(move |name| {
         let roles = meant(name);

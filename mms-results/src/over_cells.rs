@@ -12,7 +12,7 @@ use crate::cell::{ALONG, Local, Shape, gauss};
 use crate::mesh::Mesh;
 use crate::norm::{Norms, lengths};
 
-/// What of the exact solution is asked for.
+/// The part of the exact solution that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
     /// Its values: so many components at each place.
@@ -24,7 +24,7 @@ pub enum Asked {
 /// The exact solution at places X, whose coordinates stand one after the other.
 pub type Exact<'a> = &'a mut dyn FnMut(Asked, &[f64]) -> Result<Vec<f64>, Mistake>;
 
-/// What points of a mesh carry.
+/// The values that points of a mesh carry.
 #[derive(Clone, Copy, Debug)]
 pub struct Carried<'a> {
     /// Numbers of all points.
@@ -38,7 +38,7 @@ pub struct Carried<'a> {
 /// The norms of an error over the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OverCells {
-    /// Of the error.
+    /// The error.
     pub value: Norms,
     /// The seminorm of H1, by the root of the body's measure; 0 where it was not asked for.
     pub h1: f64,
@@ -69,7 +69,7 @@ type Matrix = [[f64; 3]; 3];
 /// The functions of a kind of cell at a point of quadrature.
 struct Point {
     weight: f64,
-    /// What part of the volume of the cube is about the point, over its weight.
+    /// The part of the volume of the cube about the point, over its weight.
     factor: f64,
     functions: Vec<f64>,
     /// By the axes of the cell.
@@ -194,11 +194,11 @@ struct Batch {
     cells: Vec<(usize, usize)>,
     places: Vec<f64>,
     weights: Vec<f64>,
-    /// What volume is about a point, over its weight in the cube.
+    /// The volume about a point, over its weight in the cube.
     densities: Vec<f64>,
     values: Vec<f64>,
     gradients: Vec<f64>,
-    /// What the nodes of a cell carry.
+    /// The values that the nodes of a cell carry.
     nodes: Vec<f64>,
 }
 
@@ -212,7 +212,7 @@ struct Peak {
     at: Local,
 }
 
-/// What was found so far.
+/// The largest error so far.
 #[derive(Default)]
 struct Found {
     volume: f64,

@@ -23,7 +23,7 @@ const CELLS: u64 = 1 | 8 | 32;
 /// Likewise of a point: a duplicate, a hidden one.
 const POINTS: u64 = 1 | 2;
 
-/// What part of the largest number values may differ by that are the same on two ranks.
+/// The difference of values of two ranks that is allowed, as a part of the largest number.
 const SAME: f64 = 1e-6;
 
 /// Leaves out ghosts and cells that stand there twice.

@@ -18,12 +18,12 @@ pub enum Need {
     Must,
 }
 
-/// What is read of files, and the memory for it.
+/// The arrays that are read of files, and the memory for them.
 pub struct Wanted<'a> {
     need: Box<dyn Fn(&str) -> Need + 'a>,
     /// Bytes that are left.
     room: Cell<u64>,
-    /// What to do where they are too few.
+    /// The advice if they are too few.
     advice: &'static str,
 }
 

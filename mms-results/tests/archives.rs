@@ -19,7 +19,7 @@ fn one(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     }
 }
 
-/// What is said of a file that is refused within few bytes of memory.
+/// The message of a file that is refused within few bytes of memory.
 #[track_caller]
 fn refused_cheaply(bytes: &[u8], wanted: &Wanted<'_>) -> String {
     let mut said = String::new();
@@ -187,7 +187,7 @@ fn words_in_an_array_of_a_known_name_are_refused() {
     assert!(read("u").unwrap_err().what.contains("`u`: expected numbers, found words"));
 }
 
-/// What is passed over leaves what is read as it is, in every format.
+/// Arrays that are passed over leave the others as they are, in every format.
 #[test]
 fn arrays_that_are_not_needed_are_passed_over() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data");

@@ -112,7 +112,7 @@ pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
     }
 }
 
-/// What is another at small strain: there is one stress, and one configuration.
+/// The relations of the small strain, which has one stress and one configuration.
 fn of_small_strain(quantity: Quantity) -> Option<&'static [Part]> {
     Some(match quantity {
         Quantity::MassDensity => &[RHO, EQUALS, RHO0],

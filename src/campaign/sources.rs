@@ -53,7 +53,7 @@ fn parted(here: &Path, word: &str) -> (PathBuf, PathBuf) {
     (base, parts.collect())
 }
 
-/// What fits a pattern below a folder. Links to folders are followed where the pattern says how deep it goes.
+/// The files that fit a pattern below a folder. Links to folders are followed if the pattern says how deep it goes.
 fn fitting(base: &Path, pattern: &Path) -> Result<Vec<PathBuf>, String> {
     let pattern = pattern.to_string_lossy();
     let depth = (!pattern.contains("**")).then(|| pattern.split('/').count());

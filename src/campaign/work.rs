@@ -157,7 +157,7 @@ impl<'a> Work<'a> {
         tables.find(|path| last_byte(path).is_ok_and(|byte| byte != b'\n'))
     }
 
-    /// What is stored of a run, if its results are still there. One whose results have changed is set aside.
+    /// The stored entry of a run, if its results are still there. An entry whose results have changed is set aside.
     ///
     /// # Errors
     /// The store cannot be read, or a file in it cannot be renamed.

@@ -116,7 +116,7 @@ impl Judge {
     }
 }
 
-/// What a verdict ends the command with.
+/// The exit code of a verdict.
 fn outcome(verdict: Verdict) -> Outcome {
     match verdict {
         Verdict::Pass | Verdict::Exact => Outcome::AsExpected,

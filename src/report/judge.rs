@@ -26,7 +26,7 @@ pub struct Judgements {
     pub judged: Vec<Judged>,
     /// How the errors were measured, in sentences.
     pub notes: Vec<String>,
-    /// What part of the body results cover, where a part was enough.
+    /// The part of the body that results cover, if a part was enough.
     pub part: Option<String>,
     /// What a pass excludes, of results.
     pub exclusions: Option<Exclusions>,

@@ -22,7 +22,7 @@ use super::plane::{Beyond, NEEDED, SPACE, nine};
 /// What part of the time window two times may differ by that are one: sums of time steps round.
 pub const SAME: f64 = 1e-9;
 
-/// What part of the distance of points one may be beyond the body.
+/// The distance beyond the body that a point may have, as a part of the distance of points.
 const BEYOND: f64 = 1.0 / 32.0;
 
 /// A field with numbers for its parameters.

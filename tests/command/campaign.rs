@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use super::mms::{Folder, Run};
+use super::mms::{Folder, Run, timeless};
 use super::sampled::sampled_count;
 
 /// At the end of the window the bar has u = a X (2 - X), with a = 0.2. It notes each of its runs in `log`.
@@ -408,19 +408,6 @@ fn start(folder: &Folder) -> Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mms"));
     command.args(["campaign", &path, "--jobs", "1"]).current_dir(folder.path(""));
     command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts")
-}
-
-/// A document without what is different each time.
-fn timeless(document: &Value) -> Value {
-    match document {
-        Value::Object(map) => {
-            let kept =
-                map.iter().filter(|(key, _)| !matches!(key.as_str(), "seconds" | "provenance"));
-            Value::Object(kept.map(|(key, value)| (key.clone(), timeless(value))).collect())
-        }
-        Value::Array(items) => items.iter().map(timeless).collect(),
-        other => other.clone(),
-    }
 }
 
 /// Killed at many moments, as nobody can prepare for; the same command goes on, one run at most is lost each time, and the

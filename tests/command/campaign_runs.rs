@@ -144,7 +144,7 @@ fn empty_and_cut_results_are_not_done() {
     }
 }
 
-/// What is left of a table is a table; but one program ends all of its tables alike.
+/// A table that was cut is still a table; but one program ends all of its tables alike.
 #[test]
 fn a_table_that_is_cut_within_a_line_is_not_done() {
     for (end, first, second) in [("\\n", 3, 0), ("", 0, 0)] {

@@ -67,7 +67,7 @@ fn what_is_set_is_what_is_checked() {
     folder.mms("check bar.toml --set amplitud=1").exits(2).prints("1 mistake(s)");
 }
 
-/// Of what a range allows, all must be an elastic solid.
+/// Each value that a range allows must be an elastic solid.
 #[test]
 fn a_range_without_a_positive_density_or_modulus_is_refused_at_its_line() {
     let cases = [

@@ -18,7 +18,7 @@ const MATERIALS: [(&str, &str, bool); 8] = [
     ("transversely_isotropic", "lambda = 6e5\nmu = 4e5\nreinforcement = 5e5", true),
 ];
 
-/// What each face claims; the last are claims that these motions do not keep.
+/// The claim of each face; the last are claims that these motions do not keep.
 const FACES: [&[&str]; 4] =
     [&[], &["traction"], &["prescribed"], &["free", "fixed", "roller", "traction"]];
 

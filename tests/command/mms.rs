@@ -133,3 +133,16 @@ pub fn assert_close(found: f64, expected: f64, relative: f64) {
     let difference = (found - expected).abs();
     assert!(difference <= relative * expected.abs(), "{found:e} is not {expected:e}");
 }
+
+/// A document without the numbers of a clock, and without the command line.
+pub fn timeless(document: &Value) -> Value {
+    match document {
+        Value::Object(map) => {
+            let kept =
+                map.iter().filter(|(key, _)| !matches!(key.as_str(), "seconds" | "provenance"));
+            Value::Object(kept.map(|(key, value)| (key.clone(), timeless(value))).collect())
+        }
+        Value::Array(items) => items.iter().map(timeless).collect(),
+        other => other.clone(),
+    }
+}

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use super::mms::{Folder, keys};
+use super::mms::{Folder, keys, timeless};
 use super::sampled::sampled_count;
 
 /// Rows of runs of some milliseconds.
@@ -16,19 +16,6 @@ const ROWS: &str = "--row startup --row statics/column";
 /// The document of these rows, with this store.
 fn document(folder: &Folder, store: &str) -> Value {
     folder.mms(&format!("verify --json --store {store} {ROWS}")).exits(0).json()
-}
-
-/// Without what a clock says, and without the command line.
-fn timeless(document: &Value) -> Value {
-    match document {
-        Value::Object(map) => {
-            let kept =
-                map.iter().filter(|(key, _)| !matches!(key.as_str(), "seconds" | "provenance"));
-            Value::Object(kept.map(|(key, value)| (key.clone(), timeless(value))).collect())
-        }
-        Value::Array(items) => items.iter().map(timeless).collect(),
-        other => other.clone(),
-    }
 }
 
 /// The results in a folder.

@@ -28,7 +28,7 @@ pub const CELLS: usize = 2000;
 /// How many cells a rate may take: its bound holds however many there were.
 const CELLS_OF_RATES: usize = 500;
 
-/// What each part of a proof may take, in steps of the budget of [`mms_symbolic::work`]: the formulas, J, density and moduli, the rates, bounds of
+/// The budget of each part of a proof, in steps of [`mms_symbolic::work`]: the formulas, J, density and moduli, the rates, bounds of
 /// x, finite values, branches, the program in two precisions, and all claims.
 const FORMULAS: u64 = 50_000_000;
 const VOLUME: u64 = 40_000_000;

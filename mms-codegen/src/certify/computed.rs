@@ -38,7 +38,7 @@ use mms_symbolic::sorted::SortedSet;
 /// Angles of which so many digits are right after the point are told from their neighbours.
 pub const ENOUGH_DIGITS: f64 = 6.0;
 
-/// What an operation of bounds and errors takes, in steps of a budget, unless it takes more than so many; and one in 77
+/// The steps of an operation of bounds and errors, unless it takes more than so many; and those of one in 77
 /// digits, a function or not.
 const STEPS: u64 = 20;
 const SLOW: u64 = 10_000;
@@ -241,7 +241,7 @@ impl<'a> QuantityProgram<'a> {
         self.values(spot, normal, meet, meet_wide)
     }
 
-    /// What it took to bound these values, in steps of a budget.
+    /// The steps that it took to bound these values.
     fn steps<F: Format>(&self, values: &Values<Computed<F>>) -> u64 {
         let of = |(index, _): (usize, &bool)| match self.program.instrs[index].op {
             Op::Unary(function, _, x) | Op::Binary(function, x, _) => {

@@ -39,7 +39,7 @@ pub fn spectral_radius(matrix: &[f64]) -> f64 {
     }
 }
 
-/// The same of a matrix of that order at most: rows and columns of zeros add an eigenvalue of 0.
+/// The spectral radius of a matrix of order N at most: rows and columns of zeros add an eigenvalue of 0.
 fn radius_of<const N: usize>(matrix: &[f64]) -> f64 {
     let order = matrix.len().isqrt();
     let mut scale = 0.0_f64;

@@ -1,4 +1,4 @@
-//! What must be positive, such as J = det F: a lower bound of it over the domain, or a point where it is not positive.
+//! The sign of an expression that must be positive, such as J = det F: a lower bound over the domain, or a point where it fails.
 
 use mms_math::Scalar as _;
 
@@ -12,7 +12,7 @@ use mms_program::precise::Precise;
 /// How near a bound must be to a value, relative to that.
 const SHARPNESS: f64 = 0.2;
 
-/// What is known of the sign of what must be positive.
+/// The sign of an expression that must be positive, as far as it is known.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sign {
     /// It is positive everywhere, within these bounds.

@@ -14,7 +14,7 @@ use mms_symbolic::expr::{Expr, Graph, Symbol};
 /// Corners are looked at along so many variables at most. Ranges are wrong at their ends first of all.
 const MOST_OF_CORNERS: usize = 8;
 
-/// What must be positive.
+/// An expression that must be positive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// rho0.
@@ -79,7 +79,7 @@ pub(super) fn bound(
     (signs, cells)
 }
 
-/// What a short search finds not to be positive.
+/// A place at which a short search finds an expression that is not positive.
 pub(super) fn refuted(
     graph: &mut Graph,
     chart: &Chart,

@@ -15,7 +15,7 @@ struct Cursor<'a> {
     wanted: &'a Wanted<'a>,
 }
 
-/// What was found so far.
+/// The largest error so far.
 #[derive(Default)]
 struct Found {
     snapshot: Snapshot,

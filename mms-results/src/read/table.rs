@@ -78,7 +78,7 @@ fn is_comment(line: &str) -> bool {
     MARKS.iter().any(|mark| line.starts_with(mark))
 }
 
-/// What stands between the columns of a table.
+/// The separator between the columns of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Separator {
     Mark(u8),

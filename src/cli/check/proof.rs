@@ -74,7 +74,7 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
     lines
 }
 
-/// What is said of the density and the moduli, where they vary.
+/// The sentence about the density and the moduli, if they vary.
 fn solid(certificate: &Certificate) -> Option<String> {
     let wrong = certificate.solid.iter().find(|(_, sign)| !matches!(sign, Sign::Positive(_)));
     let names = |wanted: fn(Part) -> bool| certificate.solid.iter().any(|(part, _)| wanted(*part));

@@ -1,4 +1,4 @@
-//! What part of the body results cover, and how far their points are from each other.
+//! The part of the body that results cover, and how far their points are from each other.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use super::files::placed;
 use crate::judge::Objection;
 use crate::session::exact::Exact;
 
-/// What part of the body may be missing that rounding and the meshing of curved sides leave.
+/// The part of the body that may be missing by rounding and by the meshing of curved sides.
 const ROUNDING: f64 = 1e-7;
 
 /// How far the ends of an edge may be from a curved side that it lies on, in parts of its length.
@@ -36,7 +36,7 @@ pub struct Covered {
     pub size: f64,
     /// Whether there are no cells, and neighbouring points are all as far from each other.
     pub is_even: bool,
-    /// What is missing, in a word: `the cells cover 0.5 of the body`.
+    /// The missing part in words: `the cells cover 0.5 of the body`.
     pub part: Option<String>,
 }
 
@@ -217,7 +217,7 @@ fn far(lattice: &Lattice<'_>, points: &[f64], body: &Extent<f64>, reach: f64) ->
     places.find(|it| !lattice.has_within(it, reach))
 }
 
-/// What is said of points that leave part of the body empty.
+/// The objection to points that leave part of the body empty.
 pub fn objection(part: &str) -> Objection {
     let why = format!(
         "{part}. What is not there may be wrong: give all points, or judge a part, such as a line or a probe, with `--part`"

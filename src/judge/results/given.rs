@@ -32,7 +32,7 @@ impl Taken<'_> {
     }
 }
 
-/// What is said of results all values of which are given.
+/// The objection to results all values of which are given.
 pub fn objection() -> Objection {
     let why = "a solver is given all these values: they are at the start, on walls whose motion is prescribed, or loads. They \
                show nothing of what it computes: give results of later times that all meshes have, inside the body";

@@ -90,7 +90,7 @@ pub struct Errors {
     pub largest: f64,
     /// The root mean square of its iterative error, where that is known.
     pub iterative: Option<f64>,
-    /// What the digits of a time make of its floors, and that time.
+    /// The floor that the digits of a time make, and that time.
     pub of_time: [f64; 2],
     /// Whether a solver is given all its values.
     pub is_given: bool,
@@ -118,7 +118,7 @@ pub struct Found {
     pub sizes: Option<[f64; 2]>,
     /// The lowest degree of its cells, if there are such.
     pub degree: Option<u32>,
-    /// What part of the body is there, and how fine.
+    /// The part of the body that is there, and how fine.
     pub covered: Covered,
     /// The type of cells that are not known, where there are such and no others.
     pub unknown: Option<u8>,

@@ -45,7 +45,7 @@ pub struct Measurement {
     pub iterative: Vec<(&'static str, f64)>,
     /// Why they are no evidence, where that is so.
     pub objection: Option<Objection>,
-    /// What part of the body results cover, where a part is enough.
+    /// The part of the body that results cover, if a part is enough.
     pub part: Option<String>,
     /// What was done, and why.
     pub notes: Vec<String>,

@@ -61,7 +61,7 @@ pub fn order(degree: Option<u32>, orders: &Orders) -> Option<String> {
     ))
 }
 
-/// What was left out, and why.
+/// A sentence about all that was left out, and why.
 pub fn left_out(common: &Common, levels: &[Level], own: &[LeftOut]) -> String {
     let mut all = Vec::new();
     let mut count = |count: usize, one: &str, several: &str| match count {

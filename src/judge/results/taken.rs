@@ -41,7 +41,7 @@ pub struct AgainstExact<'a> {
     all: Comparison<'a>,
     /// What rounding may make of an error.
     floor: f64,
-    /// What of it the digits of the time make.
+    /// The part of it that the digits of the time make.
     of_time: f64,
     /// Whether a solver is given all values.
     is_given: bool,
