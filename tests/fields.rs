@@ -494,7 +494,7 @@ fn studies<K: Kernel>() {
             levels(scene::<f64>(K::NAME, study), study)
         };
         let tolerance = study.tolerance.unwrap_or(TOLERANCE);
-        let judgement = judge(&levels, Expected { order: study.order, tolerance });
+        let judgement = judge(&levels, Expected::new(study.order, tolerance));
         assert_eq!(judgement.verdict(), Verdict::Pass, "{judgement:?}\n{levels:#?}");
     }
 }

@@ -95,6 +95,12 @@ pub struct Study {
     pub time: Vec<f64>,
     /// The column that means are taken by.
     pub weight: Option<Spanned<String>>,
+    /// How the solver starts, as `mms judge` takes it.
+    pub start: Option<Spanned<String>>,
+    /// Whether results may cover a part of the body.
+    pub part: bool,
+    /// The memory that reading a file may take, in MB.
+    pub max_memory: Option<u64>,
     /// Parameters, as `name=value`.
     pub set: Vec<String>,
     /// Its table.
@@ -208,6 +214,9 @@ const STUDY: &[&str] = &[
     "h",
     "time",
     "weight",
+    "start",
+    "part",
+    "max_memory",
     "set",
 ];
 
@@ -425,6 +434,9 @@ fn study(reader: &mut Reader, entries: &DeTable<'_>, span: Span) -> Option<Study
         h,
         time: time.unwrap_or_default(),
         weight: reader.text(&table, "weight"),
+        start: reader.text(&table, "start"),
+        part: reader.flag(&table, "part", false),
+        max_memory: reader.positive(&table, "max_memory").map(|it| it.ceil() as u64),
         set: settings(reader, &table),
         span,
     };

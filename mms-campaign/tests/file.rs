@@ -67,6 +67,9 @@ fn all_keys_are_read() {
         h = [0.5, 0.5]
         time = [0.5, 1]
         weight = "volume"
+        start = "projection"
+        part = true
+        max_memory = 100
         set = { young = 1e6, nu = "1/3" }
         [[study]]
         field = "fields/x.toml"
@@ -86,7 +89,10 @@ fn all_keys_are_read() {
     };
     assert_eq!(texts(&study.order), ["2", "H1=1"]);
     assert_eq!(texts(&study.map), ["X=x0,y0", "u=disp"]);
-    assert_eq!(campaign.studies[1].name, "x");
+    assert_eq!(study.start.as_ref().map(|it| it.value.as_str()), Some("projection"));
+    assert_eq!((study.part, study.max_memory), (true, Some(100)));
+    let other = &campaign.studies[1];
+    assert_eq!((other.name.as_str(), other.part, other.max_memory), ("x", false, None));
 }
 
 /// Each number of cells with each time step; h is that of the cells.

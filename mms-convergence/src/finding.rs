@@ -1,5 +1,7 @@
 //! What the levels of one norm say of the expected order.
 
+use std::fmt;
+
 use crate::limit::{Limit, limit};
 use crate::order::{Basis, Estimate, Line, pairs};
 use crate::sequence::{Level, Sequence};
@@ -12,11 +14,25 @@ use crate::verdict::Verdict;
 pub struct Expected {
     /// p.
     pub order: f64,
-    /// How far the order may be from p.
+    /// The highest order that right methods may show; p, unless theory leaves a range.
+    pub highest: f64,
+    /// Whether the order settles on finer levels. It need not where an error is made of waves as long as a cell.
+    pub settles: bool,
+    /// How far the order may be from p, or from the range.
     pub tolerance: f64,
 }
 
 impl Expected {
+    /// Expects one order.
+    pub const fn new(order: f64, tolerance: f64) -> Self {
+        Self { order, highest: order, settles: true, tolerance }
+    }
+
+    /// The distance of an order from the range: negative below it, 0 within it.
+    fn distance(&self, order: f64) -> f64 {
+        (order - self.highest).max(0.0) + (order - self.order).min(0.0)
+    }
+
     /// A quarter of the tolerance: no interval of an order is printed narrower.
     pub fn resolution(&self) -> f64 {
         self.tolerance / 4.0
@@ -24,11 +40,21 @@ impl Expected {
 
     /// Judges an order that is known to within `reach` at either side: in its place, below it, above it, or undecided.
     fn place(&self, order: f64, reach: f64) -> Place {
-        match order - self.order {
-            off if off.abs() + reach <= self.tolerance => Place::Near,
-            off if off + reach < -self.tolerance => Place::Below,
-            off if off - reach > self.tolerance => Place::Above,
+        let [low, high] = [order - reach, order + reach].map(|it| self.distance(it));
+        match self.tolerance {
+            tolerance if low >= -tolerance && high <= tolerance => Place::Near,
+            tolerance if high < -tolerance => Place::Below,
+            tolerance if low > tolerance => Place::Above,
             _ => Place::Open,
+        }
+    }
+}
+
+impl fmt::Display for Expected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.highest > self.order {
+            true => write!(f, "{} to {}", self.order, self.highest),
+            false => write!(f, "{}", self.order),
         }
     }
 }
@@ -94,11 +120,17 @@ pub struct Finding {
 const PURE: f64 = 1e-3;
 
 impl Finding {
-    /// Judges one norm. The levels that decide are those before the first that may be nothing but round-off. If they do not
+    /// Judges one norm. Of a range of orders the highest is tried first. The levels that decide are those before the first that may be nothing but round-off. If they do not
     /// tell, coarse ones are left out while more than three are left and the term of order p + 1 leads on the coarsest.
     pub fn of(sequence: &Sequence, expected: Expected) -> Self {
         if sequence.is_exact() {
             return Self::exact(sequence.levels());
+        }
+        if expected.highest > expected.order {
+            let best = Self::of(sequence, Expected::new(expected.highest, expected.tolerance));
+            if best.verdict == Verdict::Pass {
+                return best;
+            }
         }
         let mut levels = sequence.sound();
         let mut finding = Self::on(levels, expected);
@@ -142,15 +174,16 @@ impl Finding {
         let estimate = Some(Estimate { order, interval, basis: Basis::Scatter });
         let place = match expected.place(order, 0.0) {
             Place::Near if reach > expected.tolerance => Place::Open,
-            Place::Below | Place::Above if (order - expected.order).abs() <= reach => Place::Open,
+            Place::Below | Place::Above if expected.distance(order).abs() <= reach => Place::Open,
             place => place,
         };
         Self { estimate, ..Self::none(lengths) }.decided(place)
     }
 
-    /// The second term, if it moves the order on the finest level by enough to be seen.
+    /// The second term, if it moves the order on the finest level by enough to be seen, and is not expected.
     pub fn material_term(&self, expected: Expected) -> Option<Term> {
-        self.term.filter(|term| term.moves(expected.order) >= expected.resolution())
+        let is_seen = |it: &Term| it.moves(expected.order) >= expected.resolution();
+        self.term.filter(|it| is_seen(it) && expected.distance(it.order) != 0.0)
     }
 
     /// The limit that is left, if it is shown not to be 0, moves the order by enough to be seen, and is no other term.
@@ -186,7 +219,7 @@ impl Finding {
 
     /// Where the order of three levels or more is; `finest` is that of the finest pair.
     fn place(&self, levels: &[Level], finest: f64, expected: Expected) -> Place {
-        let Expected { order: p, tolerance } = expected;
+        let Expected { order: p, highest, settles, tolerance } = expected;
         let is_pure = |line: &Line| line.scatter.max(rounding(levels)) <= PURE;
         if let Some(line) = Line::through(levels).filter(is_pure) {
             return expected.place(line.order, 0.0);
@@ -199,9 +232,9 @@ impl Finding {
         let [least, most] = share.lowers(p);
         if least > tolerance && expected.place(finest, 0.0) == Place::Below {
             Place::Below
-        } else if share.total_order - share.reach > p + tolerance {
+        } else if share.total_order - share.reach > highest + tolerance {
             Place::Above
-        } else if most <= tolerance {
+        } else if most <= tolerance || !settles && expected.place(finest, 0.0) == Place::Near {
             Place::Near
         } else {
             Place::Open

@@ -9,7 +9,8 @@ use crate::verdict::Verdict;
 ///
 /// The worst decides. Beside `l2`, `l1` and `linf` do so only where they fail by more than the tolerance: what is of a
 /// lower order at a few points shows so, and the maximum of errors at particles, which come nearer to a face with every
-/// level, is not a pure power of h otherwise either.
+/// level, is not a pure power of h otherwise either. `h1` does so only where it fails: terms of higher order go away later
+/// in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
     /// The findings, one at least, in the sequence in which the norms were given.
@@ -30,10 +31,18 @@ pub struct Judged {
 }
 
 impl Judged {
+    /// Whether it has more than the least order that right methods may show.
+    pub fn is_superconvergent(&self) -> bool {
+        let Expected { order, highest, tolerance, .. } = self.expected;
+        let is_more = |observed: f64| highest > order && observed > order + tolerance;
+        self.finding.verdict == Verdict::Pass
+            && self.finding.estimate.is_some_and(|it| is_more(it.order))
+    }
+
     /// Whether a norm beside l2 is of a lower order by more than the tolerance, or has no order because a run stopped. Two
     /// levels have no interval: there it is twice the tolerance.
     fn fails_by_far(&self) -> bool {
-        let Expected { order, tolerance } = self.expected;
+        let Expected { order, tolerance, .. } = self.expected;
         let is_far = self.finding.estimate.is_none_or(|it| match it.interval {
             Some([_, high]) => high < order - tolerance,
             None => it.order < order - 2.0 * tolerance,
@@ -77,8 +86,11 @@ impl Judgement {
 
     fn worst(norms: Vec<Judged>) -> Option<Self> {
         let has_l2 = norms.iter().any(|it| it.norm == "l2");
-        let is_beside = |it: &Judged| has_l2 && ["l1", "linf"].contains(&it.norm.as_str());
-        let decides = |it: &Judged| !is_beside(it) || it.fails_by_far();
+        let decides = |it: &Judged| match it.norm.as_str() {
+            "l1" | "linf" if has_l2 => it.fails_by_far(),
+            "h1" if has_l2 => it.finding.verdict != Verdict::NotAsymptotic,
+            _ => true,
+        };
         let worst = norms.iter().filter(|it| decides(it)).map(|it| it.finding.verdict).max()?;
         let is_worst = |it: &Judged| decides(it) && it.finding.verdict == worst;
         let of_l2 = norms.iter().position(|it| it.norm == "l2" && is_worst(it));

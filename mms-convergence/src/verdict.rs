@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// The version of the rule by which verdicts are made: another rule has another number.
-pub const RULE: u32 = 2;
+pub const RULE: u32 = 3;
 
 /// How far the observed order may be from the expected one, by default.
 pub const TOLERANCE: f64 = 0.15;

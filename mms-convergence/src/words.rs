@@ -63,7 +63,7 @@ impl Finding {
                 ),
             },
         };
-        format!("{observed}, expected {}{}", expected.order, self.because(expected))
+        format!("{observed}, expected {expected}{}", self.because(expected))
     }
 
     fn because(&self, expected: Expected) -> String {

@@ -2,7 +2,7 @@
 
 use mms_convergence::{Basis, Expected, Finding, Sample, Sequence, Verdict};
 
-const SECOND: Expected = Expected { order: 2.0, tolerance: 0.15 };
+const SECOND: Expected = Expected::new(2.0, 0.15);
 const STUDIES: usize = 2000;
 
 /// Normally distributed, by Box and Muller.

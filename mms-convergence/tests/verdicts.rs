@@ -4,7 +4,7 @@ use mms_convergence::{
     Basis, Expected, Finding, Judgement, Kind, Reason, Sample, Sequence, Verdict,
 };
 
-const SECOND: Expected = Expected { order: 2.0, tolerance: 0.15 };
+const SECOND: Expected = Expected::new(2.0, 0.15);
 
 /// Levels of sizes n, n/2, .. 1 times the finest, with the errors that a law makes of these sizes.
 fn levels(count: i32, law: impl Fn(f64) -> f64) -> Sequence {
@@ -99,12 +99,57 @@ fn a_term_that_takes_away_from_the_error_is_no_pass() {
     }
 }
 
+/// Theory may leave a range of orders, within which they settle.
+#[test]
+fn an_order_within_a_range_passes() {
+    let range = Expected { highest: 2.0, ..Expected::new(1.0, 0.15) };
+    assert_eq!(range.to_string(), "1 to 2");
+    let found = |count: i32, law: &dyn Fn(f64) -> f64| Finding::of(&levels(count, law), range);
+    for count in 3..7 {
+        let laws: [(&dyn Fn(f64) -> f64, _); 7] = [
+            (&|x| x, Verdict::Pass),
+            (&|x| x * x, Verdict::Pass),
+            (&|x| x.powf(1.5), Verdict::Pass),
+            (&|x| 0.7 * x + 0.3 * x * x, Verdict::Pass),
+            (&|x| x.powf(0.8), Verdict::Fail),
+            (&|x| x.powf(2.3), Verdict::NotAsymptotic),
+            (&|x| 0.5 + 0.5 * x, Verdict::Fail),
+        ];
+        for (at, (law, verdict)) in laws.iter().enumerate() {
+            let found = found(count, law);
+            assert_eq!(found.verdict, *verdict, "{count}, {at}: {found:?}");
+        }
+    }
+    // Two levels are held to the range as well.
+    assert_eq!(found(2, &|x| x.powf(1.6)).verdict, Verdict::Pass);
+    assert_eq!(found(2, &|x| x.powf(0.8)).verdict, Verdict::Fail);
+}
+
+/// Orders of velocities on irregular meshes do not settle. The finest pair is enough for a pass, and one that is too low is
+/// none.
+#[test]
+fn orders_need_not_settle_where_theory_gives_a_bound() {
+    let rough = Expected { highest: 3.0, settles: false, ..Expected::new(2.0, 0.15) };
+    let found = |orders: &[f64], expected| {
+        let mut errors = vec![1.0];
+        orders.iter().for_each(|it| errors.push(errors[errors.len() - 1] * 0.5f64.powf(*it)));
+        errors.reverse();
+        let count = errors.len() as i32;
+        Finding::of(&levels(count, |x| errors[x.log2().round() as usize]), expected).verdict
+    };
+    let settled = Expected { settles: true, ..rough };
+    assert_eq!(found(&[2.6, 2.83, 2.25], settled), Verdict::NotAsymptotic);
+    assert_eq!(found(&[2.6, 2.83, 2.25], rough), Verdict::Pass);
+    assert_eq!(found(&[2.1, 2.2, 1.8], rough), Verdict::NotAsymptotic);
+    assert_eq!(found(&[1.3, 1.1, 1.0], rough), Verdict::Fail);
+}
+
 /// Orders of solvers that are right, whose errors have terms of higher order.
 #[test]
 fn orders_that_are_near_pass() {
     assert_eq!(with_orders(&[1.93, 1.95, 1.96, 1.96]).verdict, Verdict::Pass);
     assert_eq!(with_orders(&[2.3, 2.12, 2.05, 2.02]).verdict, Verdict::Pass);
-    let first = Expected { order: 1.0, tolerance: 0.15 };
+    let first = Expected::new(1.0, 0.15);
     let h1 = levels(4, |x| x + 0.3 * x * x);
     assert_eq!(Finding::of(&h1, first).verdict, Verdict::Pass);
 }
@@ -251,6 +296,21 @@ fn errors_of_zero_have_no_order_and_runs_that_stop_fail() {
     let others = [0.5, 0.25, 0.125].map(|h| Sample::new(h, h * h));
     let found = Finding::of(&Sequence::new([stopped].into_iter().chain(others)), SECOND);
     assert_eq!((found.verdict, found.reason), (Verdict::Fail, Reason::Stopped));
+}
+
+/// The seminorm of H1 falls from above: its term of higher order goes away later. It decides where it fails.
+#[test]
+fn the_seminorm_of_h1_decides_where_it_fails() {
+    let l2 = levels(3, |x| x * x);
+    let of = |h1: Sequence| {
+        let norms = [("l2", &l2, SECOND), ("h1", &h1, Expected::new(1.0, 0.15))];
+        let judgement = Judgement::of(norms).expect("norms");
+        let verdict = judgement.norm("h1").expect("h1").finding.verdict;
+        (verdict, judgement.verdict(), judgement.deciding().norm.clone())
+    };
+    let from_above = of(levels(3, |x| x + 0.015 * x.powi(3)));
+    assert_eq!(from_above, (Verdict::NotAsymptotic, Verdict::Pass, "l2".into()));
+    assert_eq!(of(levels(3, |x| x.sqrt())), (Verdict::Fail, Verdict::Fail, "h1".into()));
 }
 
 /// Errors that stall at round-off fail without the floor, and pass above it.

@@ -65,8 +65,37 @@ impl<'a> Mesh<'a> {
         self.full().flat_map(middle).collect()
     }
 
+    /// How far the cells around inner edges are out of balance: the distance from the middle of an edge to the mean of the
+    /// middles of its cells, over its length, as a root mean square. It is 0 where cells are copies and half turns of each
+    /// other. `is_inner` tells whether the middle of an edge lies within the body. `None` without such an edge.
+    pub fn imbalance(&self, is_inner: &dyn Fn(&[f64]) -> bool) -> Option<f64> {
+        let dimension = self.dimension;
+        let middles = self.middles();
+        let mut edges = Vec::new();
+        for (own, (_, shape, points)) in middles.chunks(dimension).zip(self.full()) {
+            for ends in shape.edges() {
+                edges.push((ends.map(|it| self.point(points[it])), own));
+            }
+        }
+        edges.sort_by_cached_key(|(ends, _)| edge_key(*ends));
+        let (mut sum, mut count) = (0.0, 0);
+        for around in edges.chunk_by(|a, b| edge_key(a.0) == edge_key(b.0)) {
+            let [a, b] = around[0].0;
+            let middle: Vec<f64> = a.iter().zip(b).map(|(a, b)| (a + b) / 2.0).collect();
+            if is_inner(&middle) {
+                let mean = |axis: usize| {
+                    around.iter().map(|(_, own)| own[axis]).sum::<f64>() / around.len() as f64
+                };
+                let mean: Vec<f64> = (0..dimension).map(mean).collect();
+                sum += (length(&mean, &middle) / length(a, b)).powi(2);
+                count += 1;
+            }
+        }
+        (count > 0).then(|| (sum / f64::from(count)).sqrt())
+    }
+
     /// Edges of cells in a plane that no other cell has, each as X of its ends and of the node between them, if there is
-    /// one; of those with ends that are asked for. Edges are told by their ends: pieces of a mesh have points of their own.
+    /// one; of those with ends that are asked for.
     pub fn free_edges(&self, is_asked: &dyn Fn([&[f64]; 2]) -> bool) -> Vec<Vec<&'a [f64]>> {
         let mut found = Vec::new();
         for (_, shape, points) in self.full() {
@@ -81,14 +110,68 @@ impl<'a> Mesh<'a> {
                 }
             }
         }
-        let key = |edge: &Vec<&[f64]>| {
-            // -0 is 0.
-            let mut ends = [edge[0], edge[1]].map(|x| [x[0], x[1]].map(|it| (it + 0.0).to_bits()));
-            ends.sort_unstable();
-            ends
-        };
+        let key = |edge: &Vec<&[f64]>| edge_key([edge[0], edge[1]]);
         found.sort_by_key(key);
         let alone = found.chunk_by(|a, b| key(a) == key(b)).filter(|it| it.len() == 1);
         alone.map(|it| it[0].clone()).collect()
+    }
+}
+
+/// Tells an edge by its ends: pieces of a mesh have points of their own.
+fn edge_key(ends: [&[f64]; 2]) -> [[u64; 3]; 2] {
+    // -0 is 0.
+    let bits = |x: &[f64]| [0, 1, 2].map(|axis| x.get(axis).map_or(0, |it| (it + 0.0).to_bits()));
+    let mut ends = ends.map(bits);
+    ends.sort_unstable();
+    ends
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cells of one type over points of a square of 2 x 2 unit squares.
+    fn imbalance(kind: u8, cells: &[&[usize]], middle: [f64; 2]) -> Option<f64> {
+        let mut points: Vec<f64> =
+            (0..9).flat_map(|at| [f64::from(at % 3), f64::from(at / 3)]).collect();
+        points[8..10].copy_from_slice(&middle);
+        let count = cells[0].len();
+        let cells = Cells {
+            types: vec![kind; cells.len()],
+            points: cells.concat(),
+            ends: (1..=cells.len()).map(|it| it * count).collect(),
+        };
+        let mesh = Mesh { cells: &cells, points: &points, dimension: 2 };
+        mesh.imbalance(&|x| x.iter().all(|it| *it > 0.0 && *it < 2.0))
+    }
+
+    #[test]
+    fn copies_and_half_turns_of_a_cell_are_in_balance() {
+        let quads: [&[usize]; 4] = [&[0, 1, 4, 3], &[1, 2, 5, 4], &[3, 4, 7, 6], &[4, 5, 8, 7]];
+        assert_eq!(imbalance(9, &quads, [1.0, 1.0]), Some(0.0));
+        assert!(imbalance(9, &quads, [1.1, 1.0]).is_some_and(|it| it > 0.02));
+        assert_eq!(
+            imbalance(9, &quads[..1], [1.0, 1.0]),
+            Some(0.5),
+            "half of each edge is missing"
+        );
+        let one_way: Vec<[usize; 3]> =
+            [0, 1, 3, 4].into_iter().flat_map(|a| [[a, a + 1, a + 4], [a, a + 4, a + 3]]).collect();
+        let one_way: Vec<&[usize]> = one_way.iter().map(|it| &it[..]).collect();
+        assert!(imbalance(5, &one_way, [1.0, 1.0]).is_some_and(|it| it < 1e-15));
+        // Mirror images of each other at four of the edges: their middles are a third and not half of the way along it.
+        let star: [&[usize]; 8] = [
+            &[0, 1, 4],
+            &[1, 2, 4],
+            &[2, 5, 4],
+            &[5, 8, 4],
+            &[8, 7, 4],
+            &[7, 6, 4],
+            &[6, 3, 4],
+            &[3, 0, 4],
+        ];
+        // Four of the eight inner edges are off by a sixth.
+        let found = imbalance(5, &star, [1.0, 1.0]).expect("inner edges");
+        assert!((found - 72f64.powf(-0.5)).abs() < 1e-15, "{found}");
     }
 }

@@ -24,7 +24,7 @@ fn finest_orders(levels: &[Level]) -> [f64; 2] {
 }
 
 fn verdict(levels: &[Level]) -> Verdict {
-    let judgement = judge(levels, Expected { order: 2.0, tolerance: TOLERANCE });
+    let judgement = judge(levels, Expected::new(2.0, TOLERANCE));
     println!("{}", judgement.sentences("h", &|h| format!("h {h}")).join("\n"));
     judgement.verdict()
 }

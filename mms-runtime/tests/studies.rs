@@ -19,7 +19,7 @@ fn run<T: Solve<D>, const D: usize>(
     T::run(field, method, &Division::Uniform(cells), Watch::Parts(PARTS), &mut ()).unwrap()
 }
 
-const SECOND: Expected = Expected { order: 2.0, tolerance: 0.15 };
+const SECOND: Expected = Expected::new(2.0, 0.15);
 
 fn total(shape: ShapeName, integrator: IntegratorName) -> Method {
     Method { formulation: FormulationName::Total, ..method(shape, integrator) }

@@ -20,7 +20,7 @@ use super::dependencies::{self, Dependencies, Dependency, UNKNOWN};
 use super::digests::Digests;
 use super::sources;
 
-use crate::judge::results::weight;
+use crate::judge::results::{Start as How, weight};
 use crate::judge::table::{Order, Orders};
 use crate::session::input::{Input, Variant, quantities};
 use crate::session::method::hold_division;
@@ -328,6 +328,8 @@ impl Setting<'_> {
             self.option(word, "weight", weight(&word.value).map_err(str::to_owned))
         };
         let weight = study.weight.as_ref().map(of).transpose()?;
+        let start = |word: &Spanned<String>| self.option(word, "start", How::of(&word.value));
+        let orders = Orders { start: study.start.as_ref().map(start).transpose()?, ..orders };
         Ok(Judging { quantities, map, orders, weight })
     }
 }

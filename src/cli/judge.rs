@@ -112,7 +112,8 @@ impl Judge {
     }
 
     fn orders(&self) -> Orders {
-        Orders::new(&self.expected_order, self.tolerance)
+        let orders = Orders::new(&self.expected_order, self.tolerance);
+        Orders { start: self.results.start, ..orders }
     }
 }
 

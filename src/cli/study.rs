@@ -505,6 +505,6 @@ impl Study {
             entry.is_of(shape, integrator, method.formulation.name())
         });
         let order = self.expected_order.or(entry.map(|entry| entry.order)).unwrap_or(2.0);
-        Expected { order, tolerance: entry.and_then(|entry| entry.tolerance).unwrap_or(TOLERANCE) }
+        Expected::new(order, entry.and_then(|entry| entry.tolerance).unwrap_or(TOLERANCE))
     }
 }

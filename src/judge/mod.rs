@@ -44,8 +44,6 @@ pub struct Norm {
     pub name: Foreign,
     /// The orders that are expected of it in h, and of a grid of h and dt in dt.
     pub expected: [Expected; 2],
-    /// The higher order in h that it may have where it is measured, while theory promises the expected one everywhere.
-    pub favoured: Option<Expected>,
     /// The error in each run; none in one that stopped.
     pub errors: Vec<Option<f64>>,
     /// Below this an error in each run may be nothing but round-off; 0 where that is not known.
@@ -87,8 +85,6 @@ impl Refined {
 pub struct Judged {
     /// Its norms with their verdicts.
     pub judgement: Judgement,
-    /// Whether it has the order that it may have where it is measured, above the one that theory promises everywhere.
-    pub is_favoured: bool,
     /// Space and time in one formula, in each norm, of a grid of h and dt.
     pub fits: Vec<Option<Fit>>,
     /// Why it is no evidence, where that is so.
@@ -169,20 +165,12 @@ impl Measured {
             let pairs = self.runs.iter().map(|it| [it.cell_size, it.time_step.unwrap_or(f64::NAN)]);
             let pairs: Vec<_> = pairs.collect();
             let judgement = Judgement::of_fits(&pairs, fitted)?;
-            return Some(Judged { judgement, is_favoured: false, fits, objection: None });
+            return Some(Judged { judgement, fits, objection: None });
         }
         let sequences: Vec<_> =
             quantity.norms.iter().map(|norm| self.sequence(refined, norm)).collect();
-        let judged = |expected: &dyn Fn(&Norm) -> Expected| {
-            Judgement::of(
-                norms().zip(&sequences).map(|((name, norm), it)| (name, it, expected(norm))),
-            )
-        };
-        let favoured = judged(&|norm| norm.favoured.unwrap_or(norm.expected[0]))?;
-        let may_be = quantity.norms.iter().any(|norm| norm.favoured.is_some());
-        let is_favoured = may_be && favoured.verdict() == Verdict::Pass;
-        let judgement = if is_favoured { favoured } else { judged(&|norm| norm.expected[0])? };
-        Some(Judged { judgement, is_favoured, fits: Vec::new(), objection: None })
+        let judged = norms().zip(&sequences).map(|((name, norm), it)| (name, it, norm.expected[0]));
+        Some(Judged { judgement: Judgement::of(judged)?, fits: Vec::new(), objection: None })
     }
 
     /// h, dt and e of each run; of one that stopped no number, so that nothing fits.

@@ -11,6 +11,7 @@ use mms_spec::foreign::shown;
 use mms_spec::suggest::did_you_mean;
 
 use super::names::Column;
+use super::results::Start;
 use super::{Measured, Norm, Quantity, Run};
 use crate::session::method::finite;
 
@@ -35,14 +36,18 @@ impl FromStr for Order {
 /// The orders that are expected: of all norms, or of those that a name is given of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orders {
-    /// The order of what no other is given of; that of H1 is one less.
+    /// The order of what no other is given of.
     pub usual: f64,
+    /// The degree of the cells, where these are known.
+    pub degree: Option<u32>,
     /// Whether that was given.
     pub is_given: bool,
     /// Of a norm, a quantity or a column; that of `time` is of dt, in a grid of h and dt.
     pub named: Vec<(String, f64)>,
-    /// How narrow intervals must be.
+    /// How far an order may be from the expected one.
     pub tolerance: f64,
+    /// How the solver starts, where that was said.
+    pub start: Option<Start>,
 }
 
 /// What stands between a quantity and its norm.
@@ -57,13 +62,19 @@ impl Orders {
         let usual = given.iter().rev().find(|it| it.name.is_none());
         let named = given.iter().rev().filter_map(|it| Some((it.name.clone()?, it.order)));
         let (is_given, usual) = (usual.is_some(), usual.map_or(2.0, |it| it.order));
-        Orders { usual, is_given, named: named.collect(), tolerance }
+        let named = named.collect();
+        Orders { usual, degree: None, is_given, named, tolerance, start: None }
     }
 
-    /// The same for elements of a degree: the usual order is one more, unless it was given.
-    pub fn of_degree(self, degree: u32) -> Self {
-        let usual = if self.is_given { self.usual } else { f64::from(degree + 1) };
-        Self { usual, ..self }
+    /// The same for cells of a degree: the usual order is one more, unless it was given.
+    pub fn of_degree(self, degree: Option<u32>) -> Self {
+        let own = degree.filter(|_| !self.is_given).map(|degree| f64::from(degree + 1));
+        Self { usual: own.unwrap_or(self.usual), degree, ..self }
+    }
+
+    /// The order of gradients: the degree of the cells, if nothing else limits the order; else one less than the usual one.
+    pub(super) fn of_gradients(&self) -> f64 {
+        self.degree.map_or(self.usual - 1.0, |degree| self.usual.min(degree.into()))
     }
 
     fn find(&self, names: &[&str]) -> Option<f64> {
@@ -72,7 +83,7 @@ impl Orders {
 
     /// Of a norm of a quantity in this column, in h and in dt.
     pub(super) fn of(&self, column: &str, quantity: &str, norm: &str) -> [Expected; 2] {
-        let usual = if norm == "h1" { self.usual - 1.0 } else { self.usual };
+        let usual = if norm == "h1" { self.of_gradients() } else { self.usual };
         let space = self.given(column, quantity, norm).unwrap_or(usual);
         let time = self.find(&[TIME]).unwrap_or(self.usual);
         [space, time].map(|order| self.expected(order))
@@ -80,7 +91,7 @@ impl Orders {
 
     /// What is expected of an order.
     pub(super) fn expected(&self, order: f64) -> Expected {
-        Expected { order, tolerance: self.tolerance }
+        Expected::new(order, self.tolerance)
     }
 
     /// The order that is given of a norm of a quantity: of both, of the column, or of one of the two.
@@ -241,7 +252,6 @@ impl Table {
                 errors: self.errors(column)?,
                 floors: self.floors()?,
                 rounding: self.rounding(column),
-                favoured: None,
                 is_exact: false,
             };
             match quantities.iter_mut().find(|it| it.name == *name) {

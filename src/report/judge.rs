@@ -175,11 +175,11 @@ impl Judgements {
         let fits = fits.filter_map(|(norm, fit)| Some(fit.as_ref()?.sentence(&norm.name.shown())));
         let mut lines =
             judged.judgement.sentences(self.refined.symbol(), &|length| self.name(length));
-        lines.extend(judged.is_favoured.then(|| {
-            let promised = quantity.norms[0].expected[0].order;
+        let deciding = judged.judgement.deciding();
+        lines.extend(deciding.is_superconvergent().then(|| {
             format!(
-                "that is superconvergence, of values at places or averages that are more accurate than others: theory \
-                 promises {promised} everywhere"
+                "that is superconvergence, of values that are more accurate than theory promises everywhere: {}",
+                deciding.expected.order
             )
         }));
         lines.extend(fits);
@@ -301,7 +301,7 @@ impl Judgements {
             "norm": deciding.norm,
             "verdict": judged.judgement.verdict().to_string(),
             "layer_order": judged.judgement.layer(),
-            "superconvergent": judged.is_favoured,
+            "superconvergent": deciding.is_superconvergent(),
             "norms": norms,
             "says": self.says(quantity, judged),
         })
@@ -454,6 +454,10 @@ fn judged(judged: &mms_convergence::Judged) -> Map<String, Value> {
     let mut document = Map::new();
     document.insert("norm".into(), json!(judged.norm));
     document.insert("expected_order".into(), json!(judged.expected.order));
+    let highest = judged.expected.highest;
+    if highest > judged.expected.order {
+        document.insert("highest_order".into(), json!(highest));
+    }
     document.extend(finding(&judged.finding));
     document
 }

@@ -238,6 +238,13 @@ impl Exact {
         faces.map(|face| (face, on(&face))).filter(|(_, points)| !points.is_empty()).collect()
     }
 
+    /// Whether a point lies on a face; how far each coordinate may be from what was meant.
+    pub fn is_on_face(&self, point: &[f64], rounding: f64) -> bool {
+        let near = near(point, rounding);
+        let faces = Face::of(&self.input.compiled.field.domain.body, self.dimension);
+        faces.into_iter().any(|face| self.body.distance_to(face, point) <= near)
+    }
+
     /// Whether all points lie on faces with one of these claims; how far each coordinate may be from what was meant.
     pub fn are_on(&self, claims: &[Claim], points: &[f64], rounding: f64) -> bool {
         let near = near(points, rounding);

@@ -251,6 +251,11 @@ fn what_is_not_there_is_told() {
             "expected volume or mass",
         ),
         (
+            "field = \"bar_1d\"\ncells = [8]\nstart = \"rest\"",
+            "c.toml:9:9",
+            "expected interpolation or projection",
+        ),
+        (
             "field = \"bar_1d\"\ncells = [8]\nend = 7",
             "c.toml:6:1",
             "the time window of the field is 0.0 to",

@@ -210,6 +210,15 @@ x_max = "traction"
 y_max = "traction"
 "#;
 
+/// Finite elements on irregular meshes, whose velocities may have a range of orders.
+const IRREGULAR: &str = concat!(
+    "judge travelling_wave_2d --time 0.012 --map X=points ",
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/command/data/scikit_fem/wave_P1_irregular_uv_08.vtu ",
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/command/data/scikit_fem/wave_P1_irregular_uv_16.vtu",
+);
+
 #[test]
 fn documents_have_the_keys_of_the_page() {
     let tables = Tables::read();
@@ -264,6 +273,7 @@ fn documents_have_the_keys_of_the_page() {
         ("run", "run bar.toml --cells 8 --vtk states8", 0),
         ("run", "run bar.toml --cells 16 --vtk states16", 0),
         ("judge", "judge bar.toml states8 states16 --quantity u", 0),
+        ("judge", IRREGULAR, 0),
         ("diagnose", "diagnose bar.toml states16 --like shape=linear", 0),
         ("hypotheses", "diagnose bar.toml --list", 0),
         ("state", "state bar.toml --cells 4 --time 0.01 --without stress -o state.vtu", 0),

@@ -18,6 +18,7 @@ mod form;
 mod judge;
 mod judge_evidence;
 mod judge_files;
+mod judge_orders;
 mod judge_quantities;
 mod judge_results;
 mod main_job;

@@ -9,7 +9,9 @@ from solid import Solid
 
 
 def moved(solid, field, begin, end, steps):
-    """The displacement at the end of so many steps, from the field's own state at the beginning."""
+    """The displacement, the velocity and the acceleration at the end of so many steps, from the field's own state at the
+    beginning.
+    """
     mass = solid.mass().tocsc()
     held, free = solid.held, solid.basis.complement_dofs(solid.held)
     factors = splu(mass[free][:, free])
@@ -34,12 +36,12 @@ def moved(solid, field, begin, end, steps):
         a4 = acceleration(t + dt, u + dt * v + dt**2 / 2 * a2)
         u = u + dt * v + dt**2 / 6 * (a1 + a2 + a3)
         v = v + dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
-    return u
+    return u, v, acceleration(end, u)
 
 
-def run(module, degree, n, steps, end):
-    """The solid, and its displacement after so many steps from the first time on."""
+def run(module, kind, n, steps, end, shift=0.0):
+    """The solid, and its motion after so many steps from the first time on."""
     parameters = module.Parameters()
     field = module.prepare(parameters)
-    solid = Solid(degree, n, parameters, is_held=lambda x: np.full(x[0].shape, True))
+    solid = Solid(kind, n, parameters, lambda x: np.full(x[0].shape, True), shift)
     return solid, moved(solid, field, field.time_window()[0], end, steps)

@@ -6,11 +6,17 @@ functions for b and for tractions.
 
 import numpy as np
 from skfem import (
-    Basis, BilinearForm, ElementTriP1, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri,
-    condense, solve,
+    Basis, BilinearForm, ElementQuad1, ElementQuad2, ElementTriP1, ElementTriP2, ElementVector, FacetBasis,
+    LinearForm, MeshQuad, MeshTri, condense, solve,
 )
 
-ELEMENTS = {1: ElementTriP1, 2: ElementTriP2}
+# Of each kind: its mesh, its functions, its degree, and its number in VTK.
+ELEMENTS = {
+    "P1": (MeshTri, ElementTriP1, 1, 5),
+    "P2": (MeshTri, ElementTriP2, 2, 22),
+    "Q1": (MeshQuad, ElementQuad1, 1, 9),
+    "Q2": (MeshQuad, ElementQuad2, 2, 28),
+}
 
 
 def _inverse(f):
@@ -24,14 +30,26 @@ def _deformation(h):
     return h + np.eye(2)[:, :, None, None]
 
 
-class Solid:
-    """A square of n x n x 2 triangles of a degree; its sides are held where `is_held` says so."""
+def square(kind, n, length, shift):
+    """A mesh of n x n squares, or of twice as many triangles. Its inner nodes are shifted at random, by as much of the
+    edge of a square at most as `shift` says.
+    """
+    mesh, ticks = ELEMENTS[kind][0], np.linspace(0.0, length, n + 1)
+    regular = mesh.init_tensor(ticks, ticks)
+    x = regular.p.copy()
+    inner = np.all((x > 0.0) & (x < length), axis=0)
+    x[:, inner] += shift * length / n * np.random.default_rng(n).uniform(-1.0, 1.0, (2, inner.sum()))
+    return mesh(x, regular.t)
 
-    def __init__(self, degree, n, parameters, is_held):
+
+class Solid:
+    """A square of elements of a kind; its sides are held where `is_held` says so."""
+
+    def __init__(self, kind, n, parameters, is_held, shift=0.0):
         length, young, nu = parameters.length, parameters.young, parameters.nu
-        ticks = np.linspace(0.0, length, n + 1)
-        mesh = MeshTri.init_tensor(ticks, ticks)
-        element = ElementVector(ELEMENTS[degree]())
+        mesh = square(kind, n, length, shift)
+        _, functions, degree, self.number = ELEMENTS[kind]
+        element = ElementVector(functions())
         # Exact enough that quadrature shows in no error.
         self.order = 2 * degree + 4
         self.basis = Basis(mesh, element, intorder=self.order)
@@ -104,10 +122,9 @@ class Solid:
         return u
 
     def write(self, u, path):
-        """Nodes, triangles and the displacement, in the legacy format of VTK."""
+        """Nodes, cells and the displacement, in the legacy format of VTK."""
         (u1, part), (u2, _) = self.basis.split(u)
         places, cells = part.doflocs, part.element_dofs
-        kind = {3: 5, 6: 22}[len(cells)]
         with open(path, "w") as file:
             print("# vtk DataFile Version 3.0\nsolid\nASCII\nDATASET UNSTRUCTURED_GRID", file=file)
             print(f"POINTS {places.shape[1]} double", file=file)
@@ -115,6 +132,6 @@ class Solid:
             print(f"CELLS {cells.shape[1]} {cells.size + cells.shape[1]}", file=file)
             np.savetxt(file, np.vstack([np.full(cells.shape[1], len(cells)), cells]).T, fmt="%d")
             print(f"CELL_TYPES {cells.shape[1]}", file=file)
-            np.savetxt(file, np.full(cells.shape[1], kind), fmt="%d")
+            np.savetxt(file, np.full(cells.shape[1], self.number), fmt="%d")
             print(f"POINT_DATA {places.shape[1]}\nVECTORS displacement double", file=file)
             np.savetxt(file, np.vstack([u1, u2, 0.0 * u1]).T, fmt="%.17g")

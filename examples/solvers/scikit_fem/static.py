@@ -12,11 +12,11 @@ def solved(solid, force, steps=4):
     return u
 
 
-def run(module, degree, n):
+def run(module, kind, n):
     """The solid, and its displacement."""
     parameters = module.Parameters()
     now = module.prepare(parameters).at_time(0.0)
-    solid = Solid(degree, n, parameters, is_held=lambda x: x[0] == 0.0)
+    solid = Solid(kind, n, parameters, is_held=lambda x: x[0] == 0.0)
     force = solid.body_force(lambda x: now.body_force(*x))
     force += solid.surface_force(lambda x, normal: now.traction(*x, *normal))
     return solid, solved(solid, force)

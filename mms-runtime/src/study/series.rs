@@ -119,7 +119,7 @@ mod tests {
     use super::*;
     use crate::failure::{Cause, Failure};
 
-    const SECOND: Expected = Expected { order: 2.0, tolerance: 0.15 };
+    const SECOND: Expected = Expected::new(2.0, 0.15);
 
     /// Points at h = 1, 1/2, 1/4, .. with these errors, of which linf is a multiple.
     fn series(errors: impl Fn(f64) -> f64, levels: i32, floor: f64) -> Series {

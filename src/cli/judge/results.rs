@@ -12,7 +12,7 @@ use mms_spec::foreign::shown;
 use super::super::{Outcome, say, this_command};
 use super::{Judge, outcome};
 use crate::judge::results::{
-    Baseline, Comparison, Measurement, Reading, Results, measure, room, same, weight,
+    Baseline, Comparison, Measurement, Reading, Results, Start, measure, room, same, weight,
 };
 use crate::judge::table::Orders;
 use crate::read::{self, Kind};
@@ -34,6 +34,10 @@ pub struct Options {
     /// h of the FILEs, in their order; 1/8 is a number too.
     #[arg(long, value_name = "H,..", value_delimiter = ',', value_parser = length)]
     h: Vec<f64>,
+    /// How the solver starts, which tells the orders of v and a: from exact values at its nodes, as is taken where cells are
+    /// known, or from the elliptic (Ritz) projection.
+    #[arg(long, value_name = "HOW", requires = "field")]
+    pub(super) start: Option<Start>,
     /// Let results cover a part of the body: a symmetric half, a line, a probe. The verdict says that they do.
     #[arg(long, requires = "field")]
     part: bool,

@@ -6,6 +6,7 @@ use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
 use super::level::Sampling;
+use super::start::Lowered;
 use crate::judge::table::{OF, Orders, TIME};
 
 /// The norms of results.
@@ -33,19 +34,24 @@ impl Sampling {
     }
 }
 
-/// The orders that are expected of a norm in h and in dt, and the higher one in h that it may have where it is measured.
+/// The orders that are expected of a norm in h and in dt. Gradients have one order less than u, or as much where they are
+/// more accurate than elsewhere; a start may lower that of v and a.
 pub fn expected(
-    orders: &Orders,
+    (orders, lowered): (&Orders, &Lowered),
     (quantity, sampling): (Quantity, Sampling),
     norm: &str,
-) -> ([Expected; 2], Option<Expected>) {
+) -> [Expected; 2] {
     let (name, symbol) = (quantity.name(), quantity.symbol());
     let [space, time] = orders.of(name, symbol, norm);
-    let is_given = orders.given(name, symbol, norm).is_some();
-    if is_given || is_of_motion(quantity) || !sampling.knows_cells() {
-        return ([space, time], None);
-    }
-    ([orders.expected(space.order - 1.0), time], Some(space))
+    let is_gradient = !is_of_motion(quantity) && sampling.knows_cells();
+    let least = match lowered.of(quantity) {
+        _ if orders.given(name, symbol, norm).is_some() => space.order,
+        Some(least) => least,
+        None if is_gradient => orders.of_gradients(),
+        None => space.order,
+    };
+    let settles = least == space.order || is_gradient;
+    [Expected { order: least.min(space.order), settles, ..space }, time]
 }
 
 /// Orders under the names that results have: PK1 is `first_piola_kirchhoff`, and H1 is `h1`.

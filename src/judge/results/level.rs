@@ -118,6 +118,8 @@ pub struct Found {
     pub sizes: Option<[f64; 2]>,
     /// The lowest degree of its cells, if there are such.
     pub degree: Option<u32>,
+    /// How far cells around inner edges are out of balance, where that may lower an order.
+    pub imbalance: Option<f64>,
     /// The part of the body that is there, and how fine.
     pub covered: Covered,
     /// The type of cells that are not known, where there are such and no others.
@@ -257,7 +259,12 @@ impl Reading<'_> {
         let unknown = mesh.unknown().filter(|_| sizes.is_none());
         let degree = mesh.full().map(|(_, shape, _)| shape.degree()).min();
         let how = motion.how.clone();
-        Ok(Found { errors, sizes, degree, covered, unknown, how, passed_over })
+        let is_rate =
+            |it: &Errors| matches!(it.quantity, Quantity::Velocity | Quantity::Acceleration);
+        let is_asked = degree.is_some() && dimension > 1 && errors.iter().any(is_rate);
+        let is_inner = |point: &[f64]| !exact.is_on_face(point, rounding_of_places);
+        let imbalance = if is_asked { mesh.imbalance(&is_inner) } else { None };
+        Ok(Found { errors, sizes, degree, imbalance, covered, unknown, how, passed_over })
     }
 
     /// All quantities of a snapshot that are judged, but tractions.

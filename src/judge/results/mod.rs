@@ -14,6 +14,7 @@ mod iterative;
 mod level;
 mod remarks;
 mod same;
+mod start;
 mod taken;
 mod times;
 mod traction;
@@ -27,8 +28,10 @@ pub use excluded::{Exclusions, exclusions};
 pub use files::{Results, placed, room};
 pub use level::{Reading, Sampling, weight};
 pub use same::{Same, same};
+pub use start::Start;
 
 use self::level::{Errors, Found, Measure};
+use self::start::Lowered;
 use super::table::Orders;
 use super::{Measured, Norm, Objection, Run};
 use crate::session::exact::Exact;
@@ -102,7 +105,7 @@ pub fn measure(
     for (results, snapshots) in all.iter().zip(&common.snapshots) {
         levels.push(level(results, snapshots, reading, exact)?);
     }
-    let quantities = quantities(&levels)?;
+    let mut quantities = quantities(&levels)?;
     let mut notes = vec![remarks::compared(&common), remarks::meshes(&levels)];
     if let [tighter] = tighter {
         let (snapshots, own) = common.snapshots.split_at(meshes);
@@ -112,23 +115,32 @@ pub fn measure(
     let mut warnings = Vec::new();
     let sizes = lengths(&levels, sizes, &mut notes, &mut warnings)?;
     notes.push(format!("X: {}", levels[0].found.how));
-    let samplings: Vec<Sampling> = quantities.iter().map(|(_, sampling)| *sampling).collect();
-    hold_evidence(&levels[0], &samplings)?;
+    hold_evidence(&levels[0], &quantities)?;
     let degree = levels.iter().filter_map(|it| it.found.degree).min();
     notes.extend(remarks::order(degree, orders));
-    let orders = &expected::named(orders).of_degree(degree.unwrap_or(1));
+    let orders = &expected::named(orders).of_degree(degree);
     expected::hold_orders(&quantities, orders, has_steps)?;
+    let lowered = Lowered::new(orders, (&levels, &sizes), exact)?;
+    notes.extend(quantities.iter().filter_map(|(it, _)| lowered.note(*it, orders)));
+    let all = quantities.clone();
+    quantities.retain(|(it, _)| !lowered.is_blind_to(*it, orders));
+    let is_blind = quantities.is_empty();
+    if is_blind {
+        quantities = all;
+    }
     notes.extend(remarks::norms(&quantities));
     notes.push(remarks::left_out(&common, &levels, &own));
     let is_given = levels.iter().flat_map(|it| &it.errors).all(|it| it.is_given);
     remarks::suspicions(&levels, is_given, &mut warnings);
     let runs = sizes.iter().map(|&cell_size| Run { cell_size, time_step: None }).collect();
-    let measured: Vec<_> = quantities.iter().map(|it| quantity(*it, &levels, orders)).collect();
+    let measured: Vec<_> =
+        quantities.iter().map(|it| quantity(*it, &levels, (orders, &lowered))).collect();
     let part = levels.iter().find_map(|level| {
         level.found.covered.part.as_ref().map(|part| format!("`{}`: {part}", shown(&level.name)))
     });
     let objection = match &part {
         _ if is_given => Some(given::objection()),
+        _ if is_blind => Some(start::objection()),
         Some(part) if !reading.is_part => Some(extent::objection(part)),
         _ => None,
     };
@@ -142,7 +154,7 @@ pub fn measure(
         .collect();
     Ok(Measurement {
         measured,
-        samplings,
+        samplings: quantities.iter().map(|(_, sampling)| *sampling).collect(),
         times: common.times,
         iterative,
         objection,
@@ -245,13 +257,14 @@ fn quantities(levels: &[Level]) -> anyhow::Result<Vec<(Quantity, Sampling)>> {
 }
 
 /// Refuses to judge a mesh by points or by middles of cells alone: orders there may be higher than elsewhere.
-fn hold_evidence(level: &Level, samplings: &[Sampling]) -> anyhow::Result<()> {
+fn hold_evidence(level: &Level, quantities: &[(Quantity, Sampling)]) -> anyhow::Result<()> {
+    let is_over_cells = quantities.iter().any(|(_, it)| *it == Sampling::Cells);
     ensure!(
-        level.found.sizes.is_none() || samplings.contains(&Sampling::Cells),
+        level.found.sizes.is_none() || is_over_cells,
         "`{}`: only values at {} would be judged, where they may be more accurate than elsewhere (superconvergence); \
          judge a quantity of the points over the cells as well, such as u",
         shown(&level.name),
-        samplings[0].name()
+        quantities[0].1.name()
     );
     Ok(())
 }
@@ -301,7 +314,7 @@ fn lengths(
 fn quantity(
     (of, sampling): (Quantity, Sampling),
     levels: &[Level],
-    orders: &Orders,
+    (orders, lowered): (&Orders, &Lowered),
 ) -> super::Quantity {
     let errors: Vec<&Errors> = levels
         .iter()
@@ -310,19 +323,19 @@ fn quantity(
     let norm = |at: usize| {
         let name = errors[0].norms[at].0;
         let measures: Vec<Measure> = errors.iter().map(|it| it.norms[at].1).collect();
-        let (expected, favoured) = expected::expected(orders, (of, sampling), name);
         Norm {
             name: name.into(),
-            expected,
-            favoured,
+            expected: expected::expected((orders, lowered), (of, sampling), name),
             errors: measures.iter().map(|it| Some(it.error)).collect(),
             floors: measures.iter().map(|it| it.floor).collect(),
             rounding: 0.0,
             is_exact: errors.iter().all(|it| it.is_exact()),
         }
     };
+    // A start excites waves whose energy is bounded, and so means of errors, but no maximum.
+    let is_judged = |at: &usize| lowered.of(of).is_none() || errors[0].norms[*at].0 != "linf";
     super::Quantity {
         name: of.name().into(),
-        norms: (0..errors[0].norms.len()).map(norm).collect(),
+        norms: (0..errors[0].norms.len()).filter(is_judged).map(norm).collect(),
     }
 }
