@@ -32,7 +32,8 @@ fuzz_target!(|bytes: &[u8]| {
                 let _ = hold_distinct(snapshot, &motion.reference);
                 let places = &motion.reference.numbers;
                 let mesh = Mesh { cells: &snapshot.cells, points: places, dimension: 2 };
-                let _ = (mesh.sizes(), mesh.middles(), mesh.volumes(), mesh.free_edges(&|_| true));
+                let _ = (mesh.sizes(), mesh.middles(), mesh.volumes());
+                let _ = (mesh.free_edges(&|_| true), mesh.imbalance(&|_| true));
             }
         }
     }

@@ -9,7 +9,7 @@ use super::mms::Folder;
 use crate::sampled::sampled;
 
 /// One in so many runs is tried.
-const SHARE: usize = 5;
+const SHARE: usize = 10;
 
 /// Right runs of scikit-fem on four meshes each, as `examples/solvers/scikit_fem/stored.py` makes them: the field's name
 /// there, elements, mesh and quantities.
