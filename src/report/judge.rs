@@ -378,8 +378,17 @@ impl Judgements {
             ],
             lines: lines.collect(),
             lengths: runs.map(|run| self.measured.length(self.refined, run)).collect(),
+            stopped: self.stopped(),
             order: self.judged.first().map_or(2.0, |it| it.judgement.norms[0].expected.order),
         }
+    }
+
+    /// h or dt of runs that stopped.
+    fn stopped(&self) -> Vec<f64> {
+        let norms = || self.measured.quantities.iter().flat_map(|it| &it.norms);
+        let runs = self.measured.runs.iter().enumerate();
+        let stopped = runs.filter(|(at, _)| norms().any(|it| it.errors[*at].is_none()));
+        stopped.map(|(_, run)| self.measured.length(self.refined, run)).collect()
     }
 
     /// What a logarithmic axis can show of a norm: means of replicates.

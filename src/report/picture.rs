@@ -23,6 +23,8 @@ const COLOURS: [RGBColor; 6] = [
 const LABELS: (&str, u32) = ("monospace", 14);
 const TEXT: (&str, u32) = ("sans-serif", 15);
 const SLOPE: RGBColor = RGBColor(90, 90, 90);
+/// How far below the upper edge runs that stopped are marked.
+const EDGE: f64 = 1.15;
 
 /// A name, and points of a length and an error.
 pub(super) type Line = (String, Vec<(f64, f64)>);
@@ -35,6 +37,8 @@ pub(super) struct Picture {
     pub lines: Vec<Line>,
     /// h or dt of all levels.
     pub lengths: Vec<f64>,
+    /// h or dt of levels with a run that stopped, which are marked at the upper edge.
+    pub stopped: Vec<f64>,
     /// The slope that is expected.
     pub order: f64,
 }
@@ -69,6 +73,12 @@ fn points(study: &Study, norm: fn(&Errors) -> f64) -> Vec<(f64, f64)> {
     points.collect()
 }
 
+/// h or dt of the levels that have no error.
+fn stopped(study: &Study) -> Vec<f64> {
+    let points = study.points().into_iter();
+    points.filter(|it| it.errors.is_none()).map(|it| it.length).collect()
+}
+
 /// What a refinement is drawn over.
 fn over(refinement: Refinement) -> &'static str {
     if refinement == Refinement::Time { "time step dt" } else { "cell size h" }
@@ -89,6 +99,7 @@ impl Picture {
             ],
             lines,
             lengths: runs.map(|run| refinement.length(&run.level)).collect(),
+            stopped: studies.iter().flat_map(|study| stopped(study)).collect(),
             order: studies[0].expected.order,
         }
     }
@@ -149,6 +160,15 @@ fn draw_into(picture: &Picture, svg: &mut String) -> Result<(), Box<dyn std::err
                 let ends = [(x, y), (x + 18, y)];
                 DashedPathElement::new(ends, 6, 4, SLOPE.stroke_width(2))
             });
+    }
+    if !picture.stopped.is_empty() {
+        let edge = errors.1 / EDGE;
+        let marks =
+            picture.stopped.iter().map(|&it| Cross::new((it, edge), 5, SLOPE.stroke_width(2)));
+        chart
+            .draw_series(marks)?
+            .label("stopped")
+            .legend(|(x, y)| Cross::new((x + 9, y), 5, SLOPE.stroke_width(2)));
     }
     chart
         .configure_series_labels()

@@ -178,10 +178,15 @@ fn the_csv_file_of_a_study_is_judged_as_it_is() {
     run.prints("4 levels, h 1.250e-1 to h 1.562e-2").prints("again/convergence.svg");
     // What it writes can be judged again.
     folder.mms("judge --errors again/convergence.csv").exits(0);
-    assert!(folder.read("again/convergence.svg").contains("cell size h"));
+    let picture = folder.read("again/convergence.svg");
+    assert!(picture.contains("cell size h") && !picture.contains("stopped"));
     // A run that stopped has no errors, and a remark with commas.
     folder.mms("study bar_1d --cells 8,16,32 --courant 0.8 --output study").exits(1);
-    folder.mms("judge --errors study/convergence.csv").exits(1).prints("a run stopped");
+    let again = "judge --errors study/convergence.csv --output again";
+    folder.mms(again).exits(1).prints("a run stopped");
+    for picture in ["study/convergence.svg", "again/convergence.svg"] {
+        assert!(folder.read(picture).contains("stopped"), "{picture}");
+    }
 }
 
 #[test]
