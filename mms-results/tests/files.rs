@@ -135,6 +135,12 @@ fn nodes_are_where_vtk_has_them() {
     assert_eq!(count, Shape::all().count());
 }
 
+/// A mesh of one line whose points have no places.
+const WITHOUT_POINTS: &str = "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"2\" \
+    NumberOfCells=\"1\"><Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1</DataArray>\
+    <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">2</DataArray><DataArray type=\"UInt8\" \
+    Name=\"types\" format=\"ascii\">3</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+
 fn refused(text: &str) -> String {
     parse(text.as_bytes(), &everything(&[])).unwrap_err().of("file").to_string()
 }
@@ -153,6 +159,7 @@ fn what_is_not_read_is_named() {
             "# vtk DataFile Version 3.0\n\nASCII\nDATASET STRUCTURED_POINTS\n",
             "`STRUCTURED_POINTS` is not read",
         ),
+        (WITHOUT_POINTS, "expected an element `<Points>`"),
         ("1,2\n3,4\n", "file:1: expected names"),
         ("X,u\n", "no line of numbers"),
         ("X,u\n1,2\n1,two\n", "file:3: column `u`: expected a number, found `two`"),

@@ -270,6 +270,12 @@ fn piece(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Snapshot, Mistake> 
         arrays.read(node, Some(rows), format)?;
     }
     let has_points = arrays.all.len();
+    if has_points == 0 && !cells.is_empty() {
+        return Err(at(
+            piece,
+            "expected an element `<Points>` with the places of the points of its cells",
+        ));
+    }
     arrays.section(piece, "PointData", rows, format)?;
     let of_points = arrays.all.len();
     arrays.section(piece, "CellData", cells.len(), format)?;
