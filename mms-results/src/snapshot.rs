@@ -26,15 +26,15 @@ impl Stored {
     /// Half a unit in the last place of a number of this magnitude.
     pub fn rounding(self, magnitude: f64) -> f64 {
         let magnitude = magnitude.abs();
+        // Exponents beyond the range of integers are at its ends.
+        let unit = |exponent: f64| 0.5 * 10f64.powi(exponent as i32);
         match self {
             Stored::Single => magnitude * f64::from(f32::EPSILON) / 2.0,
             Stored::Double => magnitude * f64::EPSILON / 2.0,
             Stored::Whole => 0.0,
-            Stored::Fixed(decimals) => 0.5 * 10f64.powi(-(decimals as i32)),
+            Stored::Fixed(decimals) => unit(-f64::from(decimals)),
             Stored::Digits(_) if magnitude == 0.0 => 0.0,
-            Stored::Digits(digits) => {
-                0.5 * 10f64.powi(magnitude.log10().floor() as i32 + 1 - digits as i32)
-            }
+            Stored::Digits(digits) => unit(magnitude.log10().floor() + 1.0 - f64::from(digits)),
         }
     }
 

@@ -279,6 +279,17 @@ fn mistakes_name_their_lines() {
     assert!(twice.starts_with("file:4: ") && twice.contains("file:2"), "{twice}");
 }
 
+/// A number of digits that no integer of 32 bits has the negative of.
+#[test]
+fn numbers_with_long_exponents_are_rounded_to_nothing() {
+    for (digits, rounding) in [(1 << 31, 0.0), (u32::MAX, 0.0), (3, 5e-4)] {
+        assert_eq!(Stored::Fixed(digits).rounding(1.0), rounding);
+        assert_eq!(Stored::Digits(digits).rounding(0.5), rounding);
+    }
+    let found = table("t,X,u\n0.000e-2147483645,0,0\n");
+    assert_eq!(found.time.expect("a time").rounding, 0.0);
+}
+
 #[test]
 fn times_of_a_table_are_snapshots() {
     let text = "t,X,Y,ux,uy\n0.5,0,0,1,2\n0.25,0,0,3,4\n0.5,1,0,5,6\n";
