@@ -340,9 +340,10 @@ pub fn ranked<const D: usize>(
     all.retain(|it| it.share.is_finite());
     let mut ranked: Vec<Ranked> =
         all.iter().map(|it| one(exact, &hypotheses[it.hypothesis], it, apart)).collect();
-    // Shares that differ by rounding leave the order of the list.
+    // Where shares differ by rounding alone, mistakes stand before choices, and then the order is that of the list.
     let share = |it: &Ranked| (it.explained * 1e6).round();
-    ranked.sort_by(|a, b| b.is_plausible.cmp(&a.is_plausible).then(share(b).total_cmp(&share(a))));
+    let by_share = |a: &Ranked, b: &Ranked| share(b).total_cmp(&share(a)).then(a.kind.cmp(&b.kind));
+    ranked.sort_by(|a, b| b.is_plausible.cmp(&a.is_plausible).then(by_share(a, b)));
     let Some(best) = ranked.first() else { return ranked };
     let remains = |share: f64| 1.0 - share;
     let most = AS_WELL * remains(best.explained) + UNSEEN;

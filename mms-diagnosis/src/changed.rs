@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use mms_runtime::{Body, Domain, Face, ManufacturedField, Material, Matrix, Vector};
 
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, MotionPart};
+use crate::hypothesis::{Change, Given, Hypothesis, MotionPart, faces};
 
 /// Terms that are left out on purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -143,7 +143,10 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
         }
         self.exact.field.body_force(time, x, out);
         match self.mistake {
-            Some((Hypothesis { change: Change::Force(change), .. }, size)) => {
+            Some((
+                Hypothesis { change: Change::Force(change) | Change::Loads(change, _), .. },
+                size,
+            )) => {
                 change(&self.given(size, time, x, &[]), out);
             }
             // b is per mass.
@@ -171,15 +174,19 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
         }
         self.exact.field.surface_stress(time, x, h, stress);
         let Some((hypothesis, size)) = self.mistake else { return };
-        let (Change::Surface(change), Some(face)) = (&hypothesis.change, hypothesis.face) else {
+        let (Change::Surface(change) | Change::Loads(_, change)) = &hypothesis.change else {
             return;
         };
+        let body = &self.exact.domain.body;
+        let on = hypothesis.face.map_or_else(|| faces(body), |face| vec![face]);
         let right = stress.to_vec();
-        change(&self.given(size, time, x, h), face, stress);
-        let pairs = stress.iter_mut().zip(right).zip(x);
-        pairs
-            .filter(|(_, x)| !is_on(&self.exact.domain.body, face, x))
-            .for_each(|((stress, right), _)| *stress = right);
+        for face in on {
+            let mut changed = right.clone();
+            change(&self.given(size, time, x, h), face, &mut changed);
+            let pairs = stress.iter_mut().zip(changed).zip(x);
+            let on_face = pairs.filter(|(_, x)| is_on(body, face, x));
+            on_face.for_each(|((stress, changed), _)| *stress = changed);
+        }
     }
 }
 

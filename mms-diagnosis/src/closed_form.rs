@@ -69,6 +69,7 @@ impl<const D: usize> Sampled<'_, D> {
     fn table(&self, measure: Measure) -> Table<D> {
         let gradients = self.times.iter().flat_map(|time| self.exact.gradient(*time, &self.points));
         Table {
+            rounding_of_gradient: 0.0,
             reference: self.times.iter().flat_map(|_| self.points.iter().copied()).collect(),
             gradient: gradients.collect(),
             measure,

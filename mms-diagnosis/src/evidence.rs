@@ -23,6 +23,10 @@ pub struct Snapshot {
     pub reference: Vec<f64>,
     /// Quantities; tensors by rows.
     pub values: Vec<(Quantity, Vec<f64>)>,
+    /// Reference volumes of the points, where they are known.
+    pub volumes: Option<Vec<f64>>,
+    /// The degree of the cells, where these are known.
+    pub degree: Option<u32>,
 }
 
 /// The highest degree of functions, in one to three dimensions.

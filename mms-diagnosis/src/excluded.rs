@@ -128,8 +128,12 @@ fn places<const D: usize>(exact: &Exact<'_, D>, study: &Study) -> Result<Mesh, O
     let points = Filling::new(&exact.domain.body, Fill::Fitted, &spacing)?.position;
     let reference: Vec<f64> = points.iter().flat_map(|x| x.iter().copied()).collect();
     let values = || study.errors.iter().map(|(quantity, _)| (*quantity, Vec::new())).collect();
-    let snapshot =
-        |time: &f64| Snapshot { time: *time, reference: reference.clone(), values: values() };
+    let snapshot = |time: &f64| Snapshot {
+        time: *time,
+        reference: reference.clone(),
+        values: values(),
+        ..Snapshot::default()
+    };
     Ok(Mesh { cell_size: study.cell_size, snapshots: study.times.iter().map(snapshot).collect() })
 }
 

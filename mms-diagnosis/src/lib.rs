@@ -4,7 +4,7 @@
 //! state, of a condition, or of what is written. The error that it makes is found in one of three ways:
 //!
 //! * of a law alone, by its stresses ([`table`]) or its [tangent](mod@tangent), or of formulas from paper ([`closed_form`]);
-//! * of accelerations or residuals at an exact state, by the weak form of the balance ([`state`]); velocities after one
+//! * of accelerations or residuals at an exact state, by the [weak] form of the balance ([`state`]); velocities after one
 //!   [step] are mean accelerations;
 //! * of ordinary results, by running the solver of `mms-runtime` with the [changed] field, or for mistakes of output by the
 //!   exact solution ([`ordinary`], [`run`]).
@@ -38,6 +38,7 @@ pub mod ordinary;
 pub mod pair;
 pub mod patterns;
 pub mod place;
+pub mod quadrature;
 pub mod rank;
 pub mod run;
 pub mod sample;
@@ -48,3 +49,4 @@ pub mod state;
 pub mod step;
 pub mod table;
 pub mod tangent;
+pub mod weak;

@@ -67,7 +67,9 @@ fn shown_by<const D: usize>(it: &Hypothesis<D>) -> &'static str {
     match it.change {
         Change::Stress(Of::Motion, _) => "exact state, step, results",
         Change::Stress(..) => "law, exact state, step, results",
-        Change::Force(_) | Change::Surface(_) | Change::Density => "exact state, step, results",
+        Change::Force(_) | Change::Surface(_) | Change::Loads(..) | Change::Density => {
+            "exact state, step, results"
+        }
         Change::Mass => "exact state, results",
         Change::Start(_) => "step, results",
         Change::Tangent(_) | Change::Order(_) => "law",

@@ -21,28 +21,50 @@ pub const LISTED: [Pattern; 2] = [PERMUTATION, ZERO];
 /// Values that are the exact ones of other points, to this part of their errors, stand in another order.
 const PERMUTED: f64 = 0.1;
 
-/// Looks for such mistakes.
-pub fn diagnose<const D: usize>(
+/// The first quantity of the last snapshot, which is far off.
+struct Wrong<'a, const D: usize> {
+    points: Vec<Vector<f64, D>>,
+    computed: &'a [f64],
+    right: Vec<f64>,
+    components: usize,
+    /// The size of the exact values, and of the error.
+    sizes: [f64; 2],
+}
+
+impl<'a, const D: usize> Wrong<'a, D> {
+    fn of(exact: &Exact<'_, D>, snapshots: &[&'a Snapshot]) -> Option<Self> {
+        let snapshot = snapshots.last()?;
+        let points = vectors::<D>(&snapshot.reference);
+        let (quantity, computed) = snapshot.values.first()?;
+        let right = exact.values(*quantity, snapshot.time, &points);
+        let (scale, off) = (size(&right), distance(computed, &right));
+        let is_far = off > 0.1 * scale && points.len() >= 16;
+        let components = quantity.components(D);
+        is_far.then_some(Wrong { points, computed, right, components, sizes: [scale, off] })
+    }
+}
+
+/// Finds results that are 0.
+pub fn zero<const D: usize>(exact: &Exact<'_, D>, snapshots: &[&Snapshot]) -> Option<Diagnosis> {
+    let Wrong { points, computed, sizes: [scale, off], .. } = Wrong::of(exact, snapshots)?;
+    if computed.iter().any(|it| *it != 0.0) {
+        return None;
+    }
+    let mut found = named(ZERO, [off, 0.0], scale);
+    if starts_at_rest(exact, &points) {
+        found.ranked[0].equivalent_here.push("force_missing".into());
+        found.ranked[0].needs.push("accelerations at an exact state".into());
+    }
+    Some(found)
+}
+
+/// Finds values that stand in another order. Much may look so: it is asked last.
+pub fn permutation<const D: usize>(
     exact: &Exact<'_, D>,
     snapshots: &[&Snapshot],
 ) -> Option<Diagnosis> {
-    let snapshot = snapshots.last()?;
-    let points = vectors::<D>(&snapshot.reference);
-    let (quantity, computed) = snapshot.values.first()?;
-    let right = exact.values(*quantity, snapshot.time, &points);
-    let components = quantity.components(D);
-    let (scale, off) = (size(&right), distance(computed, &right));
-    if off.is_nan() || off <= 0.1 * scale || points.len() < 16 {
-        return None;
-    }
-    if computed.iter().all(|it| *it == 0.0) {
-        let mut found = named(ZERO, [off, 0.0], scale);
-        if starts_at_rest(exact, &points) {
-            found.ranked[0].equivalent_here.push("force_missing".into());
-            found.ranked[0].needs.push("accelerations at an exact state".into());
-        }
-        return Some(found);
-    }
+    let Wrong { computed, right, components, sizes: [scale, off], .. } =
+        Wrong::of(exact, snapshots)?;
     // Of each component, the sorted values are those of the exact solution, whatever their order.
     let sorted = |values: &[f64]| -> Vec<f64> {
         let columns = (0..components).flat_map(|component| {

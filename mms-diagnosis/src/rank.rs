@@ -134,7 +134,8 @@ fn sized<const D: usize>(
     let at = |at: f64| one(index, hypothesis, error, effect, [right, at]);
     // What is large is not linear: from the other side it may look better.
     let starts = if is_fixed { &[first][..] } else { &[first, 2.0 * right - first] };
-    let allowed = starts.iter().filter(|it| is_fixed || hypothesis.allows(&[**it]));
+    let starts = starts.iter().chain(&hypothesis.also);
+    let allowed = starts.filter(|it| is_fixed || hypothesis.allows(&[**it]));
     let tried = allowed.filter_map(|it| at(*it));
     let mut last = tried.max_by(|a, b| a.share.total_cmp(&b.share))?;
     let mut best = last.clone();

@@ -5,7 +5,7 @@ use mms_runtime::scene::Scene;
 use mms_runtime::study::Solve;
 use mms_runtime::{ManufacturedField, Matrix, Method, Vector};
 
-use crate::answer::{Diagnosis, Ranked, Rung};
+use crate::answer::{Diagnosis, Finding, Ranked, Rung};
 use crate::changed::Without;
 use crate::closed_form::{self, ClosedForm, Values};
 use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
@@ -72,8 +72,10 @@ pub struct LawOf {
     pub measure: Measure,
     /// The stresses.
     pub stress: Vec<f64>,
-    /// How far a number may be off, for how it was stored.
+    /// How far a stress may be off, for how it was stored.
     pub rounding: f64,
+    /// How far a component of H may be off.
+    pub rounding_of_gradient: f64,
 }
 
 /// The tangents of a law.
@@ -222,7 +224,7 @@ where
 {
     let snapshots: Vec<&Snapshot> =
         meshes.last().map_or(Vec::new(), |it| it.snapshots.iter().collect());
-    if let Some(found) = patterns::diagnose(exact, &snapshots) {
+    if let Some(found) = patterns::zero(exact, &snapshots) {
         return Ok(found);
     }
     let points = meshes.iter().flat_map(|mesh| &mesh.snapshots).map(|it| it.reference.len() / D);
@@ -235,7 +237,10 @@ where
     if frame.times.is_empty() {
         return Err(Obstacle::AtStart);
     }
-    ordinary::diagnose(exact, &frame, meshes, hypotheses, like)
+    let found = ordinary::diagnose(exact, &frame, meshes, hypotheses, like)?;
+    let is_named = found.finding == Finding::Named;
+    let permutation = if is_named { None } else { patterns::permutation(exact, &snapshots) };
+    Ok(permutation.unwrap_or(found))
 }
 
 /// X of so many points of a law: the middle of the body where none are given.
@@ -262,7 +267,14 @@ fn of_law<const D: usize>(
 ) -> Result<Diagnosis, Obstacle> {
     let (gradient, stress) = (tensors(&law.gradient), tensors(&law.stress));
     let reference = places(exact, &law.reference, gradient.len())?;
-    let table = Table { reference, gradient, measure: law.measure, stress, rounding: law.rounding };
+    let table = Table {
+        reference,
+        gradient,
+        measure: law.measure,
+        stress,
+        rounding: law.rounding,
+        rounding_of_gradient: law.rounding_of_gradient,
+    };
     table::diagnose(exact, &table, hypotheses).ok_or(Obstacle::SingularDeformation)
 }
 

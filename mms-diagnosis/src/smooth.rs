@@ -98,7 +98,7 @@ fn degrees<const D: usize>(most: usize) -> Vec<[usize; D]> {
 }
 
 /// Legendre polynomials of mean square 1 on [-1, 1], and their slopes.
-fn legendre(most: usize, x: f64) -> Vec<(f64, f64)> {
+pub(crate) fn legendre(most: usize, x: f64) -> Vec<(f64, f64)> {
     let mut all = vec![(1.0, 0.0), (x, 1.0)];
     for n in 1..most {
         let (n, (p, dp), (q, dq)) = (n as f64, all[n], all[n - 1]);

@@ -32,7 +32,8 @@ pub fn response<const D: usize>(
         time: start,
         reference: snapshot.reference.clone(),
         values,
-        volumes: None,
+        volumes: snapshot.volumes.clone(),
+        degree: snapshot.degree,
         without,
         step: Some(step),
     })

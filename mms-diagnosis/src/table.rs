@@ -5,9 +5,9 @@ use mms_runtime::{Matrix, Vector};
 
 use crate::answer::{Diagnosis, Limits, Ranked, Rung, ranked, unseen};
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, Of, voigt_orders};
+use crate::hypothesis::{Change, Given, Hypothesis, Of, over_jacobian, voigt_orders};
 use crate::rank::{Error, explain};
-use crate::smooth::size;
+use crate::smooth::{less, size};
 
 /// A measure of stress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,8 +51,10 @@ pub struct Table<const D: usize> {
     pub measure: Measure,
     /// The stresses.
     pub stress: Vec<Matrix<f64, D>>,
-    /// How far each number may be from what was computed, for how it was stored.
+    /// How far each stress may be from what was computed, for how it was stored.
     pub rounding: f64,
+    /// The same of each component of H.
+    pub rounding_of_gradient: f64,
 }
 
 /// What a law may lose of its digits, over the largest stress.
@@ -71,7 +73,7 @@ pub fn diagnose<const D: usize>(
 ) -> Option<Diagnosis> {
     let measure = table.measure.known(exact);
     if measure != Measure::FirstPiola {
-        hypotheses.push(Hypothesis::first_piola());
+        hypotheses.extend([Hypothesis::first_piola(), over_jacobian()]);
     }
     hypotheses.retain(|it| matches!(it.change, Change::Stress(of, _) if of != Of::Motion));
     // P is not symmetric, and has nine components, where it is called P.
@@ -79,12 +81,14 @@ pub fn diagnose<const D: usize>(
         hypotheses.extend(voigt_orders());
     }
     let deformation: Vec<_> = table.gradient.iter().map(|h| h + Matrix::identity()).collect();
-    let flat = |stress: &[Matrix<f64, D>], measure: Measure| -> Vec<f64> {
+    let flat = |deformation: &[Matrix<f64, D>], stress: &[Matrix<f64, D>], measure: Measure| {
         let pairs = deformation.iter().zip(stress);
-        pairs.flat_map(|(f, tau)| measure.of(f, tau).as_slice().to_vec()).collect()
+        let all: Vec<f64> =
+            pairs.flat_map(|(f, tau)| measure.of(f, tau).as_slice().to_vec()).collect();
+        all
     };
     let tau = exact.stress(&table.reference, &table.gradient);
-    let right = flat(&tau, measure);
+    let right = flat(&deformation, &tau, measure);
     let scale = size(&right).max(f64::MIN_POSITIVE);
     let given = table.stress.iter().flat_map(|it| it.as_slice().to_vec());
     let all: Vec<f64> = given.zip(&right).map(|(given, right)| (given - right) / scale).collect();
@@ -93,7 +97,20 @@ pub fn diagnose<const D: usize>(
     }
     let largest = right.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
     let count = (right.len() as f64).sqrt();
-    let floor = (table.rounding + ARITHMETIC * largest) * count / scale;
+    // What rounding of F makes of the stress, by its tangent.
+    let by_gradient = |entry: usize| {
+        let mut moved = table.gradient.clone();
+        moved.iter_mut().for_each(|h| h[entry] += table.rounding_of_gradient);
+        let deformation: Vec<_> = moved.iter().map(|h| h + Matrix::identity()).collect();
+        let tau = exact.stress(&table.reference, &moved);
+        size(&less(&flat(&deformation, &tau, measure), 1.0, &right))
+    };
+    let of_gradient = match table.rounding_of_gradient > 0.0 {
+        true => (0..D * D).map(by_gradient).fold(0.0, f64::hypot),
+        false => 0.0,
+    };
+    let own = (table.rounding + ARITHMETIC * largest) * count;
+    let floor = own.hypot(of_gradient) / scale;
     let wrong = |hypothesis: &Hypothesis<D>, at: &[f64]| {
         let mut wrong = tau.clone();
         let given = Given {
@@ -110,7 +127,7 @@ pub fn diagnose<const D: usize>(
             Change::Stress(Of::Measure, _) => Measure::FirstPiola,
             _ => measure,
         };
-        let mut wrong = flat(&wrong, measure);
+        let mut wrong = flat(&deformation, &wrong, measure);
         if let Change::Order(order) = hypothesis.change {
             wrong.chunks_mut(D * D).for_each(|it| reorder(it, order));
         }

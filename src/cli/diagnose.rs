@@ -131,7 +131,12 @@ impl FromStr for Alike {
             #[command(flatten)]
             method: MethodOptions,
         }
-        let words = text.split(',').map(|it| format!("--{}", it.trim().replace('_', "-")));
+        // Names of options have hyphens for underscores; their values stay as they are.
+        let word = |it: &str| match it.trim().split_once('=') {
+            Some((name, value)) => format!("--{}={value}", name.replace('_', "-")),
+            None => format!("--{}", it.trim().replace('_', "-")),
+        };
+        let words = text.split(',').map(word);
         let parsed = Options::try_parse_from(std::iter::once(String::new()).chain(words));
         parsed.map(|it| Alike(it.method)).map_err(|error| error.render().to_string())
     }

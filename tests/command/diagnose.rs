@@ -56,6 +56,28 @@ fn a_law_alone_is_named() {
     diagnose(&folder, &transposed, options).exits(1).prints("named: stress_transposed (mistake)");
     let cauchy = with(&|point| numbers(point, "cauchy_stress"));
     diagnose(&folder, &cauchy, options).exits(1).prints("named: stress_cauchy");
+    // F in single precision shows through the tangent.
+    let single = table(header, &points, |point| {
+        let f = numbers(point, "deformation_gradient");
+        [f.iter().map(|it| f64::from(*it as f32)).collect(), first(point)].concat()
+    });
+    diagnose(&folder, &single, options).exits(0).prints("nothing");
+    // P12 is missing; S/J is given as S.
+    let missing = with(&|point| {
+        let p = first(point);
+        vec![p[0], 0.0, p[2], p[3]]
+    });
+    let run = diagnose(&folder, &missing, options).exits(1);
+    run.prints("named: stress_component_missing [P12]");
+    let over = table("F11,F12,F21,F22,S11,S12,S21,S22", &points, |point| {
+        let (f, p) = (numbers(point, "deformation_gradient"), first(point));
+        let j = f[0] * f[3] - f[1] * f[2];
+        let inverse = [f[3] / j, -f[1] / j, -f[2] / j, f[0] / j];
+        let entry = |i: usize, k: usize| inverse[2 * i] * p[k] + inverse[2 * i + 1] * p[2 + k];
+        let s = [entry(0, 0), entry(0, 1), entry(1, 0), entry(1, 1)].map(|it| it / j);
+        [f, s.to_vec()].concat()
+    });
+    diagnose(&folder, &over, options).exits(1).prints("named: stress_volume [over J]");
     let unit = with(&|point| first(point).iter().map(|it| it * 1e-6).collect());
     diagnose(&folder, &unit, options).exits(1).prints("another unit: 10^-6");
     // Six digits are the floor of what can be said.

@@ -3,17 +3,27 @@
 use mms_runtime::tensor::{cofactor, determinant};
 use mms_runtime::{Body, Condition, Face, Matrix, Vector};
 
-use super::{Change, Hypothesis, Known, inverse, of_first};
+use super::{Change, Given, Hypothesis, Known, force, inverse, of_first};
 use crate::exact::Exact;
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let of = |face| match exact.domain.condition(face) {
-        Condition::Traction => of_load(face),
+        Condition::Traction => of_load(exact, face),
         Condition::Free => vec![held(face)],
         Condition::Roller => vec![free(face), held(face)],
         Condition::Fixed | Condition::Prescribed => vec![free(face)],
     };
-    faces(&exact.domain.body).into_iter().flat_map(of).collect()
+    let faces = faces(&exact.domain.body);
+    let is_loaded = |face: &&Face| exact.domain.condition(**face) == Condition::Traction;
+    let loaded = faces.iter().filter(is_loaded).count();
+    let mut all: Vec<_> = faces.iter().copied().flat_map(of).collect();
+    if loaded > 0 {
+        all.push(loads_late(exact));
+    }
+    if loaded > 1 {
+        all.extend(of_tractions(exact).into_iter().map(|it| it.of("all faces")));
+    }
+    all
 }
 
 /// The faces of a body.
@@ -77,8 +87,33 @@ fn free<const D: usize>(face: Face) -> Hypothesis<D> {
     Hypothesis::fixed("free_face", says, Change::Condition(Condition::Free)).on(face)
 }
 
-/// What may be wrong with tractions on a face.
-fn of_load<const D: usize>(face: Face) -> Vec<Hypothesis<D>> {
+/// What may be wrong with a loaded face.
+fn of_load<const D: usize>(exact: &Exact<'_, D>, face: Face) -> Vec<Hypothesis<D>> {
+    of_tractions(exact).into_iter().map(|it| it.on(face)).chain([held(face)]).collect()
+}
+
+/// Tractions of an earlier time, by the size.
+fn earlier<const D: usize>(at: &Given<'_, D>, _: Face, tau: &mut [Matrix<f64, D>]) {
+    let before = at.exact.gradient(at.time - at.size[0], at.reference);
+    let stress = at.exact.stress(at.reference, &before);
+    for (((tau, h), before), stress) in tau.iter_mut().zip(at.gradient).zip(before).zip(stress) {
+        let f: Matrix<f64, D> = before + Matrix::identity();
+        let p = stress * inverse(&f.transpose());
+        *tau = p * (h + Matrix::identity()).transpose();
+    }
+}
+
+/// All loads of an earlier time: b as well.
+fn loads_late<const D: usize>(exact: &Exact<'_, D>) -> Hypothesis<D> {
+    let says = "b and tractions of an earlier time; the size is by how much";
+    let change = Change::Loads(force::earlier, earlier);
+    let mut late = Hypothesis::amount("loads_late", says, vec![exact.time_step], change);
+    late.below = Some("loads_early");
+    late.of_steps(exact)
+}
+
+/// What may be wrong with tractions.
+fn of_tractions<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let factor = Hypothesis::factor(
         "traction_factor",
         "the traction times a factor",
@@ -93,8 +128,16 @@ fn of_load<const D: usize>(face: Face) -> Vec<Hypothesis<D>> {
         },
     );
     let made = |name, says, change| Hypothesis::fixed(name, says, Change::Surface(change));
-    let all = [
+    let mut late = Hypothesis::amount(
+        "traction_late",
+        "tractions of an earlier time; the size is by how much",
+        vec![exact.time_step],
+        Change::Surface(earlier),
+    );
+    late.below = Some("traction_early");
+    let mut all = vec![
         factor,
+        late.of_steps(exact),
         made("traction_transposed", "P^T N in place of P N", |at, _, tau| {
             of_first(at, tau, |f, p: Matrix<f64, D>| p.transpose() * f.transpose());
         }),
@@ -116,7 +159,26 @@ fn of_load<const D: usize>(face: Face) -> Vec<Hypothesis<D>> {
                 *tau *= cofactor(h).map_or(f64::NAN, |it| (it * normal(face, x)).norm());
             }
         }),
-        held(face),
     ];
-    all.into_iter().map(|hypothesis| hypothesis.on(face)).collect()
+    if D > 1 {
+        all.push(made(
+            "traction_normal",
+            "the normal part of P N alone: a pressure",
+            |at, face, tau| {
+                for ((tau, h), x) in tau.iter_mut().zip(at.gradient).zip(at.reference) {
+                    let (f, n) = (h + Matrix::identity(), normal(face, x));
+                    let p = *tau * inverse(&f.transpose());
+                    *tau = n * (n.transpose() * p * n) * n.transpose() * f.transpose();
+                }
+            },
+        ));
+    }
+    if D == 2 {
+        all.push(made("traction_swapped", "the components of P N are swapped", |at, _, tau| {
+            of_first(at, tau, |f, p: Matrix<f64, D>| {
+                Matrix::from_fn(|i, j| p[(D - 1 - i, j)]) * f.transpose()
+            });
+        }));
+    }
+    all
 }

@@ -3,7 +3,7 @@
 use mms_runtime::Vector;
 use mms_runtime::tensor::jacobian;
 
-use super::{Change, Given, Hypothesis, Known};
+use super::{Change, Given, Hypothesis, Known, OfForce};
 use crate::exact::Exact;
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
@@ -13,9 +13,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         "force_late",
         "b of an earlier time; the size is by how much",
         vec![exact.time_step],
-        Change::Force(|at, b| {
-            b.copy_from_slice(&at.exact.body_force(at.time - at.size[0], at.reference));
-        }),
+        Change::Force(earlier),
     );
     delay.below = Some("force_early");
     let delay = delay.of_steps(exact);
@@ -35,6 +33,12 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         }),
         force("force_present_density", "b with the present density: b = a - Div P/rho", |at, b| {
             change(at, b, |right, inertia, j| inertia + (right - inertia) * j)
+        }),
+        force("force_times_jacobian", "b J in place of b", |at, b| {
+            change(at, b, |right, _, j| right * j);
+        }),
+        force("force_over_jacobian", "b/J in place of b", |at, b| {
+            change(at, b, |right, _, j| right / j);
         }),
         force("force_at_present", "b at the present place x in place of X", |at, b| {
             let u = at.exact.displacement(at.time, at.reference);
@@ -80,8 +84,39 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     ];
     if D > 1 {
         all.extend(of_rotating_frame(exact));
+        all.extend(of_components());
+    }
+    if D == 2 {
+        all.push(force("force_swapped", "the components of b are swapped", |_, b| {
+            b.iter_mut().for_each(|b| *b = Vector::from_fn(|i, _| b[D - 1 - i]));
+        }));
     }
     all
+}
+
+/// b of an earlier time, by the size.
+pub(super) fn earlier<const D: usize>(at: &Given<'_, D>, b: &mut [Vector<f64, D>]) {
+    b.copy_from_slice(&at.exact.body_force(at.time - at.size[0], at.reference));
+}
+
+/// What may be wrong with one component of b.
+fn of_components<const D: usize>() -> Vec<Hypothesis<D>> {
+    let of = |which, change| {
+        let says = "one component of b times a factor";
+        let known = |_: &Exact<'_, D>| {
+            vec![
+                Known::new(0.0, "force_component_missing", "one component of b is missing"),
+                Known::new(-1.0, "force_component_sign", "one component of b has the other sign"),
+            ]
+        };
+        Hypothesis::factor("force_component", says, 0.0, Change::Force(change), known).of(which)
+    };
+    let all: [(&str, OfForce<D>); 3] = [
+        ("x", |at, b| b.iter_mut().for_each(|b| b[0] *= at.size[0])),
+        ("y", |at, b| b.iter_mut().for_each(|b| b[1] *= at.size[0])),
+        ("z", |at, b| b.iter_mut().for_each(|b| b[2] *= at.size[0])),
+    ];
+    all.into_iter().take(D).map(|(which, change)| of(which, change)).collect()
 }
 
 /// What b has besides in a frame that rotates about axes through the origin.

@@ -20,6 +20,7 @@ use crate::slopes::Slopes;
 
 pub use face::{away, faces};
 pub use output::earlier_velocity;
+pub use stress::over_jacobian;
 pub use tangent::{of_tangent, voigt_orders};
 
 /// Where a hypothesis is evaluated: X, and H where that is known.
@@ -84,6 +85,8 @@ pub enum Change<const D: usize> {
     Stress(Of, OfStress<D>),
     /// tau whose tractions act on the face.
     Surface(OfTraction<D>),
+    /// b, and tau whose tractions act on all loaded faces.
+    Loads(OfForce<D>, OfTraction<D>),
     /// rho0, by the size as a factor.
     Density,
     /// The mass, by the size as a factor, and no force: neither that of the stress nor b.
@@ -109,6 +112,7 @@ impl<const D: usize> Change<D> {
             Change::Force(_) => "body force",
             Change::Stress(..) => "stress",
             Change::Surface(_) => "traction",
+            Change::Loads(..) => "loads",
             Change::Density | Change::Mass => "mass",
             Change::Start(_) => "start",
             Change::Wall(_) => "prescribed motion",
@@ -137,7 +141,7 @@ impl Known {
 }
 
 /// Whether somebody made a mistake, or chose something else.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A mistake.
     Mistake,
@@ -186,6 +190,8 @@ pub struct Hypothesis<const D: usize> {
     pub change: Change<D>,
     /// Its size.
     pub size: Size,
+    /// Other sizes at which the response is found first, where what is large is not linear.
+    pub also: Vec<f64>,
     /// Sizes with names of their own, of this field.
     pub known: fn(&Exact<'_, D>) -> Vec<Known>,
     /// The name below the right size, where that has one.
@@ -207,6 +213,7 @@ impl<const D: usize> Hypothesis<D> {
             kind: Kind::Mistake,
             change,
             size: Size::Fixed,
+            also: Vec::new(),
             known: |_| Vec::new(),
             below: None,
             face: None,
@@ -260,6 +267,11 @@ impl<const D: usize> Hypothesis<D> {
 
     fn choice(self) -> Self {
         Hypothesis { kind: Kind::Choice, ..self }
+    }
+
+    /// The same, as one of several.
+    fn of(self, which: &'static str) -> Self {
+        Hypothesis { which: Some(which), ..self }
     }
 
     fn on(self, face: Face) -> Self {

@@ -8,6 +8,27 @@ use crate::exact::{Exact, Quantity};
 /// By how many cells results may be off: more is another mistake.
 const CELLS: f64 = 2.0;
 
+/// In how many parts of the time window results of another time are looked for.
+const PARTS: i32 = 16;
+
+/// Results of another time, whatever the time step: as those of another frame.
+fn another_time<const D: usize>(exact: &Exact<'_, D>) -> Hypothesis<D> {
+    let window = exact.domain.time[1] - exact.domain.time[0];
+    let part = |k: i32| f64::from(k) * window / f64::from(PARTS);
+    let says =
+        "results of another time, as of another frame; the size is by how much later, in seconds";
+    let change = Change::Output(|at: &Given<'_, D>, quantity| {
+        let (time, [first, last]) = (at.time + at.size[0], at.exact.domain.time);
+        let values = at.exact.values(quantity, time, at.reference);
+        // No frame is of a time outside the window.
+        let is_within = first <= time && time <= last;
+        if is_within { values } else { vec![f64::NAN; values.len()] }
+    });
+    let mut found = Hypothesis::amount("output_time", says, vec![part(1)], change);
+    found.also = (2..=PARTS).flat_map(|k| [part(k), part(-k)]).collect();
+    found.within([-window, window]).of("seconds")
+}
+
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let length = CELLS * exact.cell_size;
     let mut all = vec![
@@ -20,6 +41,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             }),
         )
         .of_steps(exact),
+        another_time(exact),
         Hypothesis::amount(
             "points_offset",
             "results belong to points beside X; the size is by how much",

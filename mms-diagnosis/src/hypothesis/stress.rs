@@ -3,12 +3,12 @@
 use mms_runtime::Matrix;
 use mms_runtime::tensor::determinant;
 
-use super::{Change, Given, Hypothesis, Known, Of, inverse, of_first};
+use super::{Change, Given, Hypothesis, Known, Of, OfStress, inverse, of_first};
 use crate::exact::Exact;
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let stress = |of, name, says, change| Hypothesis::fixed(name, says, Change::Stress(of, change));
-    vec![
+    let mut all: Vec<Hypothesis<D>> = vec![
         stress(Of::Measure, "stress_transposed", "P^T in place of P", |at, tau| {
             of_first(at, tau, |f, p| p.transpose() * f.transpose());
         }),
@@ -122,7 +122,65 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         .within([0.0, f64::MAX])
         .of_mesh()
         .choice(),
-    ]
+    ];
+    if D > 1 {
+        all.extend(of_components());
+    }
+    all
+}
+
+/// What may be wrong with the components of P aside of the diagonal.
+fn of_components<const D: usize>() -> Vec<Hypothesis<D>> {
+    let says = "the components of P aside of the diagonal times a factor";
+    let shear: OfStress<D> = |at, tau| {
+        let size = at.size[0];
+        of_first(at, tau, |f, p| {
+            let diagonal = Matrix::from_diagonal(&p.diagonal());
+            (diagonal + (p - diagonal) * size) * f.transpose()
+        });
+    };
+    let known =
+        |_: &Exact<'_, D>| vec![Known::new(0.5, "shear_half_of_first_piola", "half of them")];
+    let factor = Hypothesis::factor(
+        "shear_factor_of_first_piola",
+        says,
+        0.5,
+        Change::Stress(Of::Stress, shear),
+        known,
+    );
+    let missing: [(&str, [usize; 2], OfStress<D>); 6] = [
+        ("P12", [0, 1], |at, tau| without(at, tau, [0, 1])),
+        ("P21", [1, 0], |at, tau| without(at, tau, [1, 0])),
+        ("P13", [0, 2], |at, tau| without(at, tau, [0, 2])),
+        ("P31", [2, 0], |at, tau| without(at, tau, [2, 0])),
+        ("P23", [1, 2], |at, tau| without(at, tau, [1, 2])),
+        ("P32", [2, 1], |at, tau| without(at, tau, [2, 1])),
+    ];
+    let own = missing.into_iter().filter(|(_, [i, j], _)| *i < D && *j < D);
+    let missing = own.map(|(which, _, change)| {
+        let says = "one component of P is missing";
+        Hypothesis::fixed("stress_component_missing", says, Change::Stress(Of::Stress, change))
+            .of(which)
+    });
+    std::iter::once(factor).chain(missing).collect()
+}
+
+/// Takes a component of P out.
+fn without<const D: usize>(at: &Given<'_, D>, tau: &mut [Matrix<f64, D>], [i, j]: [usize; 2]) {
+    of_first(at, tau, |f, mut p| {
+        p[(i, j)] = 0.0;
+        p * f.transpose()
+    });
+}
+
+/// A stress divided by J, in whatever measure it is asked for.
+pub fn over_jacobian<const D: usize>() -> Hypothesis<D> {
+    let change = Change::Stress(Of::Stress, |at: &Given<'_, D>, tau: &mut [Matrix<f64, D>]| {
+        for (tau, h) in tau.iter_mut().zip(at.gradient) {
+            *tau /= determinant(&(h + Matrix::identity()));
+        }
+    });
+    Hypothesis::fixed("stress_volume", "the stress divided by J", change).of("over J")
 }
 
 /// D, the symmetric rate of deformation.

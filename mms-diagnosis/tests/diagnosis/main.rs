@@ -65,7 +65,14 @@ fn of_law(stress: impl Fn(&Tensor) -> Tensor) -> Diagnosis {
     let gradient: Vec<Tensor> = points(5).iter().map(|x| field::gradient(0.0, x) * 3.0).collect();
     let stress: Vec<Tensor> = gradient.iter().map(stress).collect();
     let reference = points(5);
-    let table = Table { reference, gradient, measure: Measure::FirstPiola, stress, rounding: 0.0 };
+    let table = Table {
+        reference,
+        gradient,
+        measure: Measure::FirstPiola,
+        stress,
+        rounding: 0.0,
+        rounding_of_gradient: 0.0,
+    };
     table::diagnose(&exact, &table, all(&exact)).unwrap()
 }
 
@@ -156,8 +163,16 @@ fn of_accelerations(acceleration: impl Fn(&Point) -> Point) -> Diagnosis {
     let reference = points.iter().flat_map(|x| x.as_slice().to_vec()).collect();
     let computed = Computed::Acceleration;
     let without = Without::default();
-    let response =
-        Response { computed, time, reference, values, volumes: None, without, step: None };
+    let response = Response {
+        computed,
+        time,
+        reference,
+        values,
+        volumes: None,
+        degree: None,
+        without,
+        step: None,
+    };
     state::diagnose(&exact, &response, &all(&exact)).unwrap()
 }
 
@@ -234,7 +249,12 @@ fn of_step(velocity: impl Fn(&Point) -> Point) -> Diagnosis {
     let points = points(24);
     let values = points.iter().flat_map(|x| velocity(x).as_slice().to_vec()).collect();
     let reference = points.iter().flat_map(|x| x.as_slice().to_vec()).collect();
-    let snapshot = Snapshot { time: STEP, reference, values: vec![(Quantity::Velocity, values)] };
+    let snapshot = Snapshot {
+        time: STEP,
+        reference,
+        values: vec![(Quantity::Velocity, values)],
+        ..Snapshot::default()
+    };
     let mesh = Mesh { cell_size: 1.0 / 24.0, snapshots: vec![snapshot] };
     let response = step::response(&exact, &[mesh], Without::default()).unwrap();
     state::diagnose(&exact, &response, &all(&exact)).unwrap()
@@ -262,6 +282,7 @@ fn results_after_many_steps_are_none_of_one() {
         time,
         reference: vec![0.5, 0.5],
         values: vec![(Quantity::Velocity, vec![0.0, 0.0])],
+        ..Snapshot::default()
     };
     let of = |snapshots| Mesh { cell_size: 1.0 / 24.0, snapshots };
     let response = |mesh| step::response(&exact, &[mesh], Without::default());
@@ -370,7 +391,7 @@ fn of_solver(mistaken: &Mistaken) -> Diagnosis {
     let pairs = state.position.iter().zip(&state.displacement);
     let reference: Vec<f64> = pairs.map(|(x, u)| x - u).collect();
     let values = vec![(Quantity::Displacement, state.displacement.clone())];
-    let snapshots = vec![Snapshot { time: state.time, reference, values }];
+    let snapshots = vec![Snapshot { time: state.time, reference, values, ..Snapshot::default() }];
     said(&[Mesh { cell_size: 1.0 / 12.0, snapshots }])
 }
 
@@ -499,7 +520,12 @@ fn of_results(displacement: impl Fn(f64, &Point) -> Point) -> Diagnosis {
     let snapshot = |time: f64| {
         let u = points.iter().flat_map(|x| displacement(time, x).as_slice().to_vec()).collect();
         let reference = points.iter().flat_map(|x| x.as_slice().to_vec()).collect();
-        Snapshot { time, reference, values: vec![(Quantity::Displacement, u)] }
+        Snapshot {
+            time,
+            reference,
+            values: vec![(Quantity::Displacement, u)],
+            ..Snapshot::default()
+        }
     };
     said(&[Mesh { cell_size: 1.0 / 12.0, snapshots: vec![snapshot(0.015), snapshot(0.03)] }])
 }
@@ -547,6 +573,7 @@ fn velocities_of_half_a_step_earlier_are_no_mistake() {
             (Quantity::Displacement, numbers(&|x| field::displacement(time, x))),
             (Quantity::Velocity, numbers(&|x| field::velocity(time - before, x))),
         ],
+        ..Snapshot::default()
     };
     let snapshots = vec![snapshot(0.015), snapshot(0.03)];
     let found = said(&[Mesh { cell_size: 1.0 / 12.0, snapshots }]);

@@ -98,6 +98,7 @@ fn without(without: Without, code: &Code) -> Diagnosis {
         reference: numbers(nodes(code.cells)),
         values: numbers(assembled(code)),
         volumes: None,
+        degree: None,
         without,
         step: None,
     };

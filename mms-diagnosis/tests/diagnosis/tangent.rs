@@ -204,7 +204,14 @@ fn orders_of_voigt_are_named_in_space() {
         });
         let stress = stress.collect();
         let (reference, gradient) = (reference.clone(), gradient.clone());
-        let table = table::Table { reference, gradient, measure, stress, rounding: 0.0 };
+        let table = table::Table {
+            reference,
+            gradient,
+            measure,
+            stress,
+            rounding: 0.0,
+            rounding_of_gradient: 0.0,
+        };
         table::diagnose(&exact, &table, all(&exact)).unwrap()
     };
     // 11, 22, 33, 23, 12, 13 under the names 11, 22, 33, 12, 13, 23.

@@ -1,5 +1,7 @@
 //! From the results of a solver to what diagnosis looks at: results, accelerations at an exact state, or a table of a law.
 
+mod nodes;
+
 use anyhow::{Context as _, bail, ensure};
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::{Mesh as Level, Snapshot as Instant};
@@ -7,11 +9,12 @@ use mms_diagnosis::exact::Quantity;
 use mms_diagnosis::scene::{Evidence, LawOf, TangentOf};
 use mms_diagnosis::state::{Computed, Response};
 use mms_diagnosis::table::Measure;
-use mms_results::Snapshot;
 use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, resolve};
 use mms_results::names::{Mapping, Meaning, Role, Values, recognise, wanted};
+use mms_results::{Snapshot, Stored};
 
+use self::nodes::{Nodes, volumes};
 use crate::judge::results::{Results, placed, room};
 use crate::session::exact::Exact;
 
@@ -173,6 +176,7 @@ fn law(
     );
     Ok(Evidence::Law(LawOf {
         reference,
+        rounding_of_gradient: if h.stored == Stored::Double { 0.0 } else { h.rounding },
         gradient: h.numbers.into_owned(),
         measure,
         rounding: stress.rounding,
@@ -199,6 +203,7 @@ fn state(
         }
         let time = time(snapshot, reading, 0)?;
         let motion = motion(snapshot, &meanings, time, exact)?;
+        let rounding = motion.reference.rounding;
         let reference = motion.reference.numbers.into_owned();
         let u = motion.displacement.map(|it| it.numbers);
         let right = exact.values(mms_spec::quantity::Quantity::Displacement, time, &reference)?;
@@ -207,27 +212,35 @@ fn state(
             return Ok(None);
         }
         let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
-        let volumes = match values(&meanings, Role::Volume, snapshot, 1)? {
-            _ if computed == Computed::NodalResidual => None,
-            Some(volumes) => Some(volumes.numbers.into_owned()),
-            None if mesh.sizes().is_some() => {
-                Some(mesh.volumes().map_err(|it| placed(it.of(&snapshot.path)))?)
+        let volumes = match computed {
+            Computed::NodalResidual => None,
+            _ => {
+                let column = values(&meanings, Role::Volume, snapshot, 1)?;
+                Some(volumes(column, &mesh, (time, rounding, &snapshot.path), exact)?)
             }
-            None => None,
         };
         let cell_size = size(reading.sizes.last().copied(), &mesh, exact);
+        let degree = degree(&mesh);
+        let nodes = Nodes { reference, values: found.numbers.into_owned(), volumes };
+        let Nodes { reference, values, volumes } = nodes.merged(exact, &snapshot.path)?;
         let response = Response {
             computed,
             time,
             reference,
-            values: found.numbers.into_owned(),
+            values,
             volumes,
+            degree,
             without: Without::default(),
             step: None,
         };
         return Ok(Some(Evidence::State { response, cell_size }));
     }
     Ok(None)
+}
+
+/// The lowest degree of the cells, if there are such.
+fn degree(mesh: &Mesh<'_>) -> Option<u32> {
+    mesh.full().map(|(_, shape, _)| shape.degree()).min()
 }
 
 /// X and u of a snapshot at a time.
@@ -267,7 +280,7 @@ fn level(
     results: &Results,
     reading: &Reading<'_>,
     given: Option<f64>,
-    exact: &Exact,
+    exact: &mut Exact,
 ) -> anyhow::Result<Level> {
     let mut level = Level::default();
     for (at, snapshot) in results.snapshots.iter().enumerate() {
@@ -275,6 +288,7 @@ fn level(
             (exact.dimension, meanings(snapshot, reading, exact.dimension)?);
         let time = time(snapshot, reading, at)?;
         let motion = motion(snapshot, &meanings, time, exact)?;
+        let rounding = motion.reference.rounding;
         let reference = motion.reference.numbers.into_owned();
         let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
         level.cell_size = size(given, &mesh, exact);
@@ -289,7 +303,10 @@ fn level(
             "{}: nothing to diagnose; expected u, v, F, accelerations or residuals; name them with `--map u=..`",
             snapshot.path
         );
-        level.snapshots.push(Instant { time, reference, values });
+        let column = self::values(&meanings, Role::Volume, snapshot, 1)?;
+        let volumes = volumes(column, &mesh, (time, rounding, &snapshot.path), exact).ok();
+        let degree = degree(&mesh);
+        level.snapshots.push(Instant { time, reference, values, volumes, degree });
     }
     ensure!(!level.snapshots.is_empty(), "`{}`: no results", results.name);
     Ok(level)

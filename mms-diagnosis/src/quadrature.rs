@@ -1,0 +1,207 @@
+//! Gauss quadrature over a body and its faces.
+
+use std::f64::consts::FRAC_PI_2;
+
+use mms_runtime::{Body, Face, Vector};
+
+use crate::hypothesis::faces;
+use crate::smooth::legendre;
+
+/// Points with weights over a body, and over its faces.
+pub struct Quadrature<const D: usize> {
+    /// X of the points in the body.
+    pub points: Vec<Vector<f64, D>>,
+    /// Their volumes, which add up to that of the body.
+    pub volumes: Vec<f64>,
+    /// The pieces of all faces.
+    pub pieces: Vec<Piece<D>>,
+}
+
+/// A point of a face.
+pub struct Piece<const D: usize> {
+    /// The face.
+    pub face: Face,
+    /// X.
+    pub position: Vector<f64, D>,
+    /// Its part of the area times the outward normal.
+    pub area: Vector<f64, D>,
+}
+
+impl<const D: usize> Quadrature<D> {
+    /// So many points along each axis of a box, along the radius, and in each quarter turn of an annulus.
+    pub fn new(body: &Body<f64, D>, count: usize) -> Self {
+        let (mut points, mut volumes) = (Vec::new(), Vec::new());
+        match body {
+            Body::Box { lower, upper } => {
+                let axes = std::array::from_fn(|axis| over([lower[axis], upper[axis]], 1, count));
+                for (x, weight) in products::<D>(&axes) {
+                    points.push(x);
+                    volumes.push(weight);
+                }
+            }
+            Body::Annulus { inner, outer, theta } => {
+                for (angle, arc) in around(*theta, count) {
+                    for (radius, along) in over([*inner, *outer], 1, count) {
+                        points.push(turned([radius, 0.0], angle));
+                        volumes.push(arc * along * radius);
+                    }
+                }
+            }
+        }
+        let pieces = faces(body).into_iter().flat_map(|face| on_face(body, face, count)).collect();
+        Quadrature { points, volumes, pieces }
+    }
+}
+
+/// The points of a face.
+fn on_face<const D: usize>(body: &Body<f64, D>, face: Face, count: usize) -> Vec<Piece<D>> {
+    match (body, face) {
+        (Body::Box { lower, upper }, Face::Min(normal) | Face::Max(normal)) => {
+            let (end, sign) = match face {
+                Face::Min(_) => (lower[normal], -1.0),
+                _ => (upper[normal], 1.0),
+            };
+            let axes = std::array::from_fn(|axis| match axis == normal {
+                true => vec![(end, 1.0)],
+                false => over([lower[axis], upper[axis]], 1, count),
+            });
+            let piece = |(position, weight): (Vector<f64, D>, f64)| {
+                let area =
+                    Vector::from_fn(|axis, _| if axis == normal { sign * weight } else { 0.0 });
+                Piece { face, position, area }
+            };
+            products::<D>(&axes).into_iter().map(piece).collect()
+        }
+        (Body::Annulus { inner, outer, theta }, Face::Inner | Face::Outer) => {
+            let (radius, sign) = if face == Face::Inner { (*inner, -1.0) } else { (*outer, 1.0) };
+            let piece = |(angle, arc): (f64, f64)| Piece {
+                face,
+                position: turned([radius, 0.0], angle),
+                area: turned([sign * radius * arc, 0.0], angle),
+            };
+            around(*theta, count).into_iter().map(piece).collect()
+        }
+        (Body::Annulus { inner, outer, theta: [first, last] }, _) => {
+            let (angle, sign) = if face == Face::ThetaMin { (*first, -1.0) } else { (*last, 1.0) };
+            let piece = |(radius, along): (f64, f64)| Piece {
+                face,
+                position: turned([radius, 0.0], angle),
+                area: turned([0.0, sign * along], angle),
+            };
+            over([*inner, *outer], 1, count).into_iter().map(piece).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// A vector in the plane, turned by an angle.
+fn turned<const D: usize>([x, y]: [f64; 2], angle: f64) -> Vector<f64, D> {
+    let (sine, cosine) = angle.sin_cos();
+    Vector::from_fn(|axis, _| match axis {
+        0 => x * cosine - y * sine,
+        1 => x * sine + y * cosine,
+        _ => 0.0,
+    })
+}
+
+/// Angles from one to another, with their arcs.
+fn around(theta: [f64; 2], count: usize) -> Vec<(f64, f64)> {
+    let quarters = ((theta[1] - theta[0]) / FRAC_PI_2).ceil().max(1.0);
+    over(theta, quarters as usize, count)
+}
+
+/// All combinations of places along the axes, with the products of their weights.
+fn products<const D: usize>(axes: &[Vec<(f64, f64)>; D]) -> Vec<(Vector<f64, D>, f64)> {
+    let mut all = vec![(Vector::zeros(), 1.0)];
+    for (axis, places) in axes.iter().enumerate() {
+        let each = all.iter().flat_map(|(x, weight)| {
+            places.iter().map(move |(place, own)| {
+                let mut x: Vector<f64, D> = *x;
+                x[axis] = *place;
+                (x, weight * own)
+            })
+        });
+        all = each.collect();
+    }
+    all
+}
+
+/// Points with weights in parts of equal length between two ends.
+fn over([from, to]: [f64; 2], parts: usize, count: usize) -> Vec<(f64, f64)> {
+    let (rule, part) = (gauss(count), (to - from) / parts as f64);
+    let within = |at: usize| {
+        let start = from + part * at as f64;
+        rule.iter().map(move |(x, weight)| (start + part * x, part * weight))
+    };
+    (0..parts).flat_map(within).collect()
+}
+
+/// Points and weights of Gauss and Legendre on [0, 1]: the roots of a polynomial, by Newton's method.
+fn gauss(count: usize) -> Vec<(f64, f64)> {
+    let scale = (2.0 * count as f64 + 1.0).sqrt();
+    let polynomial = |x: f64| {
+        let (value, slope) = legendre(count, x)[count];
+        (value / scale, slope / scale)
+    };
+    let root = |at: usize| {
+        let turn = std::f64::consts::PI * (at as f64 + 0.75) / (count as f64 + 0.5);
+        let mut x = turn.cos();
+        for _ in 0..8 {
+            let (value, slope) = polynomial(x);
+            x -= value / slope;
+        }
+        ((1.0 - x) / 2.0, 1.0 / ((1.0 - x * x) * polynomial(x).1.powi(2)))
+    };
+    (0..count).map(root).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Integrals of x^a y^b, from paper; and the theorem of Gauss for vectors (x^a y^b, 0) and (0, x^a y^b).
+    #[test]
+    fn polynomials_are_integrated_exactly() {
+        let unit = Body::Box { lower: Vector::from([1.0, -1.0]), upper: Vector::from([3.0, 2.0]) };
+        let quadrature = Quadrature::<2>::new(&unit, 5);
+        let sum = |power: [i32; 2]| -> f64 {
+            let value = |x: &Vector<f64, 2>| x[0].powi(power[0]) * x[1].powi(power[1]);
+            quadrature.points.iter().zip(&quadrature.volumes).map(|(x, v)| v * value(x)).sum()
+        };
+        let along = |power: i32, [a, b]: [f64; 2]| {
+            (b.powi(power + 1) - a.powi(power + 1)) / f64::from(power + 1)
+        };
+        for power in [[0, 0], [9, 0], [4, 7], [1, 9]] {
+            let exact = along(power[0], [1.0, 3.0]) * along(power[1], [-1.0, 2.0]);
+            assert!((sum(power) - exact).abs() < 1e-12 * exact.abs().max(1.0), "{power:?}");
+        }
+    }
+
+    #[test]
+    fn faces_close_the_body() {
+        let bodies = [
+            Body::Annulus { inner: 1.0, outer: 2.0, theta: [0.3, 2.9] },
+            Body::Annulus { inner: 0.5, outer: 2.0, theta: [0.0, std::f64::consts::TAU] },
+            Body::Box { lower: Vector::from([1.0, -1.0]), upper: Vector::from([3.0, 2.0]) },
+        ];
+        for body in bodies {
+            let Quadrature { points, volumes, pieces } = Quadrature::<2>::new(&body, 14);
+            for [a, b] in [[1, 0], [0, 1], [3, 2], [2, 3]] {
+                let value = |x: &Vector<f64, 2>| x[0].powi(a) * x[1].powi(b);
+                let slope = |x: &Vector<f64, 2>| f64::from(a) * x[0].powi(a - 1) * x[1].powi(b);
+                let inside: f64 = points.iter().zip(&volumes).map(|(x, v)| v * slope(x)).sum();
+                let through: f64 = pieces.iter().map(|it| it.area[0] * value(&it.position)).sum();
+                assert!((inside - through).abs() < 1e-11, "{body:?}: {inside}, {through}");
+            }
+        }
+        let cube = Body::Box { lower: Vector::zeros(), upper: Vector::from([1.0, 2.0, 3.0]) };
+        let Quadrature { volumes, pieces, .. } = Quadrature::<3>::new(&cube, 3);
+        assert!((volumes.iter().sum::<f64>() - 6.0).abs() < 1e-13);
+        let through: f64 = pieces.iter().map(|it| it.area.dot(&it.position)).sum();
+        assert!((through - 18.0).abs() < 1e-12);
+        let line = Body::Box { lower: Vector::from([1.0]), upper: Vector::from([4.0]) };
+        let ends: Vec<_> =
+            Quadrature::<1>::new(&line, 2).pieces.iter().map(|it| it.area[0]).collect();
+        assert_eq!(ends, [-1.0, 1.0]);
+    }
+}
