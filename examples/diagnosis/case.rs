@@ -129,7 +129,8 @@ fn snapshot<const D: usize>(
         let right = exact.values(Quantity::Displacement, state.time, &points);
         u.iter_mut().zip(wrong).zip(right).for_each(|((u, wrong), right)| *u += wrong - right);
     }
-    Snapshot { time: state.time, reference, values: vec![(Quantity::Displacement, u)] }
+    let values = vec![(Quantity::Displacement, u)];
+    Snapshot { time: state.time, reference, values, ..Snapshot::default() }
 }
 
 /// A method that a user may have.

@@ -108,8 +108,10 @@ where
     let plan = Plan::new(exact, &frame, &mesh, Without::default(), None, MOST_WORK)?;
     let right = plan.right(0).ok_or(Obstacle::NotFinite)?;
     let runs = Runs { exact, frame: &frame, mesh: &mesh, plan, right, errors: &study.errors };
+    // Large sizes of a mistake have a hypothesis of their own, which excludes nothing more.
+    let hypotheses: Vec<_> = hypotheses.iter().filter(|it| it.also.is_empty()).collect();
     let one = |at: usize| {
-        let it = &hypotheses[at];
+        let it = hypotheses[at];
         Excluded {
             name: title(it.name, it.which, None),
             title: it.title(),
