@@ -139,6 +139,8 @@ fn orders_need_not_settle_where_theory_gives_a_bound() {
     };
     let settled = Expected { settles: true, ..rough };
     assert_eq!(found(&[2.6, 2.83, 2.25], settled), Verdict::NotAsymptotic);
+    // The highest order is tried first.
+    assert_eq!(found(&[2.87, 3.03, 3.08], settled), Verdict::Pass);
     assert_eq!(found(&[2.6, 2.83, 2.25], rough), Verdict::Pass);
     assert_eq!(found(&[2.1, 2.2, 1.8], rough), Verdict::NotAsymptotic);
     assert_eq!(found(&[1.3, 1.1, 1.0], rough), Verdict::Fail);

@@ -45,7 +45,7 @@ const NEARER: f64 = 1.3;
 /// The error that right methods may make besides, over that of the terms of elements of degree 1: of residuals, and of
 /// accelerations, which a consistent mass makes depend on their neighbours.
 const METHOD: [f64; 2] = [0.75, 1.25];
-/// What arithmetic may leave of sums, over the largest.
+/// The part of sums that arithmetic may leave, over the largest.
 const ARITHMETIC: f64 = 1e-10;
 
 impl Response {

@@ -70,7 +70,7 @@ impl Sums {
         pairs.map(|(a, b)| size(&less(a, 1.0, b))).fold(0.0, f64::max)
     }
 
-    /// What a solver computes of it, whose density is so many times the right one.
+    /// The sums that a solver computes whose density is so many times the right one.
     pub fn computed(&self, computed: Computed, density: f64) -> Vec<f64> {
         let Sums { inertia, stress, force, traction } = self;
         let all = inertia.iter().zip(stress).zip(force).zip(traction);
@@ -110,11 +110,11 @@ impl<'a, const D: usize> Right<'a, D> {
             let sums = weak.sums(&Changed::right(exact, without));
             Ok((weak, sums))
         };
-        let [first, others @ ..] = RULES[D - 1] else { unreachable!("there are rules") };
-        let (mut weak, mut sums) = by(*first)?;
+        let rules = RULES[D - 1];
+        let (mut weak, mut sums) = by(rules[0])?;
         let mut off = f64::INFINITY;
-        for count in others {
-            let (finer, found) = by(*count)?;
+        for &count in &rules[1..] {
+            let (finer, found) = by(count)?;
             off = found.apart(&sums) / found.scale();
             (weak, sums) = (finer, found);
             if off <= AGREED {
@@ -292,7 +292,7 @@ impl<'a, const D: usize> Weak<'a, D> {
 
 /// The errors that right elements of degree 1 make in such sums, which fall with h^2.
 pub struct OfElements {
-    /// Of right methods: with a lumped and with a consistent mass.
+    /// Those of right methods: with a lumped and with a consistent mass.
     pub methods: Vec<Vec<f64>>,
     /// The size of their terms.
     pub size: f64,
@@ -362,7 +362,7 @@ impl<const D: usize> Weak<'_, D> {
         sum
     }
 
-    /// Of w in what acts on the body and in the inertia, of forces at nodes; else of what acts on faces alone.
+    /// The term of w: in what acts on the body and in the inertia, of forces at nodes; else in what acts on faces alone.
     fn of_functions(&self, computed: Computed, without: &Without, axes: &Axes<D>) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         if computed == Computed::NodalResidual {
@@ -385,7 +385,7 @@ impl<const D: usize> Weak<'_, D> {
         sums
     }
 
-    /// Of u in the stress: a small part of the change of H is taken, and its effect scaled.
+    /// The term of u in the stress: a small part of the change of H is taken, and its effect scaled.
     fn of_displacements(&self, without: &Without, axes: &Axes<D>) -> Vec<f64> {
         let h = self.exact.gradient(self.time, &self.quadrature.points);
         let bent = self.curved(|x| self.exact.gradient(self.time, x), axes);
@@ -398,7 +398,7 @@ impl<const D: usize> Weak<'_, D> {
         less(&bent, 1.0, &straight).iter().map(|it| it / part).collect()
     }
 
-    /// Of a.w less that of a and of w, each by itself.
+    /// The term of a.w less those of a and of w, each by itself.
     fn of_products(
         &self,
         inertia: impl Fn(&[Vector<f64, D>]) -> Vec<Vector<f64, D>>,

@@ -87,7 +87,7 @@ fn free<const D: usize>(face: Face) -> Hypothesis<D> {
     Hypothesis::fixed("free_face", says, Change::Condition(Condition::Free)).on(face)
 }
 
-/// What may be wrong with a loaded face.
+/// The mistakes on a loaded face.
 fn of_load<const D: usize>(exact: &Exact<'_, D>, face: Face) -> Vec<Hypothesis<D>> {
     of_tractions(exact).into_iter().map(|it| it.on(face)).chain([held(face)]).collect()
 }
@@ -112,7 +112,7 @@ fn loads_late<const D: usize>(exact: &Exact<'_, D>) -> Hypothesis<D> {
     late.of_steps(exact)
 }
 
-/// What may be wrong with tractions.
+/// The mistakes in tractions.
 fn of_tractions<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let factor = Hypothesis::factor(
         "traction_factor",

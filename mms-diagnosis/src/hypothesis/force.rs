@@ -99,7 +99,7 @@ pub(super) fn earlier<const D: usize>(at: &Given<'_, D>, b: &mut [Vector<f64, D>
     b.copy_from_slice(&at.exact.body_force(at.time - at.size[0], at.reference));
 }
 
-/// What may be wrong with one component of b.
+/// The mistakes in one component of b.
 fn of_components<const D: usize>() -> Vec<Hypothesis<D>> {
     let of = |which, change| {
         let says = "one component of b times a factor";

@@ -129,7 +129,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     all
 }
 
-/// What may be wrong with the components of P aside of the diagonal.
+/// The mistakes in the components of P aside of the diagonal.
 fn of_components<const D: usize>() -> Vec<Hypothesis<D>> {
     let says = "the components of P aside of the diagonal times a factor";
     let shear: OfStress<D> = |at, tau| {
