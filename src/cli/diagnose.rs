@@ -13,7 +13,7 @@ use mms_results::names::Mapping;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::diagnose::{Alone, Reading, find, read};
-use crate::report::{Diagnosed, Hypotheses};
+use crate::report::{Diagnosed, Hypotheses, Plan, Step};
 use crate::session::exact::Exact;
 use crate::session::input::{Input, Variant};
 use crate::session::method::{MethodOptions, finite, positive};
@@ -37,12 +37,23 @@ pub struct Diagnose {
     #[arg(required_unless_present = "list")]
     field: Option<String>,
     /// Results, each of one mesh, at one time or more, as for `mms judge`.
-    #[arg(value_name = "FILE", required_unless_present = "list")]
+    #[arg(value_name = "FILE", required_unless_present_any = ["list", "plan"])]
     files: Vec<String>,
     /// List the hypotheses about a field: what each is, what it changes, what shows it, whether it is a mistake or a choice.
     /// Without a FIELD, about a square with loads.
     #[arg(long, conflicts_with = "files")]
     list: bool,
+    /// Print the steps from the first on: what each needs of your code, what it costs, the command, and the mistakes that it can
+    /// see. STEPs are those that your code can output; without one, all.
+    #[arg(
+        long,
+        value_name = "STEP,..",
+        num_args = 0..=1,
+        value_delimiter = ',',
+        requires = "field",
+        conflicts_with_all = ["files", "list"]
+    )]
+    plan: Option<Vec<Step>>,
     /// What is looked at: `stress` is the law alone, in a table of F and P, S, sigma or tau; `tangent` likewise, in one of F and
     /// DDSDDE.
     #[arg(long, value_name = "stress|tangent")]
@@ -160,6 +171,11 @@ impl Diagnose {
         if self.list {
             let report = Hypotheses { field: &input.name, all: scene::hypotheses(&scene) };
             self.show(|| report.table(), || report.document())?;
+            return Ok(Outcome::AsExpected);
+        }
+        if let Some(steps) = &self.plan {
+            let plan = Plan::new(&input.name, steps, scene::hypotheses(&scene));
+            self.show(|| plan.text(), || plan.document())?;
             return Ok(Outcome::AsExpected);
         }
         let provenance = this_command("diagnose", input.provenance(&self.set));

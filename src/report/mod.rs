@@ -11,6 +11,7 @@ mod judge;
 pub(crate) mod method;
 mod phase;
 pub(crate) mod picture;
+mod plan;
 mod results;
 pub mod run;
 mod study;
@@ -22,6 +23,7 @@ pub use diagnosis::{Diagnosed, Hypotheses};
 pub use excluded::Together;
 pub(crate) use judge::Judgements;
 pub use phase::Phases;
+pub use plan::{Plan, Step};
 pub(crate) use results::{differences, with_baseline};
 pub use study::{Refused, Study};
 

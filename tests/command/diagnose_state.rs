@@ -194,6 +194,26 @@ fn accelerations_take_the_volumes_of_their_nodes() {
     run.complains("the points are not evenly apart").complains("`--map volume=..`");
 }
 
+/// A code that has no residuals begins with its accelerations.
+#[test]
+fn a_plan_says_what_each_step_needs_and_sees() {
+    let folder = Folder::new();
+    let run = folder.mms("diagnose sheared_block_2d --plan accelerations,law").exits(0);
+    run.prints("1. law").prints("run: mms diagnose sheared_block_2d law.csv --quantity stress");
+    run.prints("2. accelerations").prints("a finer mesh costs next to nothing");
+    assert!(!run.stdout.contains("residual.vtu"), "{}", run.stdout);
+    let all = folder.mms("diagnose sheared_block_2d --plan --json").exits(0).json();
+    let steps = all["steps"].as_array().expect("steps");
+    let sees = |at: usize, name: &str| {
+        steps[at]["sees"].as_array().expect("names").iter().any(|it| it == name)
+    };
+    assert_eq!(steps.len(), 4);
+    assert!(sees(0, "stress_transposed") && !sees(0, "force_factor"));
+    assert!(sees(1, "traction_factor on y_max") && !sees(1, "start_at_rest"));
+    assert!(sees(3, "start_at_rest") && !sees(3, "voigt_order"));
+    folder.mms("diagnose sheared_block_2d --plan law s.csv").exits(2);
+}
+
 #[test]
 fn a_method_may_be_called_by_the_names_of_its_options() {
     let folder = Folder::new();

@@ -276,6 +276,7 @@ fn documents_have_the_keys_of_the_page() {
         ("judge", IRREGULAR, 0),
         ("diagnose", "diagnose bar.toml states16 --like shape=linear", 0),
         ("hypotheses", "diagnose bar.toml --list", 0),
+        ("diagnose-plan", "diagnose bar.toml --plan law,residual", 0),
         ("state", "state bar.toml --cells 4 --time 0.01 --without stress -o state.vtu", 0),
         ("state", "state generalized_vortex --cells 2 --time 0.5 -o state.npz", 0),
         ("campaign-runs", "campaign campaign.toml --dry-run", 0),

@@ -1,0 +1,144 @@
+//! The ladder of a diagnosis: what each step needs of a solver, and what it can see.
+
+use clap::ValueEnum;
+use mms_diagnosis::list::Listed;
+use mms_spec::foreign::Foreign;
+use serde_json::{Value, json};
+
+/// A step of the ladder; each takes for granted what the one before it shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+pub enum Step {
+    /// F and a stress, without a solver.
+    Law,
+    /// Residuals at nodes, at an exact state.
+    Residual,
+    /// Accelerations at an exact state.
+    Accelerations,
+    /// Results of meshes.
+    Results,
+}
+
+impl Step {
+    /// Its name on the command line.
+    fn name(self) -> &'static str {
+        match self {
+            Step::Law => "law",
+            Step::Residual => "residual",
+            Step::Accelerations => "accelerations",
+            Step::Results => "results",
+        }
+    }
+
+    /// The input that it needs.
+    fn needs(self) -> &'static str {
+        match self {
+            Step::Law => {
+                "a table of F and of P, S, sigma or tau, as your law gives them: ten rows or more, with shear; no mesh, and no \
+                 solver"
+            }
+            Step::Residual => {
+                "the exact u at your nodes (`mms state FIELD --points NODES --time T`), given to your code; the residual that it \
+                 finds there, one value for each node"
+            }
+            Step::Accelerations => {
+                "the same state; the accelerations that your code finds there, with the cells or a column `volume`"
+            }
+            Step::Results => {
+                "u at one time or more, of two meshes, with v or F if your code writes them"
+            }
+        }
+    }
+
+    /// Its cost.
+    fn costs(self) -> &'static str {
+        match self {
+            Step::Law => "no run",
+            Step::Residual | Step::Accelerations => {
+                "no step in time, and no solve for residuals: a finer mesh costs next to nothing, and shows smaller mistakes"
+            }
+            Step::Results => "runs of your code, and seconds of this project's own solver",
+        }
+    }
+
+    /// The command, of a field.
+    fn command(self, field: &str) -> String {
+        let rest = match self {
+            Step::Law => "law.csv --quantity stress",
+            Step::Residual => "residual.vtu --residual nodal --time T",
+            Step::Accelerations => "accelerations.vtu --time T",
+            Step::Results => "coarse.vtu fine.vtu",
+        };
+        format!("mms diagnose {field} {rest}")
+    }
+
+    /// Whether it shows a hypothesis.
+    fn shows(self, hypothesis: &Listed) -> bool {
+        let word = match self {
+            Step::Law => "law",
+            Step::Residual | Step::Accelerations => "exact state",
+            Step::Results => "results",
+        };
+        hypothesis.size_of.is_none() && hypothesis.shown_by.split(", ").any(|it| it == word)
+    }
+}
+
+/// The steps that a code can take.
+pub struct Plan<'a> {
+    /// The field.
+    pub field: &'a Foreign,
+    /// The steps.
+    pub steps: Vec<Step>,
+    /// All hypotheses about the field.
+    pub hypotheses: Vec<Listed>,
+}
+
+impl<'a> Plan<'a> {
+    /// In the order of the ladder; without steps, all of them.
+    pub fn new(field: &'a Foreign, asked: &[Step], hypotheses: Vec<Listed>) -> Self {
+        let all = Step::value_variants().iter().copied();
+        let steps = all.filter(|it| asked.is_empty() || asked.contains(it)).collect();
+        Plan { field, steps, hypotheses }
+    }
+
+    /// The names of hypotheses that a step shows, each once.
+    fn seen(&self, step: Step) -> Vec<&str> {
+        let shown = self.hypotheses.iter().filter(|it| step.shows(it));
+        let mut names: Vec<&str> = shown.map(|it| it.title.as_str()).collect();
+        names.dedup();
+        names
+    }
+
+    /// The text for a person.
+    pub fn text(&self) -> String {
+        let field = self.field.shown();
+        let each = self.steps.iter().enumerate().map(|(at, step)| {
+            format!(
+                "{}. {}\n   needs: {}\n   costs: {}\n   run: {}\n   sees: {}",
+                at + 1,
+                step.name(),
+                step.needs(),
+                step.costs(),
+                step.command(&field),
+                self.seen(*step).join(", ")
+            )
+        });
+        let head =
+            "Begin with the first step; a step vouches for what the next one takes for granted.";
+        std::iter::once(head.to_owned()).chain(each).collect::<Vec<_>>().join("\n\n")
+    }
+
+    /// The document for a program.
+    pub fn document(&self) -> Value {
+        let field = self.field.shown();
+        let step = |step: &Step| {
+            json!({
+                "step": step.name(),
+                "needs": step.needs(),
+                "costs": step.costs(),
+                "command": step.command(&field),
+                "sees": self.seen(*step),
+            })
+        };
+        json!({ "field": self.field, "steps": self.steps.iter().map(step).collect::<Vec<_>>() })
+    }
+}
