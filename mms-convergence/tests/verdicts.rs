@@ -125,6 +125,23 @@ fn an_order_within_a_range_passes() {
     assert_eq!(found(2, &|x| x.powf(0.8)).verdict, Verdict::Fail);
 }
 
+/// Three levels whose order is left open, and what leaves it so.
+#[test]
+fn digits_or_scatter_leave_an_order_open() {
+    let with = |rounding: f64| {
+        let sample = |k: i32| {
+            let x = 2f64.powi(k);
+            Sample { rounding, ..Sample::new(x * 1e-2, 1e-4 * x * x) }
+        };
+        let found = Finding::of(&Sequence::new((0..3).map(sample)), SECOND);
+        (found.verdict, found.reason)
+    };
+    assert_eq!(with(0.0), (Verdict::Pass, Reason::Settled));
+    assert_eq!(with(2e-5), (Verdict::NotAsymptotic, Reason::Digits));
+    let scattered = with_orders(&[2.1, 1.9]);
+    assert_eq!((scattered.verdict, scattered.reason), (Verdict::NotAsymptotic, Reason::Open));
+}
+
 /// Orders of velocities on irregular meshes do not settle. The finest pair is enough for a pass, and one that is too low is
 /// none.
 #[test]
