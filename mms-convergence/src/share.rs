@@ -80,3 +80,23 @@ impl Share {
         (total > 0.0 && reach.is_finite()).then_some(found)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sequence::{Sample, Sequence};
+
+    #[test]
+    fn the_order_below_is_a_plateau_at_least_of_errors_that_fall() {
+        let orders = [3.0, 2.0, 1.0, 0.5, 0.0, -1.0].map(lower);
+        assert_eq!(orders, [2.0, 1.0, 0.0, 0.0, -1.0, -2.0]);
+    }
+
+    /// Errors that are uniform within half a digit have a third of its square as their variance.
+    #[test]
+    fn rounding_scatters_as_uniform_errors_do() {
+        let sample = |(length, rounding)| Sample { rounding, ..Sample::new(length, 1.0) };
+        let found = rounding(Sequence::new([(2.0, 0.03), (1.0, 0.06)].map(sample)).levels());
+        assert!((found - ((0.0009f64 + 0.0036) / 6.0).sqrt()).abs() < 1e-15, "{found}");
+    }
+}
