@@ -92,6 +92,31 @@ mod tests {
         assert_eq!(orders, [2.0, 1.0, 0.0, 0.0, -1.0, -2.0]);
     }
 
+    /// Levels of errors of a law, refined by 2, and the share of first order.
+    fn of(count: i32, law: impl Fn(f64) -> f64) -> Share {
+        let sample = |k: i32| Sample::new(2f64.powi(k) * 1e-2, law(2f64.powi(k)));
+        let levels = Sequence::new((0..count).map(sample));
+        Share::of(levels.levels(), 2.0, 1.0).expect("a fit")
+    }
+
+    /// Against the inverse of the normal equations, by NumPy.
+    #[test]
+    fn the_usual_scatter_makes_a_share_uncertain() {
+        for (count, reach) in [(4, 0.036825698574117), (5, 0.021617292382294)] {
+            let found = of(count, |x| x * x);
+            assert!(found.share.abs() < 1e-12 && (found.reach - reach).abs() < 1e-12, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn levels_are_coarse_where_the_third_term_is_more_than_half_of_the_others() {
+        assert!(of(4, |x| x * x + 0.2 * x.powi(3)).is_coarse);
+        assert!(!of(4, |x| x * x + 0.03 * x.powi(3)).is_coarse);
+        // The term of first order counts among the others: 120 are less than half of 64 + 200.
+        assert!(of(4, |x| x * x + 0.234 * x.powi(3)).is_coarse);
+        assert!(!of(4, |x| 25.0 * x + x * x + 0.234 * x.powi(3)).is_coarse);
+    }
+
     /// Errors that are uniform within half a digit have a third of its square as their variance.
     #[test]
     fn rounding_scatters_as_uniform_errors_do() {
