@@ -53,7 +53,7 @@ pub struct Table<const D: usize> {
     pub stress: Vec<Matrix<f64, D>>,
     /// How far each stress may be from what was computed, for how it was stored.
     pub rounding: f64,
-    /// The same of each component of H.
+    /// How far each component of H may be from that at which the law was asked, for how it was stored.
     pub rounding_of_gradient: f64,
 }
 

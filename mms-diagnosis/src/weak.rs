@@ -292,7 +292,7 @@ impl<'a, const D: usize> Weak<'a, D> {
 
 /// The errors that right elements of degree 1 make in such sums, which fall with h^2.
 pub struct OfElements {
-    /// Those of right methods: with a lumped and with a consistent mass.
+    /// The errors of right methods, with a lumped and with a consistent mass.
     pub methods: Vec<Vec<f64>>,
     /// The size of their terms.
     pub size: f64,

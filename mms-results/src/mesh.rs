@@ -35,6 +35,11 @@ impl<'a> Mesh<'a> {
             .find(|kind| Shape::of(*kind).is_none() && !lines.contains(kind))
     }
 
+    /// The lowest degree of its cells, if there are such.
+    pub fn degree(&self) -> Option<u32> {
+        self.full().map(|(_, shape, _)| shape.degree()).min()
+    }
+
     pub(crate) fn point(&self, point: usize) -> &'a [f64] {
         &self.points[point * self.dimension..][..self.dimension]
     }

@@ -57,9 +57,10 @@ pub struct Judge {
     errors: Option<PathBuf>,
     #[command(flatten)]
     results: results::Options,
-    /// The order to judge against: without it 2, and of results one more than the degree of their cells. That of H1 is one
-    /// less, and so is that of stresses and strains where cells are known, if it is not given by NAME. NAME is a norm, a quantity, QUANTITY:NORM or a column; `time` is the order in dt where h and dt
-    /// are refined each by itself.
+    /// The order to judge against: without it 2, and of results one more than the degree of their cells. H1 has the degree of
+    /// the cells at most, or one less than this order in a table. Stresses and strains in cells have that of H1 at least, and v
+    /// and a what --start says. NAME is a norm, a quantity, QUANTITY:NORM or a column, whose order is then this one; `time` is
+    /// the order in dt where h and dt are refined each by itself.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',')]
     expected_order: Vec<Order>,
     /// How far the observed order may be from the expected one.

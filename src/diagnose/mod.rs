@@ -220,7 +220,7 @@ fn state(
             }
         };
         let cell_size = size(reading.sizes.last().copied(), &mesh, exact);
-        let degree = degree(&mesh);
+        let degree = mesh.degree();
         let nodes = Nodes { reference, values: found.numbers.into_owned(), volumes };
         let Nodes { reference, values, volumes } = nodes.merged(exact, &snapshot.path)?;
         let response = Response {
@@ -236,11 +236,6 @@ fn state(
         return Ok(Some(Evidence::State { response, cell_size }));
     }
     Ok(None)
-}
-
-/// The lowest degree of the cells, if there are such.
-fn degree(mesh: &Mesh<'_>) -> Option<u32> {
-    mesh.full().map(|(_, shape, _)| shape.degree()).min()
 }
 
 /// X and u of a snapshot at a time.
@@ -305,7 +300,7 @@ fn level(
         );
         let column = self::values(&meanings, Role::Volume, snapshot, 1)?;
         let volumes = volumes(column, &mesh, (time, rounding, &snapshot.path), exact).ok();
-        let degree = degree(&mesh);
+        let degree = mesh.degree();
         level.snapshots.push(Instant { time, reference, values, volumes, degree });
     }
     ensure!(!level.snapshots.is_empty(), "`{}`: no results", results.name);

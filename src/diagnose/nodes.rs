@@ -7,7 +7,7 @@ use mms_results::mesh::Mesh;
 use mms_results::names::Values;
 use mms_spec::quantity::Quantity;
 
-use crate::judge::results::placed;
+use crate::judge::results::{distances, placed};
 use crate::session::exact::Exact;
 
 /// Points with one vector each.
@@ -24,10 +24,6 @@ pub struct Nodes {
 const ONE: f64 = 1e-6;
 /// By how much values of points may differ that are one, over the largest.
 const SAME: f64 = 1e-6;
-/// By how much distances of neighbours may differ if their volumes are alike.
-const ALIKE: f64 = 1.01;
-/// How many points tell that.
-const LOOKED_AT: usize = 1000;
 
 /// Finds the reference volumes of points: from a column, which may hold present ones, from cells, or from even distances.
 ///
@@ -64,14 +60,11 @@ fn by_distance(points: &[f64], rounding: f64, exact: &Exact) -> Option<Vec<f64>>
         return None;
     }
     let lattice = Lattice::new(points, exact.dimension, exact.spacing(count));
-    let distances = lattice.distances(count / LOOKED_AT + 1);
-    let of = |pick: fn(f64, f64) -> f64| distances.iter().copied().reduce(pick);
-    if of(f64::max)? > ALIKE * of(f64::min)? {
+    let (_, is_even) = distances(&lattice, count);
+    if !is_even {
         return None;
     }
-    let mut parts = vec![1.0; count];
-    let rows = exact.faces(points, rounding).into_iter().flat_map(|(_, rows)| rows);
-    rows.for_each(|row| parts[row] /= 2.0);
+    let parts = exact.neighbourhoods(points, rounding);
     let each = exact.body.measure() / parts.iter().sum::<f64>();
     Some(parts.iter().map(|it| it * each).collect())
 }

@@ -238,6 +238,14 @@ impl Exact {
         faces.map(|face| (face, on(&face))).filter(|(_, points)| !points.is_empty()).collect()
     }
 
+    /// The part of the neighbourhood of each point that lies in the body: half of it on a face, a quarter on an edge.
+    pub fn neighbourhoods(&self, points: &[f64], rounding: f64) -> Vec<f64> {
+        let mut parts = vec![1.0; points.len() / self.dimension];
+        let rows = self.faces(points, rounding).into_iter().flat_map(|(_, rows)| rows);
+        rows.for_each(|row| parts[row] /= 2.0);
+        parts
+    }
+
     /// Whether a point lies on a face; how far each coordinate may be from what was meant.
     pub fn is_on_face(&self, point: &[f64], rounding: f64) -> bool {
         let near = near(point, rounding);

@@ -100,7 +100,7 @@ impl Block {
         &found.unwrap_or_else(|| panic!("no {name}")).1
     }
 
-    /// What of an edge of a cell belongs to a node: half of it at a corner.
+    /// The length along an axis that belongs to a node: half an edge at an end.
     fn part(along: f64) -> f64 {
         let is_end = along == 0.0 || along == 1.0;
         if is_end { 0.5 / CELLS as f64 } else { 1.0 / CELLS as f64 }

@@ -107,9 +107,7 @@ fn earlier<const D: usize>(at: &Given<'_, D>, _: Face, tau: &mut [Matrix<f64, D>
 fn loads_late<const D: usize>(exact: &Exact<'_, D>) -> Hypothesis<D> {
     let says = "b and tractions of an earlier time; the size is by how much";
     let change = Change::Loads(force::earlier, earlier);
-    let mut late = Hypothesis::amount("loads_late", says, vec![exact.time_step], change);
-    late.below = Some("loads_early");
-    late.of_steps(exact)
+    Hypothesis::delay(exact, ["loads_late", "loads_early"], says, change)
 }
 
 /// The mistakes in tractions.
@@ -128,16 +126,12 @@ fn of_tractions<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         },
     );
     let made = |name, says, change| Hypothesis::fixed(name, says, Change::Surface(change));
-    let mut late = Hypothesis::amount(
-        "traction_late",
-        "tractions of an earlier time; the size is by how much",
-        vec![exact.time_step],
-        Change::Surface(earlier),
-    );
-    late.below = Some("traction_early");
+    let says = "tractions of an earlier time; the size is by how much";
+    let names = ["traction_late", "traction_early"];
+    let late = Hypothesis::delay(exact, names, says, Change::Surface(earlier));
     let mut all = vec![
         factor,
-        late.of_steps(exact),
+        late,
         made("traction_transposed", "P^T N in place of P N", |at, _, tau| {
             of_first(at, tau, |f, p: Matrix<f64, D>| p.transpose() * f.transpose());
         }),

@@ -9,14 +9,9 @@ use crate::exact::Exact;
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let window = exact.domain.time[1] - exact.domain.time[0];
     let force = |name, says, change| Hypothesis::fixed(name, says, Change::Force(change));
-    let mut delay = Hypothesis::amount(
-        "force_late",
-        "b of an earlier time; the size is by how much",
-        vec![exact.time_step],
-        Change::Force(earlier),
-    );
-    delay.below = Some("force_early");
-    let delay = delay.of_steps(exact);
+    let says = "b of an earlier time; the size is by how much";
+    let names = ["force_late", "force_early"];
+    let delay = Hypothesis::delay(exact, names, says, Change::Force(earlier));
     let mut all = vec![
         Hypothesis::factor(
             "force_factor",

@@ -240,6 +240,17 @@ impl<const D: usize> Hypothesis<D> {
         Hypothesis { size, ..Self::fixed(name, says, change) }
     }
 
+    /// Something of an earlier time, by some steps at most; the second name is that of a later time.
+    fn delay(
+        exact: &Exact<'_, D>,
+        [late, early]: [&'static str; 2],
+        says: &'static str,
+        change: Change<D>,
+    ) -> Self {
+        let late = Self::amount(late, says, vec![exact.time_step], change).of_steps(exact);
+        Hypothesis { below: Some(early), ..late }
+    }
+
     /// The same, where sizes beyond these are another mistake.
     fn within(mut self, range: [f64; 2]) -> Self {
         if let Size::Any { range: all, .. } = &mut self.size {

@@ -15,7 +15,7 @@ struct Cursor<'a> {
     wanted: &'a Wanted<'a>,
 }
 
-/// The largest error so far.
+/// The parts of the file that were read so far.
 #[derive(Default)]
 struct Found {
     snapshot: Snapshot,

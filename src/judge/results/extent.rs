@@ -123,10 +123,7 @@ pub fn of_points(points: &[f64], exact: &Exact, rounding: f64) -> Covered {
     let count = points.len() / dimension;
     let spacing = exact.spacing(count);
     let lattice = Lattice::new(points, dimension, spacing);
-    let distances = lattice.distances(count / LOOKED_AT + 1);
-    let mean = distances.iter().sum::<f64>() / distances.len() as f64;
-    let range = |pick: fn(f64, f64) -> f64| distances.iter().copied().reduce(pick);
-    let is_even = range(f64::max).zip(range(f64::min)).is_some_and(|(a, b)| a <= ALIKE * b);
+    let (mean, is_even) = distances(&lattice, count);
     let part = empty(&lattice, points, body, spacing).map(|place| {
         format!(
             "the points leave part of the body empty: within {:.2e}, {EMPTY} spacings of {count} points that fill it, \
@@ -134,18 +131,20 @@ pub fn of_points(points: &[f64], exact: &Exact, rounding: f64) -> Covered {
             EMPTY * spacing
         )
     });
-    // A point on a face has half of its neighbourhood in the body, on an edge a quarter.
-    let neighbourhoods = || {
-        let mut parts = vec![1.0; count];
-        let rows = exact.faces(points, rounding).into_iter().flat_map(|(_, rows)| rows);
-        rows.for_each(|row| parts[row] /= 2.0);
-        parts.iter().sum::<f64>()
-    };
+    let neighbourhoods = || exact.neighbourhoods(points, rounding).iter().sum::<f64>();
     let neighbour = (is_even || part.is_some()).then_some(mean).filter(|it| *it > 0.0);
     let size = neighbour
         .unwrap_or_else(|| (body.measure() / neighbourhoods()).powf(1.0 / dimension as f64));
     let few = (count < 1 << dimension).then(|| format!("{count} points fill no body"));
     Covered { cells: 0, points: count, size, is_even: neighbour.is_some(), part: part.or(few) }
+}
+
+/// The mean distance of neighbours among so many points, and whether all are as far from each other.
+pub fn distances(lattice: &Lattice<'_>, count: usize) -> (f64, bool) {
+    let all = lattice.distances(count / LOOKED_AT + 1);
+    let range = |pick: fn(f64, f64) -> f64| all.iter().copied().reduce(pick);
+    let is_even = range(f64::max).zip(range(f64::min)).is_some_and(|(a, b)| a <= ALIKE * b);
+    (all.iter().sum::<f64>() / all.len() as f64, is_even)
 }
 
 /// A place of the body that is far from all points, in lengths and in parts of its edges too: a plate may have as many points

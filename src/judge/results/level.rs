@@ -257,7 +257,7 @@ impl Reading<'_> {
             );
         }
         let unknown = mesh.unknown().filter(|_| sizes.is_none());
-        let degree = mesh.full().map(|(_, shape, _)| shape.degree()).min();
+        let degree = mesh.degree();
         let how = motion.how.clone();
         let is_rate =
             |it: &Errors| matches!(it.quantity, Quantity::Velocity | Quantity::Acceleration);

@@ -25,6 +25,7 @@ use mms_spec::quantity::Quantity;
 
 pub use baseline::{Baseline, Compared};
 pub use excluded::{Exclusions, exclusions};
+pub use extent::distances;
 pub use files::{Results, placed, room};
 pub use level::{Reading, Sampling, weight};
 pub use same::{Same, same};
