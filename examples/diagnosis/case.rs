@@ -110,7 +110,7 @@ where
     run.level.errors.ok()?;
     let snapshots =
         states.seen.iter().map(|state| snapshot(exact, state, mistakes.first())).collect();
-    Some(Mesh { cell_size: run.level.cell_size, snapshots })
+    Some(Mesh { cell_size: run.level.cell_size, time_step: None, snapshots })
 }
 
 /// X and u of a state, with what is written wrongly.
@@ -252,7 +252,7 @@ where
         let family = family(&hypotheses[truths[0]]);
         hypotheses.retain(|it| self::family(it) != family);
     }
-    let answer = diagnose(&exact, &frame, &meshes, &hypotheses, None).ok()?;
+    let answer = diagnose(&exact, &frame, &meshes, &hypotheses, None, None).ok()?;
     let of = format!("{} {} {}", method.shape, method.formulation, method.integrator);
     let told = |(title, size): (&String, &Vec<f64>)| {
         let size: Vec<String> = size.iter().map(|it| format!("{it:.3e}")).collect();

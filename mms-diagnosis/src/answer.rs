@@ -3,6 +3,7 @@
 use mms_runtime::Face;
 
 use crate::exact::Exact;
+use crate::falls::{Falls, OfOrder};
 use crate::hypothesis::{Hypothesis, Kind, Size, title};
 use crate::smooth::{less, size};
 
@@ -213,8 +214,12 @@ pub struct Diagnosis {
     pub cannot_be_seen: Vec<String>,
     /// The size of the error over that of the exact solution.
     pub error: f64,
-    /// The least and the largest that right solvers make, as far as is known.
+    /// The least error of a right solver, and the largest that is taken for one.
     pub expected: [f64; 2],
+    /// How the error falls from mesh to mesh, of results of two meshes and more.
+    pub falls: Option<Falls>,
+    /// A right method whose error falls with that order, if the order is not the expected one.
+    pub of_order: Option<OfOrder>,
     /// Two hypotheses that explain together what none does alone.
     pub pair: Option<Pair>,
     /// A right method with such an error.
@@ -292,7 +297,7 @@ fn is_plausible<const D: usize>(
     scaled && explained.scale > 0.0 && hypothesis.allows(&explained.size)
 }
 
-/// When a mistake is named.
+/// The limits within which a mistake is named.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// How many times that of methods the error is at least: of a mistake whose size was to be expected (it has none, or a known

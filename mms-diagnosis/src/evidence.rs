@@ -10,6 +10,8 @@ use crate::smooth::{Smooth, less};
 pub struct Mesh {
     /// h.
     pub cell_size: f64,
+    /// The time step, if it is known.
+    pub time_step: Option<f64>,
     /// The results, in the order of their times.
     pub snapshots: Vec<Snapshot>,
 }

@@ -109,7 +109,9 @@ where
     let right = plan.right(0).ok_or(Obstacle::NotFinite)?;
     let runs = Runs { exact, frame: &frame, mesh: &mesh, plan, right, errors: &study.errors };
     // Large sizes of a mistake have a hypothesis of their own, which excludes nothing more.
-    let hypotheses: Vec<_> = hypotheses.iter().filter(|it| it.also.is_empty()).collect();
+    let own: Vec<_> = study.errors.iter().map(|(quantity, _)| *quantity).collect();
+    let is_own = |it: &&Hypothesis<D>| it.also.is_empty() && it.is_of(&own);
+    let hypotheses: Vec<_> = hypotheses.iter().filter(is_own).collect();
     let one = |at: usize| {
         let it = hypotheses[at];
         Excluded {
@@ -136,7 +138,11 @@ fn places<const D: usize>(exact: &Exact<'_, D>, study: &Study) -> Result<Mesh, O
         values: values(),
         ..Snapshot::default()
     };
-    Ok(Mesh { cell_size: study.cell_size, snapshots: study.times.iter().map(snapshot).collect() })
+    Ok(Mesh {
+        cell_size: study.cell_size,
+        time_step: study.time_step,
+        snapshots: study.times.iter().map(snapshot).collect(),
+    })
 }
 
 /// Points along an axis at which errors are looked at, in one to three dimensions.

@@ -16,7 +16,7 @@ use crate::smooth::{less, size};
 /// A mesh is finer than another by this factor at least.
 const REFINED: f64 = 1.2;
 /// Steps times particles that a run may take: some seconds.
-const MOST_WORK: f64 = 3e6;
+pub const MOST_WORK: f64 = 3e6;
 /// How much of what falls with h^2 from mesh to mesh is looked at, where two meshes tell it from what does not.
 const FALLING: f64 = 0.25;
 
@@ -32,6 +32,19 @@ pub struct Level<'a, const D: usize> {
     right: Vec<Option<Vec<f64>>>,
 }
 
+/// The errors that right methods make in the runs of a plan.
+fn of_methods<const D: usize>(
+    frame: &Frame<D>,
+    mesh: &Mesh,
+    plan: &Plan<'_, D>,
+) -> Vec<Option<Vec<f64>>>
+where
+    f64: Solve<D>,
+{
+    let right = |method| Some(frame.see(mesh, &plan.right(method)?)?.coefficients);
+    on_all_processors(plan.methods(), right)
+}
+
 impl<'a, const D: usize> Level<'a, D>
 where
     f64: Solve<D>,
@@ -44,8 +57,7 @@ where
     ) -> Result<Self, Obstacle> {
         let seen = frame.errors_of(exact, mesh).ok_or(Obstacle::NotFinite)?;
         let plan = Plan::new(exact, frame, mesh, Without::default(), like, MOST_WORK)?;
-        let right = |method| Some(frame.see(mesh, &plan.right(method)?)?.coefficients);
-        let right = on_all_processors(plan.methods(), right);
+        let right = of_methods(frame, mesh, &plan);
         Ok(Level { mesh, seen, plan, right })
     }
 
@@ -63,6 +75,8 @@ pub struct Levels<'a, const D: usize> {
     /// The finest.
     pub fine: Level<'a, D>,
     coarse: Option<Level<'a, D>>,
+    /// The orders with which the errors of right methods fall on this field; `None` of one that stops.
+    orders: Vec<Option<f64>>,
 }
 
 impl<'a, const D: usize> Levels<'a, D>
@@ -83,7 +97,26 @@ where
         let level = |mesh| Level::new(exact, frame, mesh, like);
         let is_coarser = |it: &&Mesh| it.cell_size > REFINED * mesh.cell_size;
         let coarse = meshes.iter().rev().find(is_coarser).map(level).transpose()?;
-        Ok(Levels { exact, frame, fine: level(mesh)?, coarse })
+        let fine = level(mesh)?;
+        let is_coarser = |plan: &Plan<'_, D>| plan.cell_size() > REFINED * fine.plan.cell_size();
+        let orders = match &coarse {
+            Some(coarse) if is_coarser(&coarse.plan) => orders(&fine, &coarse.plan, &coarse.right),
+            _ => {
+                let plan = fine.plan.coarser();
+                orders(&fine, &plan, &of_methods(frame, mesh, &plan))
+            }
+        };
+        Ok(Levels { exact, frame, fine, coarse, orders })
+    }
+
+    /// The order with which the error of a right method falls on this field; `None` if it stops.
+    pub fn order_of(&self, method: usize) -> Option<f64> {
+        self.orders[method]
+    }
+
+    /// The degree of the cells; 1 if they are not known.
+    pub fn degree(&self) -> u32 {
+        self.fine.mesh.snapshots.iter().filter_map(|it| it.degree).min().unwrap_or(1)
     }
 
     /// Whether there are two.
@@ -120,7 +153,12 @@ where
         hypothesis: &Hypothesis<D>,
         size: &[f64],
     ) -> Option<Vec<f64>> {
-        let ratio = level.mesh.cell_size / self.fine.mesh.cell_size;
+        let steps = level.mesh.time_step.zip(self.fine.mesh.time_step);
+        let [own, finest] = steps
+            .map_or([level.mesh.cell_size, self.fine.mesh.cell_size], |(own, finest)| {
+                [own, finest]
+            });
+        let ratio = own / finest;
         let factor = if hypothesis.is_of_mesh { ratio } else { 1.0 };
         let size: Vec<f64> = size.iter().map(|it| it * factor).collect();
         let seen = |errors: &[Vec<f64>]| Some(self.frame.see(level.mesh, errors)?.coefficients);
@@ -130,6 +168,23 @@ where
         let wrong = seen(&level.plan.wrong(method, hypothesis, &size)?)?;
         Some(less(&wrong, 1.0, level.right[method].as_ref()?))
     }
+}
+
+/// The orders of right methods, from their errors on the finest mesh and by a plan of larger cells.
+fn orders<const D: usize>(
+    fine: &Level<'_, D>,
+    plan: &Plan<'_, D>,
+    coarse: &[Option<Vec<f64>>],
+) -> Vec<Option<f64>>
+where
+    f64: Solve<D>,
+{
+    let refined = (plan.cell_size() / fine.plan.cell_size()).ln();
+    let one = |(fine, coarse): (&Option<Vec<f64>>, &Option<Vec<f64>>)| {
+        let [fine, coarse] = [fine, coarse].map(|it| it.as_deref().map(size));
+        Some((coarse? / fine?).ln() / refined)
+    };
+    fine.right.iter().zip(coarse).map(one).collect()
 }
 
 /// What a function makes of the numbers below `count`, in their order.

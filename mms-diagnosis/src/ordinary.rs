@@ -9,11 +9,12 @@ use crate::answer::{
 };
 use crate::evidence::{Frame, Mesh};
 use crate::exact::Exact;
+use crate::falls::{Falls, OfOrder};
 use crate::hypothesis::{Change, Hypothesis, earlier_velocity};
 use crate::level::{Level, Levels, on_all_processors};
 use crate::pair;
 use crate::place;
-use crate::rank::{Effect, Error, explain};
+use crate::rank::{Effect, Error, explain, explain_usual};
 use crate::run::{OTHERS, Obstacle};
 use crate::smooth::{less, nearest, size};
 
@@ -23,6 +24,8 @@ const SHOWN: [f64; 3] = [64.0, 16.0, 6.0];
 const LEAST: f64 = 2.0;
 /// An error is like that of a method if they are no further apart than this part of it.
 const NEAR: f64 = 0.25;
+/// From this share on an error is explained, and large mistakes are not looked for.
+const EXPLAINED: f64 = 0.9;
 /// From this part on a hypothesis is looked at by other methods.
 const PROMISING: f64 = 0.5;
 
@@ -32,6 +35,8 @@ struct Look<'a, const D: usize> {
     frame: &'a Frame<D>,
     levels: Levels<'a, D>,
     hypotheses: &'a [Hypothesis<D>],
+    /// The right methods that an error may be like.
+    yardsticks: Vec<usize>,
     /// What is explained.
     error: Error,
 }
@@ -45,39 +50,62 @@ where
         frame: &'a Frame<D>,
         levels: Levels<'a, D>,
         hypotheses: &'a [Hypothesis<D>],
+        is_asked: bool,
     ) -> Self {
         let own = |level: &Level<'_, D>| Some(level.seen.coefficients.clone());
         let right = |method| levels.together(|level| level.right(method));
         let free = levels.together(|level| earlier(exact, &levels, level));
         let free = free.filter(|it| size(it) > 0.0);
         let edge = levels.fine.plan.length() / levels.fine.mesh.cell_size;
+        let yardsticks = yardsticks(&levels, is_asked);
+        // Methods of degree 1 say nothing of what elements of degree 2 make.
+        let known = if levels.degree() > 1 && !is_asked { &[] } else { yardsticks.as_slice() };
         let error = Error::new(
             levels.together(own).unwrap_or_default(),
-            (0..levels.fine.plan.methods()).filter_map(right).collect(),
+            known.iter().filter_map(|it| right(*it)).collect(),
             free.into_iter().collect(),
-            LEAST / (edge * edge),
+            LEAST / edge.powi(levels.degree() as i32 + 1),
         );
-        Look { exact, frame, levels, hypotheses, error }
+        Look { exact, frame, levels, hypotheses, yardsticks, error }
     }
 
-    /// The errors that right methods of ours would make on the finest mesh, from the least to the largest.
+    /// The errors of right methods on the finest mesh, from the least to the largest; the floor if there is none.
     fn ordinary(&self) -> Vec<f64> {
-        let fine = &self.levels.fine;
-        let methods = (0..fine.plan.methods()).filter(|it| fine.plan.is_of_second_order(*it));
-        let mut sizes: Vec<f64> = methods.filter_map(|it| Some(size(&fine.right(it)?))).collect();
+        let errors = self.yardsticks.iter().filter_map(|it| self.levels.fine.right(*it));
+        let mut sizes: Vec<f64> = errors.map(|it| size(&it)).collect();
         sizes.sort_by(f64::total_cmp);
         if sizes.is_empty() { vec![self.error.floor] } else { sizes }
     }
 
-    /// Whether an error may be that of a right method, though none of ours has such a one: on two meshes it falls as that of one
-    /// of second order, or falls and is not much larger than those of ours, or is about that of the middle one.
-    fn is_ordinary(&self, error: f64, ordinary: &[f64]) -> bool {
-        let times = UNEXPLAINED[usize::from(self.levels.are_two())];
-        let most = |of: usize| error <= times * ordinary[of].max(self.error.floor);
-        let order = self.levels.order();
-        let falls = order.is_none_or(|order| order >= FALLS);
-        order.is_some_and(|order| order >= VANISHES)
-            || most(ordinary.len() - 1) && (falls || most(ordinary.len() / 2))
+    /// The least error of a right method; methods of degree 1 say nothing of elements of degree 2.
+    fn least(&self, ordinary: &[f64]) -> f64 {
+        if self.levels.degree() > 1 { self.error.floor } else { ordinary[0] }
+    }
+
+    /// The largest error that is taken for that of a right method. Elements of degree 2 make no more than the best method of
+    /// degree 1.
+    fn most(&self, ordinary: &[f64], falls: bool) -> f64 {
+        let largest = match self.levels.degree() {
+            2.. => ordinary[0],
+            _ => ordinary[ordinary.len() - 1],
+        };
+        let times = match (falls, self.levels.are_two()) {
+            (true, _) => TIMES_FALLING,
+            (false, true) => TIMES_OF_TWO,
+            (false, false) => TIMES_OF_ONE,
+        };
+        times * largest.max(self.error.floor)
+    }
+
+    /// A right method whose error falls with about this order.
+    fn of_order(&self, order: f64) -> Option<OfOrder> {
+        if self.levels.degree() > 1 {
+            return None;
+        }
+        let mut all = (0..self.levels.fine.plan.methods())
+            .filter_map(|method| Some((method, self.levels.order_of(method)?)));
+        let (method, order) = all.find(|(_, own)| (own - order).abs() <= SAME_ORDER)?;
+        Some(OfOrder { method: self.levels.fine.plan.described(method), order })
     }
 
     /// The error that a hypothesis of this size makes by a method, less that of a right solver.
@@ -126,10 +154,49 @@ where
         (is_asked || best.apart <= NEAR).then_some(best)
     }
 
-    /// What each hypothesis explains, on all processors.
-    fn all(&self) -> Vec<Explained> {
-        let one = |index: usize| explain(index, &self.hypotheses[index], &self.error, self);
-        on_all_processors(self.hypotheses.len(), one).into_iter().flatten().collect()
+    /// What each hypothesis explains, on all processors. Where none explains the error, a large mistake may: its response is no
+    /// multiple of that of a small one, and is found at the sizes that people make mistakes of.
+    fn all(&self, is_right: bool) -> Vec<Explained> {
+        let seen: Vec<_> = self.frame.quantities.iter().map(|(it, _)| *it).collect();
+        let each = |of: &(dyn Fn(usize, &Hypothesis<D>) -> Option<Explained> + Sync)| {
+            let one = |index: usize| {
+                Some(&self.hypotheses[index])
+                    .filter(|it| it.is_of(&seen))
+                    .and_then(|it| of(index, it))
+            };
+            on_all_processors(self.hypotheses.len(), one)
+        };
+        let mut all = each(&|index, it| explain(index, it, &self.error, self));
+        if is_right || all.iter().flatten().any(|it| it.share >= EXPLAINED) {
+            return all.into_iter().flatten().collect();
+        }
+        let large =
+            each(&|index, it| explain_usual(index, it, &self.error, self, &it.usual(self.exact)));
+        for (first, large) in all.iter_mut().zip(large) {
+            let share = |it: &Option<Explained>| it.as_ref().map_or(f64::MIN, |it| it.share);
+            if share(&large) > share(first) {
+                *first = large;
+            }
+        }
+        all.into_iter().flatten().collect()
+    }
+}
+
+/// The right methods that results may be held to: those whose error falls on this field, of second order in time, or the one
+/// that was asked for.
+fn yardsticks<const D: usize>(levels: &Levels<'_, D>, is_asked: bool) -> Vec<usize>
+where
+    f64: Solve<D>,
+{
+    let plan = &levels.fine.plan;
+    let last = plan.methods() - 1;
+    // A method without an error on this field has no order.
+    let converges =
+        |it: &usize| levels.order_of(*it).is_some_and(|it| it.is_nan() || it >= CONVERGES);
+    let is_known = |it: &usize| plan.is_of_second_order(*it) && converges(it);
+    match is_asked {
+        true => vec![last],
+        false => (0..=last).filter(is_known).collect(),
     }
 }
 
@@ -174,21 +241,28 @@ where
     }
 }
 
-/// When a mistake is named, on one mesh and on two. What has no size to be fitted and explains an error is there, however small it
-/// is: right solvers do not make such errors. On one mesh the error of a method may look like a mistake of some size, and so may on
-/// two what falls with its order.
-const LIMITS: [Limits; 2] = [
-    Limits { excess: [0.05, 1.0], left: [0.35, 0.12], nearer: [1.3, 0.95] },
-    Limits { excess: [0.05, 0.4], left: [0.35, 0.15], nearer: [1.3, 0.95] },
-];
-/// An error that no hypothesis explains is not held against a solver, where it is no larger than so many times that of right
-/// methods of ours: on one mesh and on two.
-const UNEXPLAINED: [f64; 2] = [4.0, 3.0];
-/// Errors that fall with these orders from mesh to mesh are those of a method, or hold next to nothing else.
-const FALLS: f64 = 0.7;
+/// The limits within which a mistake is named. What has no size to be fitted and explains an error is there, however small it is:
+/// right solvers do not make such errors. On one mesh the error of a method may look like a mistake of some size, and so may on two
+/// what falls with its order.
+const OF_ONE: Limits = Limits { excess: [0.05, 1.0], left: [0.35, 0.12], nearer: [1.3, 0.95] };
+const OF_TWO: Limits = Limits { excess: [0.05, 0.4], left: [0.35, 0.15], nearer: [1.3, 0.95] };
+/// If the order is wrong, there is a mistake: how large its error is beside that of methods says nothing.
+const OF_WRONG_ORDER: Limits =
+    Limits { excess: [0.05, 0.05], left: [0.35, 0.25], nearer: [1.3, 0.95] };
+/// How many times the errors of right methods an error is that is taken for one of theirs: on one mesh, on two, and where it
+/// falls with the expected order.
+const TIMES_OF_ONE: f64 = 4.0;
+const TIMES_OF_TWO: f64 = 3.0;
+const TIMES_FALLING: f64 = 10.0;
+/// The least order from which on an error of two meshes holds next to nothing but that of a method.
 const VANISHES: f64 = 1.5;
+/// The least order of a method that converges.
+const CONVERGES: f64 = 1.4;
+/// Orders that differ by less may be those of one method.
+const SAME_ORDER: f64 = 0.15;
 
-/// Diagnoses ordinary results of meshes, from coarse to fine; `like` is a method that they may be of.
+/// Diagnoses ordinary results of meshes, from coarse to fine; `like` is a method that they may be of, and `falls` the order
+/// that was found between meshes.
 ///
 /// # Errors
 /// Results with which that is not possible.
@@ -198,12 +272,14 @@ pub fn diagnose<const D: usize>(
     meshes: &[Mesh],
     hypotheses: &[Hypothesis<D>],
     like: Option<&Method>,
+    falls: Option<&Falls>,
 ) -> Result<Diagnosis, Obstacle>
 where
     f64: Solve<D>,
 {
-    let look = Look::new(exact, frame, Levels::new(exact, frame, meshes, like)?, hypotheses);
-    let explained = look.all();
+    let levels = Levels::new(exact, frame, meshes, like)?;
+    let look = Look::new(exact, frame, levels, hypotheses, like.is_some());
+    let explained = look.all(falls.is_some_and(|it| it.is_right));
     let seen = &look.levels.fine.seen;
     let (error, ordinary) = (size(&seen.coefficients), look.ordinary());
     let mut needs = Vec::new();
@@ -216,15 +292,23 @@ where
     needs.push("accelerations at an exact state");
     let middle = ordinary[ordinary.len() / 2];
     let ranked = ranked(exact, hypotheses, explained.clone(), middle, &needs);
-    let kind = usize::from(look.levels.are_two());
+    let limits = match falls {
+        Some(falls) if !falls.is_right => OF_WRONG_ORDER,
+        _ if look.levels.are_two() => OF_TWO,
+        _ => OF_ONE,
+    };
     // What may be the error of a method, as that of a wave's speed, may look like a factor.
-    let is_of_method = look.levels.order().is_none_or(|order| order >= VANISHES) && error <= middle;
-    let finding = match LIMITS[kind].finding(&ranked, look.error.excess()) {
+    let order = look.levels.order();
+    let vanishes = falls.map_or(order.is_none_or(|it| it >= VANISHES), |it| it.is_right);
+    let is_of_method = vanishes && error <= middle;
+    let most = look.most(&ordinary, vanishes && order.is_some());
+    let finding = match limits.finding(&ranked, look.error.excess()) {
         Finding::Named if is_of_method && ranked.first().is_some_and(Ranked::is_free) => {
             Finding::Nothing
         }
-        Finding::Unexplained if look.is_ordinary(error, &ordinary) => Finding::Nothing,
-        found => found,
+        Finding::Named => Finding::Named,
+        _ if vanishes && error <= most => Finding::Nothing,
+        _ => Finding::Unexplained,
     };
     let named = ranked.first().filter(|_| finding == Finding::Named);
     // Behind what is left of the error anything smaller is hidden.
@@ -235,13 +319,16 @@ where
     };
     let cannot_be_seen = unseen(hypotheses, &explained, left.max(look.error.floor));
     let fields = look.fields(named.map(|it| (&hypotheses[it.hypothesis], it.factor.as_slice())));
+    let wrong = falls.filter(|it| !it.is_right).and_then(|it| it.observed);
     Ok(Diagnosis {
         finding,
         rung: Rung::Results,
         ranked,
         cannot_be_seen,
         error,
-        expected: [ordinary[0], ordinary[ordinary.len() - 1]],
+        expected: [look.least(&ordinary), most],
+        falls: falls.cloned(),
+        of_order: wrong.and_then(|it| look.of_order(it)),
         pair: (finding == Finding::Unexplained)
             .then(|| pair::best(&look.error, hypotheses, &explained))
             .flatten(),

@@ -117,6 +117,8 @@ fn named((name, says): Pattern, [off, left]: [f64; 2], scale: f64) -> Diagnosis 
         cannot_be_seen: Vec::new(),
         error: off / scale,
         expected: [left / scale; 2],
+        falls: None,
+        of_order: None,
         pair: None,
         like: None,
         place: None,

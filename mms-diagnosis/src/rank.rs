@@ -114,28 +114,46 @@ pub fn explain<const D: usize>(
     effect: &dyn Effect<D>,
 ) -> Option<Explained> {
     match &hypothesis.size {
-        Size::Fixed => sized(index, hypothesis, error, effect, [0.0, 1.0]),
+        Size::Fixed => sized(index, hypothesis, error, effect, 0.0, &[1.0]),
         Size::Any { right, first, .. } => match (right.as_slice(), first.as_slice()) {
-            ([right], [first]) => sized(index, hypothesis, error, effect, [*right, *first]),
+            // What is large is not linear: from the other side it may look better.
+            ([right], [first]) => {
+                let starts = [&[*first, 2.0 * right - first], hypothesis.also.as_slice()].concat();
+                sized(index, hypothesis, error, effect, *right, &starts)
+            }
             (right, first) => vector(index, hypothesis, error, effect, [right, first]),
         },
     }
 }
 
-/// A hypothesis with one number, or none.
+/// What a hypothesis explains by its response at the sizes that people make mistakes of, where it has any.
+pub fn explain_usual<const D: usize>(
+    index: usize,
+    hypothesis: &Hypothesis<D>,
+    error: &Error,
+    effect: &dyn Effect<D>,
+    usual: &[f64],
+) -> Option<Explained> {
+    match &hypothesis.size {
+        Size::Any { right, .. } if right.len() == 1 => {
+            sized(index, hypothesis, error, effect, right[0], usual)
+        }
+        _ => None,
+    }
+}
+
+/// A hypothesis with one number, or none, by its responses at the sizes `starts`.
 fn sized<const D: usize>(
     index: usize,
     hypothesis: &Hypothesis<D>,
     error: &Error,
     effect: &dyn Effect<D>,
-    [right, first]: [f64; 2],
+    right: f64,
+    starts: &[f64],
 ) -> Option<Explained> {
     let is_fixed = hypothesis.size == Size::Fixed;
     let at = |at: f64| one(index, hypothesis, error, effect, [right, at]);
-    // What is large is not linear: from the other side it may look better.
-    let starts = if is_fixed { &[first][..] } else { &[first, 2.0 * right - first] };
-    let starts = starts.iter().chain(&hypothesis.also);
-    let allowed = starts.filter(|it| is_fixed || hypothesis.allows(&[**it]));
+    let allowed = starts.iter().filter(|it| is_fixed || hypothesis.allows(&[**it]));
     let tried = allowed.filter_map(|it| at(*it));
     let mut last = tried.max_by(|a, b| a.share.total_cmp(&b.share))?;
     let mut best = last.clone();

@@ -40,6 +40,8 @@ pub enum Obstacle {
     SingularDeformation,
     /// The body has no extent.
     Refused(Refusal),
+    /// The error of the method that results are compared with falls with this order on this field, or a run of it stops.
+    Diverges(Option<f64>),
 }
 
 impl std::error::Error for Obstacle {}
@@ -70,6 +72,15 @@ impl fmt::Display for Obstacle {
                 write!(f, "the exact stress is not finite at a row: is det F <= 0 there?")
             }
             Obstacle::Refused(refusal) => refusal.fmt(f),
+            Obstacle::Diverges(Some(order)) => write!(
+                f,
+                "the error of this method falls with order {order:.2} on this field, so nothing can be held to it: \
+                 expected a method that converges"
+            ),
+            Obstacle::Diverges(None) => write!(
+                f,
+                "this method stops on this field, so nothing can be held to it: expected a method that converges"
+            ),
             Obstacle::TooManySteps(steps) => write!(
                 f,
                 "waves cross the body so often until then that each run would take {steps:.0} steps: give results of an \
@@ -199,6 +210,23 @@ where
         Ok(Plan { exact, frame, mesh, without, cells, methods, samplings })
     }
 
+    /// The same runs on a grid of cells that are twice as large.
+    pub fn coarser(&self) -> Self {
+        let samplings = self.methods.iter().map(|_| OnceLock::new()).collect();
+        Plan { cells: self.cells.div_ceil(2), methods: self.methods.clone(), samplings, ..*self }
+    }
+
+    /// The cells along each axis: as near to cubes as they can be while they end where the body ends.
+    fn division(&self) -> Division {
+        let mut numbers = [1; 3];
+        if let Ok([lower, upper]) = bounding_box(&self.exact.domain.body) {
+            let along = |edge: f64| (edge / self.cell_size()).round().max(1.0) as usize;
+            let edges = (upper - lower).iter().copied().map(along).collect::<Vec<_>>();
+            numbers.iter_mut().zip(edges).for_each(|(number, own)| *number = own);
+        }
+        Division::PerAxis(numbers, D)
+    }
+
     /// The longest edge of the box around the body.
     pub fn length(&self) -> f64 {
         let edges = bounding_box(&self.exact.domain.body).map(|[lower, upper]| upper - lower);
@@ -260,7 +288,7 @@ where
         let mut states =
             States { times: &self.frame.times, window: [start, end], seen: Vec::new() };
         let field: &dyn ManufacturedField<f64, D> = field;
-        let cells = Division::Uniform(self.cells);
+        let cells = self.division();
         let run = f64::run(field, method, &cells, Watch::Displacement, &mut states).ok()?;
         run.level.errors.ok()?;
         let state = |time: f64| {

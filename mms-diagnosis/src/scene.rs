@@ -9,15 +9,16 @@ use crate::answer::{Diagnosis, Finding, Ranked, Rung};
 use crate::changed::Without;
 use crate::closed_form::{self, ClosedForm, Values};
 use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
-use crate::exact::{Exact, vectors};
+use crate::exact::{Exact, Quantity, vectors};
 use crate::excluded::{Excluded, Study, excluded};
+use crate::falls::Falls;
 use crate::hypothesis::{Hypothesis, all};
 use crate::list::{Listed, listed};
 use crate::run::Obstacle;
 use crate::smooth::Smooth;
 use crate::state::{self, Response};
 use crate::table::{self, Measure, Table};
-use crate::{ordinary, patterns, step, tangent};
+use crate::{like, ordinary, patterns, step, tangent};
 
 /// What there is to look at.
 pub enum Evidence {
@@ -93,12 +94,12 @@ pub struct TangentOf {
 /// What is known of the solver.
 #[derive(Clone, Debug, Default)]
 pub struct Solver {
-    /// Its time step, if it is known.
-    pub time_step: Option<f64>,
     /// What was left out.
     pub without: Without,
     /// A method of this project's own solver that it may be like.
     pub like: Option<Method>,
+    /// How its errors fall from mesh to mesh, of results of two meshes and more.
+    pub falls: Option<Falls>,
 }
 
 /// Fewer points say too little.
@@ -120,6 +121,35 @@ pub fn diagnose(
         Scene::Plane(field) => of(field.as_ref(), evidence, solver),
         Scene::Space(field) => of(field.as_ref(), evidence, solver),
     }
+}
+
+/// The orders with which the errors of a right method fall on a field, for the quantities of results of meshes.
+///
+/// # Errors
+/// Runs that stop, that would take too long, or whose error does not fall.
+pub fn orders_of(
+    scene: &Scene<f64>,
+    meshes: &[Mesh],
+    method: &Method,
+) -> Result<Vec<(Quantity, f64)>, Obstacle> {
+    match scene {
+        Scene::Line(field) => orders(field.as_ref(), meshes, method),
+        Scene::Plane(field) => orders(field.as_ref(), meshes, method),
+        Scene::Space(field) => orders(field.as_ref(), meshes, method),
+    }
+}
+
+fn orders<const D: usize>(
+    field: &dyn ManufacturedField<f64, D>,
+    meshes: &[Mesh],
+    method: &Method,
+) -> Result<Vec<(Quantity, f64)>, Obstacle>
+where
+    f64: Solve<D>,
+{
+    let Some(mesh) = meshes.last() else { return Ok(Vec::new()) };
+    let exact = exact(field, mesh.cell_size, None);
+    like::orders_of(&exact, &frame(&exact, meshes)?, mesh, method)
 }
 
 /// Which mistakes results exclude whose errors are no more than those of a method.
@@ -190,19 +220,21 @@ fn of<const D: usize>(
 where
     f64: Solve<D>,
 {
-    let cell_size = match evidence {
-        Evidence::Results(meshes) => meshes.last().map_or(1.0, |mesh| mesh.cell_size),
-        Evidence::State { cell_size, .. } => *cell_size,
-        Evidence::Law(_) | Evidence::Tangent(_) => 1.0,
+    let (cell_size, time_step) = match evidence {
+        Evidence::Results(meshes) => {
+            meshes.last().map_or((1.0, None), |mesh| (mesh.cell_size, mesh.time_step))
+        }
+        Evidence::State { cell_size, .. } => (*cell_size, None),
+        Evidence::Law(_) | Evidence::Tangent(_) => (1.0, None),
     };
-    let exact = exact(field, cell_size, solver.time_step);
+    let exact = exact(field, cell_size, time_step);
     let hypotheses = all(&exact);
     match evidence {
         Evidence::Results(meshes) => {
             if let Some(step) = step::response(&exact, meshes, solver.without) {
                 return Ok(state::diagnose(&exact, &step, &hypotheses)?);
             }
-            of_results(&exact, meshes, &hypotheses, solver.like.as_ref())
+            of_results(&exact, meshes, &hypotheses, solver)
         }
         Evidence::State { response, .. } => {
             let response = Response { without: solver.without, ..response.clone() };
@@ -217,7 +249,7 @@ fn of_results<const D: usize>(
     exact: &Exact<'_, D>,
     meshes: &[Mesh],
     hypotheses: &[Hypothesis<D>],
-    like: Option<&Method>,
+    solver: &Solver,
 ) -> Result<Diagnosis, Obstacle>
 where
     f64: Solve<D>,
@@ -227,20 +259,29 @@ where
     if let Some(found) = patterns::zero(exact, &snapshots) {
         return Ok(found);
     }
+    let frame = frame(exact, meshes)?;
+    let (like, falls) = (solver.like.as_ref(), solver.falls.as_ref());
+    let found = ordinary::diagnose(exact, &frame, meshes, hypotheses, like, falls)?;
+    let is_named = found.finding == Finding::Named;
+    let permutation = if is_named { None } else { patterns::permutation(exact, &snapshots) };
+    Ok(permutation.unwrap_or(found))
+}
+
+/// What is compared of meshes.
+fn frame<const D: usize>(exact: &Exact<'_, D>, meshes: &[Mesh]) -> Result<Frame<D>, Obstacle> {
     let points = meshes.iter().flat_map(|mesh| &mesh.snapshots).map(|it| it.reference.len() / D);
     let points = points.min().unwrap_or(0);
     if points < FEWEST_POINTS {
         return Err(Obstacle::TooFewPoints { found: points, least: FEWEST_POINTS });
     }
     let smooth = Smooth::new(&exact.domain.body, points, DEGREE)?;
+    let snapshots: Vec<&Snapshot> =
+        meshes.last().map_or(Vec::new(), |it| it.snapshots.iter().collect());
     let frame = Frame::new(exact, &snapshots, smooth);
     if frame.times.is_empty() {
         return Err(Obstacle::AtStart);
     }
-    let found = ordinary::diagnose(exact, &frame, meshes, hypotheses, like)?;
-    let is_named = found.finding == Finding::Named;
-    let permutation = if is_named { None } else { patterns::permutation(exact, &snapshots) };
-    Ok(permutation.unwrap_or(found))
+    Ok(frame)
 }
 
 /// X of so many points of a law: the middle of the body where none are given.

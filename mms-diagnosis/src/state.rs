@@ -185,6 +185,8 @@ pub fn diagnose<const D: usize>(
         cannot_be_seen,
         error: found,
         expected: [floor, most],
+        falls: None,
+        of_order: None,
         pair: (finding == Finding::Unexplained)
             .then(|| pair::best(&error, hypotheses, &explained))
             .flatten(),

@@ -174,6 +174,8 @@ pub fn to_round_off<const D: usize>(
         cannot_be_seen,
         error: found,
         expected: [floor; 2],
+        falls: None,
+        of_order: None,
         pair: None,
         like: None,
         place: None,

@@ -3,20 +3,27 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use anyhow::Context as _;
 use clap::{Args, Parser as _, ValueEnum};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Options, Selection};
+use mms_convergence::TOLERANCE;
 use mms_diagnosis::answer::Finding;
 use mms_diagnosis::changed::Without;
-use mms_diagnosis::scene::{self, Solver};
+use mms_diagnosis::evidence::Mesh;
+use mms_diagnosis::scene::{self, Evidence, Solver};
 use mms_results::names::Mapping;
+use mms_runtime::Method;
+use mms_runtime::scene::Scene;
+use mms_spec::quantity::Quantity;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::diagnose::{Alone, Reading, find, read};
+use crate::diagnose::{Alone, Reading, falls, find, read};
+use crate::judge::table::{Order, Orders};
 use crate::report::{Diagnosed, Hypotheses, Plan, Step};
 use crate::session::exact::Exact;
-use crate::session::input::{Input, Variant};
-use crate::session::method::{MethodOptions, finite, positive};
+use crate::session::input::{Input, Variant, evaluated};
+use crate::session::method::{MethodOptions, finite, length, positive};
 
 /// Name the mistake of a solver by the error that it makes.
 ///
@@ -54,25 +61,25 @@ pub struct Diagnose {
         conflicts_with_all = ["files", "list"]
     )]
     plan: Option<Vec<Step>>,
-    /// What is looked at: `stress` is the law alone, in a table of F and P, S, sigma or tau; `tangent` likewise, in one of F and
-    /// DDSDDE.
-    #[arg(long, value_name = "stress|tangent")]
-    quantity: Option<Quantity>,
+    /// The quantities of results to look at, by name or symbol, as for `mms judge`: u, v, F; without it all that are found. `stress`
+    /// is the law alone, in a table of F and P, S, sigma or tau; `tangent` likewise, in one of F and DDSDDE.
+    #[arg(long, value_name = "NAME,..|stress|tangent", value_delimiter = ',')]
+    quantity: Vec<String>,
     /// A quantity, and the columns that it is in, as for `mms judge`. May be repeated.
     #[arg(long, value_name = "QUANTITY=COLUMN,..")]
     map: Vec<Mapping>,
     /// The memory that reading a file may take, in MB; without it what is free.
     #[arg(long, value_name = "MB")]
     max_memory: Option<u64>,
-    /// h of the FILEs, in their order.
-    #[arg(long, value_name = "H,..", value_delimiter = ',', value_parser = positive)]
+    /// h of the FILEs, in their order; 1/8 is a number too.
+    #[arg(long, value_name = "H,..", value_delimiter = ',', value_parser = length)]
     h: Vec<f64>,
     /// The times of results that have none.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
     time: Vec<f64>,
-    /// The time step of the solver; without it, about the Courant number 0.4.
-    #[arg(long, value_name = "DT", value_parser = positive)]
-    time_step: Option<f64>,
+    /// The time step of the solver: one for all FILEs, or one for each in their order; without it, about the Courant number 0.4.
+    #[arg(long, value_name = "DT,..", value_delimiter = ',', value_parser = positive)]
+    time_step: Vec<f64>,
     /// A term that the solver was told to leave out, in accelerations or residuals. May be repeated.
     #[arg(long, value_name = "body_force|stress|traction")]
     without: Vec<Term>,
@@ -84,9 +91,12 @@ pub struct Diagnose {
     #[arg(long, value_name = "density|nodal", default_value = "density")]
     residual: Residual,
     /// Compare with a method of this project's own solver, as in `shape=linear,integrator=usl`: any options of `mms study`
-    /// that say how to solve. Without it, with some.
+    /// that say how to solve. The expected order is then that of this method on this field. Without it, with some methods.
     #[arg(long, value_name = "OPTION=VALUE,..")]
     like: Option<Alike>,
+    /// The order that results of two meshes and more are held to, as for `mms judge`.
+    #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',')]
+    expected_order: Vec<Order>,
     /// The solver was given the affine part of the motion, as `mms state --affine` writes it.
     #[arg(long)]
     affine: bool,
@@ -101,13 +111,6 @@ pub struct Diagnose {
     /// Write the document there, as diagnosis.json, for `mms report`.
     #[arg(long, short, value_name = "FOLDER", conflicts_with = "list")]
     output: Option<PathBuf>,
-}
-
-/// What may be looked at alone.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Quantity {
-    Stress,
-    Tangent,
 }
 
 /// What residuals are.
@@ -180,6 +183,7 @@ impl Diagnose {
         }
         let provenance = this_command("diagnose", input.provenance(&self.set));
         let mut exact = Exact::new(input, &self.set)?;
+        let (law, wanted) = self.quantities()?;
         let all = self.files.iter().map(|file| find(file, &self.map, self.max_memory));
         let mut all = all.collect::<anyhow::Result<Vec<_>>>()?;
         all.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
@@ -187,14 +191,13 @@ impl Diagnose {
             map: &self.map,
             times: &self.time,
             sizes: &self.h,
-            law: self.quantity.map(|it| match it {
-                Quantity::Stress => Alone::Stress,
-                Quantity::Tangent => Alone::Tangent,
-            }),
+            time_steps: &self.time_step,
+            law,
+            wanted: &wanted,
             residual_sign: self.residual_sign,
             is_nodal: self.residual == Residual::Nodal,
         };
-        let evidence = read(all, &reading, &mut exact)?;
+        let evidence = read(&all, &reading, &mut exact)?;
         say(format_args!("looking at {}", evidence.says()));
         let is_out = |term: Term| self.without.contains(&term);
         let without = Without {
@@ -204,7 +207,18 @@ impl Diagnose {
         };
         let method = |Alike(it): &Alike| it.method(exact.dimension);
         let like = self.like.as_ref().map(method).transpose()?;
-        let solver = Solver { time_step: self.time_step, without, like };
+        let falls = match &evidence {
+            Evidence::Results(meshes) => {
+                let orders = self.orders(&scene, meshes, like.as_ref())?;
+                let falls = falls(all, &wanted, &reading, &orders, &mut exact);
+                falls.unwrap_or_else(|error| {
+                    say(format_args!("warning: the order between meshes is not judged: {error:#}"));
+                    None
+                })
+            }
+            _ => None,
+        };
+        let solver = Solver { without, like, falls };
         let diagnosis = scene::diagnose(&scene, &evidence, &solver)?;
         let input = exact.input();
         let report =
@@ -220,6 +234,34 @@ impl Diagnose {
             Finding::Nothing => Outcome::AsExpected,
             Finding::Named | Finding::Unexplained => Outcome::Refuted,
         })
+    }
+
+    /// The law alone, or the quantities of results that are looked at.
+    fn quantities(&self) -> anyhow::Result<(Option<Alone>, Vec<Quantity>)> {
+        Ok(match self.quantity.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+            ["stress"] => (Some(Alone::Stress), Vec::new()),
+            ["tangent"] => (Some(Alone::Tangent), Vec::new()),
+            _ => (None, evaluated(&self.quantity)?),
+        })
+    }
+
+    /// The orders that results of meshes are held to: as given, or those of the method that they are compared with.
+    fn orders(
+        &self,
+        scene: &Scene<f64>,
+        meshes: &[Mesh],
+        like: Option<&Method>,
+    ) -> anyhow::Result<Orders> {
+        let mut orders = Orders::new(&self.expected_order, TOLERANCE);
+        let Some(like) = like.filter(|_| meshes.len() > 1 && self.expected_order.is_empty()) else {
+            return Ok(orders);
+        };
+        let found = scene::orders_of(scene, meshes, like).context("`--like`")?;
+        for (quantity, order) in found {
+            say(format_args!("expected order of {}: {order:.2}, as of `--like`", quantity.name()));
+            orders.named.push((quantity.name().into(), (100.0 * order).round() / 100.0));
+        }
+        Ok(orders)
     }
 
     fn show(

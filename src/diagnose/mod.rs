@@ -1,5 +1,6 @@
 //! From the results of a solver to what diagnosis looks at: results, accelerations at an exact state, or a table of a law.
 
+mod judged;
 mod nodes;
 
 use anyhow::{Context as _, bail, ensure};
@@ -13,7 +14,9 @@ use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, resolve};
 use mms_results::names::{Mapping, Meaning, Role, Values, recognise, wanted};
 use mms_results::{Snapshot, Stored};
+use mms_spec::quantity;
 
+pub use self::judged::falls;
 use self::nodes::{Nodes, volumes};
 use crate::judge::results::{Results, placed, room};
 use crate::session::exact::Exact;
@@ -26,12 +29,49 @@ pub struct Reading<'a> {
     pub times: &'a [f64],
     /// h of the FILEs, in their order.
     pub sizes: &'a [f64],
+    /// The time step of all FILEs, or of each in their order.
+    pub time_steps: &'a [f64],
     /// What of a law alone is looked at; none of results.
     pub law: Option<Alone>,
     /// The sign of residuals: r = sign (rho0 a - Div P - rho0 b).
     pub residual_sign: f64,
     /// Whether residuals are integrated with the shape functions of nodes.
     pub is_nodal: bool,
+    /// The quantities of results that are looked at; all, if there are none.
+    pub wanted: &'a [quantity::Quantity],
+}
+
+/// The names that `--quantity` has for what diagnosis looks at in results.
+const OF_RESULTS: [(Quantity, &[quantity::Quantity]); 3] = [
+    (Quantity::Displacement, &[quantity::Quantity::Displacement]),
+    (Quantity::Velocity, &[quantity::Quantity::Velocity]),
+    (
+        Quantity::DisplacementGradient,
+        &[quantity::Quantity::DisplacementGradient, quantity::Quantity::DeformationGradient],
+    ),
+];
+
+impl Reading<'_> {
+    /// Whether a quantity of results is looked at.
+    fn wants(&self, quantity: Quantity) -> bool {
+        let names = OF_RESULTS.iter().find(|(it, _)| *it == quantity);
+        self.wanted.is_empty()
+            || names.is_some_and(|(_, names)| names.iter().any(|it| self.wanted.contains(it)))
+    }
+
+    /// The quantities of which one is needed, in words.
+    fn expected(&self) -> String {
+        match self.wanted {
+            [] => "u, v, F, accelerations or residuals".into(),
+            wanted => {
+                let names: Vec<_> = wanted.iter().map(|it| it.symbol()).collect();
+                format!(
+                    "{}, as `--quantity` says (diagnosis looks at u, v and F)",
+                    names.join(", ")
+                )
+            }
+        }
+    }
 }
 
 /// What a law may be asked for without a solver.
@@ -56,23 +96,28 @@ pub fn find(given: &str, map: &[Mapping], memory: Option<u64>) -> anyhow::Result
 ///
 /// # Errors
 /// What is wrong with a file, and where; evidence that is none.
-pub fn read(
-    all: Vec<Results>,
-    reading: &Reading<'_>,
-    exact: &mut Exact,
-) -> anyhow::Result<Evidence> {
+pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow::Result<Evidence> {
     if let Some(alone) = reading.law {
         let snapshot = all.iter().flat_map(|it| &it.snapshots).next();
         let snapshot = snapshot.context("expected a table of F and what a law gives there")?;
         return law(snapshot, alone, reading, exact);
     }
-    if let Some(state) = state(&all, reading, exact)? {
+    if let Some(state) = state(all, reading, exact)? {
         return Ok(state);
     }
     ensure!(!reading.is_nodal, "no residuals at nodes: name their columns with `--map r=..`");
+    let count = reading.time_steps.len();
+    ensure!(
+        count < 2 || count == all.len(),
+        "`--time-step`: {count} values for {} files; expected one for all, or one for each",
+        all.len()
+    );
     let mut levels = Vec::new();
     for (at, results) in all.iter().enumerate() {
-        levels.push(level(results, reading, reading.sizes.get(at).copied(), exact)?);
+        let of_own =
+            if count == 1 { reading.time_steps.first() } else { reading.time_steps.get(at) };
+        let level = level(results, reading, reading.sizes.get(at).copied(), exact)?;
+        levels.push(Level { time_step: of_own.copied(), ..level });
     }
     levels.sort_by(|a, b| b.cell_size.total_cmp(&a.cell_size));
     Ok(Evidence::Results(levels))
@@ -206,7 +251,7 @@ fn state(
         let rounding = motion.reference.rounding;
         let reference = motion.reference.numbers.into_owned();
         let u = motion.displacement.map(|it| it.numbers);
-        let right = exact.values(mms_spec::quantity::Quantity::Displacement, time, &reference)?;
+        let right = exact.values(quantity::Quantity::Displacement, time, &reference)?;
         let is_at_exact = u.is_none_or(|u| is_near(&u, &right));
         if computed == Computed::Acceleration && !is_at_exact {
             return Ok(None);
@@ -292,11 +337,13 @@ fn level(
             .map(|it| (Quantity::Velocity, it.numbers.into_owned()));
         let h = gradient(&meanings, snapshot, dimension)?
             .map(|it| (Quantity::DisplacementGradient, it.numbers.into_owned()));
-        let values: Vec<_> = [u, v, h].into_iter().flatten().collect();
+        let mut values: Vec<_> = [u, v, h].into_iter().flatten().collect();
+        values.retain(|(it, _)| reading.wants(*it));
         ensure!(
             !values.is_empty(),
-            "{}: nothing to diagnose; expected u, v, F, accelerations or residuals; name them with `--map u=..`",
-            snapshot.path
+            "{}: nothing to diagnose; expected {}; name them with `--map u=..`",
+            snapshot.path,
+            reading.expected()
         );
         let column = self::values(&meanings, Role::Volume, snapshot, 1)?;
         let volumes = volumes(column, &mesh, (time, rounding, &snapshot.path), exact).ok();

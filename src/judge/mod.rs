@@ -136,6 +136,18 @@ impl Measured {
         }
     }
 
+    /// Judges all quantities, and takes back what there is an objection to.
+    ///
+    /// # Errors
+    /// A grid of h and dt that is too small to tell the two apart.
+    pub fn judged(&self, objection: Option<&Objection>) -> anyhow::Result<(Refined, Vec<Judged>)> {
+        let refined = self.refined()?;
+        let judge = |quantity| self.judge(refined, quantity);
+        let mut judged: Vec<Judged> = self.quantities.iter().filter_map(judge).collect();
+        judged.iter_mut().for_each(|it| it.object(objection));
+        Ok((refined, judged))
+    }
+
     /// What is refined in a run.
     pub fn length(&self, refined: Refined, run: &Run) -> f64 {
         match refined {

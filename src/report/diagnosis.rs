@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use mms_diagnosis::answer::{Diagnosis, Fields, Finding, Like, Place, Ranked};
+use mms_diagnosis::falls::{Falls, OfOrder};
 use mms_diagnosis::list::Listed;
 use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
@@ -37,6 +38,7 @@ impl Diagnosed<'_> {
             it.error,
             ordinary(it.expected)
         )];
+        parts.extend(it.falls.as_ref().map(|falls| order(falls, it.of_order.as_ref())));
         parts.push(self.finding());
         if it.finding != Finding::Nothing {
             parts.push(self.table());
@@ -47,7 +49,7 @@ impl Diagnosed<'_> {
         }));
         parts.extend(it.like.as_ref().map(alike));
         if it.finding == Finding::Unexplained {
-            parts.extend(it.place.as_ref().map(place));
+            parts.extend(it.place.as_ref().map(|at| place(at, it.falls.is_none())));
         }
         if !it.cannot_be_seen.is_empty() {
             parts.push(format!("these results cannot show: {}", it.cannot_be_seen.join(", ")));
@@ -72,6 +74,9 @@ impl Diagnosed<'_> {
                 "nothing: the error is of the size that a right solver makes".into()
             }
             (Finding::Named, Some(best)) => named(best),
+            _ if it.falls.as_ref().is_some_and(|it| !it.is_right) => {
+                "unexplained: the error does not fall as expected, and no hypothesis explains enough of it".into()
+            }
             _ => "unexplained: there is an error, and no hypothesis explains enough of it".into(),
         }
     }
@@ -99,6 +104,7 @@ impl Diagnosed<'_> {
             "error": it.error,
             "least_expected_error": it.expected[0],
             "expected_error": it.expected[1],
+            "order": it.falls.as_ref().map(|falls| falls_document(falls, it.of_order.as_ref())),
             "ranked": it.ranked.iter().map(ranked).collect::<Vec<_>>(),
             "cannot_be_seen": it.cannot_be_seen,
             "pair": it.pair.as_ref().map(|it| json!({ "hypotheses": it.hypotheses, "explained": it.explained })),
@@ -115,8 +121,29 @@ impl Diagnosed<'_> {
 fn ordinary([least, most]: [f64; 2]) -> String {
     match least == most {
         true => format!("a right solver would be at about {most:.1e}"),
-        false => format!("right methods make {least:.1e} to {most:.1e} on such a grid"),
+        false => {
+            format!(
+                "from {least:.1e} to {most:.1e} is taken for that of a right method on such a grid"
+            )
+        }
     }
+}
+
+/// How the error falls from mesh to mesh, and where to look.
+fn order(it: &Falls, of_order: Option<&OfOrder>) -> String {
+    let observed = it.observed.map_or("no order".into(), |order| format!("order {order:.2}"));
+    let mut lines = vec![format!(
+        "from mesh to mesh {} {} falls with {observed}, {} expected: {} (`mms judge`)",
+        it.quantity, it.norm, it.expected, it.verdict
+    )];
+    lines.extend(it.hint().map(String::from));
+    lines.extend(of_order.map(|own| {
+        format!(
+            "if your method has that order, `--like {}` holds you to it: this right method has order {:.2} here",
+            own.method, own.order
+        )
+    }));
+    lines.join("\n")
 }
 
 /// What a mistake that is named says.
@@ -146,8 +173,8 @@ fn alike(it: &Like) -> String {
     )
 }
 
-/// Where an error sits that nothing explains.
-fn place(it: &Place) -> String {
+/// Where an error sits that nothing explains, and its order if that was not said.
+fn place(it: &Place, has_order: bool) -> String {
     let at: Vec<String> = it.at.iter().map(|x| format!("{x:.4}")).collect();
     let mut lines = vec![format!("it is largest at X = [{}], t = {:.4e}", at.join(", "), it.time)];
     if let Some(face) = it.face {
@@ -159,7 +186,7 @@ fn place(it: &Place) -> String {
             "more than half of it is beside the plane {axis} = {at:.4}, which is no face: of parts of the mesh, of ranks?"
         ));
     }
-    if let Some(order) = it.order {
+    if let Some(order) = it.order.filter(|_| has_order) {
         lines.push(format!("from mesh to mesh it falls with order {order:.2}"));
     }
     if it.smooth < SMOOTH {
@@ -184,6 +211,18 @@ fn fields(it: &Fields) -> Value {
         "points": it.points,
         "error": it.error,
         "named": it.named,
+    })
+}
+
+fn falls_document(it: &Falls, of_order: Option<&OfOrder>) -> Value {
+    json!({
+        "quantity": it.quantity,
+        "norm": it.norm,
+        "observed_order": it.observed,
+        "expected_order": it.expected,
+        "verdict": it.verdict,
+        "says": it.hint(),
+        "like": of_order.map(|own| json!({ "method": own.method, "order": own.order })),
     })
 }
 

@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 use super::picture::{Line, Picture};
 use super::text::{plain, pretty, to_the_right, write_files};
 use crate::judge::results::{Exclusions, Measurement, exclusions};
-use crate::judge::{Judged, Measured, Norm, Quantity, Refined, worst};
+use crate::judge::{Judged, Measured, Norm, Objection, Quantity, Refined, worst};
 use crate::provenance::Provenance;
 use crate::session::exact::Exact;
 
@@ -60,9 +60,16 @@ impl Judgements {
     /// # Errors
     /// Runs that cannot be compared.
     pub fn of(source: String, measured: Measured, provenance: Provenance) -> anyhow::Result<Self> {
-        let refined = measured.refined()?;
-        let judge = |quantity| measured.judge(refined, quantity);
-        let judged = measured.quantities.iter().filter_map(judge).collect();
+        Self::objected(source, measured, None, provenance)
+    }
+
+    fn objected(
+        source: String,
+        measured: Measured,
+        objection: Option<&Objection>,
+        provenance: Provenance,
+    ) -> anyhow::Result<Self> {
+        let (refined, judged) = measured.judged(objection)?;
         Ok(Self {
             source,
             refined,
@@ -89,8 +96,7 @@ impl Judgements {
     ) -> anyhow::Result<Self> {
         let more = more(&exact.input().name, files, &measurement);
         let Measurement { measured, times, notes, objection, part, .. } = measurement;
-        let mut report = Self::of(exact.title(), measured, provenance)?;
-        report.judged.iter_mut().for_each(|judged| judged.object(objection.as_ref()));
+        let report = Self::objected(exact.title(), measured, objection.as_ref(), provenance)?;
         let exclusions = match report.verdict().is_good() {
             true => exclusions(exact, &report.measured, times, time_step)?,
             false => None,

@@ -150,6 +150,14 @@ pub fn positive(text: &str) -> Result<f64, &'static str> {
     number(text, "expected a positive number", |value| value > 0.0 && value.is_finite())
 }
 
+/// Reads a length above 0, as a number or as a fraction.
+pub fn length(text: &str) -> Result<f64, &'static str> {
+    match text.split_once('/') {
+        Some((above, below)) => positive(&(positive(above)? / positive(below)?).to_string()),
+        None => positive(text),
+    }
+}
+
 /// Reads a part of a whole.
 fn part(text: &str) -> Result<f64, &'static str> {
     number(text, "expected a number from 0 to 1", |value| (0.0..=1.0).contains(&value))

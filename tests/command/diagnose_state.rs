@@ -213,13 +213,3 @@ fn a_plan_says_what_each_step_needs_and_sees() {
     assert!(sees(3, "start_at_rest") && !sees(3, "voigt_order"));
     folder.mms("diagnose sheared_block_2d --plan law s.csv").exits(2);
 }
-
-#[test]
-fn a_method_may_be_called_by_the_names_of_its_options() {
-    let folder = Folder::new();
-    folder.mms("run bar_1d --cells 16 --frames 2 --vtk states").exits(0);
-    for like in ["shape=quadratic_bspline", "shape=cpgimp,particles_per_cell=2"] {
-        let run = folder.mms(&format!("diagnose bar_1d states --like {like}"));
-        run.exits(0).prints("bar_1d: results");
-    }
-}

@@ -275,6 +275,7 @@ fn documents_have_the_keys_of_the_page() {
         ("judge", "judge bar.toml states8 states16 --quantity u", 0),
         ("judge", IRREGULAR, 0),
         ("diagnose", "diagnose bar.toml states16 --like shape=linear", 0),
+        ("diagnose", "diagnose bar.toml states8 states16 --expected-order 3", 1),
         ("hypotheses", "diagnose bar.toml --list", 0),
         ("diagnose-plan", "diagnose bar.toml --plan law,residual", 0),
         ("state", "state bar.toml --cells 4 --time 0.01 --without stress -o state.vtu", 0),

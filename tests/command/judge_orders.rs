@@ -13,7 +13,7 @@ const SHARE: usize = 10;
 
 /// Right runs of scikit-fem on four meshes each, as `examples/solvers/scikit_fem/stored.py` makes them: the field's name
 /// there, elements, mesh and quantities.
-const RUNS: [(&str, &str, &str, &str); 20] = [
+pub const RUNS: [(&str, &str, &str, &str); 20] = [
     ("start", "P1", "regular", "uva"),
     ("start", "P1", "irregular", "uva"),
     ("start", "P2", "regular", "uv"),
@@ -36,14 +36,21 @@ const RUNS: [(&str, &str, &str, &str); 20] = [
     ("wave", "Q2", "irregular", "ua"),
 ];
 
-/// The arguments that judge the files of a run.
-fn judge((field, elements, mesh, quantities): (&str, &str, &str, &str)) -> String {
+/// The field of a run, and its files from coarse to fine.
+pub fn files(
+    (field, elements, mesh, quantities): (&str, &str, &str, &str),
+) -> (&'static str, [String; 4]) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/command/data/scikit_fem");
     let cells = if elements.ends_with('1') { [4, 8, 16, 32] } else { [2, 4, 8, 16] };
     let name = |n: i32| format!("{field}_{elements}_{mesh}_{quantities}_{n:02}.vtu");
-    let files = cells.map(|n| folder.join(name(n)).to_string_lossy().into_owned()).join(" ");
-    let field = if field == "wave" { "travelling_wave_2d" } else { "starting_square_2d" };
-    format!("judge {field} {files} --time 0.012 --map X=points --json")
+    let files = cells.map(|n| folder.join(name(n)).to_string_lossy().into_owned());
+    (if field == "wave" { "travelling_wave_2d" } else { "starting_square_2d" }, files)
+}
+
+/// The arguments that judge the files of a run.
+fn judge(run: (&str, &str, &str, &str)) -> String {
+    let (field, files) = files(run);
+    format!("judge {field} {} --time 0.012 --map X=points --json", files.join(" "))
 }
 
 /// The range of orders that is expected of l2 of a quantity; none if it is not judged.

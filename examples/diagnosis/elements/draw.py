@@ -158,10 +158,12 @@ def main():
             if exact is None:
                 continue
             if sum(tally["right"].values()) < right:
-                found = outcome(case.diagnosed(command, exact), None)
+                answer = case.diagnosed(command, exact)
+                found, order = outcome(answer, None), answer["order"]
                 tally["right"][found] += 1
                 if found in ("wrong", "unexplained"):
-                    missed.append((case.told(), "none", found))
+                    judged = f" ({order['quantity']} {order['norm']}, order {order['observed_order']:.2f}, {order['verdict']})" if order else ""
+                    missed.append((case.told(), "none", found + judged))
             mistake = drawn_mistake(case, random)
             if mistake is None or sum(tally["mistake"].values()) == wrong:
                 continue

@@ -162,7 +162,10 @@ impl Kind {
 /// By how many steps what belongs to another time may be off.
 const STEPS: f64 = 8.0;
 
-/// What size a hypothesis may have.
+/// Factors that people forget or add.
+const FACTORS: [f64; 5] = [-1.0, 0.0, 0.5, 2.0 / 3.0, 2.0];
+
+/// The sizes that a hypothesis may have.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Size {
     /// None but the one that it is.
@@ -200,6 +203,8 @@ pub struct Hypothesis<const D: usize> {
     pub face: Option<Face>,
     /// Which of several it is.
     pub which: Option<&'static str>,
+    /// The one quantity whose output it changes, where others are right.
+    pub only: Option<Quantity>,
     /// Whether its size is a part of a time step or of a cell, and so is smaller on a finer mesh.
     pub is_of_mesh: bool,
 }
@@ -218,6 +223,7 @@ impl<const D: usize> Hypothesis<D> {
             below: None,
             face: None,
             which: None,
+            only: None,
             is_of_mesh: false,
         }
     }
@@ -303,6 +309,23 @@ impl<const D: usize> Hypothesis<D> {
     /// The name, with which it is and the face.
     pub fn title(&self) -> String {
         title(self.name, self.which, self.face)
+    }
+
+    /// Whether results of these quantities show it as a mistake of its own.
+    pub fn is_of(&self, quantities: &[Quantity]) -> bool {
+        self.only.is_none_or(|it| quantities.len() > 1 && quantities.contains(&it))
+    }
+
+    /// The sizes that people make mistakes of: those with names, and of a factor some more.
+    pub fn usual(&self, exact: &Exact<'_, D>) -> Vec<f64> {
+        let Size::Any { right, range: [_, most], .. } = &self.size else { return Vec::new() };
+        let known = (self.known)(exact).into_iter().map(|it| it.size);
+        let factors = if right == &[1.0] && *most == f64::MAX { &FACTORS[..] } else { &[] };
+        let all = known.chain(factors.iter().copied());
+        let mut all: Vec<f64> = all.filter(|it| it.is_finite() && right != &[*it]).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
     }
 
     /// How far from the right size a mistake is looked for: of a factor of any size where a term is missing, or there twice.

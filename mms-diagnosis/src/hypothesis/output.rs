@@ -92,15 +92,55 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             }),
         ),
     ];
+    all.push(Hypothesis {
+        only: Some(Quantity::Displacement),
+        ..Hypothesis::fixed(
+            "position_for_displacement",
+            "x is given as u",
+            Change::Output(|at, quantity| {
+                let mut values = at.exact.values(quantity, at.time, at.reference);
+                if quantity == Quantity::Displacement {
+                    let places = at.reference.iter().flat_map(|x| x.iter());
+                    values.iter_mut().zip(places).for_each(|(u, x)| *u += x);
+                }
+                values
+            }),
+        )
+    });
     if D > 1 {
+        let fixed = |says, change| Hypothesis::fixed("components_swapped", says, change);
+        all.push(fixed("components stand in another order", Change::Output(swapped)));
+        let only = [
+            ("displacement", Change::Output(swapped_only::<D, 0>)),
+            ("velocity", Change::Output(swapped_only::<D, 1>)),
+            ("displacement_gradient", Change::Output(swapped_only::<D, 2>)),
+        ];
+        all.extend(only.into_iter().zip(QUANTITIES).map(|((which, change), quantity)| {
+            let says =
+                "components of this quantity stand in another order, beside others that are right";
+            Hypothesis { only: Some(quantity), ..fixed(says, change).of(which) }
+        }));
         all.push(Hypothesis::fixed(
-            "components_swapped",
-            "components stand in another order",
-            Change::Output(swapped),
+            "gradient_transposed",
+            "H or F is written by columns, in place of rows",
+            Change::Output(|at, quantity| {
+                let mut values = at.exact.values(quantity, at.time, at.reference);
+                if quantity == Quantity::DisplacementGradient {
+                    for tensor in values.chunks_mut(D * D) {
+                        let rows = tensor.to_vec();
+                        (0..D * D).for_each(|it| tensor[it] = rows[it % D * D + it / D]);
+                    }
+                }
+                values
+            }),
         ));
     }
     all
 }
+
+/// The quantities of results.
+const QUANTITIES: [Quantity; 3] =
+    [Quantity::Displacement, Quantity::Velocity, Quantity::DisplacementGradient];
 
 /// Velocities of an earlier time than they say, as leapfrog has them: that is no mistake. The size is by how much.
 pub fn earlier_velocity<const D: usize>() -> Hypothesis<D> {
@@ -110,6 +150,18 @@ pub fn earlier_velocity<const D: usize>() -> Hypothesis<D> {
     });
     Hypothesis::amount("earlier_velocity", "velocities of an earlier time", vec![0.0], change)
         .of_mesh()
+}
+
+/// Components of one quantity shifted by one place.
+fn swapped_only<const D: usize, const WHICH: usize>(
+    at: &Given<'_, D>,
+    quantity: Quantity,
+) -> Vec<f64> {
+    if quantity == QUANTITIES[WHICH] {
+        swapped(at, quantity)
+    } else {
+        at.exact.values(quantity, at.time, at.reference)
+    }
 }
 
 /// Components shifted by one place.

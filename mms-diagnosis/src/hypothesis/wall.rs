@@ -17,8 +17,29 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         vec![exact.time_step],
         Change::Wall(|at, motion| follow(at, motion, at.time - at.size[0])),
     );
+    let late_acceleration = Hypothesis::amount(
+        "wall_late",
+        "the acceleration of prescribed faces is that of an earlier time; the size is by how much",
+        vec![exact.time_step],
+        Change::Wall(accelerated_late),
+    );
+    let mut offset = Hypothesis::amount(
+        "start_half_step",
+        "the initial velocity is that of a later time, and that of prescribed faces, which their acceleration moves; the size \
+         is by how much",
+        vec![exact.time_step / 2.0],
+        Change::Wall(started_late),
+    );
+    offset.below = Some("initial_acceleration_missing");
     vec![
         late.of_steps(exact),
+        late_acceleration.of_steps(exact).of("acceleration"),
+        offset.of_steps(exact).of("walls"),
+        fixed(
+            "wall_acceleration_missing",
+            "prescribed faces keep the velocity that they have at the start",
+            unaccelerated,
+        ),
         fixed("wall_at_rest", "prescribed faces stay where they are at the start", |at, motion| {
             let start = at.exact.domain.time[0];
             match motion {
@@ -56,15 +77,86 @@ fn follow<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>, time: f6
     }
 }
 
-/// The motion less that of the velocity at the start.
-fn from_rest<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
-    let start = at.exact.domain.time[0];
-    let first = at.exact.velocity(start, at.reference);
+/// The motion that an acceleration of an earlier time makes from the start.
+fn accelerated_late<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
+    let (start, late) = (at.exact.domain.time[0], at.size[0]);
+    let [own, early] = [start, start - late].map(|time| moves(at, time));
+    let jump = minus(&own.1, &early.1);
+    let there = minus(&own.0, &early.0);
+    let passed = at.time - start;
+    if passed <= 0.0 {
+        return;
+    }
     match motion {
         MotionPart::Displacement(u) => {
-            u.iter_mut().zip(first).for_each(|(u, v)| *u -= v * (at.time - start));
+            u.copy_from_slice(&at.exact.displacement(at.time - late, at.reference));
+            u.iter_mut().zip(there).zip(jump).for_each(|((u, there), v)| *u += there + v * passed);
         }
-        MotionPart::Velocity(v) => v.iter_mut().zip(first).for_each(|(v, first)| *v -= first),
+        MotionPart::Velocity(v) => {
+            v.copy_from_slice(&at.exact.velocity(at.time - late, at.reference));
+            v.iter_mut().zip(jump).for_each(|(v, jump)| *v += jump);
+        }
+        MotionPart::Acceleration(a) => {
+            a.copy_from_slice(&at.exact.acceleration(at.time - late, at.reference));
+        }
+        MotionPart::Gradient(_) => {}
+    }
+}
+
+/// The motion with the velocity at the start.
+fn unaccelerated<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
+    let start = at.exact.domain.time[0];
+    let (first, velocity) = moves(at, start);
+    let passed = at.time - start;
+    match motion {
+        MotionPart::Displacement(u) => {
+            let own = first.iter().zip(&velocity).map(|(u, v)| u + v * passed);
+            u.iter_mut().zip(own).for_each(|(u, own)| *u = own);
+        }
+        MotionPart::Velocity(v) => v.copy_from_slice(&velocity),
+        MotionPart::Acceleration(a) if passed > 0.0 => a.fill(Vector::zeros()),
         MotionPart::Acceleration(_) | MotionPart::Gradient(_) => {}
     }
+}
+
+/// The motion from an initial velocity of a later time.
+fn started_late<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
+    let start = at.exact.domain.time[0];
+    let later = at.exact.velocity(start + at.size[0], at.reference);
+    let added = minus(&later, &at.exact.velocity(start, at.reference));
+    add_velocity(at, motion, &added);
+}
+
+/// The motion less that of the velocity at the start.
+fn from_rest<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
+    let first = at.exact.velocity(at.exact.domain.time[0], at.reference);
+    add_velocity(at, motion, &first.iter().map(|v| -v).collect::<Vec<_>>());
+}
+
+/// Adds the motion of a constant velocity from the start on.
+fn add_velocity<const D: usize>(
+    at: &Given<'_, D>,
+    motion: MotionPart<'_, D>,
+    added: &[Vector<f64, D>],
+) {
+    let passed = at.time - at.exact.domain.time[0];
+    match motion {
+        MotionPart::Displacement(u) => {
+            u.iter_mut().zip(added).for_each(|(u, added)| *u += added * passed);
+        }
+        MotionPart::Velocity(v) => v.iter_mut().zip(added).for_each(|(v, added)| *v += added),
+        MotionPart::Acceleration(_) | MotionPart::Gradient(_) => {}
+    }
+}
+
+/// u and v at a time.
+fn moves<const D: usize>(
+    at: &Given<'_, D>,
+    time: f64,
+) -> (Vec<Vector<f64, D>>, Vec<Vector<f64, D>>) {
+    (at.exact.displacement(time, at.reference), at.exact.velocity(time, at.reference))
+}
+
+fn minus<const D: usize>(a: &[Vector<f64, D>], b: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }

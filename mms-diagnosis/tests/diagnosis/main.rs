@@ -255,7 +255,7 @@ fn of_step(velocity: impl Fn(&Point) -> Point) -> Diagnosis {
         values: vec![(Quantity::Velocity, values)],
         ..Snapshot::default()
     };
-    let mesh = Mesh { cell_size: 1.0 / 24.0, snapshots: vec![snapshot] };
+    let mesh = Mesh { cell_size: 1.0 / 24.0, time_step: None, snapshots: vec![snapshot] };
     let response = step::response(&exact, &[mesh], Without::default()).unwrap();
     state::diagnose(&exact, &response, &all(&exact)).unwrap()
 }
@@ -284,7 +284,7 @@ fn results_after_many_steps_are_none_of_one() {
         values: vec![(Quantity::Velocity, vec![0.0, 0.0])],
         ..Snapshot::default()
     };
-    let of = |snapshots| Mesh { cell_size: 1.0 / 24.0, snapshots };
+    let of = |snapshots| Mesh { cell_size: 1.0 / 24.0, time_step: None, snapshots };
     let response = |mesh| step::response(&exact, &[mesh], Without::default());
     assert!(response(of(vec![at(STEP)])).is_some());
     assert!(response(of(vec![at(0.01)])).is_none());
@@ -392,7 +392,7 @@ fn of_solver(mistaken: &Mistaken) -> Diagnosis {
     let reference: Vec<f64> = pairs.map(|(x, u)| x - u).collect();
     let values = vec![(Quantity::Displacement, state.displacement.clone())];
     let snapshots = vec![Snapshot { time: state.time, reference, values, ..Snapshot::default() }];
-    said(&[Mesh { cell_size: 1.0 / 12.0, snapshots }])
+    said(&[Mesh { cell_size: 1.0 / 12.0, time_step: None, snapshots }])
 }
 
 #[test]
@@ -508,7 +508,7 @@ fn said(meshes: &[Mesh]) -> Diagnosis {
     }
     let frame =
         Frame::new(&exact, &snapshots, Smooth::new(&exact.domain.body, 576, DEGREE).unwrap());
-    let found = ordinary::diagnose(&exact, &frame, meshes, &all(&exact), None).unwrap();
+    let found = ordinary::diagnose(&exact, &frame, meshes, &all(&exact), None, None).unwrap();
     match found.finding {
         Finding::Named => found,
         _ => patterns::permutation(&exact, &snapshots).unwrap_or(found),
@@ -531,7 +531,11 @@ fn of_results(displacement: impl Fn(f64, &Point) -> Point) -> Diagnosis {
             ..Snapshot::default()
         }
     };
-    said(&[Mesh { cell_size: 1.0 / 12.0, snapshots: vec![snapshot(0.015), snapshot(0.03)] }])
+    said(&[Mesh {
+        cell_size: 1.0 / 12.0,
+        time_step: None,
+        snapshots: vec![snapshot(0.015), snapshot(0.03)],
+    }])
 }
 
 #[test]
@@ -580,7 +584,7 @@ fn velocities_of_half_a_step_earlier_are_no_mistake() {
         ..Snapshot::default()
     };
     let snapshots = vec![snapshot(0.015), snapshot(0.03)];
-    let found = said(&[Mesh { cell_size: 1.0 / 12.0, snapshots }]);
+    let found = said(&[Mesh { cell_size: 1.0 / 12.0, time_step: None, snapshots }]);
     // Half a step of velocity is an error of some percent.
     assert!(found.error > 0.01, "{}", found.error);
     assert_eq!(name(&found), "nothing");

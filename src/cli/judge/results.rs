@@ -19,7 +19,7 @@ use crate::read::{self, Kind};
 use crate::report::{Judgements, differences, with_baseline};
 use crate::session::exact::Exact;
 use crate::session::input::{Input, Variant, evaluated};
-use crate::session::method::{finite, positive};
+use crate::session::method::{finite, length};
 
 /// How results are read.
 #[derive(Args)]
@@ -73,14 +73,6 @@ pub struct Options {
     /// order; several in one place may stand for one. Takes no FIELD.
     #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with_all = ["field", "files", "errors"])]
     same: Vec<String>,
-}
-
-/// A length, as a number or as a fraction.
-fn length(text: &str) -> Result<f64, &'static str> {
-    match text.split_once('/') {
-        Some((above, below)) => positive(&(positive(above)? / positive(below)?).to_string()),
-        None => positive(text),
-    }
 }
 
 impl Judge {
