@@ -7,6 +7,7 @@ use mms_diagnosis::exact::{Exact, Quantity, vectors};
 use mms_diagnosis::hypothesis::{Change, Given, Hypothesis, Size, all};
 use mms_diagnosis::ordinary::diagnose;
 use mms_diagnosis::smooth::{Smooth, size};
+use mms_diagnosis::solver::Solver;
 use mms_runtime::body::bounding_box;
 use mms_runtime::study::{Frame as State, Observer, Solve, Watch};
 use mms_runtime::{
@@ -252,7 +253,7 @@ where
         let family = family(&hypotheses[truths[0]]);
         hypotheses.retain(|it| self::family(it) != family);
     }
-    let answer = diagnose(&exact, &frame, &meshes, &hypotheses, None, None).ok()?;
+    let answer = diagnose(&exact, &frame, &meshes, &hypotheses, &Solver::default()).ok()?;
     let of = format!("{} {} {}", method.shape, method.formulation, method.integrator);
     let told = |(title, size): (&String, &Vec<f64>)| {
         let size: Vec<String> = size.iter().map(|it| format!("{it:.3e}")).collect();

@@ -32,6 +32,14 @@ pub enum Variation {
     Affine,
     /// The material has this ratio of lambda to mu, a number as field files write it.
     Moduli(String),
+    /// Each parameter of the material is times a factor, of 1: parameters behind those of the file, in the order of the material's
+    /// arguments, under the names that [`factor_of`] gives them.
+    Factors,
+}
+
+/// The name of the factor of a parameter of the material.
+pub fn factor_of(parameter: &str) -> String {
+    format!("factor_of_{parameter}")
 }
 
 /// What a material is made of, where that fixes lambda/mu = r: the argument that is replaced, the one
@@ -64,6 +72,7 @@ impl Variation {
                 add_parameter(sources, field, "shift of X", "0")
             }
             Variation::Moduli(ratio) => set_moduli(sources, field, ratio),
+            Variation::Factors => set_factors(sources, field),
         }
     }
 
@@ -75,7 +84,8 @@ impl Variation {
         let Some(last) = model.parameters.len().checked_sub(1) else { return };
         let parameter = graph.symbol(Symbol::Parameter(last));
         match self {
-            Variation::Nothing | Variation::Affine | Variation::Moduli(_) => {}
+            Variation::Nothing | Variation::Affine => {}
+            Variation::Moduli(_) | Variation::Factors => {}
             Variation::Scaled => {
                 for component in &mut model.displacement {
                     *component = graph.mul(parameter, *component);
@@ -137,6 +147,17 @@ fn set_moduli(sources: &mut Sources, field: &mut FieldSpec, ratio: &str) {
         field.material.arguments[replaced].1 = formula(text);
     } else if let Some(lambda) = field.lets.iter_mut().find(|it| it.name.value == "lambda") {
         lambda.value = formula(format!("({ratio})*mu"));
+    }
+}
+
+fn set_factors(sources: &mut Sources, field: &mut FieldSpec) {
+    for at in 0..field.material.arguments.len() {
+        let (name, formula) = &field.material.arguments[at];
+        let factor = factor_of(&name.value);
+        let text = format!("{factor}*({})", formula.text);
+        let source = sources.add("variation", text.as_str());
+        field.material.arguments[at].1 = Formula::plain(&text, sources.span(source, 0, text.len()));
+        add_parameter(sources, field, &factor, "1");
     }
 }
 

@@ -1,5 +1,7 @@
 //! What is said of an error: a finding, and hypotheses in the order of what they explain.
 
+use std::borrow::Cow;
+
 use mms_runtime::Face;
 
 use crate::exact::Exact;
@@ -43,7 +45,7 @@ pub struct Ranked {
     /// The face that it is on.
     pub face: Option<Face>,
     /// Which of several it is.
-    pub which: Option<&'static str>,
+    pub which: Option<Cow<'static, str>>,
     /// Its size: a factor, an amount, the parts of a vector; of a mistake without one by which its effect would have to be
     /// scaled.
     pub factor: Vec<f64>,
@@ -72,7 +74,7 @@ pub struct Ranked {
 impl Ranked {
     /// The name, with the face and which it is.
     pub fn title(&self) -> String {
-        title(self.name, self.which, self.face)
+        title(self.name, self.which.as_deref(), self.face)
     }
 
     /// Whether it fits with a size that nobody would have expected.
@@ -269,6 +271,8 @@ const MOST_SCALED: f64 = 0.08;
 const SCALED_BY_LEFT: f64 = 0.5;
 /// What may be left besides, over how many times the method's error an error is.
 const LEFT_BY_METHOD: f64 = 0.1;
+/// The part of the error that a mistake with several free numbers leaves at most: they explain much by chance.
+const OF_VECTOR: f64 = 0.12;
 /// The remainder of a hypothesis that explains an error as well as the best one, over that of it; and the part of the
 /// squared error that is not looked at.
 const AS_WELL: f64 = 1.3;
@@ -317,7 +321,12 @@ impl Limits {
         let nearest = others.map(|it| left(it.explained)).fold(f64::INFINITY, f64::min);
         let names = |best: &Ranked| {
             let kind = usize::from(best.is_sized);
-            let most = self.left[kind] + LEFT_BY_METHOD / excess.max(1.0);
+            let limit = if best.factor.len() > 1 {
+                self.left[kind].min(OF_VECTOR)
+            } else {
+                self.left[kind]
+            };
+            let most = limit + LEFT_BY_METHOD / excess.max(1.0);
             let left = left(best.explained);
             excess > self.excess[usize::from(best.is_free())]
                 && best.is_plausible
@@ -425,7 +434,7 @@ fn one<const D: usize>(
         says,
         kind: hypothesis.kind,
         face: hypothesis.face,
-        which: hypothesis.which,
+        which: hypothesis.which.clone(),
         factor,
         margin: explained.margin,
         explained: explained.share,

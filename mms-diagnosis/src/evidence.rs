@@ -58,7 +58,7 @@ pub struct Seen {
 impl<const D: usize> Frame<D> {
     /// For results with these points, at some of these times.
     pub fn new(exact: &Exact<'_, D>, snapshots: &[&Snapshot], smooth: Smooth<D>) -> Self {
-        let start = exact.domain.time[0];
+        let (start, is_at_rest) = (exact.domain.time[0], exact.is_at_rest());
         let last = snapshots.len().saturating_sub(1);
         let chosen: Vec<&Snapshot> = match snapshots.len() {
             0..=TIMES => snapshots.to_vec(),
@@ -77,8 +77,8 @@ impl<const D: usize> Frame<D> {
         };
         let times = chosen.iter().map(|it| it.time);
         Frame {
-            // There the state is given.
-            times: times.filter(|time| *time > start).collect(),
+            // At the start the state of what moves is given.
+            times: times.filter(|time| *time > start || is_at_rest).collect(),
             quantities: kinds.iter().map(|(quantity, _)| (*quantity, size(*quantity))).collect(),
             smooth,
         }

@@ -1,5 +1,7 @@
 //! The exact solution, its law, and its moduli.
 
+use std::sync::Arc;
+
 use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::{Domain, Fill, ManufacturedField, Matrix, Vector};
 
@@ -46,6 +48,15 @@ enum Moduli {
     None,
 }
 
+/// The parameters of a material.
+pub trait Parameters<const D: usize>: Sync {
+    /// Their names.
+    fn names(&self) -> &[String];
+
+    /// A field with the same motion, whose material has one parameter times a factor; `None` if there is no such field.
+    fn times(&self, parameter: usize, factor: f64) -> Option<Arc<dyn ManufacturedField<f64, D>>>;
+}
+
 /// A field, and what a solver that computes it takes.
 pub struct Exact<'a, const D: usize> {
     /// The field.
@@ -58,6 +69,8 @@ pub struct Exact<'a, const D: usize> {
     pub cell_size: f64,
     /// The published law that the field's is.
     pub law: Option<&'static Law>,
+    /// The parameters of the material, if they are known.
+    pub parameters: Option<&'a dyn Parameters<D>>,
     moduli: Moduli,
 }
 
@@ -73,6 +86,8 @@ fn trials<const D: usize>() -> [Matrix<f64, D>; 4] {
 const SMALL: f64 = 1e-6;
 /// By how much a law may miss stresses of its own, for rounding.
 const SAME: f64 = 1e-9;
+/// Parts of the time window at which a field is asked whether it moves.
+const TRIED: [f64; 4] = [0.0, 0.31, 0.67, 1.0];
 /// The step of differences in time, over the time window.
 const STEP: f64 = 1e-5;
 /// The same of a law taken as linear.
@@ -82,8 +97,15 @@ impl<'a, const D: usize> Exact<'a, D> {
     /// Of a field, for a solver with this h and time step.
     pub fn new(field: &'a dyn ManufacturedField<f64, D>, cell_size: f64, time_step: f64) -> Self {
         let domain = field.domain();
-        let mut exact =
-            Exact { field, domain, time_step, cell_size, law: None, moduli: Moduli::None };
+        let mut exact = Exact {
+            field,
+            domain,
+            time_step,
+            cell_size,
+            law: None,
+            parameters: None,
+            moduli: Moduli::None,
+        };
         let places = exact.places();
         exact.law = LAWS.iter().find(|law| {
             let fits = |x: &Vector<f64, D>| {
@@ -102,6 +124,22 @@ impl<'a, const D: usize> Exact<'a, D> {
             }
         };
         exact
+    }
+
+    /// Whether nothing moves: v and a are 0 at all times.
+    pub fn is_at_rest(&self) -> bool {
+        let (places, [start, end]) = (self.places(), self.domain.time);
+        let is_zero = |time: f64| {
+            let moves = [self.velocity(time, &places), self.acceleration(time, &places)];
+            moves.iter().flatten().all(|it| it.norm() == 0.0)
+        };
+        TRIED.iter().all(|part| is_zero(start + part * (end - start)))
+    }
+
+    /// The longest edge of the box around the body.
+    pub fn length(&self) -> f64 {
+        let edges = bounding_box(&self.domain.body).map(|[lower, upper]| upper - lower);
+        edges.map_or(1.0, |edges| edges.max())
     }
 
     /// The largest wave speed at a few points.

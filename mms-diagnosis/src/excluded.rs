@@ -12,7 +12,7 @@ use crate::evidence::{Frame, Mesh, Snapshot};
 use crate::exact::{Exact, Quantity};
 use crate::hypothesis::{Hypothesis, Kind, Size, title};
 use crate::level::on_all_processors;
-use crate::run::{Obstacle, Plan, written};
+use crate::run::{Obstacle, Plan, Responses as _, written};
 use crate::smooth::{Smooth, less};
 
 /// Results whose errors are known.
@@ -115,7 +115,7 @@ where
     let one = |at: usize| {
         let it = hypotheses[at];
         Excluded {
-            name: title(it.name, it.which, None),
+            name: title(it.name, it.which.as_deref(), None),
             title: it.title(),
             says: it.says,
             kind: it.kind,

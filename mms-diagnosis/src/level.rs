@@ -1,5 +1,6 @@
 //! The meshes of a user's that are looked at, and runs of our own on grids of about their size.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::thread;
 
@@ -10,8 +11,9 @@ use crate::changed::Without;
 use crate::evidence::{Frame, Mesh, Seen};
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Hypothesis};
-use crate::run::{Obstacle, Plan, written};
+use crate::run::{Obstacle, Plan, Responses, written};
 use crate::smooth::{less, size};
+use crate::statics::{Equilibrium, Statics};
 
 /// A mesh is finer than another by this factor at least.
 const REFINED: f64 = 1.2;
@@ -26,44 +28,37 @@ pub struct Level<'a, const D: usize> {
     pub mesh: &'a Mesh,
     /// Their errors.
     pub seen: Seen,
-    /// The runs.
-    pub plan: Plan<'a, D>,
+    /// The solvers that its errors are compared with.
+    pub solvers: Box<dyn Responses<'a, D> + 'a>,
     /// The errors of right methods; `None` of one that stops.
     right: Vec<Option<Vec<f64>>>,
 }
 
-/// The errors that right methods make in the runs of a plan.
+/// The errors that right methods make.
 fn of_methods<const D: usize>(
     frame: &Frame<D>,
     mesh: &Mesh,
-    plan: &Plan<'_, D>,
-) -> Vec<Option<Vec<f64>>>
-where
-    f64: Solve<D>,
-{
-    let right = |method| Some(frame.see(mesh, &plan.right(method)?)?.coefficients);
-    on_all_processors(plan.methods(), right)
+    solvers: &dyn Responses<'_, D>,
+) -> Vec<Option<Vec<f64>>> {
+    let right = |method| Some(frame.see(mesh, &solvers.right(method)?)?.coefficients);
+    on_all_processors(solvers.methods(), right)
 }
 
-impl<'a, const D: usize> Level<'a, D>
-where
-    f64: Solve<D>,
-{
+impl<'a, const D: usize> Level<'a, D> {
     fn new(
         exact: &'a Exact<'a, D>,
         frame: &'a Frame<D>,
         mesh: &'a Mesh,
-        like: Option<&Method>,
+        solvers: Box<dyn Responses<'a, D> + 'a>,
     ) -> Result<Self, Obstacle> {
         let seen = frame.errors_of(exact, mesh).ok_or(Obstacle::NotFinite)?;
-        let plan = Plan::new(exact, frame, mesh, Without::default(), like, MOST_WORK)?;
-        let right = of_methods(frame, mesh, &plan);
-        Ok(Level { mesh, seen, plan, right })
+        let right = of_methods(frame, mesh, &*solvers);
+        Ok(Level { mesh, seen, solvers, right })
     }
 
     /// The errors that a right method would make on the mesh.
     pub fn right(&self, method: usize) -> Option<Vec<f64>> {
-        let ratio = (self.mesh.cell_size / self.plan.cell_size()).powi(2);
+        let ratio = (self.mesh.cell_size / self.solvers.cell_size()).powi(2);
         self.right[method].as_ref().map(|it| it.iter().map(|it| it * ratio).collect())
     }
 }
@@ -79,31 +74,50 @@ pub struct Levels<'a, const D: usize> {
     orders: Vec<Option<f64>>,
 }
 
-impl<'a, const D: usize> Levels<'a, D>
-where
-    f64: Solve<D>,
-{
+impl<'a, const D: usize> Levels<'a, D> {
     /// Of results of meshes, from coarse to fine, and a method that they may be of.
     ///
     /// # Errors
-    /// Values that are not finite; runs that would take too long.
+    /// Values that are not finite; runs that would take too long; a body at rest that nothing holds.
     pub fn new(
         exact: &'a Exact<'a, D>,
         frame: &'a Frame<D>,
         meshes: &'a [Mesh],
         like: Option<&Method>,
-    ) -> Result<Self, Obstacle> {
+    ) -> Result<Self, Obstacle>
+    where
+        f64: Solve<D>,
+    {
         let mesh = meshes.last().ok_or(Obstacle::NotFinite)?;
-        let level = |mesh| Level::new(exact, frame, mesh, like);
+        let equilibrium = if exact.is_at_rest() {
+            Some(Arc::new(Equilibrium::new(exact, frame)?.ok_or(Obstacle::NotHeld)?))
+        } else {
+            None
+        };
+        let level = |mesh: &'a Mesh| {
+            let solvers: Box<dyn Responses<'a, D> + 'a> = match &equilibrium {
+                Some(equilibrium) => {
+                    let (equilibrium, cell_size) = (equilibrium.clone(), mesh.cell_size);
+                    Box::new(Statics { equilibrium, frame, mesh, cell_size })
+                }
+                None => {
+                    Box::new(Plan::new(exact, frame, mesh, Without::default(), like, MOST_WORK)?)
+                }
+            };
+            Level::new(exact, frame, mesh, solvers)
+        };
         let is_coarser = |it: &&Mesh| it.cell_size > REFINED * mesh.cell_size;
         let coarse = meshes.iter().rev().find(is_coarser).map(level).transpose()?;
         let fine = level(mesh)?;
-        let is_coarser = |plan: &Plan<'_, D>| plan.cell_size() > REFINED * fine.plan.cell_size();
+        let is_coarser =
+            |it: &dyn Responses<'_, D>| it.cell_size() > REFINED * fine.solvers.cell_size();
         let orders = match &coarse {
-            Some(coarse) if is_coarser(&coarse.plan) => orders(&fine, &coarse.plan, &coarse.right),
+            Some(coarse) if is_coarser(&*coarse.solvers) => {
+                orders(&fine, &*coarse.solvers, &coarse.right)
+            }
             _ => {
-                let plan = fine.plan.coarser();
-                orders(&fine, &plan, &of_methods(frame, mesh, &plan))
+                let solvers = fine.solvers.coarser();
+                orders(&fine, &*solvers, &of_methods(frame, mesh, &*solvers))
             }
         };
         Ok(Levels { exact, frame, fine, coarse, orders })
@@ -153,33 +167,48 @@ where
         hypothesis: &Hypothesis<D>,
         size: &[f64],
     ) -> Option<Vec<f64>> {
-        let steps = level.mesh.time_step.zip(self.fine.mesh.time_step);
-        let [own, finest] = steps
-            .map_or([level.mesh.cell_size, self.fine.mesh.cell_size], |(own, finest)| {
-                [own, finest]
-            });
-        let ratio = own / finest;
-        let factor = if hypothesis.is_of_mesh { ratio } else { 1.0 };
-        let size: Vec<f64> = size.iter().map(|it| it * factor).collect();
-        let seen = |errors: &[Vec<f64>]| Some(self.frame.see(level.mesh, errors)?.coefficients);
+        let size = self.on_mesh(level, hypothesis, size);
         if let Change::Output(_) = hypothesis.change {
-            return seen(&written(self.exact, self.frame, level.mesh, hypothesis, &size)?);
+            let errors = written(self.exact, self.frame, level.mesh, hypothesis, &size)?;
+            return Some(self.frame.see(level.mesh, &errors)?.coefficients);
         }
-        let wrong = seen(&level.plan.wrong(method, hypothesis, &size)?)?;
+        self.beyond(level, method, &level.solvers.wrong(method, hypothesis, &size)?)
+    }
+
+    /// The same by the first method as if the mistake were small, where that is found in less time.
+    pub fn roughly(
+        &self,
+        level: &Level<'a, D>,
+        hypothesis: &Hypothesis<D>,
+        size: &[f64],
+    ) -> Option<Vec<f64>> {
+        let size = self.on_mesh(level, hypothesis, size);
+        self.beyond(level, 0, &level.solvers.roughly(hypothesis, &size)?)
+    }
+
+    /// A size on a mesh, of one on the finest.
+    fn on_mesh(&self, level: &Level<'a, D>, hypothesis: &Hypothesis<D>, size: &[f64]) -> Vec<f64> {
+        let steps = level.mesh.time_step.zip(self.fine.mesh.time_step);
+        let sizes = (level.mesh.cell_size, self.fine.mesh.cell_size);
+        let (own, finest) = steps.unwrap_or(sizes);
+        let factor = if hypothesis.is_of_mesh { own / finest } else { 1.0 };
+        size.iter().map(|it| it * factor).collect()
+    }
+
+    /// What is seen of the errors of a method, less that of a right one.
+    fn beyond(&self, level: &Level<'a, D>, method: usize, errors: &[Vec<f64>]) -> Option<Vec<f64>> {
+        let wrong = self.frame.see(level.mesh, errors)?.coefficients;
         Some(less(&wrong, 1.0, level.right[method].as_ref()?))
     }
 }
 
-/// The orders of right methods, from their errors on the finest mesh and by a plan of larger cells.
+/// The orders of right methods, from their errors on the finest mesh and by solvers with larger cells.
 fn orders<const D: usize>(
     fine: &Level<'_, D>,
-    plan: &Plan<'_, D>,
+    solvers: &dyn Responses<'_, D>,
     coarse: &[Option<Vec<f64>>],
-) -> Vec<Option<f64>>
-where
-    f64: Solve<D>,
-{
-    let refined = (plan.cell_size() / fine.plan.cell_size()).ln();
+) -> Vec<Option<f64>> {
+    let refined = (solvers.cell_size() / fine.solvers.cell_size()).ln();
     let one = |(fine, coarse): (&Option<Vec<f64>>, &Option<Vec<f64>>)| {
         let [fine, coarse] = [fine, coarse].map(|it| it.as_deref().map(size));
         Some((coarse? / fine?).ln() / refined)

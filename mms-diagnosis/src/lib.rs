@@ -6,8 +6,8 @@
 //! * of a law alone, by its stresses ([`table`]) or its [tangent](mod@tangent), or of formulas from paper ([`closed_form`]);
 //! * of accelerations or residuals at an exact state, by the [weak] form of the balance ([`state`]); velocities after one
 //!   [step] are mean accelerations;
-//! * of ordinary results, by running the solver of `mms-runtime` with the [changed] field, or for mistakes of output by the
-//!   exact solution ([`ordinary`], [`run`]).
+//! * of ordinary results, by running the solver of `mms-runtime` with the [changed] field, at rest by Newton's method about
+//!   the exact motion ([`statics`]), or for mistakes of output by the exact solution ([`ordinary`], [`run`]).
 //!
 //! Errors are compared as coefficients of [smooth] functions, or as sums with them, never point by point: what
 //! methods make of an error between points differs, and what is smooth does not. Those of our own runs are taken at the user's points
@@ -16,6 +16,7 @@
 //! one of several right methods of our own makes. [`answer`] says whether what is left is no more than that, and which
 //! hypotheses do as well. Where none does, [`pair`] looks for two, and [`place`] says where the error is.
 //!
+//! If the order between meshes is wrong ([`falls`]), the answer is a name or that nothing explains the error, however small it is.
 //! Where an error is no more than a method's, the same runs tell which mistakes it [excludes](excluded).
 //!
 //! A hypothesis is named only if three things hold: it leaves little of the error; its effect need not be scaled, or its size is one
@@ -36,6 +37,7 @@ pub mod law;
 pub mod level;
 pub mod like;
 pub mod list;
+pub mod material;
 pub mod ordinary;
 pub mod pair;
 pub mod patterns;
@@ -47,7 +49,9 @@ pub mod sample;
 pub mod scene;
 pub mod slopes;
 pub mod smooth;
+pub mod solver;
 pub mod state;
+pub mod statics;
 pub mod step;
 pub mod table;
 pub mod tangent;

@@ -7,7 +7,7 @@ use crate::changed::Without;
 use crate::evidence::{Frame, Mesh};
 use crate::exact::{Exact, Quantity};
 use crate::level::MOST_WORK;
-use crate::run::{Obstacle, Plan};
+use crate::run::{Obstacle, Plan, Responses};
 use crate::smooth::size;
 
 /// The order with which the error of a right method falls on a field, for each quantity of results of two meshes: root mean
@@ -26,11 +26,11 @@ where
 {
     let fine = Plan::new(exact, frame, mesh, Without::default(), Some(method), MOST_WORK)?;
     let coarse = fine.coarser();
-    let errors = |plan: &Plan<'_, D>| {
+    let errors = |plan: &dyn Responses<'_, D>| {
         let errors = plan.right(plan.methods() - 1).ok_or(Obstacle::Diverges(None))?;
         Ok::<_, Obstacle>(errors.iter().map(|it| size(it)).collect::<Vec<f64>>())
     };
-    let [of_fine, of_coarse] = [errors(&fine)?, errors(&coarse)?];
+    let [of_fine, of_coarse] = [errors(&fine)?, errors(&*coarse)?];
     let largest = |of: &[f64], quantity: Quantity| {
         let all = frame.each().zip(of).filter(|((_, it), _)| *it == quantity);
         all.map(|(_, error)| *error).fold(0.0, f64::max)

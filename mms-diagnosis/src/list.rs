@@ -46,7 +46,7 @@ fn names<const D: usize>(exact: &Exact<'_, D>, it: &Hypothesis<D>) -> Vec<Listed
         size_of: None,
     };
     let named = |name: &str, says: String, size: f64| Listed {
-        title: crate::hypothesis::title(name, it.which, it.face),
+        title: crate::hypothesis::title(name, it.which.as_deref(), it.face),
         says,
         size_of: Some((it.name, size)),
         ..own.clone()

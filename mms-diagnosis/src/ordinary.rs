@@ -1,15 +1,15 @@
 //! Diagnosis of ordinary results: the error at some times, beside those that mistakes make in runs of our own.
 
+use mms_runtime::Fill;
 use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::study::Solve;
-use mms_runtime::{Fill, Method};
 
 use crate::answer::{
     Diagnosis, Explained, Fields, Finding, Like, Limits, Ranked, Rung, ranked, unseen,
 };
 use crate::evidence::{Frame, Mesh};
 use crate::exact::Exact;
-use crate::falls::{Falls, OfOrder};
+use crate::falls::OfOrder;
 use crate::hypothesis::{Change, Hypothesis, earlier_velocity};
 use crate::level::{Level, Levels, on_all_processors};
 use crate::pair;
@@ -17,13 +17,18 @@ use crate::place;
 use crate::rank::{Effect, Error, explain, explain_usual};
 use crate::run::{OTHERS, Obstacle};
 use crate::smooth::{less, nearest, size};
+use crate::solver::Solver;
 
 /// Points along an axis at which errors are shown, in one to three dimensions.
 const SHOWN: [f64; 3] = [64.0, 16.0, 6.0];
+/// How far results of one solver may differ for how they are stored, over the solution.
+const ROUNDING: f64 = 1e-6;
 /// What a method makes at least, over the solution: so many times (h/length)^2. Some fields have none in ours.
 const LEAST: f64 = 2.0;
 /// An error is like that of a method if they are no further apart than this part of it.
 const NEAR: f64 = 0.25;
+/// From this share on a hypothesis is looked at as a large mistake.
+const LIKELY: f64 = 0.5;
 /// From this share on an error is explained, and large mistakes are not looked for.
 const EXPLAINED: f64 = 0.9;
 /// From this part on a hypothesis is looked at by other methods.
@@ -50,21 +55,27 @@ where
         frame: &'a Frame<D>,
         levels: Levels<'a, D>,
         hypotheses: &'a [Hypothesis<D>],
-        is_asked: bool,
+        solver: &Solver,
     ) -> Self {
         let own = |level: &Level<'_, D>| Some(level.seen.coefficients.clone());
         let right = |method| levels.together(|level| level.right(method));
         let free = levels.together(|level| earlier(exact, &levels, level));
         let free = free.filter(|it| size(it) > 0.0);
-        let edge = levels.fine.plan.length() / levels.fine.mesh.cell_size;
-        let yardsticks = yardsticks(&levels, is_asked);
+        let edge = exact.length() / levels.fine.mesh.cell_size;
+        let is_asked = solver.like.is_some();
+        // Beside a right run of the same solver there is no error of a method.
+        let yardsticks = if solver.is_beside { Vec::new() } else { yardsticks(&levels, is_asked) };
+        let floor = match solver.is_beside {
+            true => ROUNDING,
+            false => LEAST / edge.powi(levels.degree() as i32 + 1),
+        };
         // Methods of degree 1 say nothing of what elements of degree 2 make.
         let known = if levels.degree() > 1 && !is_asked { &[] } else { yardsticks.as_slice() };
         let error = Error::new(
             levels.together(own).unwrap_or_default(),
             known.iter().filter_map(|it| right(*it)).collect(),
-            free.into_iter().collect(),
-            LEAST / edge.powi(levels.degree() as i32 + 1),
+            free.filter(|_| !solver.is_beside).into_iter().collect(),
+            floor,
         );
         Look { exact, frame, levels, hypotheses, yardsticks, error }
     }
@@ -102,10 +113,10 @@ where
         if self.levels.degree() > 1 {
             return None;
         }
-        let mut all = (0..self.levels.fine.plan.methods())
+        let mut all = (0..self.levels.fine.solvers.methods())
             .filter_map(|method| Some((method, self.levels.order_of(method)?)));
         let (method, order) = all.find(|(_, own)| (own - order).abs() <= SAME_ORDER)?;
-        Some(OfOrder { method: self.levels.fine.plan.described(method), order })
+        Some(OfOrder { method: self.levels.fine.solvers.described(method)?, order })
     }
 
     /// The error that a hypothesis of this size makes by a method, less that of a right solver.
@@ -133,7 +144,7 @@ where
     /// The method whose error on such a grid is nearest; if one was asked for, that.
     fn like(&self, is_asked: bool) -> Option<Like> {
         let fine = &self.levels.fine;
-        let last = fine.plan.methods() - 1;
+        let last = fine.solvers.methods() - 1;
         let first = if is_asked { last } else { 0 };
         let earlier = earlier(self.exact, &self.levels, fine).filter(|it| size(it) > 0.0);
         let free: Vec<_> = earlier.into_iter().collect();
@@ -145,7 +156,7 @@ where
                 (apart, own) = (less(&apart, part, column), less(&own, part, column));
             }
             Some(Like {
-                method: fine.plan.described(method),
+                method: fine.solvers.described(method)?,
                 factor: size(&own) / size(&error),
                 apart: size(&apart) / size(&own),
             })
@@ -167,7 +178,11 @@ where
             on_all_processors(self.hypotheses.len(), one)
         };
         let mut all = each(&|index, it| explain(index, it, &self.error, self));
-        if is_right || all.iter().flatten().any(|it| it.share >= EXPLAINED) {
+        // Output of some offset or factor explains much by chance.
+        let is_output =
+            |it: &Explained| matches!(self.hypotheses[it.hypothesis].change, Change::Output(_));
+        let explains = |it: &Explained| it.share >= EXPLAINED && !is_output(it);
+        if is_right || all.iter().flatten().any(explains) {
             return all.into_iter().flatten().collect();
         }
         let large =
@@ -188,12 +203,12 @@ fn yardsticks<const D: usize>(levels: &Levels<'_, D>, is_asked: bool) -> Vec<usi
 where
     f64: Solve<D>,
 {
-    let plan = &levels.fine.plan;
-    let last = plan.methods() - 1;
+    let solvers = &levels.fine.solvers;
+    let last = solvers.methods() - 1;
     // A method without an error on this field has no order.
     let converges =
         |it: &usize| levels.order_of(*it).is_some_and(|it| it.is_nan() || it >= CONVERGES);
-    let is_known = |it: &usize| plan.is_of_second_order(*it) && converges(it);
+    let is_known = |it: &usize| solvers.is_of_second_order(*it) && converges(it);
     match is_asked {
         true => vec![last],
         false => (0..=last).filter(is_known).collect(),
@@ -216,8 +231,17 @@ impl<const D: usize> Effect<D> for Look<'_, D>
 where
     f64: Solve<D>,
 {
+    /// What a small mistake would make says whether it is worth more.
     fn response(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<f64>> {
-        self.by(0, hypothesis, size)
+        let rough = self.levels.together(|level| self.levels.roughly(level, hypothesis, size));
+        let Some(rough) = rough else { return self.by(0, hypothesis, size) };
+        let directions = [rough];
+        let (_, remains) = self.error.explain(&directions, &[]);
+        let [rough] = directions;
+        if self.error.share(&remains) < LIKELY {
+            return Some(rough);
+        }
+        self.by(0, hypothesis, size).or(Some(rough))
     }
 
     /// By how much responses are others by the second method. Nothing where they explain too little to be looked at again.
@@ -232,10 +256,12 @@ where
         if is_output || self.error.share(&remains) < PROMISING {
             return Vec::new();
         }
+        let methods = self.levels.fine.solvers.methods();
+        let is_there = |it: &usize| *it < methods;
         let pairs = sizes.iter().zip(responses);
         let doubts = |(at, first): (&Vec<f64>, &Vec<f64>)| {
             let other = |method| Some(less(&self.by(method, hypothesis, at)?, 1.0, first));
-            OTHERS.into_iter().filter_map(other).collect::<Vec<_>>()
+            OTHERS.into_iter().filter(is_there).filter_map(other).collect::<Vec<_>>()
         };
         pairs.flat_map(doubts).collect()
     }
@@ -261,8 +287,7 @@ const CONVERGES: f64 = 1.4;
 /// Orders that differ by less may be those of one method.
 const SAME_ORDER: f64 = 0.15;
 
-/// Diagnoses ordinary results of meshes, from coarse to fine; `like` is a method that they may be of, and `falls` the order
-/// that was found between meshes.
+/// Diagnoses ordinary results of meshes, from coarse to fine, of a solver of which something is known.
 ///
 /// # Errors
 /// Results with which that is not possible.
@@ -271,14 +296,14 @@ pub fn diagnose<const D: usize>(
     frame: &Frame<D>,
     meshes: &[Mesh],
     hypotheses: &[Hypothesis<D>],
-    like: Option<&Method>,
-    falls: Option<&Falls>,
+    solver: &Solver,
 ) -> Result<Diagnosis, Obstacle>
 where
     f64: Solve<D>,
 {
+    let (like, falls) = (solver.like.as_ref(), solver.falls.as_ref());
     let levels = Levels::new(exact, frame, meshes, like)?;
-    let look = Look::new(exact, frame, levels, hypotheses, like.is_some());
+    let look = Look::new(exact, frame, levels, hypotheses, solver);
     let explained = look.all(falls.is_some_and(|it| it.is_right));
     let seen = &look.levels.fine.seen;
     let (error, ordinary) = (size(&seen.coefficients), look.ordinary());
@@ -299,7 +324,11 @@ where
     };
     // What may be the error of a method, as that of a wave's speed, may look like a factor.
     let order = look.levels.order();
-    let vanishes = falls.map_or(order.is_none_or(|it| it >= VANISHES), |it| it.is_right);
+    let vanishes = match falls {
+        Some(falls) => falls.is_right,
+        // No error has no order.
+        None => solver.is_beside || order.is_none_or(|it| it.is_nan() || it >= VANISHES),
+    };
     let is_of_method = vanishes && error <= middle;
     let most = look.most(&ordinary, vanishes && order.is_some());
     let finding = match limits.finding(&ranked, look.error.excess()) {

@@ -154,24 +154,33 @@ fn sized<const D: usize>(
     let is_fixed = hypothesis.size == Size::Fixed;
     let at = |at: f64| one(index, hypothesis, error, effect, [right, at]);
     let allowed = starts.iter().filter(|it| is_fixed || hypothesis.allows(&[**it]));
-    let tried = allowed.filter_map(|it| at(*it));
-    let mut last = tried.max_by(|a, b| a.share.total_cmp(&b.share))?;
-    let mut best = last.clone();
+    let tried = allowed.filter_map(|it| Some((*it, at(*it)?)));
+    let (mut place, mut last) = tried.max_by(|a, b| a.1.share.total_cmp(&b.1.share))?;
+    let (mut best, mut before) = (last.clone(), None);
     for _ in 0..MENDS {
-        let &[next] = last.size.as_slice() else { break };
-        if last.share < WORTH || !next.is_finite() {
+        let &[first] = last.size.as_slice() else { break };
+        if last.share < WORTH || !first.is_finite() {
             break;
         }
         if (last.scale - 1.0).abs() < FOUND {
             return Some(last);
         }
+        // The inverse of the scale is linear in the size, where the effect is.
+        let own = [place, 1.0 / last.scale];
+        let next = before.map_or(first, |before| secant(before, own));
+        let next = if next.is_finite() && hypothesis.allows(&[next]) { next } else { first };
         let Some(found) = at(next) else { break };
         if found.share > best.share - SAME {
             best = found.clone();
         }
-        last = found;
+        (before, place, last) = (Some(own), next, found);
     }
     Some(best)
+}
+
+/// Where a line through two points of [size, inverse of the scale] has the scale 1.
+fn secant([a, of_a]: [f64; 2], [b, of_b]: [f64; 2]) -> f64 {
+    b + (1.0 - of_b) * (b - a) / (of_b - of_a)
 }
 
 /// What a hypothesis explains by its response at a size, scaled.

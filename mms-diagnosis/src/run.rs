@@ -38,6 +38,8 @@ pub enum Obstacle {
     AtStart,
     /// A stress of the field is not finite at a row of a table.
     SingularDeformation,
+    /// Nothing holds a body at rest, or it is unstable.
+    NotHeld,
     /// The body has no extent.
     Refused(Refusal),
     /// The error of the method that results are compared with falls with this order on this field, or a run of it stops.
@@ -72,6 +74,11 @@ impl fmt::Display for Obstacle {
                 write!(f, "the exact stress is not finite at a row: is det F <= 0 there?")
             }
             Obstacle::Refused(refusal) => refusal.fmt(f),
+            Obstacle::NotHeld => write!(
+                f,
+                "the field is at rest, and its equilibrium is not unique or not stable: expected faces that hold the \
+                 body; give residuals at nodes with `--residual nodal`"
+            ),
             Obstacle::Diverges(Some(order)) => write!(
                 f,
                 "the error of this method falls with order {order:.2} on this field, so nothing can be held to it: \
@@ -90,7 +97,34 @@ impl fmt::Display for Obstacle {
     }
 }
 
-/// How the responses are found.
+/// The errors that right and wrong solvers make at the points of a user's results.
+pub trait Responses<'a, const D: usize>: Sync {
+    /// h of the solvers.
+    fn cell_size(&self) -> f64;
+    /// How many methods there are.
+    fn methods(&self) -> usize;
+    /// A method, in the words of its options; `None` if it is none that a user may ask for.
+    fn described(&self, method: usize) -> Option<String>;
+    /// Whether a method is of second order in time.
+    fn is_of_second_order(&self, method: usize) -> bool;
+    /// The errors of a right solver, of each time and quantity; `None` where it stops.
+    fn right(&self, method: usize) -> Option<Vec<Vec<f64>>>;
+    /// The errors of a solver with a mistake; `None` where it stops.
+    fn wrong(
+        &self,
+        method: usize,
+        hypothesis: &Hypothesis<D>,
+        size: &[f64],
+    ) -> Option<Vec<Vec<f64>>>;
+    /// The errors with a mistake as if it were small, where that is found in less time.
+    fn roughly(&self, _: &Hypothesis<D>, _: &[f64]) -> Option<Vec<Vec<f64>>> {
+        None
+    }
+    /// The same solvers with cells that are twice as large.
+    fn coarser(&self) -> Box<dyn Responses<'a, D> + 'a>;
+}
+
+/// Runs of this project's own solver.
 pub struct Plan<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     frame: &'a Frame<D>,
@@ -210,12 +244,6 @@ where
         Ok(Plan { exact, frame, mesh, without, cells, methods, samplings })
     }
 
-    /// The same runs on a grid of cells that are twice as large.
-    pub fn coarser(&self) -> Self {
-        let samplings = self.methods.iter().map(|_| OnceLock::new()).collect();
-        Plan { cells: self.cells.div_ceil(2), methods: self.methods.clone(), samplings, ..*self }
-    }
-
     /// The cells along each axis: as near to cubes as they can be while they end where the body ends.
     fn division(&self) -> Division {
         let mut numbers = [1; 3];
@@ -225,57 +253,6 @@ where
             numbers.iter_mut().zip(edges).for_each(|(number, own)| *number = own);
         }
         Division::PerAxis(numbers, D)
-    }
-
-    /// The longest edge of the box around the body.
-    pub fn length(&self) -> f64 {
-        let edges = bounding_box(&self.exact.domain.body).map(|[lower, upper]| upper - lower);
-        edges.map_or(1.0, |edges| edges.max())
-    }
-
-    /// h of the runs.
-    pub fn cell_size(&self) -> f64 {
-        self.length() / self.cells as f64
-    }
-
-    /// How many methods there are.
-    pub fn methods(&self) -> usize {
-        self.methods.len()
-    }
-
-    /// A method, in the words of its options.
-    pub fn described(&self, method: usize) -> String {
-        let Method { shape, integrator, formulation, setup } = &self.methods[method];
-        let mut said = format!(
-            "shape={shape},integrator={integrator},formulation={formulation},transfer={}",
-            setup.transfer
-        );
-        for (option, part) in [("offset", setup.offset[0]), ("jitter", setup.jitter)] {
-            if part != 0.0 {
-                said += &format!(",{option}={part}");
-            }
-        }
-        said
-    }
-
-    /// Whether a method is of second order in time.
-    pub fn is_of_second_order(&self, method: usize) -> bool {
-        self.methods[method].integrator == IntegratorName::Leapfrog
-    }
-
-    /// The errors of a right solver at the user's points, of each time and quantity; `None` where it stops.
-    pub fn right(&self, method: usize) -> Option<Vec<Vec<f64>>> {
-        self.errors(method, &Changed::right(self.exact, self.without))
-    }
-
-    /// Those of a solver with a mistake; `None` where it stops.
-    pub fn wrong(
-        &self,
-        method: usize,
-        hypothesis: &Hypothesis<D>,
-        size: &[f64],
-    ) -> Option<Vec<Vec<f64>>> {
-        self.errors(method, &Changed::with(self.exact, self.without, hypothesis, size))
     }
 
     fn errors(&self, index: usize, field: &Changed<'_, D>) -> Option<Vec<Vec<f64>>> {
@@ -333,6 +310,56 @@ where
         };
         let right = self.exact.values(quantity, time, &reference(state));
         computed.iter().zip(right).map(|(a, b)| a - b).collect()
+    }
+}
+
+impl<'a, const D: usize> Responses<'a, D> for Plan<'a, D>
+where
+    f64: Solve<D>,
+{
+    fn cell_size(&self) -> f64 {
+        self.exact.length() / self.cells as f64
+    }
+
+    fn methods(&self) -> usize {
+        self.methods.len()
+    }
+
+    fn described(&self, method: usize) -> Option<String> {
+        let Method { shape, integrator, formulation, setup } = &self.methods[method];
+        let mut said = format!(
+            "shape={shape},integrator={integrator},formulation={formulation},transfer={}",
+            setup.transfer
+        );
+        for (option, part) in [("offset", setup.offset[0]), ("jitter", setup.jitter)] {
+            if part != 0.0 {
+                said += &format!(",{option}={part}");
+            }
+        }
+        Some(said)
+    }
+
+    fn is_of_second_order(&self, method: usize) -> bool {
+        self.methods[method].integrator == IntegratorName::Leapfrog
+    }
+
+    fn right(&self, method: usize) -> Option<Vec<Vec<f64>>> {
+        self.errors(method, &Changed::right(self.exact, self.without))
+    }
+
+    fn wrong(
+        &self,
+        method: usize,
+        hypothesis: &Hypothesis<D>,
+        size: &[f64],
+    ) -> Option<Vec<Vec<f64>>> {
+        self.errors(method, &Changed::with(self.exact, self.without, hypothesis, size))
+    }
+
+    fn coarser(&self) -> Box<dyn Responses<'a, D> + 'a> {
+        let samplings = self.methods.iter().map(|_| OnceLock::new()).collect();
+        let (cells, methods) = (self.cells.div_ceil(2), self.methods.clone());
+        Box::new(Plan { cells, methods, samplings, ..*self })
     }
 }
 

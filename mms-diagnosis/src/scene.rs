@@ -6,16 +6,16 @@ use mms_runtime::study::Solve;
 use mms_runtime::{ManufacturedField, Matrix, Method, Vector};
 
 use crate::answer::{Diagnosis, Finding, Ranked, Rung};
-use crate::changed::Without;
 use crate::closed_form::{self, ClosedForm, Values};
 use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use crate::exact::{Exact, Quantity, vectors};
 use crate::excluded::{Excluded, Study, excluded};
-use crate::falls::Falls;
 use crate::hypothesis::{Hypothesis, all};
 use crate::list::{Listed, listed};
+use crate::material::{Material, Own};
 use crate::run::Obstacle;
 use crate::smooth::Smooth;
+use crate::solver::Solver;
 use crate::state::{self, Response};
 use crate::table::{self, Measure, Table};
 use crate::{like, ordinary, patterns, step, tangent};
@@ -91,17 +91,6 @@ pub struct TangentOf {
     pub rounding: f64,
 }
 
-/// What is known of the solver.
-#[derive(Clone, Debug, Default)]
-pub struct Solver {
-    /// What was left out.
-    pub without: Without,
-    /// A method of this project's own solver that it may be like.
-    pub like: Option<Method>,
-    /// How its errors fall from mesh to mesh, of results of two meshes and more.
-    pub falls: Option<Falls>,
-}
-
 /// Fewer points say too little.
 const FEWEST_POINTS: usize = 8;
 /// The Courant number of a solver whose time step is not known.
@@ -115,11 +104,30 @@ pub fn diagnose(
     scene: &Scene<f64>,
     evidence: &Evidence,
     solver: &Solver,
+    material: &Material<'_>,
 ) -> Result<Diagnosis, Obstacle> {
     match scene {
-        Scene::Line(field) => of(field.as_ref(), evidence, solver),
-        Scene::Plane(field) => of(field.as_ref(), evidence, solver),
-        Scene::Space(field) => of(field.as_ref(), evidence, solver),
+        Scene::Line(field) => {
+            let own = Own::new(material, |it| match it {
+                Scene::Line(field) => Some(field),
+                _ => None,
+            });
+            of(field.as_ref(), &own, evidence, solver)
+        }
+        Scene::Plane(field) => {
+            let own = Own::new(material, |it| match it {
+                Scene::Plane(field) => Some(field),
+                _ => None,
+            });
+            of(field.as_ref(), &own, evidence, solver)
+        }
+        Scene::Space(field) => {
+            let own = Own::new(material, |it| match it {
+                Scene::Space(field) => Some(field),
+                _ => None,
+            });
+            of(field.as_ref(), &own, evidence, solver)
+        }
     }
 }
 
@@ -173,6 +181,15 @@ pub fn closed_form(scene: &Scene<f64>, of: ClosedForm, values: &Values<'_>) -> O
     }
 }
 
+/// Whether nothing moves in a field.
+pub fn is_at_rest(scene: &Scene<f64>) -> bool {
+    match scene {
+        Scene::Line(field) => Exact::new(field.as_ref(), 1.0, 1.0).is_at_rest(),
+        Scene::Plane(field) => Exact::new(field.as_ref(), 1.0, 1.0).is_at_rest(),
+        Scene::Space(field) => Exact::new(field.as_ref(), 1.0, 1.0).is_at_rest(),
+    }
+}
+
 /// All hypotheses about a field.
 pub fn hypotheses(scene: &Scene<f64>) -> Vec<Listed> {
     match scene {
@@ -214,6 +231,7 @@ where
 
 fn of<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
+    parameters: &Own<'_, D>,
     evidence: &Evidence,
     solver: &Solver,
 ) -> Result<Diagnosis, Obstacle>
@@ -227,7 +245,8 @@ where
         Evidence::State { cell_size, .. } => (*cell_size, None),
         Evidence::Law(_) | Evidence::Tangent(_) => (1.0, None),
     };
-    let exact = exact(field, cell_size, time_step);
+    let mut exact = exact(field, cell_size, time_step);
+    exact.parameters = Some(parameters);
     let hypotheses = all(&exact);
     match evidence {
         Evidence::Results(meshes) => {
@@ -260,8 +279,7 @@ where
         return Ok(found);
     }
     let frame = frame(exact, meshes)?;
-    let (like, falls) = (solver.like.as_ref(), solver.falls.as_ref());
-    let found = ordinary::diagnose(exact, &frame, meshes, hypotheses, like, falls)?;
+    let found = ordinary::diagnose(exact, &frame, meshes, hypotheses, solver)?;
     let is_named = found.finding == Finding::Named;
     let permutation = if is_named { None } else { patterns::permutation(exact, &snapshots) };
     Ok(permutation.unwrap_or(found))

@@ -6,7 +6,7 @@ use std::ops::{Add, Mul, Sub};
 use mms_runtime::body::bounding_box;
 use mms_runtime::tensor::inverse;
 use mms_runtime::{
-    Condition, Face, ManufacturedField as _, Material as _, Matrix, Refusal, Vector,
+    Condition, Domain, Face, ManufacturedField as _, Material as _, Matrix, Refusal, Vector,
 };
 
 use crate::answer::Computed;
@@ -34,12 +34,14 @@ pub struct Weak<'a, const D: usize> {
     /// The points in the body and on its faces.
     pub quadrature: Quadrature<D>,
     smooth: Smooth<D>,
+    /// What holds on the faces.
+    domain: Domain<f64, D>,
     /// A length that is small in the body.
     step: f64,
     /// All functions at the points, point by point: every hypothesis asks for them.
     at_points: Vec<f64>,
     /// Their gradients.
-    slopes_at_points: Vec<Vector<f64, D>>,
+    pub slopes_at_points: Vec<Vector<f64, D>>,
 }
 
 /// The sums of a field, apart by their terms: of a, of P in the body, of b, of tractions.
@@ -132,13 +134,40 @@ impl<'a, const D: usize> Weak<'a, D> {
         points: usize,
         count: usize,
     ) -> Result<Self, Refusal> {
-        let body = &exact.domain.body;
+        let smooth = Smooth::new(&exact.domain.body, points, DEGREE)?;
+        Self::of(exact, time, &exact.domain, smooth, count)
+    }
+
+    /// With functions of these degrees in one to three dimensions, that vanish where a domain has a given motion.
+    ///
+    /// # Errors
+    /// A body without extent.
+    pub fn with(
+        exact: &'a Exact<'a, D>,
+        time: f64,
+        domain: &Domain<f64, D>,
+        degrees: [usize; 3],
+        count: usize,
+    ) -> Result<Self, Refusal> {
+        let smooth = Smooth::new(&domain.body, usize::MAX, degrees)?;
+        Self::of(exact, time, domain, smooth, count)
+    }
+
+    fn of(
+        exact: &'a Exact<'a, D>,
+        time: f64,
+        domain: &Domain<f64, D>,
+        smooth: Smooth<D>,
+        count: usize,
+    ) -> Result<Self, Refusal> {
+        let body = &domain.body;
         let [lower, upper] = bounding_box(body)?;
         let mut weak = Weak {
             exact,
             time,
             quadrature: Quadrature::new(body, count),
-            smooth: Smooth::new(body, points, DEGREE)?,
+            smooth,
+            domain: domain.clone(),
             step: STEP * (upper - lower).min(),
             at_points: Vec::new(),
             slopes_at_points: Vec::new(),
@@ -151,8 +180,8 @@ impl<'a, const D: usize> Weak<'a, D> {
 
     /// 0 where the motion of a component is given, and of the size of 1 in the body.
     fn bubble(&self, component: usize, x: &Vector<f64, D>) -> f64 {
-        let body = &self.exact.domain.body;
-        let factor = |face: Face| match self.exact.domain.condition(face) {
+        let body = &self.domain.body;
+        let factor = |face: Face| match self.domain.condition(face) {
             Condition::Traction | Condition::Free => 1.0,
             Condition::Fixed | Condition::Prescribed => away(body, face, x),
             Condition::Roller => match face {
@@ -171,7 +200,7 @@ impl<'a, const D: usize> Weak<'a, D> {
     }
 
     /// Their gradients.
-    fn gradients(&self, x: &Vector<f64, D>) -> Vec<Vector<f64, D>> {
+    pub fn gradients(&self, x: &Vector<f64, D>) -> Vec<Vector<f64, D>> {
         let (values, slopes) = (self.smooth.values(x), self.smooth.gradients(x));
         let of_bubble = |i: usize| {
             Vector::from_fn(|axis, _| {
@@ -208,7 +237,7 @@ impl<'a, const D: usize> Weak<'a, D> {
     }
 
     /// -int P:grad w, of P at the points of the quadrature.
-    fn resisted(&self, stress: impl Iterator<Item = Matrix<f64, D>>) -> Vec<f64> {
+    pub fn resisted(&self, stress: impl Iterator<Item = Matrix<f64, D>>) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         let slopes = self.slopes_at_points.chunks(self.count());
         for ((gradients, volume), p) in slopes.zip(&self.quadrature.volumes).zip(stress) {
@@ -245,7 +274,7 @@ impl<'a, const D: usize> Weak<'a, D> {
     }
 
     /// P of a field at these H of the points of the quadrature.
-    fn stress(&self, field: &Changed<'_, D>, h: &[Matrix<f64, D>]) -> Vec<Matrix<f64, D>> {
+    pub fn stress(&self, field: &Changed<'_, D>, h: &[Matrix<f64, D>]) -> Vec<Matrix<f64, D>> {
         let mut tau = vec![Matrix::zeros(); h.len()];
         field.at_time(self.time);
         field.kirchhoff_stress(&self.quadrature.points, h, &mut tau);
@@ -441,7 +470,7 @@ type Axes<const D: usize> = [(Vector<f64, D>, f64); D];
 const SMALL: f64 = 1e-4;
 
 /// P = tau F^-T; what is not finite where F is singular.
-fn first<const D: usize>(tau: &Matrix<f64, D>, h: &Matrix<f64, D>) -> Matrix<f64, D> {
+pub fn first<const D: usize>(tau: &Matrix<f64, D>, h: &Matrix<f64, D>) -> Matrix<f64, D> {
     let f = h + Matrix::identity();
     inverse(&f).map_or(Matrix::repeat(f64::NAN), |inverse| tau * inverse.transpose())
 }

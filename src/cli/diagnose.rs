@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, ensure};
 use clap::{Args, Parser as _, ValueEnum};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Options, Selection};
@@ -11,14 +11,16 @@ use mms_convergence::TOLERANCE;
 use mms_diagnosis::answer::Finding;
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::Mesh;
-use mms_diagnosis::scene::{self, Evidence, Solver};
+use mms_diagnosis::material::Material;
+use mms_diagnosis::scene::{self, Evidence};
+use mms_diagnosis::solver::Solver;
 use mms_results::names::Mapping;
 use mms_runtime::Method;
 use mms_runtime::scene::Scene;
 use mms_spec::quantity::Quantity;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::diagnose::{Alone, Reading, falls, find, read};
+use crate::diagnose::{Alone, Factors, Reading, falls, find, read};
 use crate::judge::table::{Order, Orders};
 use crate::report::{Diagnosed, Hypotheses, Plan, Step};
 use crate::session::exact::Exact;
@@ -97,6 +99,10 @@ pub struct Diagnose {
     /// The order that results of two meshes and more are held to, as for `mms judge`.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',')]
     expected_order: Vec<Order>,
+    /// Right runs of your own solver, one for each FILE, on the same meshes and at the same times: results are compared with them, and
+    /// not with the exact solution, so that the error of your method is in neither.
+    #[arg(long, value_name = "FILE", value_delimiter = ',', requires = "files", conflicts_with_all = ["like", "expected_order"])]
+    reference: Vec<String>,
     /// The solver was given the affine part of the motion, as `mms state --affine` writes it.
     #[arg(long)]
     affine: bool,
@@ -187,9 +193,14 @@ impl Diagnose {
         let all = self.files.iter().map(|file| find(file, &self.map, self.max_memory));
         let mut all = all.collect::<anyhow::Result<Vec<_>>>()?;
         all.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
+        let right = self.reference.iter().map(|file| find(file, &self.map, self.max_memory));
+        let mut right = right.collect::<anyhow::Result<Vec<_>>>()?;
+        right.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
         let reading = Reading {
+            right: &right,
             map: &self.map,
             times: &self.time,
+            rest: scene::is_at_rest(&scene).then_some(exact.window[1]),
             sizes: &self.h,
             time_steps: &self.time_step,
             law,
@@ -207,8 +218,12 @@ impl Diagnose {
         };
         let method = |Alike(it): &Alike| it.method(exact.dimension);
         let like = self.like.as_ref().map(method).transpose()?;
+        ensure!(
+            like.is_none() || reading.rest.is_none(),
+            "`--like`: nothing moves in this field, and methods of `mms study` solve for motion; leave the option out"
+        );
         let falls = match &evidence {
-            Evidence::Results(meshes) => {
+            Evidence::Results(meshes) if right.is_empty() => {
                 let orders = self.orders(&scene, meshes, like.as_ref())?;
                 let falls = falls(all, &wanted, &reading, &orders, &mut exact);
                 falls.unwrap_or_else(|error| {
@@ -218,8 +233,12 @@ impl Diagnose {
             }
             _ => None,
         };
-        let solver = Solver { without, like, falls };
-        let diagnosis = scene::diagnose(&scene, &evidence, &solver)?;
+        let solver = Solver { without, like, falls, is_beside: !right.is_empty() };
+        let field = self.field.as_deref().unwrap_or(LISTED);
+        let factors = Factors::new(field, &self.variant, &exact);
+        let times = |parameter, factor| factors.times(parameter, factor);
+        let material = Material { names: factors.names(), times: &times };
+        let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material)?;
         let input = exact.input();
         let report =
             Diagnosed { field: &input.name, files: &self.files, diagnosis: &diagnosis, provenance };

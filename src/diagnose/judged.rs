@@ -27,9 +27,13 @@ pub fn falls(
     }
     let judging = Judging { map: reading.map, wanted, weight: None, memory: None, is_part: false };
     let has_times = all.iter().flat_map(|it| &it.snapshots).all(|it| it.time.is_some());
+    let given: Vec<f64> = match reading.times {
+        [] => reading.rest.into_iter().collect(),
+        times => times.to_vec(),
+    };
     let comparison = Comparison {
         sizes: reading.sizes,
-        times: if has_times { &[] } else { reading.times },
+        times: if has_times { &[] } else { &given },
         orders,
         has_steps: false,
         tighter: None,

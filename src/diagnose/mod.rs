@@ -1,7 +1,9 @@
 //! From the results of a solver to what diagnosis looks at: results, accelerations at an exact state, or a table of a law.
 
+mod beside;
 mod judged;
 mod nodes;
+mod parameters;
 
 use anyhow::{Context as _, bail, ensure};
 use mms_diagnosis::changed::Without;
@@ -17,6 +19,8 @@ use mms_results::{Snapshot, Stored};
 use mms_spec::quantity;
 
 pub use self::judged::falls;
+pub use self::parameters::Factors;
+
 use self::nodes::{Nodes, volumes};
 use crate::judge::results::{Results, placed, room};
 use crate::session::exact::Exact;
@@ -27,6 +31,8 @@ pub struct Reading<'a> {
     pub map: &'a [Mapping],
     /// Times of results that have none.
     pub times: &'a [f64],
+    /// A time of a field in which nothing moves, for results that have none.
+    pub rest: Option<f64>,
     /// h of the FILEs, in their order.
     pub sizes: &'a [f64],
     /// The time step of all FILEs, or of each in their order.
@@ -37,6 +43,8 @@ pub struct Reading<'a> {
     pub residual_sign: f64,
     /// Whether residuals are integrated with the shape functions of nodes.
     pub is_nodal: bool,
+    /// Right runs of the same solver on the same meshes, in the order of the files; none, if the exact solution is the reference.
+    pub right: &'a [Results],
     /// The quantities of results that are looked at; all, if there are none.
     pub wanted: &'a [quantity::Quantity],
 }
@@ -106,6 +114,12 @@ pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow
         return Ok(state);
     }
     ensure!(!reading.is_nodal, "no residuals at nodes: name their columns with `--map r=..`");
+    let right = reading.right.len();
+    ensure!(
+        right == 0 || right == all.len(),
+        "`--reference`: {right} for {} files; expected a right run of each mesh, in the order of the files",
+        all.len()
+    );
     let count = reading.time_steps.len();
     ensure!(
         count < 2 || count == all.len(),
@@ -116,8 +130,12 @@ pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow
     for (at, results) in all.iter().enumerate() {
         let of_own =
             if count == 1 { reading.time_steps.first() } else { reading.time_steps.get(at) };
-        let level = level(results, reading, reading.sizes.get(at).copied(), exact)?;
-        levels.push(Level { time_step: of_own.copied(), ..level });
+        let mut found = level(results, reading, reading.sizes.get(at).copied(), exact)?;
+        if let Some(right) = reading.right.get(at) {
+            let of_right = level(right, reading, None, exact)?;
+            beside::compare(&mut found, &of_right, [&results.name, &right.name], exact)?;
+        }
+        levels.push(Level { time_step: of_own.copied(), ..found });
     }
     levels.sort_by(|a, b| b.cell_size.total_cmp(&a.cell_size));
     Ok(Evidence::Results(levels))
@@ -306,7 +324,8 @@ fn is_near(a: &[f64], b: &[f64]) -> bool {
 }
 
 fn time(snapshot: &Snapshot, reading: &Reading<'_>, at: usize) -> anyhow::Result<f64> {
-    let time = snapshot.time.map(|it| it.value).or(reading.times.get(at).copied());
+    let given = reading.times.get(at).copied().or(reading.rest);
+    let time = snapshot.time.map(|it| it.value).or(given);
     time.with_context(|| format!("{}: it has no time; give it with `--time`", snapshot.path))
 }
 

@@ -57,6 +57,11 @@ impl Exact {
         Ok(Exact { input, set, parameters, dimension, window, body, tensors, prepared })
     }
 
+    /// The parameters that are set, by position.
+    pub fn set(&self) -> &SortedMap<usize, RBig> {
+        &self.set
+    }
+
     /// The field for the solver.
     ///
     /// # Errors

@@ -100,3 +100,113 @@ fn right_runs_of_finite_elements_are_nothing() {
         assert_eq!(found.exits(0).json()["finding"], "nothing", "{run:?}");
     }
 }
+
+/// What a method makes is in both runs, and so is no error.
+#[test]
+fn a_right_run_is_a_reference() {
+    let folder = Folder::new();
+    let files = written(&folder, 0.5, 2.0);
+    let copies = ["right32.csv", "right64.csv"];
+    for (file, copy) in ["u32.csv", "u64.csv"].into_iter().zip(copies) {
+        folder.write(copy, &folder.read(file));
+    }
+    let reference = format!("--reference {}", copies.join(","));
+    folder.mms(&format!("diagnose {files} {reference}")).exits(0).prints("nothing: ");
+    for file in ["u32.csv", "u64.csv"] {
+        let text = folder.read(file);
+        let scaled = |line: &str| {
+            let (start, u) = line.rsplit_once(',').expect("columns");
+            u.parse().map_or(line.into(), |u: f64| format!("{start},{:e}", 1.02 * u))
+        };
+        folder.write(file, &text.lines().map(|line| scaled(line) + "\n").collect::<String>());
+    }
+    let run = folder.mms(&format!("diagnose {files} {reference}")).exits(1);
+    run.prints("output_factor          1.0200   100.0 %");
+    let one = folder.mms(&format!("diagnose {files} --reference right32.csv")).exits(2);
+    one.complains("`--reference`: 1 for 2 files");
+    let other = folder.mms("diagnose bar_1d u32.csv --reference right64.csv").exits(2);
+    other.complains("expected the same points in the same order");
+}
+
+const RUBBER: &str = r#"
+[material]
+title         = "Two terms"
+strain_energy = "c1*(I1 - 3 - 2*ln(J)) + c2/3*J*(J - 1)^2"
+
+[parameters]
+c1 = { unit = "Pa" }
+c2 = { unit = "Pa" }
+"#;
+
+/// A rod at rest, of a material of its own.
+const ROD: &str = r#"
+[field]
+title     = "A rod at rest"
+dimension = 1
+[parameters]
+first  = { value = 200 }
+second = { value = 600 }
+[displacement]
+u = ["0.1*sin(X)"]
+[material]
+model   = "./rubber.toml"
+c1      = "first"
+c2      = "second"
+density = "2"
+[domain]
+shape = "box"
+lower = [0]
+upper = [1]
+time  = [0, 1]
+[boundary]
+x_min = "fixed"
+x_max = "traction"
+"#;
+
+fn rod() -> Folder {
+    let folder = Folder::new();
+    folder.write("rubber.toml", RUBBER);
+    folder.write("rod.toml", ROD);
+    folder
+}
+
+#[test]
+fn parameters_of_own_materials_are_named() {
+    let folder = rod();
+    // P of uniaxial strain.
+    let of_volume = |f: f64| (f - 1.0) * (3.0 * f - 1.0) / 3.0;
+    let stress = |c1: f64, c2: f64, f: f64| 2.0 * c1 * (f - 1.0 / f) + c2 * of_volume(f);
+    let mistakes = [
+        (400.0, 600.0, "parameter_twice [c1]"),
+        (200.0, 0.0, "parameter_missing [c2]"),
+        (200.0, 612.0, "parameter_factor [c2]"),
+    ];
+    for (c1, c2, named) in mistakes {
+        let mut text = "F11,P11\n".to_owned();
+        for k in 1..20 {
+            let f = 0.8 + 0.03 * f64::from(k);
+            writeln!(text, "{f},{:e}", stress(c1, c2, f)).expect("a string");
+        }
+        folder.write("law.csv", &text);
+        let run = folder.mms("diagnose rod.toml law.csv --quantity stress").exits(1);
+        run.prints(&format!("named: {named}"));
+    }
+}
+
+#[test]
+fn results_at_rest_need_no_time() {
+    let folder = rod();
+    for cells in [16, 32] {
+        let mut text = "X,u\n".to_owned();
+        for k in 0..=cells {
+            let x = f64::from(k) / f64::from(cells);
+            let error = 0.01 * x * (2.0 - x) / f64::from(cells * cells);
+            writeln!(text, "{x},{:e}", 0.1 * x.sin() + error).expect("a string");
+        }
+        folder.write(&format!("u{cells}.csv"), &text);
+    }
+    let files = "rod.toml u16.csv u32.csv";
+    folder.mms(&format!("diagnose {files}")).exits(0).prints("pass (`mms judge`)");
+    let like = folder.mms(&format!("diagnose {files} --like shape=linear")).exits(2);
+    like.complains("nothing moves in this field");
+}

@@ -8,6 +8,7 @@ mod check;
 mod check_sweep;
 mod checkpoint;
 mod diagnose;
+mod diagnose_foreign;
 mod diagnose_order;
 mod diagnose_state;
 mod documents;

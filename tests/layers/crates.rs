@@ -148,9 +148,10 @@ pub const CRATES: &[Crate] = &[
         layers: &[
             "falls law sample slopes smooth",
             "exact",
-            "evidence hypothesis",
+            "evidence hypothesis material",
             "answer changed quadrature",
-            "patterns place rank run weak",
+            "patterns place rank run solver weak",
+            "statics",
             "level list pair",
             "excluded like ordinary state table",
             "closed_form step tangent",

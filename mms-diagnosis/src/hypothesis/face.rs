@@ -21,7 +21,10 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         all.push(loads_late(exact));
     }
     if loaded > 1 {
-        all.extend(of_tractions(exact).into_iter().map(|it| it.of("all faces")));
+        all.extend(of_tractions(exact).into_iter().map(|it| {
+            let own = it.which.as_ref().map_or(String::new(), |own| format!("{own}, "));
+            it.of(format!("{own}all faces"))
+        }));
     }
     all
 }
@@ -167,12 +170,27 @@ fn of_tractions<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             },
         ));
     }
-    if D == 2 {
-        all.push(made("traction_swapped", "the components of P N are swapped", |at, _, tau| {
-            of_first(at, tau, |f, p: Matrix<f64, D>| {
-                Matrix::from_fn(|i, j| p[(D - 1 - i, j)]) * f.transpose()
-            });
-        }));
+    // Rows of P make components of P N.
+    let says = "two components of P N are swapped";
+    let swapped = |change| made("traction_swapped", says, change);
+    match D {
+        2 => all
+            .push(swapped(|at, _, tau| of_first(at, tau, |f, p| rows(p, [0, 1]) * f.transpose()))),
+        3 => all.extend([
+            swapped(|at, _, tau| of_first(at, tau, |f, p| rows(p, [0, 1]) * f.transpose()))
+                .of("x and y"),
+            swapped(|at, _, tau| of_first(at, tau, |f, p| rows(p, [1, 2]) * f.transpose()))
+                .of("y and z"),
+            swapped(|at, _, tau| of_first(at, tau, |f, p| rows(p, [0, 2]) * f.transpose()))
+                .of("x and z"),
+        ]),
+        _ => {}
     }
     all
+}
+
+/// A tensor with two rows swapped.
+fn rows<const D: usize>(mut tensor: Matrix<f64, D>, [a, b]: [usize; 2]) -> Matrix<f64, D> {
+    tensor.swap_rows(a, b);
+    tensor
 }

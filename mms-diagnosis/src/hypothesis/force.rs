@@ -81,10 +81,15 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         all.extend(of_rotating_frame(exact));
         all.extend(of_components());
     }
-    if D == 2 {
-        all.push(force("force_swapped", "the components of b are swapped", |_, b| {
-            b.iter_mut().for_each(|b| *b = Vector::from_fn(|i, _| b[D - 1 - i]));
-        }));
+    let swapped = |change| force("force_swapped", "two components of b are swapped", change);
+    match D {
+        2 => all.push(swapped(|_, b| b.iter_mut().for_each(|b| b.swap((0, 0), (1, 0))))),
+        3 => all.extend([
+            swapped(|_, b| b.iter_mut().for_each(|b| b.swap((0, 0), (1, 0)))).of("x and y"),
+            swapped(|_, b| b.iter_mut().for_each(|b| b.swap((1, 0), (2, 0)))).of("y and z"),
+            swapped(|_, b| b.iter_mut().for_each(|b| b.swap((0, 0), (2, 0)))).of("x and z"),
+        ]),
+        _ => {}
     }
     all
 }

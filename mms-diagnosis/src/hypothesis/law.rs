@@ -128,7 +128,7 @@ fn other_laws<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             ("material", "another W with the same moduli at rest")
         };
         let kind = if is_linear { Kind::Mistake } else { Kind::Choice };
-        let which = (!is_linear).then_some(law.name);
+        let which = (!is_linear).then_some(law.name.into());
         Hypothesis { kind, which, ..Hypothesis::fixed(name, says, Change::Stress(Of::Law, change)) }
     };
     others.map(hypothesis).collect()

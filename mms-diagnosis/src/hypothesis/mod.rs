@@ -8,10 +8,13 @@ mod face;
 mod force;
 mod law;
 mod output;
+mod parameter;
 mod start;
 mod stress;
 mod tangent;
 mod wall;
+
+use std::borrow::Cow;
 
 use mms_runtime::{Condition, Face, Matrix, Vector, tensor};
 
@@ -202,7 +205,7 @@ pub struct Hypothesis<const D: usize> {
     /// The face that it is on.
     pub face: Option<Face>,
     /// Which of several it is.
-    pub which: Option<&'static str>,
+    pub which: Option<Cow<'static, str>>,
     /// The one quantity whose output it changes, where others are right.
     pub only: Option<Quantity>,
     /// Whether its size is a part of a time step or of a cell, and so is smaller on a finer mesh.
@@ -287,8 +290,8 @@ impl<const D: usize> Hypothesis<D> {
     }
 
     /// The same, as one of several.
-    fn of(self, which: &'static str) -> Self {
-        Hypothesis { which: Some(which), ..self }
+    fn of(self, which: impl Into<Cow<'static, str>>) -> Self {
+        Hypothesis { which: Some(which.into()), ..self }
     }
 
     fn on(self, face: Face) -> Self {
@@ -308,7 +311,7 @@ impl<const D: usize> Hypothesis<D> {
 
     /// The name, with which it is and the face.
     pub fn title(&self) -> String {
-        title(self.name, self.which, self.face)
+        title(self.name, self.which.as_deref(), self.face)
     }
 
     /// Whether results of these quantities show it as a mistake of its own.
@@ -354,6 +357,7 @@ pub fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         force::all(exact),
         stress::all(exact),
         law::all(exact),
+        parameter::all(exact),
         density::all(),
         face::all(exact),
         start::all(exact),

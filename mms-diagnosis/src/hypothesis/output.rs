@@ -54,6 +54,19 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         )
         .within([-length, length])
         .of_mesh(),
+        Hypothesis::amount(
+            "displacement_offset",
+            "all displacements are off by one vector, as on a support that stands elsewhere",
+            vec![exact.cell_size; D],
+            Change::Output(|at, quantity| {
+                let mut values = at.exact.values(quantity, at.time, at.reference);
+                if quantity == Quantity::Displacement {
+                    let parts = at.size.iter().cycle();
+                    values.iter_mut().zip(parts).for_each(|(u, part)| *u += part);
+                }
+                values
+            }),
+        ),
         Hypothesis::fixed(
             "position_for_reference",
             "x is given as X",
@@ -110,6 +123,14 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     if D > 1 {
         let fixed = |says, change| Hypothesis::fixed("components_swapped", says, change);
         all.push(fixed("components stand in another order", Change::Output(swapped)));
+        if D == 3 {
+            let says = "two components stand under each other's names";
+            all.extend([
+                fixed(says, Change::Output(two_swapped::<D, 0, 1>)).of("x and y"),
+                fixed(says, Change::Output(two_swapped::<D, 1, 2>)).of("y and z"),
+                fixed(says, Change::Output(two_swapped::<D, 0, 2>)).of("x and z"),
+            ]);
+        }
         let only = [
             ("displacement", Change::Output(swapped_only::<D, 0>)),
             ("velocity", Change::Output(swapped_only::<D, 1>)),
@@ -150,6 +171,23 @@ pub fn earlier_velocity<const D: usize>() -> Hypothesis<D> {
     });
     Hypothesis::amount("earlier_velocity", "velocities of an earlier time", vec![0.0], change)
         .of_mesh()
+}
+
+/// Two components swapped, of a tensor in both places.
+fn two_swapped<const D: usize, const A: usize, const B: usize>(
+    at: &Given<'_, D>,
+    quantity: Quantity,
+) -> Vec<f64> {
+    let mut values = at.exact.values(quantity, at.time, at.reference);
+    for point in values.chunks_mut(quantity.components(D)) {
+        if quantity == Quantity::DisplacementGradient {
+            (0..D).for_each(|axis| point.swap(A * D + axis, B * D + axis));
+            point.chunks_mut(D).for_each(|row| row.swap(A, B));
+        } else {
+            point.swap(A, B);
+        }
+    }
+    values
 }
 
 /// Components of one quantity shifted by one place.

@@ -38,7 +38,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             }),
         ),
         Hypothesis {
-            which: Some("u"),
+            which: Some("u".into()),
             ..Hypothesis::fixed(
                 "start_undeformed",
                 "u is 0 and F is I at the start",

@@ -61,8 +61,8 @@ pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
 /// Orders of the shear components 12, 13, 23 that others have.
 pub fn voigt_orders<const D: usize>() -> Vec<Hypothesis<D>> {
     let says = "the shear components stand in another order than 12, 13, 23";
-    let order = |which, order| Hypothesis {
-        which: Some(which),
+    let order = |which: &'static str, order| Hypothesis {
+        which: Some(which.into()),
         ..Hypothesis::fixed("voigt_order", says, Change::Order(order))
     };
     if D < 3 {

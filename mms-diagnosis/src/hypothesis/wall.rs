@@ -50,7 +50,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             }
         }),
         Hypothesis {
-            which: Some("walls"),
+            which: Some("walls".into()),
             ..fixed(
                 "start_at_rest",
                 "the initial velocity is 0, and that of prescribed faces, which their acceleration moves",

@@ -4,6 +4,7 @@ mod field;
 mod nodal;
 #[path = "../../../tests/support/sampled.rs"]
 mod sampled;
+mod statics;
 mod tangent;
 
 use field::{DENSITY, FREQUENCY, LAMBDA, MU, Square};
@@ -15,6 +16,7 @@ use mms_diagnosis::exact::{Exact, Quantity};
 use mms_diagnosis::excluded::{Shown, Study, excluded};
 use mms_diagnosis::hypothesis::{self, all};
 use mms_diagnosis::smooth::Smooth;
+use mms_diagnosis::solver::Solver;
 use mms_diagnosis::state::{self, Computed, Response};
 use mms_diagnosis::table::{self, Measure, Table};
 use mms_diagnosis::{ordinary, patterns, step};
@@ -107,7 +109,7 @@ fn a_law_is_named_to_round_off() {
             + f(h).try_inverse().unwrap().transpose() * (LAMBDA * (j - 1.0) * j)
     });
     assert_eq!(name(&quadratic), "material");
-    assert_eq!(quadratic.ranked[0].which, Some("neo_hookean_quadratic"));
+    assert_eq!(quadratic.ranked[0].which.as_deref(), Some("neo_hookean_quadratic"));
     // What nobody has thought of.
     assert_eq!(name(&of_law(|h| right(h) + h * h * 100.0)), "unexplained");
 }
@@ -508,7 +510,8 @@ fn said(meshes: &[Mesh]) -> Diagnosis {
     }
     let frame =
         Frame::new(&exact, &snapshots, Smooth::new(&exact.domain.body, 576, DEGREE).unwrap());
-    let found = ordinary::diagnose(&exact, &frame, meshes, &all(&exact), None, None).unwrap();
+    let found =
+        ordinary::diagnose(&exact, &frame, meshes, &all(&exact), &Solver::default()).unwrap();
     match found.finding {
         Finding::Named => found,
         _ => patterns::permutation(&exact, &snapshots).unwrap_or(found),

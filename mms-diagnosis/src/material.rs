@@ -1,0 +1,49 @@
+//! The parameters of a field's material, and the fields in which one of them is wrong.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use mms_runtime::ManufacturedField;
+use mms_runtime::scene::Scene;
+
+use crate::exact::Parameters;
+
+/// The parameters of a field's material.
+pub struct Material<'a> {
+    /// Their names.
+    pub names: Vec<String>,
+    /// The field with one parameter times a factor; `None` if there is no such field.
+    pub times: &'a (dyn Fn(usize, f64) -> Option<Scene<f64>> + Sync),
+}
+
+/// A field of one dimension.
+type Field<const D: usize> = Box<dyn ManufacturedField<f64, D>>;
+
+/// Fields that were made, by the parameter and the bits of its factor.
+type Made<const D: usize> = HashMap<(usize, u64), Option<Arc<dyn ManufacturedField<f64, D>>>>;
+
+/// The parameters of the material of a field of one dimension; each field is made once.
+pub struct Own<'a, const D: usize> {
+    material: &'a Material<'a>,
+    of: fn(Scene<f64>) -> Option<Field<D>>,
+    made: Mutex<Made<D>>,
+}
+
+impl<'a, const D: usize> Own<'a, D> {
+    /// Of a material; `of` takes the field of this dimension out of a scene.
+    pub fn new(material: &'a Material<'a>, of: fn(Scene<f64>) -> Option<Field<D>>) -> Self {
+        Own { material, of, made: Mutex::default() }
+    }
+}
+
+impl<const D: usize> Parameters<D> for Own<'_, D> {
+    fn names(&self) -> &[String] {
+        &self.material.names
+    }
+
+    fn times(&self, parameter: usize, factor: f64) -> Option<Arc<dyn ManufacturedField<f64, D>>> {
+        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        let make = || Some(Arc::from((self.of)((self.material.times)(parameter, factor)?)?));
+        made.entry((parameter, factor.to_bits())).or_insert_with(make).clone()
+    }
+}

@@ -1,0 +1,19 @@
+//! What is known of the solver whose results are diagnosed.
+
+use mms_runtime::Method;
+
+use crate::changed::Without;
+use crate::falls::Falls;
+
+/// What is known of the solver.
+#[derive(Clone, Debug, Default)]
+pub struct Solver {
+    /// What was left out.
+    pub without: Without,
+    /// A method of this project's own solver that it may be like.
+    pub like: Option<Method>,
+    /// How its errors fall from mesh to mesh, of results of two meshes and more.
+    pub falls: Option<Falls>,
+    /// Whether its results are compared with those of a right run of the same solver, which has the same errors.
+    pub is_beside: bool,
+}

@@ -1,0 +1,416 @@
+//! The errors that mistakes make at equilibrium: no waves, no time step, and none of our own method.
+//!
+//! The motion is the exact one and d besides, a sum of [smooth functions that vanish where the motion is given](crate::weak). A
+//! right solver has d = 0. A mistake puts int (P' - P):grad w - int (rho0 b' - rho0 b).w - int (T' - T).w out of balance, where
+//! P', b' and T' are those of the mistake, P' and T' at the motion with d. Galerkin's method finds d, by Newton's method with the
+//! tangent of the right law and Anderson's acceleration (Walker & Ni, "Anderson acceleration for fixed-point iterations", SIAM J.
+//! Numer. Anal. 49 (2011)).
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use mms_runtime::nalgebra::{DMatrix, DVector, Dyn, LU};
+use mms_runtime::{
+    Condition, Domain, ManufacturedField as _, Material as _, Matrix, Refusal, Vector,
+};
+
+use crate::answer::Computed;
+use crate::changed::{Changed, Without};
+use crate::evidence::{Frame, Mesh, nearest};
+use crate::exact::{Exact, Quantity, vectors};
+use crate::hypothesis::{Change, Hypothesis};
+use crate::run::Responses;
+use crate::smooth::nearest as nearest_sum;
+use crate::weak::{Weak, add, first};
+
+/// The degree of functions, and the points of quadrature along an axis, in one to three dimensions.
+const DEGREE: [usize; 3] = [12, 9, 5];
+const POINTS: [usize; 3] = [24, 16, 10];
+/// How often d is mended, and how many steps before the last one are used.
+const ROUNDS: usize = 30;
+const DEPTH: usize = 6;
+/// d is found if it changes by no more than this part of it.
+const FOUND: f64 = 1e-6;
+/// In so many bits a large mistake is made.
+const BITS: u32 = 6;
+/// The step of differences of P.
+const STEP: f64 = 1e-6;
+/// A step that leads to a singular F is halved so often at most.
+const HALVES: usize = 6;
+
+/// Equilibrium at a time, with what holds on the faces.
+struct System<'a, const D: usize> {
+    weak: Weak<'a, D>,
+    /// H and P of the exact motion, at the points of the quadrature.
+    gradient: Vec<Matrix<f64, D>>,
+    stress: Vec<Matrix<f64, D>>,
+    /// rho0 b there.
+    force: Vec<Vector<f64, D>>,
+    /// H and P N of the exact motion on the pieces of faces without given motion.
+    faces: Vec<OnFace<D>>,
+    /// The tangent of the right law.
+    tangent: LU<f64, Dyn, Dyn>,
+}
+
+/// A piece of a face.
+struct OnFace<const D: usize> {
+    is_loaded: bool,
+    position: Vector<f64, D>,
+    area: Vector<f64, D>,
+    gradient: Matrix<f64, D>,
+    load: Vector<f64, D>,
+    functions: Vec<f64>,
+}
+
+impl<'a, const D: usize> System<'a, D> {
+    /// Of a field at a time, where these conditions hold; `None` if the body is not held, or is unstable.
+    fn new(exact: &'a Exact<'a, D>, time: f64, domain: &Domain<f64, D>) -> Option<Self> {
+        let weak = Weak::with(exact, time, domain, DEGREE, POINTS[D - 1]).ok()?;
+        let x = &weak.quadrature.points;
+        let gradient = exact.gradient(time, x);
+        let stress = exact.stress(x, &gradient);
+        let stress: Vec<_> = stress.iter().zip(&gradient).map(|(tau, h)| first(tau, h)).collect();
+        let force = weak.per_volume(x, exact.body_force(time, x));
+        let is_free = |it: &Condition| matches!(it, Condition::Traction | Condition::Free);
+        let own = weak.quadrature.pieces.iter();
+        let own = own.filter(|it| {
+            let condition = domain.condition(it.face);
+            is_free(&condition) || condition == Condition::Roller
+        });
+        let faces = own.map(|piece| {
+            let x = piece.position;
+            let h = exact.gradient(time, &[x])[0];
+            let tau = exact.stress(&[x], &[h])[0];
+            OnFace {
+                is_loaded: domain.condition(piece.face) == Condition::Traction,
+                position: x,
+                area: piece.area,
+                gradient: h,
+                load: first(&tau, &h) * piece.area,
+                functions: weak.functions(&x),
+            }
+        });
+        let faces = faces.collect();
+        let tangent = tangent(exact, &weak, &gradient)?.lu();
+        tangent.is_invertible().then_some(System { weak, gradient, stress, force, faces, tangent })
+    }
+
+    /// What b and tractions of a mistake put out of balance, whatever the motion.
+    fn loads(&self, field: &Changed<'_, D>) -> DVector<f64> {
+        let weak = &self.weak;
+        let (x, time) = (&weak.quadrature.points, weak.time);
+        let (mut b, mut density) = (vec![Vector::zeros(); x.len()], vec![0.0; x.len()]);
+        field.body_force(time, x, &mut b);
+        field.density(x, &mut density);
+        let own = b.iter().zip(density).zip(&self.force).map(|((b, rho), right)| b * rho - right);
+        let mut sums = weak.paired(&own.collect::<Vec<_>>());
+        let position: Vec<_> = self.faces.iter().map(|it| it.position).collect();
+        let gradient: Vec<_> = self.faces.iter().map(|it| it.gradient).collect();
+        let mut tau = vec![Matrix::zeros(); position.len()];
+        field.surface_stress(time, &position, &gradient, &mut tau);
+        for (it, tau) in self.faces.iter().zip(&tau) {
+            let own =
+                if it.is_loaded { first(tau, &it.gradient) * it.area } else { Vector::zeros() };
+            if own != it.load {
+                add(&mut sums, &it.functions, &(own - it.load));
+            }
+        }
+        DVector::from_vec(sums)
+    }
+
+    /// By how much each sum is out of balance with these loads, at the exact motion and parts of the functions.
+    fn unbalanced(
+        &self,
+        field: &Changed<'_, D>,
+        loads: &DVector<f64>,
+        parts: &DVector<f64>,
+    ) -> Option<DVector<f64>> {
+        let weak = &self.weak;
+        let slopes = weak.slopes_at_points.chunks(weak.count());
+        let moved: Vec<Matrix<f64, D>> =
+            self.gradient.iter().zip(slopes).map(|(h, of)| h + gradient(of, parts)).collect();
+        let stress = weak.stress(field, &moved);
+        let changed = stress.iter().zip(&self.stress).map(|(own, right)| own - right);
+        let sums = loads + DVector::from_vec(weak.resisted(changed));
+        sums.iter().all(|it| it.is_finite()).then_some(sums)
+    }
+
+    /// The parts of the functions that bring a mistake into balance if it is small, and it is scaled.
+    fn linear(&self, field: &Changed<'_, D>) -> Option<DVector<f64>> {
+        let none = DVector::zeros(self.weak.count());
+        self.tangent.solve(&self.unbalanced(field, &self.loads(field), &none)?)
+    }
+
+    /// The parts of the functions at which a mistake is in balance; `None` if there are none. A large mistake is made bit by bit.
+    fn balance(&self, field: &Changed<'_, D>) -> Option<DVector<f64>> {
+        let none = DVector::zeros(self.weak.count());
+        let loads = self.loads(field);
+        if let Some(found) = self.near(field, &self.tangent, &none, &loads) {
+            return Some(found);
+        }
+        let all = self.unbalanced(field, &loads, &none)?;
+        let mut parts = none;
+        for made in 1..=BITS {
+            let left = &all * (1.0 - f64::from(made) / f64::from(BITS));
+            let slopes = self.weak.slopes_at_points.chunks(self.weak.count());
+            let moved = self.gradient.iter().zip(slopes).map(|(h, of)| h + gradient(of, &parts));
+            let tangent = tangent(self.weak.exact, &self.weak, &moved.collect::<Vec<_>>())?.lu();
+            parts = self.near(field, &tangent, &parts, &(&loads - left))?;
+        }
+        Some(parts)
+    }
+
+    /// The same with loads, from parts that are near.
+    fn near(
+        &self,
+        field: &Changed<'_, D>,
+        tangent: &LU<f64, Dyn, Dyn>,
+        from: &DVector<f64>,
+        loads: &DVector<f64>,
+    ) -> Option<DVector<f64>> {
+        let step = |parts: &DVector<f64>| tangent.solve(&self.unbalanced(field, loads, parts)?);
+        let mut parts = from.clone();
+        let mut last = step(&parts)?;
+        let mut history: Vec<[DVector<f64>; 2]> = Vec::new();
+        for _ in 0..ROUNDS {
+            let own = accelerated(&history, &last);
+            let halved = |half: usize| &parts + &own * 0.5_f64.powi(half as i32);
+            let (next, found) = (0..HALVES)
+                .map(halved)
+                .find_map(|it| Some((step(&it)?, it)))
+                .map(|(a, b)| (b, a))?;
+            if found.norm() <= FOUND * next.norm() {
+                return Some(next);
+            }
+            history.push([&next - &parts, &found - &last]);
+            if history.len() > DEPTH {
+                history.remove(0);
+            }
+            (parts, last) = (next, found);
+        }
+        None
+    }
+}
+
+/// The step that Anderson's acceleration takes: what earlier steps made of what was left is taken from the last.
+fn accelerated(history: &[[DVector<f64>; 2]], last: &DVector<f64>) -> DVector<f64> {
+    let columns: Vec<Vec<f64>> = history.iter().map(|[_, left]| left.as_slice().to_vec()).collect();
+    let weights = nearest_sum(&columns, last.as_slice());
+    let mut own = last.clone();
+    for ([moved, left], weight) in history.iter().zip(weights) {
+        own -= (moved + left) * weight;
+    }
+    own
+}
+
+/// The gradient of a sum of functions, whose components come one after the other.
+fn gradient<const D: usize>(slopes: &[Vector<f64, D>], parts: &DVector<f64>) -> Matrix<f64, D> {
+    let count = slopes.len() / D;
+    let mut h = Matrix::zeros();
+    for (at, (slope, part)) in slopes.iter().zip(parts.iter()).enumerate() {
+        let i = at / count;
+        (0..D).for_each(|axis| h[(i, axis)] += part * slope[axis]);
+    }
+    h
+}
+
+/// int grad w : dP/dH : grad w' for all pairs of functions, of the right law.
+fn tangent<const D: usize>(
+    exact: &Exact<'_, D>,
+    weak: &Weak<'_, D>,
+    at: &[Matrix<f64, D>],
+) -> Option<DMatrix<f64>> {
+    let x = &weak.quadrature.points;
+    let stress = |entry: (usize, usize), step: f64| -> Vec<Matrix<f64, D>> {
+        let mut moved = at.to_vec();
+        moved.iter_mut().for_each(|h| h[entry] += step);
+        let tau = exact.stress(x, &moved);
+        tau.iter().zip(&moved).map(|(tau, h)| first(tau, h)).collect()
+    };
+    let (all, count) = (weak.count(), weak.count() / D);
+    let slopes: Vec<DMatrix<f64>> = (0..D)
+        .map(|i| {
+            DMatrix::from_fn(D * x.len(), count, |row, n| {
+                weak.slopes_at_points[row / D * all + i * count + n][row % D]
+            })
+        })
+        .collect();
+    let mut tangent = DMatrix::zeros(all, all);
+    for (j, of_j) in slopes.iter().enumerate() {
+        let mut made = vec![DMatrix::zeros(D * x.len(), count); D];
+        for b in 0..D {
+            let [before, after] = [-STEP, STEP].map(|step| stress((j, b), step));
+            for (q, volume) in weak.quadrature.volumes.iter().enumerate() {
+                let slope = (after[q] - before[q]) * (volume / (2.0 * STEP));
+                for i in 0..D {
+                    for a in 0..D {
+                        for n in 0..count {
+                            made[i][(D * q + a, n)] += slope[(i, a)] * of_j[(D * q + b, n)];
+                        }
+                    }
+                }
+            }
+        }
+        for (i, made) in made.iter().enumerate() {
+            let block = slopes[i].transpose() * made;
+            tangent.view_mut((i * count, j * count), (count, count)).copy_from(&block);
+        }
+    }
+    tangent.iter().all(|it| it.is_finite()).then_some(tangent)
+}
+
+/// A hypothesis and its size, and the parts of the functions that it makes.
+type Found = HashMap<(usize, Vec<u64>), Option<DVector<f64>>>;
+
+/// Equilibrium of a field, for results of any mesh.
+pub struct Equilibrium<'a, const D: usize> {
+    exact: &'a Exact<'a, D>,
+    system: System<'a, D>,
+    /// What elements of degree 1 make, of the cell size of the exact solution.
+    of_elements: DVector<f64>,
+    found: Mutex<Found>,
+}
+
+impl<'a, const D: usize> Equilibrium<'a, D> {
+    /// Of a field at the last time of what is compared; `None` if the body is not held, or is unstable.
+    ///
+    /// # Errors
+    /// A body without extent.
+    pub fn new(exact: &'a Exact<'a, D>, frame: &Frame<D>) -> Result<Option<Self>, Refusal> {
+        let Some(time) = frame.times.last() else { return Ok(None) };
+        let Some(system) = System::new(exact, *time, &exact.domain) else { return Ok(None) };
+        let methods = system.weak.of_elements(Computed::NodalResidual, &Without::default()).methods;
+        let residual = methods.last().map(|it| DVector::from_column_slice(it));
+        let of_elements = residual.and_then(|it| system.tangent.solve(&-it));
+        Ok(of_elements.map(|of_elements| Equilibrium {
+            exact,
+            system,
+            of_elements,
+            found: Mutex::default(),
+        }))
+    }
+
+    /// The parts of the functions that a mistake makes; found once.
+    fn response(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<DVector<f64>> {
+        let bits = size.iter().map(|it| it.to_bits()).collect();
+        let key = (std::ptr::from_ref(hypothesis).addr(), bits);
+        let found = || self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = found().get(&key) {
+            return known.clone();
+        }
+        let own = self.solved(hypothesis, size, System::balance);
+        found().insert(key, own.clone());
+        own
+    }
+
+    fn solved(
+        &self,
+        hypothesis: &Hypothesis<D>,
+        size: &[f64],
+        by: fn(&System<'a, D>, &Changed<'_, D>) -> Option<DVector<f64>>,
+    ) -> Option<DVector<f64>> {
+        let field = Changed::with(self.exact, Without::default(), hypothesis, size);
+        let found = match hypothesis.change {
+            Change::Force(_) | Change::Stress(..) | Change::Surface(_) => by(&self.system, &field),
+            Change::Loads(..) | Change::Density => by(&self.system, &field),
+            Change::Condition(Condition::Free) => {
+                by(&System::new(self.exact, self.system.weak.time, &field.domain())?, &field)
+            }
+            // At rest the others change nothing that is computed.
+            _ => None,
+        };
+        found.filter(|it| it.norm() > 0.0)
+    }
+}
+
+/// The errors of results of one mesh at equilibrium.
+pub struct Statics<'a, const D: usize> {
+    /// Shared by all meshes.
+    pub equilibrium: Arc<Equilibrium<'a, D>>,
+    /// What is compared.
+    pub frame: &'a Frame<D>,
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// Its h, or a larger one.
+    pub cell_size: f64,
+}
+
+impl<'a, const D: usize> Statics<'a, D> {
+    /// The errors at the user's points, of each time and quantity.
+    fn errors(&self, parts: &DVector<f64>) -> Option<Vec<Vec<f64>>> {
+        let weak = &self.equilibrium.system.weak;
+        let one = |(at, quantity): (usize, Quantity)| {
+            let points = vectors::<D>(&nearest(self.mesh, self.frame.times[at])?.reference);
+            Some(points.iter().flat_map(|x| value(weak, quantity, x, parts)).collect())
+        };
+        self.frame.each().map(one).collect()
+    }
+}
+
+/// A quantity of a sum of functions at X.
+fn value<const D: usize>(
+    weak: &Weak<'_, D>,
+    quantity: Quantity,
+    x: &Vector<f64, D>,
+    parts: &DVector<f64>,
+) -> Vec<f64> {
+    match quantity {
+        Quantity::Displacement => {
+            let functions = weak.functions(x);
+            let own = functions
+                .chunks(functions.len() / D)
+                .zip(parts.as_slice().chunks(functions.len() / D));
+            own.map(|(of, parts)| of.iter().zip(parts).map(|(a, b)| a * b).sum()).collect()
+        }
+        Quantity::Velocity => vec![0.0; D],
+        Quantity::DisplacementGradient => {
+            let h = gradient(&weak.gradients(x), parts);
+            h.transpose().as_slice().to_vec()
+        }
+    }
+}
+
+impl<'a, const D: usize> Responses<'a, D> for Statics<'a, D> {
+    fn cell_size(&self) -> f64 {
+        self.cell_size
+    }
+
+    fn methods(&self) -> usize {
+        1
+    }
+
+    fn described(&self, _: usize) -> Option<String> {
+        None
+    }
+
+    fn is_of_second_order(&self, _: usize) -> bool {
+        true
+    }
+
+    /// What elements of degree 1 make, which falls with h^2.
+    fn right(&self, _: usize) -> Option<Vec<Vec<f64>>> {
+        let Equilibrium { exact, of_elements, .. } = &*self.equilibrium;
+        self.errors(&(of_elements * (self.cell_size / exact.cell_size).powi(2)))
+    }
+
+    fn wrong(&self, _: usize, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let Equilibrium { exact, of_elements, .. } = &*self.equilibrium;
+        let ratio = (self.cell_size / exact.cell_size).powi(2);
+        self.errors(&(self.equilibrium.response(hypothesis, size)? + of_elements * ratio))
+    }
+
+    fn roughly(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let Equilibrium { exact, of_elements, .. } = &*self.equilibrium;
+        let ratio = (self.cell_size / exact.cell_size).powi(2);
+        let linear = self.equilibrium.solved(hypothesis, size, System::linear)?;
+        self.errors(&(linear + of_elements * ratio))
+    }
+
+    fn coarser(&self) -> Box<dyn Responses<'a, D> + 'a> {
+        Box::new(Statics {
+            equilibrium: self.equilibrium.clone(),
+            cell_size: 2.0 * self.cell_size,
+            ..*self
+        })
+    }
+}

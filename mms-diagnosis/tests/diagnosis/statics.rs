@@ -1,0 +1,200 @@
+//! Mistakes at equilibrium, of a rod whose stress follows from its loads on paper: P(X) = T + int rho0 b from X to the end. H is
+//! then found by bisection, and u by integration.
+
+use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
+use mms_diagnosis::exact::{Exact, Quantity};
+use mms_diagnosis::hypothesis::{Hypothesis, all};
+use mms_diagnosis::ordinary;
+use mms_diagnosis::run::Responses as _;
+use mms_diagnosis::smooth::Smooth;
+use mms_diagnosis::solver::Solver;
+use mms_diagnosis::statics::{Equilibrium, Statics};
+use mms_runtime::{Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Vector};
+use std::sync::Arc;
+
+use super::field::{DENSITY, LAMBDA, MU};
+use super::name;
+
+type Point = Vector<f64, 1>;
+type Tensor = Matrix<f64, 1>;
+
+/// Clamped at 0, loaded at 1.
+struct Rod;
+
+fn stretch(x: f64) -> f64 {
+    0.15 * (1.4 * x).cos() + 0.1 * x
+}
+
+fn displacement(x: f64) -> f64 {
+    0.15 / 1.4 * (1.4 * x).sin() + 0.05 * x * x
+}
+
+/// P of H: neo-Hookean, of uniaxial strain.
+fn stress(h: f64) -> f64 {
+    let f = 1.0 + h;
+    MU * (f - 1.0 / f) + LAMBDA * f.ln() / f
+}
+
+fn body_force(x: f64) -> f64 {
+    let f = 1.0 + stretch(x);
+    let stiffness = MU * (1.0 + 1.0 / (f * f)) + LAMBDA * (1.0 - f.ln()) / (f * f);
+    -stiffness * (-0.15 * 1.4 * (1.4 * x).sin() + 0.1) / DENSITY
+}
+
+impl Material<f64, 1> for Rod {
+    fn density(&self, _: &[Point], density: &mut [f64]) {
+        density.fill(DENSITY);
+    }
+
+    fn wave_speed(&self, _: &[Point], speed: &mut [f64]) {
+        speed.fill(((LAMBDA + 2.0 * MU) / DENSITY).sqrt());
+    }
+
+    fn kirchhoff_stress(&self, _: &[Point], h: &[Tensor], tau: &mut [Tensor]) {
+        h.iter().zip(tau).for_each(|(h, tau)| *tau = Tensor::new(stress(h.x) * (1.0 + h.x)));
+    }
+}
+
+impl ManufacturedField<f64, 1> for Rod {
+    fn domain(&self) -> Domain<f64, 1> {
+        let faces = vec![(Face::Min(0), Condition::Fixed), (Face::Max(0), Condition::Traction)];
+        let body = Body::Box { lower: Point::new(0.0), upper: Point::new(1.0) };
+        Domain { body, time: [0.0, 1.0], faces }
+    }
+
+    fn displacement(&self, _: f64, x: &[Point], out: &mut [Point]) {
+        x.iter().zip(out).for_each(|(x, out)| out.x = displacement(x.x));
+    }
+
+    fn velocity(&self, _: f64, _: &[Point], out: &mut [Point]) {
+        out.fill(Point::zeros());
+    }
+
+    fn acceleration(&self, _: f64, _: &[Point], out: &mut [Point]) {
+        out.fill(Point::zeros());
+    }
+
+    fn body_force(&self, _: f64, x: &[Point], out: &mut [Point]) {
+        x.iter().zip(out).for_each(|(x, out)| out.x = body_force(x.x));
+    }
+
+    fn displacement_gradient(&self, _: f64, x: &[Point], out: &mut [Tensor]) {
+        x.iter().zip(out).for_each(|(x, out)| out.x = stretch(x.x));
+    }
+}
+
+/// What is wrong: factors of b, of the traction and of the stress.
+type Factors = [f64; 3];
+
+/// By how much a mistake moves each point, on paper.
+fn moved([force, load, law]: Factors, points: &[f64]) -> Vec<f64> {
+    let end = stress(stretch(1.0));
+    let wrong = |x: f64| {
+        let right = stress(stretch(x));
+        let wanted = (load * end + force * (right - end)) / law;
+        let (mut low, mut high) = (-0.9, 9.0);
+        for _ in 0..80 {
+            let middle = f64::midpoint(low, high);
+            if stress(middle) < wanted { low = middle } else { high = middle }
+        }
+        low - stretch(x)
+    };
+    let to = |end: f64| -> f64 {
+        // By Simpson's rule.
+        let parts = 200;
+        let at = |k: usize| wrong(end * k as f64 / f64::from(parts));
+        let weight = |k: usize| if k % 2 == 1 { 4.0 } else { 2.0 };
+        let inner: f64 = (1..parts as usize).map(|k| weight(k) * at(k)).sum();
+        (at(0) + inner + at(parts as usize)) * end / f64::from(3 * parts)
+    };
+    points.iter().map(|x| to(*x)).collect()
+}
+
+const MISTAKES: [(&str, f64, Factors); 7] = [
+    ("force_factor", 1.2, [1.2, 1.0, 1.0]),
+    ("force_factor", -1.0, [-1.0, 1.0, 1.0]),
+    ("force_factor", 3.0, [3.0, 1.0, 1.0]),
+    ("traction_factor", 0.0, [1.0, 0.0, 1.0]),
+    ("traction_factor", 0.98, [1.0, 0.98, 1.0]),
+    ("moduli_factor", 2.0, [1.0, 1.0, 2.0]),
+    ("moduli_factor", 0.6, [1.0, 1.0, 0.6]),
+];
+
+fn points(cells: usize) -> Vec<f64> {
+    (0..=cells).map(|k| k as f64 / cells as f64).collect()
+}
+
+/// Results with so much besides the exact displacement, and an error that falls with h^2.
+fn mesh(cells: usize, beside: &[f64]) -> Mesh {
+    let (h, reference) = (1.0 / cells as f64, points(cells));
+    let error = |x: f64| 0.02 * h * h * x * (1.0 + x);
+    let each = reference.iter().zip(beside);
+    let u = each.map(|(x, beside)| displacement(*x) + beside + error(*x)).collect();
+    let values = vec![(Quantity::Displacement, u)];
+    let snapshot = Snapshot { time: 0.5, reference, values, ..Snapshot::default() };
+    Mesh { cell_size: h, time_step: None, snapshots: vec![snapshot] }
+}
+
+fn frame(exact: &Exact<'_, 1>, mesh: &Mesh) -> Frame<1> {
+    let smooth = Smooth::new(&exact.domain.body, mesh.snapshots[0].reference.len(), DEGREE);
+    Frame::new(exact, &[&mesh.snapshots[0]], smooth.unwrap())
+}
+
+#[test]
+fn responses_are_those_of_paper() {
+    let exact = Exact::new(&Rod, 1.0 / 32.0, 1e-3);
+    assert!(exact.is_at_rest());
+    let points = points(32);
+    let mesh = mesh(32, &vec![0.0; 33]);
+    let frame = frame(&exact, &mesh);
+    let equilibrium = Arc::new(Equilibrium::new(&exact, &frame).unwrap().unwrap());
+    let solver = Statics { equilibrium, frame: &frame, mesh: &mesh, cell_size: 1.0 / 32.0 };
+    let right = solver.right(0).unwrap();
+    let hypotheses = all(&exact);
+    for (name, size, factors) in MISTAKES {
+        let is_it = |it: &&Hypothesis<1>| it.name == name;
+        let hypothesis = hypotheses.iter().find(is_it).unwrap();
+        let found = solver.wrong(0, hypothesis, &[size]).unwrap();
+        let expected = moved(factors, &points);
+        let largest = expected.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+        for ((found, right), expected) in found[0].iter().zip(&right[0]).zip(&expected) {
+            let off = (found - right - expected).abs() / largest;
+            assert!(off < 1e-5, "{name} {size}: {off:e}");
+        }
+    }
+}
+
+#[test]
+fn mistakes_at_rest_are_named_with_their_sizes() {
+    for (mistake, size, factors) in MISTAKES {
+        let meshes = [16, 32].map(|cells| mesh(cells, &moved(factors, &points(cells))));
+        let exact = Exact::new(&Rod, 1.0 / 32.0, 1e-3);
+        let frame = frame(&exact, &meshes[1]);
+        let found =
+            ordinary::diagnose(&exact, &frame, &meshes, &all(&exact), &Solver::default()).unwrap();
+        let best = found.ranked.iter().find(|it| {
+            let class = &found.ranked[0];
+            let alike = class.equivalent_here.iter().chain(&class.equivalent_always);
+            let is_alike =
+                it.title() == class.title() || alike.clone().any(|own| *own == it.title());
+            is_alike && (it.factor[0] - size).abs() < 0.02 * size.abs().max(1.0)
+        });
+        assert_eq!(found.finding.name(), "named", "{mistake} {size}: {:?}", found.ranked[0]);
+        assert!(
+            best.is_some(),
+            "{mistake} {size}: {:?} {:?}",
+            found.ranked[0],
+            found.ranked.iter().filter(|it| it.name.contains("moduli")).collect::<Vec<_>>()
+        );
+    }
+}
+
+#[test]
+fn right_results_at_rest_are_nothing() {
+    let meshes = [16, 32].map(|cells| mesh(cells, &vec![0.0; cells + 1]));
+    let exact = Exact::new(&Rod, 1.0 / 32.0, 1e-3);
+    let frame = frame(&exact, &meshes[1]);
+    let found =
+        ordinary::diagnose(&exact, &frame, &meshes, &all(&exact), &Solver::default()).unwrap();
+    assert_eq!(name(&found), "nothing", "{:?}", found.ranked[0]);
+}

@@ -1,0 +1,48 @@
+//! The parameters of a field's material, each times a factor.
+
+use std::sync::{Arc, OnceLock};
+
+use mms_codegen::compile::{Compiled, constant};
+use mms_codegen::variation::{Variation, factor_of};
+use mms_codegen::{Options, Selection};
+use mms_runtime::scene::Scene;
+
+use crate::session::exact::Exact;
+use crate::session::input::{Text, Variant};
+
+/// A field whose material has factors; it is compiled when one is asked for.
+pub struct Factors<'a> {
+    field: &'a str,
+    variant: &'a Variant,
+    exact: &'a Exact,
+    compiled: OnceLock<Option<Arc<Compiled>>>,
+}
+
+impl<'a> Factors<'a> {
+    /// Of a field.
+    pub fn new(field: &'a str, variant: &'a Variant, exact: &'a Exact) -> Self {
+        Factors { field, variant, exact, compiled: OnceLock::new() }
+    }
+
+    /// The names of the parameters.
+    pub fn names(&self) -> Vec<String> {
+        let arguments = &self.exact.input().compiled.field.material.arguments;
+        arguments.iter().map(|(name, _)| name.value.clone()).collect()
+    }
+
+    /// The field with one parameter times a factor; `None` if it cannot be compiled.
+    pub fn times(&self, parameter: usize, factor: f64) -> Option<Scene<f64>> {
+        let compiled = self.compiled.get_or_init(|| self.compile()).clone()?;
+        let name = factor_of(self.names().get(parameter)?);
+        let at = compiled.model.parameters.iter().position(|it| it.name == *name)?;
+        let mut set = self.exact.set().clone();
+        set.insert(at, constant(&format!("{factor:?}")).ok()?);
+        Some(mms_interpreted::scene(compiled, &set))
+    }
+
+    fn compile(&self) -> Option<Arc<Compiled>> {
+        let options =
+            Options { variation: Variation::Factors, ..self.variant.options(Selection::default()) };
+        Some(Arc::new(Text::find(self.field).ok()?.compile(&options).ok()?))
+    }
+}
