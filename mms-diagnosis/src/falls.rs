@@ -25,7 +25,7 @@ const STEADY: f64 = 0.35;
 const NEAR: f64 = 0.15;
 
 impl Falls {
-    /// Where to look for the cause of an error of this order; nothing if the order is right.
+    /// Says where to look for the cause of an error of this order; nothing if the order is right.
     pub fn hint(&self) -> Option<&'static str> {
         let [least, most] = OF_STEPS;
         Some(match self.observed {

@@ -175,7 +175,7 @@ impl<'a, const D: usize> Levels<'a, D> {
         self.beyond(level, method, &level.solvers.wrong(method, hypothesis, &size)?)
     }
 
-    /// The same by the first method as if the mistake were small, where that is found in less time.
+    /// The error that a hypothesis makes by the first method as if it were small; `None` if that takes as long as [`wrong`](Self::wrong).
     pub fn roughly(
         &self,
         level: &Level<'a, D>,
@@ -195,7 +195,7 @@ impl<'a, const D: usize> Levels<'a, D> {
         size.iter().map(|it| it * factor).collect()
     }
 
-    /// What is seen of the errors of a method, less that of a right one.
+    /// Coefficients of the errors of a method, less those of a right one.
     fn beyond(&self, level: &Level<'a, D>, method: usize, errors: &[Vec<f64>]) -> Option<Vec<f64>> {
         let wrong = self.frame.see(level.mesh, errors)?.coefficients;
         Some(less(&wrong, 1.0, level.right[method].as_ref()?))

@@ -30,7 +30,7 @@ pub struct Own<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Own<'a, D> {
-    /// Of a material; `of` takes the field of this dimension out of a scene.
+    /// Wraps a material; `of` takes the field of this dimension out of a scene.
     pub fn new(material: &'a Material<'a>, of: fn(Scene<f64>) -> Option<Field<D>>) -> Self {
         Own { material, of, made: Mutex::default() }
     }

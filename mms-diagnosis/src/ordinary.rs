@@ -165,8 +165,8 @@ where
         (is_asked || best.apart <= NEAR).then_some(best)
     }
 
-    /// What each hypothesis explains, on all processors. Where none explains the error, a large mistake may: its response is no
-    /// multiple of that of a small one, and is found at the sizes that people make mistakes of.
+    /// Finds the part of the error that each hypothesis explains, on all processors. If none explains it, large mistakes are tried: the
+    /// response to a large mistake is no multiple of that to a small one.
     fn all(&self, is_right: bool) -> Vec<Explained> {
         let seen: Vec<_> = self.frame.quantities.iter().map(|(it, _)| *it).collect();
         let each = |of: &(dyn Fn(usize, &Hypothesis<D>) -> Option<Explained> + Sync)| {
@@ -231,7 +231,6 @@ impl<const D: usize> Effect<D> for Look<'_, D>
 where
     f64: Solve<D>,
 {
-    /// What a small mistake would make says whether it is worth more.
     fn response(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<f64>> {
         let rough = self.levels.together(|level| self.levels.roughly(level, hypothesis, size));
         let Some(rough) = rough else { return self.by(0, hypothesis, size) };

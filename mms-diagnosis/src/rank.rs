@@ -126,7 +126,7 @@ pub fn explain<const D: usize>(
     }
 }
 
-/// What a hypothesis explains by its response at the sizes that people make mistakes of, where it has any.
+/// Finds the part of an error that a hypothesis explains by its responses at usual sizes; `None` if it has no size.
 pub fn explain_usual<const D: usize>(
     index: usize,
     hypothesis: &Hypothesis<D>,
@@ -178,7 +178,7 @@ fn sized<const D: usize>(
     Some(best)
 }
 
-/// Where a line through two points of [size, inverse of the scale] has the scale 1.
+/// The size at which a line through two points of [size, inverse of the scale] has the scale 1.
 fn secant([a, of_a]: [f64; 2], [b, of_b]: [f64; 2]) -> f64 {
     b + (1.0 - of_b) * (b - a) / (of_b - of_a)
 }

@@ -120,7 +120,7 @@ pub trait Responses<'a, const D: usize>: Sync {
     fn roughly(&self, _: &Hypothesis<D>, _: &[f64]) -> Option<Vec<Vec<f64>>> {
         None
     }
-    /// The same solvers with cells that are twice as large.
+    /// These solvers with cells that are twice as large.
     fn coarser(&self) -> Box<dyn Responses<'a, D> + 'a>;
 }
 

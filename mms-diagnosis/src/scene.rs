@@ -285,7 +285,7 @@ where
     Ok(permutation.unwrap_or(found))
 }
 
-/// What is compared of meshes.
+/// The quantities, times and functions in which meshes are compared.
 fn frame<const D: usize>(exact: &Exact<'_, D>, meshes: &[Mesh]) -> Result<Frame<D>, Obstacle> {
     let points = meshes.iter().flat_map(|mesh| &mesh.snapshots).map(|it| it.reference.len() / D);
     let points = points.min().unwrap_or(0);

@@ -1,14 +1,14 @@
-//! What is known of the solver whose results are diagnosed.
+//! The solver whose results are diagnosed, as far as it is known.
 
 use mms_runtime::Method;
 
 use crate::changed::Without;
 use crate::falls::Falls;
 
-/// What is known of the solver.
+/// The user's solver, as far as it is known.
 #[derive(Clone, Debug, Default)]
 pub struct Solver {
-    /// What was left out.
+    /// The terms that were left out.
     pub without: Without,
     /// A method of this project's own solver that it may be like.
     pub like: Option<Method>,

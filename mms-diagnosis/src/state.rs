@@ -30,7 +30,7 @@ pub struct Response {
     pub values: Vec<f64>,
     /// The volume of each point; none where all have the same, and of what is integrated already.
     pub volumes: Option<Vec<f64>>,
-    /// What was left out.
+    /// The terms that were left out.
     pub without: Without,
     /// The degree of the cells, where these are known.
     pub degree: Option<u32>,

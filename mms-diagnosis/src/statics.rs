@@ -20,7 +20,7 @@ use crate::evidence::{Frame, Mesh, nearest};
 use crate::exact::{Exact, Quantity, vectors};
 use crate::hypothesis::{Change, Hypothesis};
 use crate::run::Responses;
-use crate::smooth::nearest as nearest_sum;
+use crate::smooth;
 use crate::weak::{Weak, add, first};
 
 /// The degree of functions, and the points of quadrature along an axis, in one to three dimensions.
@@ -63,7 +63,7 @@ struct OnFace<const D: usize> {
 }
 
 impl<'a, const D: usize> System<'a, D> {
-    /// Of a field at a time, where these conditions hold; `None` if the body is not held, or is unstable.
+    /// Sets up equilibrium of a field at a time, under these conditions; `None` if the body is not held, or is unstable.
     fn new(exact: &'a Exact<'a, D>, time: f64, domain: &Domain<f64, D>) -> Option<Self> {
         let weak = Weak::with(exact, time, domain, DEGREE, POINTS[D - 1]).ok()?;
         let x = &weak.quadrature.points;
@@ -95,7 +95,7 @@ impl<'a, const D: usize> System<'a, D> {
         tangent.is_invertible().then_some(System { weak, gradient, stress, force, faces, tangent })
     }
 
-    /// What b and tractions of a mistake put out of balance, whatever the motion.
+    /// The sums that b and tractions of a mistake put out of balance, whatever the motion.
     fn loads(&self, field: &Changed<'_, D>) -> DVector<f64> {
         let weak = &self.weak;
         let (x, time) = (&weak.quadrature.points, weak.time);
@@ -160,7 +160,7 @@ impl<'a, const D: usize> System<'a, D> {
         Some(parts)
     }
 
-    /// The same with loads, from parts that are near.
+    /// Finds the parts of the functions in balance with loads, from parts that are near.
     fn near(
         &self,
         field: &Changed<'_, D>,
@@ -175,10 +175,8 @@ impl<'a, const D: usize> System<'a, D> {
         for _ in 0..ROUNDS {
             let own = accelerated(&history, &last);
             let halved = |half: usize| &parts + &own * 0.5_f64.powi(half as i32);
-            let (next, found) = (0..HALVES)
-                .map(halved)
-                .find_map(|it| Some((step(&it)?, it)))
-                .map(|(a, b)| (b, a))?;
+            let (found, next) =
+                (0..HALVES).map(halved).find_map(|next| Some((step(&next)?, next)))?;
             if found.norm() <= FOUND * next.norm() {
                 return Some(next);
             }
@@ -192,10 +190,10 @@ impl<'a, const D: usize> System<'a, D> {
     }
 }
 
-/// The step that Anderson's acceleration takes: what earlier steps made of what was left is taken from the last.
+/// The step of Anderson's acceleration, from steps before, each with the change that it made in what is left, and the last.
 fn accelerated(history: &[[DVector<f64>; 2]], last: &DVector<f64>) -> DVector<f64> {
     let columns: Vec<Vec<f64>> = history.iter().map(|[_, left]| left.as_slice().to_vec()).collect();
-    let weights = nearest_sum(&columns, last.as_slice());
+    let weights = smooth::nearest(&columns, last.as_slice());
     let mut own = last.clone();
     for ([moved, left], weight) in history.iter().zip(weights) {
         own -= (moved + left) * weight;
@@ -266,13 +264,13 @@ type Found = HashMap<(usize, Vec<u64>), Option<DVector<f64>>>;
 pub struct Equilibrium<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     system: System<'a, D>,
-    /// What elements of degree 1 make, of the cell size of the exact solution.
+    /// The error of elements of degree 1, for the cell size of the exact solution.
     of_elements: DVector<f64>,
     found: Mutex<Found>,
 }
 
 impl<'a, const D: usize> Equilibrium<'a, D> {
-    /// Of a field at the last time of what is compared; `None` if the body is not held, or is unstable.
+    /// Sets up equilibrium at the last time that is compared; `None` if the body is not held, or is unstable.
     ///
     /// # Errors
     /// A body without extent.
@@ -327,7 +325,7 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
 pub struct Statics<'a, const D: usize> {
     /// Shared by all meshes.
     pub equilibrium: Arc<Equilibrium<'a, D>>,
-    /// What is compared.
+    /// The frame in which errors are compared.
     pub frame: &'a Frame<D>,
     /// The mesh.
     pub mesh: &'a Mesh,
@@ -387,7 +385,7 @@ impl<'a, const D: usize> Responses<'a, D> for Statics<'a, D> {
         true
     }
 
-    /// What elements of degree 1 make, which falls with h^2.
+    /// The errors of elements of degree 1, which fall with h^2.
     fn right(&self, _: usize) -> Option<Vec<Vec<f64>>> {
         let Equilibrium { exact, of_elements, .. } = &*self.equilibrium;
         self.errors(&(of_elements * (self.cell_size / exact.cell_size).powi(2)))

@@ -34,7 +34,7 @@ pub struct Weak<'a, const D: usize> {
     /// The points in the body and on its faces.
     pub quadrature: Quadrature<D>,
     smooth: Smooth<D>,
-    /// What holds on the faces.
+    /// The body, with the conditions on its faces.
     domain: Domain<f64, D>,
     /// A length that is small in the body.
     step: f64,

@@ -25,17 +25,30 @@ pub struct Wanted<'a> {
     room: Cell<u64>,
     /// The advice if they are too few.
     advice: &'static str,
+    /// The names of the columns of tables without a header.
+    columns: Vec<String>,
 }
 
 impl<'a> Wanted<'a> {
     /// Reads arrays by their names, in any memory.
     pub fn new(need: impl Fn(&str) -> Need + 'a) -> Self {
-        Wanted { need: Box::new(need), room: Cell::new(u64::MAX), advice: "" }
+        let (room, columns) = (Cell::new(u64::MAX), Vec::new());
+        Wanted { need: Box::new(need), room, advice: "", columns }
     }
 
     /// The same, in so many bytes; and what to do if they are too few.
     pub fn within(self, bytes: u64, advice: &'static str) -> Self {
         Wanted { room: Cell::new(bytes), advice, ..self }
+    }
+
+    /// The same, with names for the columns of tables without a header.
+    pub fn named(self, columns: &[String]) -> Self {
+        Wanted { columns: columns.to_vec(), ..self }
+    }
+
+    /// The names of the columns of tables without a header; none, if they were not given.
+    pub(crate) fn columns(&self) -> &[String] {
+        &self.columns
     }
 
     /// How many bytes are left.

@@ -54,6 +54,104 @@ fn indices_and_comments_of_programs_are_passed_over() {
 }
 
 #[test]
+fn numbers_are_read_as_programs_write_them() {
+    let right = "X Y ux uy\n0.25 -0.5e-3 1 2\n0.75 -0.5e-3 3e-101 4\n";
+    let expected = read(right, &everything(&[])).unwrap();
+    let values =
+        |it: &Snapshot| it.of_points.iter().map(|it| it.values.clone()).collect::<Vec<_>>();
+    for text in [
+        right.replace('e', "D"),
+        right.replace("e-3", "E-003"),
+        right.replace("e-101", "-101").replace("3-101", "3.-101"),
+        right.replace(' ', ";").replace('.', ","),
+        right.replace(' ', "\t").replace('.', ","),
+        format!("# {}", right.replace('.', ",")),
+        right.replace("\n0", "\n0 0").replace("0 0.75", "1 0.75"),
+        right.replace("\n0", "\n7 0").replace("7 0.75", "8 0.75"),
+        right.replace("uy\n", "uy\r\n").replace(" 2\n", " 2\r\n"),
+        right.replace("0.75", "X Y ux uy\n0.75"),
+    ] {
+        let found = read(&text, &everything(&[])).unwrap_or_else(|it| panic!("{text}: {it}"));
+        assert_eq!(values(&found), values(&expected), "{text}");
+    }
+    for (text, said) in [
+        (
+            "X;u\n0,5;1\n0.5;1\n",
+            "file:3: numbers have a decimal point in line 3 and a comma in line 2: expected one of the two",
+        ),
+        (
+            "X u\n0 0.5 1\n2 0.5 1\n",
+            "file:3: the first column has no name, and `2` where it would count the point 1: expected a name for each column",
+        ),
+        (
+            "X u\n0.5 0.5 1\n",
+            "file:2: 3 columns, and 2 names in the header; separate columns by one comma, tab or semicolon, or by blanks",
+        ),
+        ("X;u\n1,000,5;1\n", "file:2: column `X`: expected a number, found `1,000,5`"),
+    ] {
+        assert_eq!(read(text, &everything(&[])).unwrap_err(), said);
+    }
+}
+
+#[test]
+fn texts_in_utf_16_are_read() {
+    let text = "\u{feff}X,u\n0.5,1\n";
+    let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+    for bytes in [&little, &big] {
+        match parse(bytes, &everything(&[])).unwrap() {
+            Contents::Snapshots(found) => assert_eq!(found[0].of_points[1].values, [1.0]),
+            other => panic!("{other:?}"),
+        }
+        let cut = parse(&bytes[..bytes.len() - 1], &everything(&[])).unwrap_err();
+        assert!(cut.what.contains("neither text nor"), "{cut}");
+    }
+    assert!(parse(b"\xff\xfe\0\0x\0\0\0", &everything(&[])).is_err());
+}
+
+#[test]
+fn columns_may_be_named_beside_the_file() {
+    let columns = ["X", "u"].map(String::from);
+    let wanted = || everything(&[]).named(&columns);
+    for text in
+        ["0.5 1\n0.75 2\n", "0.5,1\n0.75,2\n", "a b\n0.5 1\n0.75 2\n", "# a b\n0.5 1\n0.75 2\n"]
+    {
+        let found = read(text, &wanted()).unwrap_or_else(|it| panic!("{text}: {it}"));
+        assert_eq!(names(&found), ["X", "u"], "{text}");
+        assert_eq!(found.of_points[0].values, [0.5, 0.75], "{text}");
+    }
+    let more = read("0.5 1 2\n", &wanted()).unwrap_err();
+    assert!(more.contains("3 columns, and 2 names"), "{more}");
+    let none = read("0.5 1\n", &everything(&[])).unwrap_err();
+    assert!(none.contains("`--columns X,u,..`"), "{none}");
+}
+
+#[test]
+fn comments_tell_the_times_of_blocks() {
+    let times = |text: &str| -> Result<Vec<(Option<f64>, usize)>, String> {
+        match parse(text.as_bytes(), &everything(&[])).map_err(|it| it.to_string())? {
+            Contents::Snapshots(all) => {
+                Ok(all.iter().map(|it| (it.time.map(|it| it.value), it.rows())).collect())
+            }
+            other => panic!("{other:?}"),
+        }
+    };
+    let blocks = "# time = 0.1\n# X u\n0 1\n1 2\n\n# time = 0.2\n0 3\n1 4\n";
+    assert_eq!(times(blocks), Ok(vec![(Some(0.1), 2), (Some(0.2), 2)]));
+    let repeated = "X u\n% step 5, t: 1.0D-1 s\n0 1\n% step 6, t: 2.0D-1 s\nX u\n0 3\n";
+    assert_eq!(times(repeated), Ok(vec![(Some(0.1), 1), (Some(0.2), 1)]));
+    for other in
+        ["# CPU time = 3.5 s", "# time: 12:30:05", "# time", "# Time 2026-11-29", "# t X u"]
+    {
+        assert_eq!(times(&format!("{other}\nX u\n0 1\n")), Ok(vec![(None, 1)]), "{other}");
+    }
+    // A column counts.
+    assert_eq!(times("# time = 7\nt X u\n1 0 1\n"), Ok(vec![(Some(1.0), 1)]));
+    let late = times("X u\n0 1\n# time = 1\n0 1\n").unwrap_err();
+    assert!(late.contains("points before the first comment"), "{late}");
+}
+
+#[test]
 fn no_column_of_a_known_name_vanishes() {
     let u_alone = |role: Role| role == Role::Displacement;
     for (text, said) in [

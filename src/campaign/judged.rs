@@ -79,7 +79,7 @@ fn measured(
     let Planned { study, options, .. } = planned;
     let (map, wanted, weight) = (&options.map, &options.quantities, options.weight);
     let (memory, is_part) = (study.max_memory, study.part);
-    let reading = Reading { map, wanted, weight, memory, is_part };
+    let reading = Reading { map, columns: &[], wanted, weight, memory, is_part };
     let all: Vec<Results> =
         files.iter().map(|file| reading.find(file, exact)).collect::<anyhow::Result<_>>()?;
     let h: Vec<f64> = jobs.iter().map(|job| planned.size(job)).collect();

@@ -70,6 +70,9 @@ pub struct Diagnose {
     /// A quantity, and the columns that it is in, as for `mms judge`. May be repeated.
     #[arg(long, value_name = "QUANTITY=COLUMN,..")]
     map: Vec<Mapping>,
+    /// The names of the columns of a table without a header, in their order, as in `X,Y,u_x,u_y`; a header is replaced.
+    #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
+    columns: Vec<String>,
     /// The memory that reading a file may take, in MB; without it what is free.
     #[arg(long, value_name = "MB")]
     max_memory: Option<u64>,
@@ -190,10 +193,12 @@ impl Diagnose {
         let provenance = this_command("diagnose", input.provenance(&self.set));
         let mut exact = Exact::new(input, &self.set)?;
         let (law, wanted) = self.quantities()?;
-        let all = self.files.iter().map(|file| find(file, &self.map, self.max_memory));
+        let all =
+            self.files.iter().map(|file| find(file, &self.map, &self.columns, self.max_memory));
         let mut all = all.collect::<anyhow::Result<Vec<_>>>()?;
         all.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
-        let right = self.reference.iter().map(|file| find(file, &self.map, self.max_memory));
+        let right =
+            self.reference.iter().map(|file| find(file, &self.map, &self.columns, self.max_memory));
         let mut right = right.collect::<anyhow::Result<Vec<_>>>()?;
         right.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
         let reading = Reading {

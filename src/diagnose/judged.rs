@@ -25,7 +25,14 @@ pub fn falls(
     if all.len() < 2 {
         return Ok(None);
     }
-    let judging = Judging { map: reading.map, wanted, weight: None, memory: None, is_part: false };
+    let judging = Judging {
+        map: reading.map,
+        columns: &[],
+        wanted,
+        weight: None,
+        memory: None,
+        is_part: false,
+    };
     let has_times = all.iter().flat_map(|it| &it.snapshots).all(|it| it.time.is_some());
     let given: Vec<f64> = match reading.times {
         [] => reading.rest.into_iter().collect(),

@@ -95,9 +95,14 @@ pub enum Alone {
 ///
 /// # Errors
 /// As of [`Results::find`].
-pub fn find(given: &str, map: &[Mapping], memory: Option<u64>) -> anyhow::Result<Results> {
+pub fn find(
+    given: &str,
+    map: &[Mapping],
+    columns: &[String],
+    memory: Option<u64>,
+) -> anyhow::Result<Results> {
     let (room, advice) = room(memory);
-    Results::find(given, &wanted(map, &|_| true).within(room, advice))
+    Results::find(given, &wanted(map, &|_| true).within(room, advice).named(columns))
 }
 
 /// Reads files: from coarse to fine.

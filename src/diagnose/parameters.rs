@@ -19,7 +19,7 @@ pub struct Factors<'a> {
 }
 
 impl<'a> Factors<'a> {
-    /// Of a field.
+    /// Names the field; nothing is compiled yet.
     pub fn new(field: &'a str, variant: &'a Variant, exact: &'a Exact) -> Self {
         Factors { field, variant, exact, compiled: OnceLock::new() }
     }

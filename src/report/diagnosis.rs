@@ -173,7 +173,7 @@ fn alike(it: &Like) -> String {
     )
 }
 
-/// Where an error sits that nothing explains, and its order if that was not said.
+/// Says where an error sits that nothing explains, and its order if that was not said.
 fn place(it: &Place, has_order: bool) -> String {
     let at: Vec<String> = it.at.iter().map(|x| format!("{x:.4}")).collect();
     let mut lines = vec![format!("it is largest at X = [{}], t = {:.4e}", at.join(", "), it.time)];

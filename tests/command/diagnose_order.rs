@@ -101,7 +101,7 @@ fn right_runs_of_finite_elements_are_nothing() {
     }
 }
 
-/// What a method makes is in both runs, and so is no error.
+/// The error of the method is in both runs.
 #[test]
 fn a_right_run_is_a_reference() {
     let folder = Folder::new();

@@ -136,3 +136,19 @@ fn files_that_take_more_memory_than_they_may_are_refused_before_they_are_read() 
     // One mesh has no order.
     judge("100").exits(1).prints("norms of u");
 }
+
+#[test]
+fn columns_without_a_header_are_named_by_an_option() {
+    let folder = Folder::new();
+    let state = "state travelling_wave_2d --cells 4 --time 0.01 --quantity u -o u.csv";
+    folder.mms(state).exits(0);
+    let text = folder.read("u.csv");
+    let rows: String = text.lines().skip(1).map(|line| line.replace(',', "\t") + "\n").collect();
+    let names = text.lines().next().expect("a header");
+    folder.write("bare.dat", &rows);
+    let judge = |rest: &str| folder.mms(&format!("judge travelling_wave_2d bare.dat {rest}"));
+    judge("").exits(2).complains("`--columns X,u,..` to `judge` or `diagnose`");
+    judge(&format!("--columns {names}")).exits(0).prints("exact to round-off");
+    let diagnose = format!("diagnose travelling_wave_2d bare.dat --columns {names}");
+    folder.mms(&diagnose).exits(0).prints("nothing");
+}

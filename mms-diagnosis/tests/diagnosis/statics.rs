@@ -83,7 +83,7 @@ impl ManufacturedField<f64, 1> for Rod {
     }
 }
 
-/// What is wrong: factors of b, of the traction and of the stress.
+/// Factors of b, of the traction and of the stress.
 type Factors = [f64; 3];
 
 /// By how much a mistake moves each point, on paper.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::text::{Style, number, settle};
+use super::text::{Style, number, settle, with_point};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
@@ -33,8 +33,20 @@ struct Table {
 /// A line that is neither empty nor a comment, or the header.
 type Line<'a> = (usize, &'a str);
 
+/// How a text in UTF-16 begins, and how two bytes make a unit there.
+type Units = ([u8; 2], fn([u8; 2]) -> u16);
+const UTF_16: [Units; 2] = [([0xff, 0xfe], u16::from_le_bytes), ([0xfe, 0xff], u16::from_be_bytes)];
+
 /// Reads a table whose columns are separated by commas, tabs, semicolons or blanks.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
+    if let Some((_, unit)) = UTF_16.iter().find(|(mark, _)| bytes.starts_with(mark)) {
+        wanted.take("the text", bytes.len() / 8)?;
+        let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+        let text: Option<String> = char::decode_utf16(units).map(Result::ok).collect();
+        let is_text = |it: &String| bytes.len().is_multiple_of(2) && !it.contains('\0');
+        let text = text.filter(is_text).ok_or_else(|| not_text(bytes, 0))?;
+        return by_time(read(text.trim_start_matches('\u{feff}'), wanted)?);
+    }
     let text = std::str::from_utf8(bytes).map_err(|error| not_text(bytes, error.valid_up_to()))?;
     by_time(read(text.trim_start_matches('\u{feff}'), wanted)?)
 }
@@ -49,28 +61,77 @@ fn not_text(bytes: &[u8], at: usize) -> Mistake {
 fn read(text: &str, wanted: &Wanted<'_>) -> Result<Table, Mistake> {
     let lines = text.lines().enumerate().map(|(at, line)| (at + 1, line));
     let mut lines = lines.filter(|(_, line)| !line.trim().is_empty()).peekable();
-    let mut comment = None;
+    let (mut comment, mut time) = (None, None);
     while let Some(line) = lines.next_if(|(_, line)| is_comment(line)) {
-        comment = Some(line);
+        (comment, time) = (Some(line), time_of(line.1).or(time));
     }
     let first = lines.peek().copied();
-    let header = header(comment, first)?;
-    if Some(header.line) == first.map(|(line, _)| line) {
+    let named = wanted.columns().join(",");
+    let header = match first {
+        Some((line, _)) if !named.is_empty() => Header::of((line, &named)),
+        _ => header(comment, first)?,
+    };
+    let is_header = |text: &str| text.trim() == header.text.trim();
+    let is_named = first.is_some_and(|(_, text)| has_no_number(text)) && !named.is_empty();
+    if first.is_some_and(|(_, text)| is_header(text)) || is_named {
         lines.next();
     }
-    let mut rows = lines.filter(|(_, line)| !is_comment(line)).peekable();
-    let Some(&(_, first)) = rows.peek() else {
+    let separator = match first {
+        Some((_, text)) if !named.is_empty() => Separator::of(text),
+        _ => header.separator,
+    };
+    let mut rows = lines.clone().filter(|(_, line)| !is_comment(line));
+    let Some((_, first)) = rows.next() else {
         return Err(Mistake::new("a header, and no line of numbers after it"));
     };
-    let mut columns = header.columns(fields(first, header.separator).count(), wanted)?;
+    let mut columns = header.columns(first, separator, wanted)?;
     let read = columns.all.iter().filter(|it| it.is_stored()).count();
     wanted.take("the table", read * memchr::memchr_iter(b'\n', text.as_bytes()).count())?;
-    let mut lines = Vec::new();
-    for (line, text) in rows {
-        columns.push(line, text, header.separator)?;
-        lines.push(line);
+    let (mut rows, mut times) = (Vec::new(), Column::new(0, TIMES[0], Need::Must));
+    for (line, text) in lines {
+        if is_comment(text) {
+            time = time_of(text).or(time);
+            continue;
+        }
+        // A block may begin with the header again.
+        if is_header(text) {
+            continue;
+        }
+        columns.push(line, text, separator)?;
+        rows.push(line);
+        if let Some(time) = time {
+            times.see(line, time)?;
+        }
     }
-    Ok(columns.table(lines))
+    let has_column = columns.all.iter().any(|it| is_time(&it.name));
+    if !has_column && !times.values.is_empty() {
+        if times.values.len() < rows.len() {
+            let what = "points before the first comment that says their time, as in `# time = 0.1`";
+            return Err(Mistake::at(rows[0], what));
+        }
+        columns.all.push(times);
+    }
+    Ok(columns.table(rows))
+}
+
+/// The time that a comment says, as in `# time = 0.1` or `# step 5, t = 0.1`. That of a day, as 12:30, and of a processor are none.
+fn time_of(comment: &str) -> Option<&str> {
+    let breaks = |it: char| it.is_whitespace() || "=:,;#%!/*\"()".contains(it);
+    let words: Vec<&str> = comment.split(breaks).filter(|it| !it.is_empty()).collect();
+    let at = words.iter().position(|word| is_time(word))?;
+    let is_number = |at: usize| words.get(at).is_some_and(|it| number(it).is_some());
+    let is_own = at == 0 || is_number(at - 1);
+    words.get(at + 1).copied().filter(|_| is_own && is_number(at + 1) && !is_number(at + 2))
+}
+
+/// Whether a line holds names alone.
+fn has_no_number(line: &str) -> bool {
+    fields(line, Separator::of(line)).all(|it| !is_number(it))
+}
+
+/// Whether a field is a number, with a decimal point or a decimal comma.
+fn is_number(text: &str) -> bool {
+    number(text).is_some() || with_point(text).is_some_and(|text| number(&text).is_some())
 }
 
 fn is_comment(line: &str) -> bool {
@@ -147,28 +208,45 @@ impl<'a> Header<'a> {
         fields(self.text, self.separator)
     }
 
-    /// Whether a row of so many fields may stand under it: its first name may be empty for a `#` alone.
+    /// Whether a row of so many fields may stand under it: its first name may be empty for a `#` alone, and an index of points may
+    /// have no name.
     fn fits(&self, fields: usize) -> bool {
         let names = self.names().take(MOST_COLUMNS).count();
-        names == fields || names == fields + 1 && self.names().next() == Some("")
+        names == fields
+            || names + 1 == fields
+            || names == fields + 1 && self.names().next() == Some("")
     }
 
-    /// The columns under it, of which the first row has so many.
-    fn columns(&self, fields: usize, wanted: &Wanted<'_>) -> Result<Columns, Mistake> {
-        let mut names = self.names();
-        let mut count = self.names().count();
-        if count > MOST_COLUMNS {
-            let what = format!("{count} columns; expected {MOST_COLUMNS} at most");
+    /// The columns under it, of a table with this first row.
+    fn columns(
+        &self,
+        first: &str,
+        separator: Separator,
+        wanted: &Wanted<'_>,
+    ) -> Result<Columns, Mistake> {
+        let found: Vec<&str> = fields(first, separator).take(MOST_COLUMNS + 1).collect();
+        let mut names: Vec<&str> = self.names().collect();
+        if names.len() > MOST_COLUMNS {
+            let what = format!("{} columns; expected {MOST_COLUMNS} at most", names.len());
             return Err(Mistake::at(self.line, what));
         }
-        if count == fields + 1 && self.names().next() == Some("") {
-            names.next();
-            count -= 1;
+        if names.len() == found.len() + 1 && names[0].is_empty() {
+            names.remove(0);
+        }
+        let is_longer = found.len() == names.len() + 1;
+        // A separator at the end of each line makes a field of nothing.
+        let has_end = is_longer && found.last() == Some(&"");
+        let index = match found.first() {
+            Some(first) if is_longer && !has_end => first.parse().ok(),
+            _ => None,
+        };
+        if index.is_some() {
+            names.insert(0, "");
         }
         let mut seen = BTreeSet::new();
         let (mut all, mut unread) = (Vec::new(), Vec::new());
         // No name is no quantity: programs write indices so.
-        for (at, name) in names.enumerate().filter(|(_, name)| !name.is_empty()) {
+        for (at, name) in names.iter().copied().enumerate().filter(|(_, name)| !name.is_empty()) {
             if !seen.insert(name) {
                 let what = format!("two columns are called `{name}`");
                 return Err(Mistake::at(self.line, what));
@@ -178,7 +256,8 @@ impl<'a> Header<'a> {
                 need => all.push(Column::new(at, name, need)),
             }
         }
-        Ok(Columns { count, all, unread })
+        let count = names.len();
+        Ok(Columns { count, has_end, index, all, unread, points: None, commas: None })
     }
 }
 
@@ -190,7 +269,6 @@ fn header<'a>(comment: Option<Line<'a>>, first: Option<Line<'a>>) -> Result<Head
             None => Err(Mistake::new("the file is empty")),
         };
     };
-    let is_number = |text: &str| number(text).is_some();
     if let Some(comment) = comment.map(Header::of) {
         let has_numbers = fields(first.1, comment.separator).any(is_number);
         let found = fields(first.1, comment.separator).count();
@@ -200,7 +278,8 @@ fn header<'a>(comment: Option<Line<'a>>, first: Option<Line<'a>>) -> Result<Head
     }
     let header = Header::of(first);
     if header.names().all(is_number) {
-        let what = "expected names of columns, as in `X,u`, and found numbers; add a header";
+        let what = "expected names of columns, as in `X,u`, and found numbers; add a header, or give \
+                    `--columns X,u,..` to `judge` or `diagnose`";
         return Err(Mistake::at(header.line, what));
     }
     Ok(header)
@@ -209,20 +288,48 @@ fn header<'a>(comment: Option<Line<'a>>, first: Option<Line<'a>>) -> Result<Head
 /// The columns that are looked at, of all that there are.
 struct Columns {
     count: usize,
+    /// Whether a separator ends each line.
+    has_end: bool,
+    /// The number of the next point, if the first column counts them and has no name.
+    index: Option<u64>,
     all: Vec<Column>,
     unread: Vec<String>,
+    /// The first lines with a decimal point and with a decimal comma.
+    points: Option<usize>,
+    commas: Option<usize>,
 }
 
 impl Columns {
     /// Adds a line.
     fn push(&mut self, line: usize, text: &str, separator: Separator) -> Result<(), Mistake> {
         let mut columns = self.all.iter_mut().peekable();
-        let (mut found, mut wrong) = (0, None);
+        let (mut found, mut wrong, mut last) = (0, None, "");
         for text in fields(text, separator) {
-            if let Some(column) = columns.next_if(|it| it.at == found) {
-                wrong = wrong.or(column.see(line, text).err());
+            if let Some(index) = self.index.as_mut().filter(|_| found == 0) {
+                if text.parse() != Ok(*index) {
+                    let what = format!(
+                        "the first column has no name, and `{text}` where it would count the point {index}: expected a name \
+                         for each column"
+                    );
+                    return Err(Mistake::at(line, what));
+                }
+                *index += 1;
             }
-            found += 1;
+            if let Some(column) = columns.next_if(|it| it.at == found) {
+                let with_point = with_point(text).filter(|it| number(it).is_some());
+                match &with_point {
+                    Some(_) => self.commas = self.commas.or(Some(line)),
+                    None if text.contains('.') && number(text).is_some() => {
+                        self.points = self.points.or(Some(line))
+                    }
+                    None => {}
+                }
+                wrong = wrong.or(column.see(line, with_point.as_deref().unwrap_or(text)).err());
+            }
+            (found, last) = (found + 1, text);
+        }
+        if self.has_end && found == self.count + 1 && last.is_empty() {
+            found -= 1;
         }
         if found != self.count {
             let what = format!(
@@ -231,6 +338,12 @@ impl Columns {
                 self.count
             );
             return Err(Mistake::at(line, what));
+        }
+        if let (Some(point), Some(comma)) = (self.points, self.commas) {
+            let what = format!(
+                "numbers have a decimal point in line {point} and a comma in line {comma}: expected one of the two"
+            );
+            return Err(Mistake::at(point.max(comma), what));
         }
         wrong.map_or(Ok(()), Err)
     }

@@ -14,8 +14,10 @@ struct Written {
 
 impl Written {
     fn of(text: &str) -> Self {
+        let own = plain(text);
+        let text = own.as_deref().unwrap_or(text);
         let (mantissa, exponent) =
-            text.split_once(['e', 'E', 'd', 'D']).map_or((text, false), |(it, _)| (it, true));
+            text.split_once(['e', 'E']).map_or((text, false), |(it, _)| (it, true));
         let (before, after) =
             mantissa.split_once('.').map_or((mantissa, None), |(it, after)| (it, Some(after)));
         let digits = before.bytes().chain(after.unwrap_or("").bytes()).filter(u8::is_ascii_digit);
@@ -86,12 +88,28 @@ pub fn settle(arrays: &mut [&mut Array], single: &[bool]) {
     }
 }
 
-/// A number as programs write it: Fortran's `1.0D-3` too.
+/// A number as programs write it, also in Fortran: `1.0D-3`, and `1.0-103` where three digits leave no room for a letter.
 pub fn number(text: &str) -> Option<f64> {
     let value = text.parse().ok();
-    value.or_else(|| {
-        text.contains(['d', 'D']).then(|| text.replace(['d', 'D'], "e").parse().ok())?
-    })
+    value.or_else(|| plain(text)?.parse().ok())
+}
+
+/// A number of Fortran with an `e`; `None` if the text has no exponent of its kind.
+fn plain(text: &str) -> Option<String> {
+    if text.contains(['d', 'D']) {
+        return Some(text.replace(['d', 'D'], "e"));
+    }
+    let sign = text.rfind(['+', '-']).filter(|at| *at > 0)?;
+    let (mantissa, exponent) = text.split_at(sign);
+    let is_exponent = exponent.len() == 4 && exponent[1..].bytes().all(|it| it.is_ascii_digit());
+    let is_mantissa = mantissa.ends_with(|it: char| it.is_ascii_digit() || it == '.');
+    (is_exponent && is_mantissa).then(|| format!("{mantissa}e{exponent}"))
+}
+
+/// A text with a decimal point in place of its decimal comma; `None` if it has none, or more.
+pub fn with_point(text: &str) -> Option<String> {
+    let is_one = text.matches(',').count() == 1 && !text.contains('.');
+    is_one.then(|| text.replace(',', "."))
 }
 
 #[cfg(test)]
@@ -156,10 +174,24 @@ mod tests {
     }
 
     #[test]
+    fn one_decimal_comma_is_a_point() {
+        assert_eq!(with_point("-0,5e3").as_deref(), Some("-0.5e3"));
+        assert_eq!(with_point("1,234.5"), None);
+        assert_eq!(with_point("1,2,3"), None);
+        assert_eq!(with_point("5"), None);
+    }
+
+    #[test]
     fn numbers_of_fortran_are_read() {
         assert_eq!(number("1.5D-3"), Some(1.5e-3));
         assert_eq!(number("-2e5"), Some(-2e5));
         assert_eq!(number("word"), None);
         assert_eq!(number("d"), None);
+        assert_eq!(number("1.5-103"), Some(1.5e-103));
+        assert_eq!(number("-0.25+004"), Some(-2500.0));
+        for text in ["1-2", "2026-11-29", "1.5-1003", "-103", "a-103", "+-103"] {
+            assert_eq!(number(text), None.or(text.parse().ok()), "{text}");
+        }
+        assert_eq!(stored(&["1.2346-103", "1.0000+100"]), Stored::Digits(5));
     }
 }

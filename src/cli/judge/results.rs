@@ -28,6 +28,9 @@ pub struct Options {
     /// from 0; `points` are the places of points in VTK, `cells:NAME` is an array of cells. May be repeated.
     #[arg(long, value_name = "QUANTITY=COLUMN,..")]
     map: Vec<Mapping>,
+    /// The names of the columns of a table without a header, in their order, as in `X,Y,u_x,u_y`; a header is replaced.
+    #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
+    columns: Vec<String>,
     /// The quantities to judge, by name or symbol, separated by commas; without it all that are found.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     quantity: Vec<String>,
@@ -105,6 +108,7 @@ impl Judge {
         };
         let reading = Reading {
             map: &options.map,
+            columns: &options.columns,
             wanted: &wanted,
             weight: options.weight,
             memory: options.max_memory,
@@ -147,8 +151,12 @@ impl Judge {
     pub(super) fn same(&self) -> anyhow::Result<Outcome> {
         let [a, b] = self.results.same.as_slice() else { bail!("`--same`: expected two results") };
         let (room, advice) = room(self.results.max_memory);
-        let find =
-            |given| Results::find(given, &everything(&self.results.map).within(room, advice));
+        let find = |given| {
+            Results::find(
+                given,
+                &everything(&self.results.map).within(room, advice).named(&self.results.columns),
+            )
+        };
         let found = same(&find(a)?, &find(b)?, &self.results.map)?;
         self.show(differences(a, b, &found))?;
         Ok(if found.is_finite() { Outcome::AsExpected } else { Outcome::Refuted })

@@ -100,6 +100,8 @@ pub struct Errors {
 pub struct Reading<'a> {
     /// What the user says of names.
     pub map: &'a [Mapping],
+    /// The names of the columns of tables without a header.
+    pub columns: &'a [String],
     /// The quantities that are wanted; all, if there are none.
     pub wanted: &'a [Quantity],
     /// Weights of points.
@@ -165,7 +167,8 @@ impl Reading<'_> {
     pub fn find(&self, given: &str, exact: &Exact) -> anyhow::Result<Results> {
         let (room, advice) = room(self.memory);
         let wants = |role: Role| self.wants(role, exact);
-        Results::find(given, &wanted(self.map, &wants).within(room, advice))
+        let wanted = wanted(self.map, &wants).within(room, advice).named(self.columns);
+        Results::find(given, &wanted)
     }
 
     /// Whether an array of that meaning is needed. A strain is the small one where the material knows no other, or by name.
