@@ -203,7 +203,6 @@ impl Snapshot {
     }
 
     fn append(&mut self, mut piece: Snapshot) -> Result<(), Mistake> {
-        let before = self.points.as_ref().map_or(0, Array::rows);
         let connected = self.cells.points.len();
         let own = [self.rows(), self.cells.len()];
         let more = [piece.rows(), piece.cells.len()];
@@ -211,9 +210,10 @@ impl Snapshot {
         mark_none(&mut piece.of_points, &self.of_points, more[0]);
         mark_none(&mut self.of_cells, &piece.of_cells, own[1]);
         mark_none(&mut piece.of_cells, &self.of_cells, more[1]);
-        self.cells.points.extend(piece.cells.points.iter().map(|point| point + before));
+        self.cells.points.extend(piece.cells.points.iter().map(|point| point + own[0]));
         self.cells.ends.extend(piece.cells.ends.iter().map(|end| end + connected));
         self.cells.types.extend(piece.cells.types);
+        self.lines.extend(piece.lines);
         append(self.points.as_mut_slice(), piece.points.into_iter().collect())?;
         append(&mut self.of_points, piece.of_points)?;
         append(&mut self.of_cells, piece.of_cells)

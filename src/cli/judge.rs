@@ -49,7 +49,8 @@ pub struct Judge {
     #[arg(requires = "files", required_unless_present_any = ["errors", "same"])]
     field: Option<String>,
     /// Results, each of one mesh, at one time or more: a file, a list of states (.pvd), a folder, or a quoted pattern such as
-    /// 'out/*.vtu'. CSV with a header, VTK in XML or in the legacy format, NumPy; each is known by its content.
+    /// 'out/*.vtu'. Tables, VTK in XML or in the legacy format, NumPy, ASCII of Tecplot, dumps of LAMMPS and Karamelo; each is known
+    /// by its content.
     #[arg(value_name = "FILE")]
     files: Vec<String>,
     /// Judge this table instead: values between commas, semicolons, tabs or blanks; lines that begin with # are comments.

@@ -152,3 +152,41 @@ fn columns_without_a_header_are_named_by_an_option() {
     let diagnose = format!("diagnose travelling_wave_2d bare.dat --columns {names}");
     folder.mms(&diagnose).exits(0).prints("nothing");
 }
+
+/// Exact states at the nodes of a grid, as Tecplot and LAMMPS would write them.
+#[test]
+fn tecplot_and_dumps_are_judged_as_tables_are() {
+    let folder = Folder::new();
+    let nodes: String = (0..81)
+        .map(|at| format!("{},{}\n", (at % 9) as f64 / 8.0, (at / 9) as f64 / 8.0))
+        .collect();
+    folder.write("nodes.csv", &format!("X,Y\n{nodes}"));
+    let state = "state travelling_wave_2d --points nodes.csv --time 0.01 --quantity u -o exact.csv";
+    folder.mms(state).exits(0);
+    let text = folder.read("exact.csv");
+    let (header, rows) = text.split_once('\n').expect("rows");
+    let keep = |line: &str| {
+        let names = header.split(',').zip(line.split(','));
+        let own = names.filter(|(name, _)| ["X", "Y", "u_x", "u_y"].contains(name));
+        own.map(|(_, value)| value).collect::<Vec<_>>().join(" ") + "\n"
+    };
+    let rows: String = rows.lines().map(keep).collect();
+    let zone = "VARIABLES = X, Y, u_x, u_y\nZONE I=9, J=9, SOLUTIONTIME=0.01";
+    folder.write("state.dat", &format!("{zone}\n{rows}"));
+    // Between nodes values are interpolated.
+    let cells = folder.mms("judge travelling_wave_2d state.dat").exits(1);
+    cells.prints("`state.dat` of 64 cells").prints("for the mesh is known");
+    let points = zone.replace("I=9, J=9", "I=81");
+    folder.write("points.dat", &format!("{points}\n{rows}"));
+    folder.mms("judge travelling_wave_2d points.dat").exits(0).prints("exact to round-off");
+    let numbered: String =
+        rows.lines().enumerate().map(|(at, row)| format!("{} 1 {row}\n", at + 1)).collect();
+    let sizes = "ITEM: NUMBER OF ATOMS\n81\nITEM: BOX BOUNDS sm sm sm\n0 1\n0 1\n0 1";
+    let dump = format!("ITEM: TIMESTEP\n0\n{sizes}\nITEM: ATOMS id type X Y u_x u_y\n{numbered}");
+    folder.write("state.dump", &dump);
+    folder.mms("judge travelling_wave_2d state.dump").exits(2).complains("`--time T,..`");
+    folder
+        .mms("judge travelling_wave_2d state.dump --time 0.01")
+        .exits(0)
+        .prints("exact to round-off");
+}

@@ -1,11 +1,13 @@
 //! What a file is, by its content.
 
 mod base64;
+mod dump;
 mod legacy;
 mod npy;
 mod npz;
 mod numbers;
 mod table;
+mod tecplot;
 mod text;
 mod xml;
 
@@ -58,6 +60,8 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
         _ if bytes.starts_with(b"PK") => npz::parse(bytes, wanted).map(one),
         _ if start.starts_with(b"# vtk DataFile") => legacy::parse(bytes, wanted).map(one),
         [b'<', ..] => xml::parse(bytes, wanted),
+        _ if tecplot::is_tecplot(start) => tecplot::parse(bytes, wanted).map(Contents::Snapshots),
+        _ if start.starts_with(dump::MARK) => dump::parse(bytes, wanted).map(Contents::Snapshots),
         _ => table::parse(bytes, wanted).map(Contents::Snapshots),
     }
 }

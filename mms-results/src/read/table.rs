@@ -31,7 +31,7 @@ struct Table {
 }
 
 /// A line that is neither empty nor a comment, or the header.
-type Line<'a> = (usize, &'a str);
+pub type Line<'a> = (usize, &'a str);
 
 /// How a text in UTF-16 begins, and how two bytes make a unit there.
 type Units = ([u8; 2], fn([u8; 2]) -> u16);
@@ -112,6 +112,21 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<Table, Mistake> {
         columns.all.push(times);
     }
     Ok(columns.table(rows))
+}
+
+/// Reads rows between blanks under a line of names.
+pub fn block(names: Line<'_>, rows: &[Line<'_>], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
+    let header = Header { line: names.0, text: names.1, separator: Separator::Blanks };
+    let first = rows.first().map_or("", |(_, text)| text);
+    let mut columns = header.columns(first, Separator::Blanks, wanted)?;
+    let read = columns.all.iter().filter(|it| it.is_stored()).count();
+    wanted.take("the particles", read * rows.len())?;
+    for (line, text) in rows {
+        columns.push(*line, text, Separator::Blanks)?;
+    }
+    let lines = rows.iter().map(|(line, _)| *line).collect();
+    let Table { columns: of_points, lines, unread } = columns.table(lines);
+    Ok(Snapshot { of_points, lines, unread, ..Snapshot::default() })
 }
 
 /// The time that a comment says, as in `# time = 0.1` or `# step 5, t = 0.1`. That of a day, as 12:30, and of a processor are none.
