@@ -16,6 +16,35 @@ pub struct Mesh {
     pub snapshots: Vec<Snapshot>,
 }
 
+/// A number by which the positions of points are spread: the golden ratio of 2^32 (Knuth, "The Art of Computer Programming", vol. 3,
+/// section 6.4).
+const SPREAD: u32 = 2_654_435_769;
+
+impl Mesh {
+    /// The same with about so many points at most, spread over all: smooth functions need no more.
+    pub fn thinned<const D: usize>(&self, most: usize) -> Mesh {
+        let thin = |it: &Snapshot| {
+            let points = it.reference.len() / D;
+            let part = most as f64 / points.max(1) as f64 * f64::from(u32::MAX);
+            let is_kept = |at: usize| f64::from((at as u32).wrapping_mul(SPREAD)) <= part;
+            let keep = |numbers: &[f64]| -> Vec<f64> {
+                let each = numbers.chunks(numbers.len() / points.max(1)).enumerate();
+                each.filter(|(at, _)| is_kept(*at)).flat_map(|(_, it)| it.to_vec()).collect()
+            };
+            if points <= most {
+                return it.clone();
+            }
+            Snapshot {
+                reference: keep(&it.reference),
+                values: it.values.iter().map(|(of, numbers)| (*of, keep(numbers))).collect(),
+                volumes: it.volumes.as_deref().map(keep),
+                ..it.clone()
+            }
+        };
+        Mesh { snapshots: self.snapshots.iter().map(thin).collect(), ..self.clone() }
+    }
+}
+
 /// What a solver wrote at one time. The numbers of a point stand together.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {

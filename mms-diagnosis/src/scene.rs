@@ -18,7 +18,7 @@ use crate::smooth::Smooth;
 use crate::solver::Solver;
 use crate::state::{self, Response};
 use crate::table::{self, Measure, Table};
-use crate::{like, ordinary, patterns, step, tangent};
+use crate::{like, ordinary, patterns, place, step, tangent};
 
 /// What there is to look at.
 pub enum Evidence {
@@ -91,6 +91,8 @@ pub struct TangentOf {
     pub rounding: f64,
 }
 
+/// The most points of a mesh that are compared.
+const MOST_POINTS: usize = 5000;
 /// Fewer points say too little.
 const FEWEST_POINTS: usize = 8;
 /// The Courant number of a solver whose time step is not known.
@@ -278,8 +280,11 @@ where
     if let Some(found) = patterns::zero(exact, &snapshots) {
         return Ok(found);
     }
-    let frame = frame(exact, meshes)?;
-    let found = ordinary::diagnose(exact, &frame, meshes, hypotheses, solver)?;
+    let thinned: Vec<Mesh> = meshes.iter().map(|it| it.thinned::<D>(MOST_POINTS)).collect();
+    let frame = frame(exact, &thinned)?;
+    let found = ordinary::diagnose(exact, &frame, &thinned, hypotheses, solver)?;
+    let smooth = found.place.as_ref().map_or(1.0, |it| it.smooth);
+    let found = Diagnosis { place: place::of(exact, meshes, smooth), ..found };
     let is_named = found.finding == Finding::Named;
     let permutation = if is_named { None } else { patterns::permutation(exact, &snapshots) };
     Ok(permutation.unwrap_or(found))
