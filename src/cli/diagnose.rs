@@ -33,7 +33,8 @@ use crate::session::method::{MethodOptions, finite, length, positive};
 ///
 /// F and a stress, with --quantity stress, or F and its tangent, with --quantity tangent: the law alone, to round-off,
 /// without a solver. Accelerations `a` or residuals `r` at an exact state, paired with smooth functions. u, v, F at some times:
-/// hypotheses are run by this project's own solver on a grid of about that size, and their errors are compared with yours.
+/// this project's own solver runs each hypothesis on a grid of about that size, or brings it into equilibrium where nothing
+/// moves, and its errors are compared with yours. Results of two meshes are held to an order as by `mms judge`.
 ///
 /// A hypothesis is named if it explains the error, with a size that it may have, and nothing else explains it as well. It says what the
 /// error acts as, not which line is wrong.

@@ -185,7 +185,9 @@ class Trial:
             return "law"
         if not self.balance_is_right():
             return next((stage for term, stage in OF_TERM.items() if self.balance_is_right([term])), "mass")
-        answer = self.diagnosed(map(self.path, self.spacings), "--h", ",".join(map(repr, self.spacings)))
+        # The largest error is in a corner, and falls with 1.57 from mesh to mesh.
+        options = ["--h", ",".join(map(repr, self.spacings)), "--expected-order", "2,linf=1.5"]
+        answer = self.diagnosed(map(self.path, self.spacings), *options)
         if answer["finding"] == "nothing":
             return "none"
         name = answer["ranked"][0]["hypothesis"] if answer["finding"] == "named" else None
