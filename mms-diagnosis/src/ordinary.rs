@@ -330,10 +330,12 @@ where
     };
     let is_of_method = vanishes && error <= middle;
     let most = look.most(&ordinary, vanishes && order.is_some());
+    let like = look.like(like.is_some());
+    let is_free = ranked.first().is_some_and(Ranked::is_free);
     let finding = match limits.finding(&ranked, look.error.excess()) {
-        Finding::Named if is_of_method && ranked.first().is_some_and(Ranked::is_free) => {
-            Finding::Nothing
-        }
+        Finding::Named if is_of_method && is_free => Finding::Nothing,
+        // Right methods that do not converge on this field make such errors.
+        Finding::Named if !vanishes && is_free && like.is_some() => Finding::Unexplained,
         Finding::Named => Finding::Named,
         _ if vanishes && error <= most => Finding::Nothing,
         _ => Finding::Unexplained,
@@ -360,7 +362,7 @@ where
         pair: (finding == Finding::Unexplained)
             .then(|| pair::best(&look.error, hypotheses, &explained))
             .flatten(),
-        like: look.like(like.is_some()),
+        like,
         place: place::of(exact, meshes, seen.share),
         fields,
     })

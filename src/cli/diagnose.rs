@@ -11,6 +11,7 @@ use mms_convergence::TOLERANCE;
 use mms_diagnosis::answer::Finding;
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::Mesh;
+use mms_diagnosis::exact::Quantity as Seen;
 use mms_diagnosis::material::Material;
 use mms_diagnosis::scene::{self, Evidence};
 use mms_diagnosis::solver::Solver;
@@ -20,7 +21,7 @@ use mms_runtime::scene::Scene;
 use mms_spec::quantity::Quantity;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::diagnose::{Alone, Factors, Reading, falls, find, read};
+use crate::diagnose::{Alone, Factors, Reading, falls, find, gradients, read};
 use crate::judge::table::{Order, Orders};
 use crate::report::{Diagnosed, Hypotheses, Plan, Step};
 use crate::session::exact::Exact;
@@ -230,7 +231,8 @@ impl Diagnose {
         );
         let falls = match &evidence {
             Evidence::Results(meshes) if right.is_empty() => {
-                let orders = self.orders(&scene, meshes, like.as_ref())?;
+                let gradients = gradients(&all, &reading, &exact)?;
+                let orders = self.orders(&scene, meshes, like.as_ref(), &gradients)?;
                 let falls = falls(all, &wanted, &reading, &orders, &mut exact);
                 falls.unwrap_or_else(|error| {
                     say(format_args!("warning: the order between meshes is not judged: {error:#}"));
@@ -276,6 +278,7 @@ impl Diagnose {
         scene: &Scene<f64>,
         meshes: &[Mesh],
         like: Option<&Method>,
+        gradients: &[Quantity],
     ) -> anyhow::Result<Orders> {
         let mut orders = Orders::new(&self.expected_order, TOLERANCE);
         let Some(like) = like.filter(|_| meshes.len() > 1 && self.expected_order.is_empty()) else {
@@ -284,7 +287,13 @@ impl Diagnose {
         let found = scene::orders_of(scene, meshes, like).context("`--like`")?;
         for (quantity, order) in found {
             say(format_args!("expected order of {}: {order:.2}, as of `--like`", quantity.name()));
-            orders.named.push((quantity.name().into(), (100.0 * order).round() / 100.0));
+            let order = (100.0 * order).round() / 100.0;
+            match quantity {
+                Seen::DisplacementGradient => {
+                    orders.named.extend(gradients.iter().map(|it| (it.name().into(), order)));
+                }
+                _ => orders.named.push((quantity.name().into(), order)),
+            }
         }
         Ok(orders)
     }

@@ -146,6 +146,27 @@ pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow
     Ok(Evidence::Results(levels))
 }
 
+/// The names under which results hold the gradient of u: H, F, or both.
+///
+/// # Errors
+/// As of [`read`].
+pub fn gradients(
+    all: &[Results],
+    reading: &Reading<'_>,
+    exact: &Exact,
+) -> anyhow::Result<Vec<quantity::Quantity>> {
+    let Some(snapshot) = all.iter().flat_map(|it| &it.snapshots).next() else {
+        return Ok(Vec::new());
+    };
+    let found = meanings(snapshot, reading, exact.dimension)?;
+    let named = [
+        (Role::DisplacementGradient, quantity::Quantity::DisplacementGradient),
+        (Role::DeformationGradient, quantity::Quantity::DeformationGradient),
+    ];
+    let is_there = |role: Role| found.iter().any(|it| it.role == role);
+    Ok(named.into_iter().filter(|(role, _)| is_there(*role)).map(|(_, it)| it).collect())
+}
+
 fn meanings(
     snapshot: &Snapshot,
     reading: &Reading<'_>,
