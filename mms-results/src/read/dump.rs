@@ -1,5 +1,5 @@
 //! Dumps of particles as LAMMPS and Karamelo write them: blocks of `ITEM:` sections, one block for each time
-//! (https://docs.lammps.org/dump.html).
+//! (<https://docs.lammps.org/dump.html>).
 
 use super::table::block;
 use super::text::{Style, number};
