@@ -206,8 +206,10 @@ pub struct Hypothesis<const D: usize> {
     pub face: Option<Face>,
     /// Which of several it is.
     pub which: Option<Cow<'static, str>>,
-    /// The one quantity whose output it changes, where others are right.
+    /// The one quantity whose output it changes.
     pub only: Option<Quantity>,
+    /// Whether it is a mistake of its own only beside other quantities that are right.
+    pub is_beside: bool,
     /// Whether its size is a part of a time step or of a cell, and so is smaller on a finer mesh.
     pub is_of_mesh: bool,
 }
@@ -227,6 +229,7 @@ impl<const D: usize> Hypothesis<D> {
             face: None,
             which: None,
             only: None,
+            is_beside: false,
             is_of_mesh: false,
         }
     }
@@ -316,7 +319,8 @@ impl<const D: usize> Hypothesis<D> {
 
     /// Whether results of these quantities show it as a mistake of its own.
     pub fn is_of(&self, quantities: &[Quantity]) -> bool {
-        self.only.is_none_or(|it| quantities.len() > 1 && quantities.contains(&it))
+        let is_there = self.only.is_none_or(|it| quantities.contains(&it));
+        is_there && (quantities.len() > 1 || !self.is_beside)
     }
 
     /// The sizes that people make mistakes of: those with names, and of a factor some more.

@@ -139,9 +139,9 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         all.extend(only.into_iter().zip(QUANTITIES).map(|((which, change), quantity)| {
             let says =
                 "components of this quantity stand in another order, beside others that are right";
-            Hypothesis { only: Some(quantity), ..fixed(says, change).of(which) }
+            Hypothesis { only: Some(quantity), is_beside: true, ..fixed(says, change).of(which) }
         }));
-        all.push(Hypothesis::fixed(
+        let transposed = Hypothesis::fixed(
             "gradient_transposed",
             "H or F is written by columns, in place of rows",
             Change::Output(|at, quantity| {
@@ -154,7 +154,8 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
                 }
                 values
             }),
-        ));
+        );
+        all.push(Hypothesis { only: Some(Quantity::DisplacementGradient), ..transposed });
     }
     all
 }
