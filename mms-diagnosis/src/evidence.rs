@@ -21,7 +21,7 @@ pub struct Mesh {
 const SPREAD: u32 = 2_654_435_769;
 
 impl Mesh {
-    /// The same with about so many points at most, spread over all: smooth functions need no more.
+    /// Keeps about `most` points of each result, spread evenly over all: smooth functions need no more.
     pub fn thinned<const D: usize>(&self, most: usize) -> Mesh {
         let thin = |it: &Snapshot| {
             let points = it.reference.len() / D;

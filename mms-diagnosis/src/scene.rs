@@ -157,9 +157,10 @@ fn orders<const D: usize>(
 where
     f64: Solve<D>,
 {
+    let meshes = thinned::<D>(meshes);
     let Some(mesh) = meshes.last() else { return Ok(Vec::new()) };
     let exact = exact(field, mesh.cell_size, None);
-    like::orders_of(&exact, &frame(&exact, meshes)?, mesh, method)
+    like::orders_of(&exact, &frame(&exact, &meshes)?, mesh, method)
 }
 
 /// Which mistakes results exclude whose errors are no more than those of a method.
@@ -280,7 +281,7 @@ where
     if let Some(found) = patterns::zero(exact, &snapshots) {
         return Ok(found);
     }
-    let thinned: Vec<Mesh> = meshes.iter().map(|it| it.thinned::<D>(MOST_POINTS)).collect();
+    let thinned = thinned::<D>(meshes);
     let frame = frame(exact, &thinned)?;
     let found = ordinary::diagnose(exact, &frame, &thinned, hypotheses, solver)?;
     let smooth = found.place.as_ref().map_or(1.0, |it| it.smooth);
@@ -288,6 +289,11 @@ where
     let is_named = found.finding == Finding::Named;
     let permutation = if is_named { None } else { patterns::permutation(exact, &snapshots) };
     Ok(permutation.unwrap_or(found))
+}
+
+/// The points of meshes that are compared.
+fn thinned<const D: usize>(meshes: &[Mesh]) -> Vec<Mesh> {
+    meshes.iter().map(|it| it.thinned::<D>(MOST_POINTS)).collect()
 }
 
 /// The quantities, times and functions in which meshes are compared.
