@@ -41,7 +41,7 @@ impl<'a> Wanted<'a> {
         Wanted { room: Cell::new(bytes), advice, ..self }
     }
 
-    /// The same, with names for the columns of tables without a header.
+    /// Names the columns of tables without a header.
     pub fn named(self, columns: &[String]) -> Self {
         Wanted { columns: columns.to_vec(), ..self }
     }

@@ -3,7 +3,7 @@
 use mms_runtime::tensor::{cofactor, determinant};
 use mms_runtime::{Body, Condition, Face, Matrix, Vector};
 
-use super::{Change, Given, Hypothesis, Known, force, inverse, of_first};
+use super::{Change, Given, Hypothesis, Known, OfTraction, force, inverse, of_first, of_swaps};
 use crate::exact::Exact;
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
@@ -170,27 +170,21 @@ fn of_tractions<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             },
         ));
     }
-    // Rows of P make components of P N.
     let says = "two components of P N are swapped";
     let swapped = |change| made("traction_swapped", says, change);
-    match D {
-        2 => all
-            .push(swapped(|at, _, tau| of_first(at, tau, |f, p| rows(p, [0, 1]) * f.transpose()))),
-        3 => all.extend([
-            swapped(|at, _, tau| of_first(at, tau, |f, p| rows(p, [0, 1]) * f.transpose()))
-                .of("x and y"),
-            swapped(|at, _, tau| of_first(at, tau, |f, p| rows(p, [1, 2]) * f.transpose()))
-                .of("y and z"),
-            swapped(|at, _, tau| of_first(at, tau, |f, p| rows(p, [0, 2]) * f.transpose()))
-                .of("x and z"),
-        ]),
-        _ => {}
-    }
+    let swaps: [OfTraction<D>; 3] = [swap::<D, 0, 1>, swap::<D, 1, 2>, swap::<D, 0, 2>];
+    all.extend(of_swaps(swaps.map(swapped)));
     all
 }
 
-/// A tensor with two rows swapped.
-fn rows<const D: usize>(mut tensor: Matrix<f64, D>, [a, b]: [usize; 2]) -> Matrix<f64, D> {
-    tensor.swap_rows(a, b);
-    tensor
+/// Swaps two components of P N, which are made by rows of P.
+fn swap<const D: usize, const A: usize, const B: usize>(
+    at: &Given<'_, D>,
+    _: Face,
+    tau: &mut [Matrix<f64, D>],
+) {
+    of_first(at, tau, |f, mut p: Matrix<f64, D>| {
+        p.swap_rows(A, B);
+        p * f.transpose()
+    });
 }

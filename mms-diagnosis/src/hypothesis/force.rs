@@ -3,7 +3,7 @@
 use mms_runtime::Vector;
 use mms_runtime::tensor::jacobian;
 
-use super::{Change, Given, Hypothesis, Known, OfForce};
+use super::{Change, Given, Hypothesis, Known, OfForce, of_swaps};
 use crate::exact::Exact;
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
@@ -82,16 +82,17 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         all.extend(of_components());
     }
     let swapped = |change| force("force_swapped", "two components of b are swapped", change);
-    match D {
-        2 => all.push(swapped(|_, b| b.iter_mut().for_each(|b| b.swap((0, 0), (1, 0))))),
-        3 => all.extend([
-            swapped(|_, b| b.iter_mut().for_each(|b| b.swap((0, 0), (1, 0)))).of("x and y"),
-            swapped(|_, b| b.iter_mut().for_each(|b| b.swap((1, 0), (2, 0)))).of("y and z"),
-            swapped(|_, b| b.iter_mut().for_each(|b| b.swap((0, 0), (2, 0)))).of("x and z"),
-        ]),
-        _ => {}
-    }
+    let swaps: [OfForce<D>; 3] = [swap::<D, 0, 1>, swap::<D, 1, 2>, swap::<D, 0, 2>];
+    all.extend(of_swaps(swaps.map(swapped)));
     all
+}
+
+/// Swaps two components of b.
+fn swap<const D: usize, const A: usize, const B: usize>(
+    _: &Given<'_, D>,
+    b: &mut [Vector<f64, D>],
+) {
+    b.iter_mut().for_each(|b| b.swap_rows(A, B));
 }
 
 /// b of an earlier time, by the size.

@@ -371,6 +371,19 @@ pub fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     families.into_iter().flatten().collect()
 }
 
+/// The mistakes of a swap of two components, given for the pairs 0 and 1, 1 and 2, 0 and 2: as many as there are pairs.
+fn of_swaps<const D: usize>(all: [Hypothesis<D>; 3]) -> Vec<Hypothesis<D>> {
+    match D {
+        2 => all.into_iter().take(1).collect(),
+        3 => all
+            .into_iter()
+            .zip(["x and y", "y and z", "x and z"])
+            .map(|(it, of)| it.of(of))
+            .collect(),
+        _ => Vec::new(),
+    }
+}
+
 /// The name of a mistake, with which of several it is, and the face that it is on.
 pub fn title(name: &str, which: Option<&str>, face: Option<Face>) -> String {
     let which = which.map_or(String::new(), |it| format!(" [{it}]"));
