@@ -1,5 +1,5 @@
-//! Finds the field files, and lists them for the command and for the tests; and the sources of `mms-math` for the
-//! workbench.
+//! Lists the field files for the command and for the tests, the profiles of codes, and the sources of `mms-math` for
+//! the workbench.
 //!
 //! The lists go to `OUT_DIR`: the texts for `src/gallery.rs`, and one set of tests per file for `tests/fields.rs`.
 //! Names that no module can have are refused (`spec/field_name.rs`), and so are files that are no fields: a
@@ -48,7 +48,8 @@ fn main() -> io::Result<()> {
         }
     }
     fs::write(out.join("fields.rs"), fields(&files))?;
-    fs::write(out.join("math.rs"), sources(&root.join("mms-math").join("src"))?)?;
+    fs::write(out.join("profiles.rs"), sources(&root.join("profiles"), "toml")?)?;
+    fs::write(out.join("math.rs"), sources(&root.join("mms-math").join("src"), "rs")?)?;
     fs::write(out.join("field_tests.rs"), field_tests(&files))
 }
 
@@ -82,9 +83,8 @@ fn fields(files: &[FieldFile]) -> String {
     text
 }
 
-/// Paths and texts of the Rust files below a folder; none where there is no such folder, as in a
-/// package.
-fn sources(folder: &Path) -> io::Result<String> {
+/// The paths and texts of the files below a folder that end so; none if there is no such folder, as in a package.
+fn sources(folder: &Path, end: &str) -> io::Result<String> {
     let (mut folders, mut files) = (vec![folder.to_path_buf()], Vec::new());
     while let Some(folder) = folders.pop().filter(|folder| folder.is_dir()) {
         println!("cargo::rerun-if-changed={}", folder.display());
@@ -92,7 +92,7 @@ fn sources(folder: &Path) -> io::Result<String> {
             let path = entry?.path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
+            } else if path.extension().is_some_and(|extension| extension == end) {
                 files.push(path);
             }
         }

@@ -17,6 +17,7 @@ pub mod gallery;
 mod history;
 mod judge;
 mod page;
+mod profile;
 mod provenance;
 mod read;
 pub mod report;

@@ -26,6 +26,8 @@ pub enum Kind {
     Study,
     /// How a solver is run.
     Campaign,
+    /// The names that a code writes.
+    Profile,
     /// A table of errors.
     Errors,
     /// What a solver wrote.
@@ -49,6 +51,7 @@ impl Kind {
             Kind::Field => "a field or material file",
             Kind::Study => "a study file",
             Kind::Campaign => "a campaign file",
+            Kind::Profile => "a profile of a code",
             Kind::Errors => "a table of errors",
             Kind::Results => "a file of results",
             Kind::Result => "a result",
@@ -62,7 +65,9 @@ impl Kind {
     /// How many bytes it may have.
     pub fn most(self) -> u64 {
         match self {
-            Kind::Field | Kind::Study | Kind::Campaign | Kind::Errors => MAX_FILE as u64,
+            Kind::Field | Kind::Study | Kind::Campaign | Kind::Profile | Kind::Errors => {
+                MAX_FILE as u64
+            }
             Kind::Result | Kind::Stored | Kind::States => 16 << 20,
             Kind::State | Kind::Object => 256 << 20,
             Kind::Results => 8 << 30,
@@ -79,6 +84,7 @@ impl Kind {
             Kind::Campaign => {
                 "is it the file that was meant? it has [solver] and a [[study]] for each field"
             }
+            Kind::Profile => "is it the file that was meant? it names the arrays of a code",
             Kind::Errors => "is it the file that was meant? it has a row for each run",
             Kind::Results => "write fewer times to a file, or fewer quantities",
             Kind::Result => "write fewer things to one document, as with `--quantity` or `--row`",

@@ -7,7 +7,7 @@
 use libfuzzer_sys::fuzz_target;
 use mms_results::mesh::Mesh;
 use mms_results::motion::{hold_distinct, resolve};
-use mms_results::names::{Role, everything, recognise, wanted};
+use mms_results::names::{KNOWN, Role, everything, recognise, wanted};
 use mms_results::own;
 use mms_results::pairing::{cells, points};
 use mms_results::{Contents, parse};
@@ -18,14 +18,14 @@ const SCARCE: u64 = 1 << 12;
 fuzz_target!(|bytes: &[u8]| {
     let wants = |role: Role| bytes.len() % 2 == 0 || role == Role::Displacement;
     let read = match bytes.len() % 3 {
-        0 => everything(&[]),
-        1 => wanted(&[], &wants),
-        _ => wanted(&[], &wants).within(SCARCE, ""),
+        0 => everything(&KNOWN),
+        1 => wanted(&KNOWN, &wants),
+        _ => wanted(&KNOWN, &wants).within(SCARCE, ""),
     };
     let Ok(Contents::Snapshots(found)) = parse(bytes, &read) else { return };
     for snapshot in &found {
         let _ = own::keep(&mut snapshot.clone());
-        if let Ok(meanings) = recognise(snapshot, &[], &wants) {
+        if let Ok(meanings) = recognise(snapshot, &KNOWN, &wants) {
             let mut half = |x: &[f64], _: f64| Ok(Some(x.iter().map(|x| x / 2.0).collect()));
             for back in [None, Some(&mut half as _)] {
                 let Ok(motion) = resolve(snapshot, &meanings, 2, &|_| 0.0, back) else { continue };
@@ -40,7 +40,7 @@ fuzz_target!(|bytes: &[u8]| {
     let twice: Vec<_> = found.iter().take(1).cycle().take(2).cloned().collect();
     for pair in found.windows(2).chain(std::iter::once(&twice[..])) {
         let [one, other] = pair else { continue };
-        if let Ok((pairs, _)) = points(one, other, &[]) {
+        if let Ok((pairs, _)) = points(one, other, &KNOWN) {
             let _ = cells(one, other, &pairs);
         }
     }

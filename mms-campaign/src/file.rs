@@ -89,6 +89,12 @@ pub struct Study {
     pub quantity: Vec<Spanned<String>>,
     /// What names of columns mean, as `mms judge` takes it.
     pub map: Vec<Spanned<String>>,
+    /// The names of the columns of tables without a header.
+    pub columns: Vec<Spanned<String>>,
+    /// The profile of the code that writes the results, by name or path.
+    pub from: Option<Spanned<String>>,
+    /// Whether norms are over points or over cells, as `mms judge` takes it.
+    pub over: Option<Spanned<String>>,
     /// h on each level, where it is not that of the cells.
     pub h: Option<Vec<f64>>,
     /// The times that are judged.
@@ -146,16 +152,21 @@ impl Study {
 /// What is wrong with a file.
 #[derive(Clone, Debug)]
 pub struct Mistakes {
-    sources: Sources,
-    diagnostics: Vec<Diagnostic>,
+    /// The file, as a message calls it.
+    pub(crate) subject: &'static str,
+    pub(crate) sources: Sources,
+    pub(crate) diagnostics: Vec<Diagnostic>,
 }
+
+/// A campaign file, as a message calls it.
+const CAMPAIGN: &str = "the campaign file";
 
 impl std::error::Error for Mistakes {}
 
 impl fmt::Display for Mistakes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let text = render(&self.sources, &self.diagnostics);
-        write!(f, "the campaign file has mistakes\n{}", text.trim_end())
+        write!(f, "{} has mistakes\n{}", self.subject, text.trim_end())
     }
 }
 
@@ -163,7 +174,7 @@ impl Campaign {
     /// A mistake at a place of the file.
     pub fn mistake(&self, span: Span, message: impl Into<String>, label: &str) -> Mistakes {
         let diagnostic = Diagnostic::error(span, message).label(label);
-        Mistakes { sources: self.sources.clone(), diagnostics: vec![diagnostic] }
+        Mistakes { subject: CAMPAIGN, sources: self.sources.clone(), diagnostics: vec![diagnostic] }
     }
 }
 
@@ -211,6 +222,9 @@ const STUDY: &[&str] = &[
     "tolerance",
     "quantity",
     "map",
+    "columns",
+    "from",
+    "over",
     "h",
     "time",
     "weight",
@@ -227,7 +241,8 @@ const STUDY: &[&str] = &[
 pub fn read(path: &str, text: &str) -> Result<Campaign, Mistakes> {
     let (mut reader, root) = Reader::new(path, text);
     if !reader.diagnostics.is_empty() {
-        return Err(Mistakes { sources: reader.sources, diagnostics: reader.diagnostics });
+        let Reader { sources, diagnostics, .. } = reader;
+        return Err(Mistakes { subject: CAMPAIGN, sources, diagnostics });
     }
     let start = reader.sources.span(reader.source, 0, 0);
     let root = reader.table(root.get_ref(), "a campaign file", start, &["solver", "study"]);
@@ -237,7 +252,10 @@ pub fn read(path: &str, text: &str) -> Result<Campaign, Mistakes> {
         Some(solver) if reader.diagnostics.is_empty() => {
             Ok(Campaign { sources: reader.sources, solver, studies })
         }
-        _ => Err(Mistakes { sources: reader.sources, diagnostics: reader.diagnostics }),
+        _ => {
+            let Reader { sources, diagnostics, .. } = reader;
+            Err(Mistakes { subject: CAMPAIGN, sources, diagnostics })
+        }
     }
 }
 
@@ -431,6 +449,9 @@ fn study(reader: &mut Reader, entries: &DeTable<'_>, span: Span) -> Option<Study
         tolerance: reader.positive(&table, "tolerance").unwrap_or(TOLERANCE),
         quantity: reader.texts(&table, "quantity"),
         map: reader.texts(&table, "map"),
+        columns: reader.texts(&table, "columns"),
+        from: reader.text(&table, "from"),
+        over: reader.text(&table, "over"),
         h,
         time: time.unwrap_or_default(),
         weight: reader.text(&table, "weight"),

@@ -13,6 +13,7 @@ mod descendants;
 mod file;
 pub mod printed;
 pub mod process;
+pub mod profile;
 pub mod supervisor;
 mod table;
 pub mod template;

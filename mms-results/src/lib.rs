@@ -14,6 +14,7 @@
 pub mod cell;
 pub mod comparison;
 pub mod lattice;
+mod mapping;
 mod meaning;
 pub mod mesh;
 mod mistake;
@@ -23,12 +24,15 @@ pub mod norm;
 pub mod over_cells;
 pub mod own;
 pub mod pairing;
+mod parts;
+mod profile;
 mod read;
 mod role;
 mod snapshot;
+pub mod suggestion;
 pub mod wanted;
 pub mod write;
 
 pub use mistake::Mistake;
-pub use read::{Contents, parse, read};
+pub use read::{Contents, is_time, parse, read};
 pub use snapshot::{Array, Cells, Snapshot, Stored, Time};

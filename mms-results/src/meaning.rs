@@ -50,8 +50,21 @@ pub struct Meaning {
     pub face: Option<&'static str>,
     /// Its columns, each with the part that it is.
     pub(crate) columns: Vec<(Part, Column)>,
-    /// How many names a user gave for it; 0 if nobody did.
-    pub(crate) mapped: usize,
+    /// The reason for the quantity.
+    pub why: Why,
+    /// The position that points have where both readings lie in the body, and the profile that says so.
+    pub(crate) reading: Option<(Role, String)>,
+}
+
+/// The reason why an array is a quantity.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// Its name.
+    Name,
+    /// A user's `--map`, with so many names.
+    Map(usize),
+    /// The profile of this code.
+    Profile(String),
 }
 
 /// Numbers of a quantity: so many for each point or cell.
@@ -100,24 +113,43 @@ impl Meaning {
         self.columns.windows(2).all(|pair| pair[0].1.place == pair[1].1.place)
     }
 
-    /// Whether it is one number with a name of one letter that is a vector or a tensor here: Young's modulus may be called E
-    /// as well as a strain, which no bar has of a thousand. u and positions are never taken for something else.
-    pub fn is_other_scalar(&self, snapshot: &Snapshot, dimension: usize) -> bool {
-        let is_needed = matches!(
-            self.role,
-            Role::Reference | Role::Position | Role::Place | Role::Displacement
-        );
-        let (&[(_, only)], 1, 0) = (self.columns.as_slice(), self.source.len(), self.mapped) else {
-            return false;
-        };
-        match dimension {
-            1 if self.role == Role::GreenLagrange => {
-                let mut numbers = array(snapshot, only.place).values.iter();
-                numbers.any(|it| it.abs() > LARGEST_STRAIN)
-            }
-            1 => false,
-            _ => self.role.form() != Form::Scalar && !is_needed,
+    /// The reason why an array is not the quantity of its name in so many dimensions: other components, other rows than
+    /// there are points, or a strain that no bar has, for Young's modulus may be called E as well. None if it may be the
+    /// quantity, if a user maps it, or if the order of its components alone is unknown.
+    pub fn unlike(
+        &self,
+        snapshot: &Snapshot,
+        dimension: usize,
+        points: Option<usize>,
+    ) -> Option<String> {
+        if matches!(self.why, Why::Map(_)) {
+            return None;
         }
+        let (name, found) = (self.role.name(), self.columns.len());
+        let array = |column: &Column| array(snapshot, column.place);
+        if self.wanted(snapshot, dimension).is_err() && self.orders(dimension).is_empty() {
+            return Some(match found {
+                1 => format!("{} (one number, and no {name})", self.source),
+                _ => format!(
+                    "{} ({found} components, and {name} has {})",
+                    self.source,
+                    self.expected(dimension)
+                ),
+            });
+        }
+        let columns = || self.columns.iter().map(|(_, column)| column);
+        let is_odd = |column: &&Column| match column.place {
+            Place::Cells(_) => array(column).rows() != snapshot.cells.len(),
+            _ => points.is_some_and(|points| array(column).rows() != points),
+        };
+        if let Some(odd) = columns().find(is_odd) {
+            let rows = array(odd).rows();
+            return Some(format!("{} ({rows} rows, and there are other points)", self.source));
+        }
+        let is_strain = dimension == 1 && self.role == Role::GreenLagrange && found == 1;
+        let is_large = |it: &f64| it.abs() > LARGEST_STRAIN;
+        (is_strain && columns().any(|it| array(it).values.iter().any(is_large)))
+            .then(|| format!("{} (one number, and no {name})", self.source))
     }
 
     /// How many dimensions a vector of as many columns has.
@@ -226,37 +258,105 @@ impl Meaning {
             .or_else(|| self.nth(row * size.filter(|&size| row < size && column < size)? + column))
     }
 
-    fn misfit(&self, snapshot: &Snapshot, dimension: usize) -> Mistake {
-        let (symbol, source, found) = (self.role.symbol(), &self.source, self.columns.len());
-        let expected = match self.role.form() {
+    /// The units that the file gives for its columns, each with the name of the column.
+    pub fn units<'a>(&self, snapshot: &'a Snapshot) -> Vec<(&'a str, &'a str)> {
+        let is_own = |(array, _): &&(String, String)| self.has_array(snapshot, array);
+        let own = snapshot.units.iter().filter(is_own);
+        own.map(|(name, unit)| (name.as_str(), unit.as_str())).collect()
+    }
+
+    /// Whether an array of this name has columns of it.
+    pub fn has_array(&self, snapshot: &Snapshot, array: &str) -> bool {
+        self.columns.iter().any(|(_, it)| name(snapshot, it.place) == array)
+    }
+
+    /// The columns, what they are of, how they are stored and why they are the quantity, in words.
+    pub fn explained(&self, snapshot: &Snapshot) -> String {
+        let array = |column: &Column| array(snapshot, column.place);
+        let mut parts = Vec::new();
+        if let Some((_, first)) = self.columns.first() {
+            let of = if matches!(first.place, Place::Cells(_)) { "cells" } else { "points" };
+            match self.is_one_array() {
+                true => {
+                    parts.push(format!("`{}` of {of} ({})", self.source, array(first).described()))
+                }
+                false => {
+                    let names: Vec<_> =
+                        self.columns.iter().map(|(_, it)| name(snapshot, it.place)).collect();
+                    parts.push(format!("`{}` of {of}", names.join("`, `")));
+                }
+            }
+            parts.push(array(first).stored.name());
+        }
+        let entry = |(part, _): &(Part, Column)| match part {
+            Part::Entry(i, j) => {
+                Some(format!("{}{}", i + 1 - self.least_number(), j + 1 - self.least_number()))
+            }
+            Part::Nth(_) => None,
+        };
+        let entries: Option<Vec<_>> = self.columns.iter().map(entry).collect();
+        match (self.role.form(), entries) {
+            (Form::Scalar | Form::Vector, _) => {}
+            (_, Some(entries)) => parts.push(format!("entries {}", entries.join(", "))),
+            (_, None) => parts.push("entries row by row".into()),
+        }
+        parts.push(match &self.why {
+            Why::Name => "by its name".into(),
+            Why::Map(_) => "as `--map` says".into(),
+            Why::Profile(name) => format!("as `--from {name}` says"),
+        });
+        parts.join("; ")
+    }
+
+    /// The number of components that a field of that dimension has.
+    fn expected(&self, dimension: usize) -> usize {
+        match self.role.form() {
             Form::Scalar => 1,
             Form::Vector => dimension,
             Form::Tensor | Form::Symmetric => dimension * dimension,
             Form::Voigt => (dimension * (dimension + 1) / 2).pow(2),
-        };
+        }
+    }
+
+    /// The orders that components of a tensor without names may have, each with the columns of its rows.
+    fn orders(&self, dimension: usize) -> &'static [(&'static str, &'static [usize])] {
         let is_tensor = matches!(self.role.form(), Form::Tensor | Form::Symmetric);
-        // The entries in the order of the columns, and which of these are the rows.
-        let orders: &[(&str, &[usize])] = match (dimension, found) {
+        match (dimension, self.columns.len()) {
+            _ if !is_tensor || self.has_names() => &[],
             (1, 3 | 4 | 6) => &[("11 first", &[0])],
             (2, 3) => &[("11, 22, 12", &[0, 2, 2, 1])],
             (2, 6) => &[("11, 22, 33, 12, ..", &[0, 3, 3, 1])],
             (3, 6) => &[
-                ("11, 22, 33, 12, 23, 13", &[0, 3, 5, 3, 1, 4, 5, 4, 2]),
-                ("11, 22, 33, 12, 13, 23", &[0, 3, 4, 3, 1, 5, 4, 5, 2]),
-                ("11, 22, 33, 23, 13, 12", &[0, 5, 4, 5, 1, 3, 4, 3, 2]),
+                ("11, 22, 33, 12, 23, 13 (VTK)", &[0, 3, 5, 3, 1, 4, 5, 4, 2]),
+                ("11, 22, 33, 12, 13, 23 (Abaqus)", &[0, 3, 4, 3, 1, 5, 4, 5, 2]),
+                ("11, 22, 33, 23, 13, 12 (Voigt)", &[0, 5, 4, 5, 1, 3, 4, 3, 2]),
             ],
             _ => &[],
-        };
+        }
+    }
+
+    fn misfit(&self, snapshot: &Snapshot, dimension: usize) -> Mistake {
+        let (symbol, source, found) = (self.role.symbol(), &self.source, self.columns.len());
+        let expected = self.expected(dimension);
+        let orders = self.orders(dimension);
         let said = |(entries, rows): &(&str, &[usize])| {
             let listed = self.listed(snapshot, rows.iter().copied());
             format!("; if they are {entries}, say `--map {symbol}={listed}`")
         };
-        let advice = match is_tensor && !self.has_names() && !orders.is_empty() {
-            true => orders.iter().map(said).collect(),
-            false => format!("; name {expected} with `--map {symbol}=..`, row by row"),
+        let advice = match orders {
+            [] => format!("; name {expected} with `--map {symbol}=..`, row by row"),
+            _ => format!(
+                "{}; or name the code that wrote it with `--from`",
+                orders.iter().map(said).collect::<String>()
+            ),
+        };
+        let ranges = match self.is_one_array() {
+            true => format!(" ({})", array(snapshot, self.columns[0].1.place).described()),
+            false => String::new(),
         };
         Mistake::new(format!(
-            "`{source}`, read as {}, has {found} component(s), and of {dimension} dimension(s) {expected} are expected{advice}",
+            "`{source}`, read as {}, has {found} component(s){ranges}, and of {dimension} dimension(s) {expected} are \
+             expected{advice}",
             self.role.name()
         ))
     }
@@ -274,8 +374,8 @@ impl Meaning {
         numbers: &[f64],
         dimension: usize,
     ) -> Result<(), Mistake> {
-        let is_four =
-            self.columns.len() == 4 && dimension == 2 && self.mapped < 2 && !self.has_names();
+        let is_listed = matches!(self.why, Why::Map(names) if names > 1);
+        let is_four = self.columns.len() == 4 && dimension == 2 && !is_listed && !self.has_names();
         if self.role.form() != Form::Symmetric || !is_four {
             return Ok(());
         }
@@ -288,9 +388,11 @@ impl Meaning {
             return Ok(());
         }
         let (symbol, source) = (self.role.symbol(), &self.source);
+        let apart = points().map(|it| (it[1] - it[2]).abs()).fold(0.0, f64::max);
         Err(Mistake::new(format!(
-            "`{source}` has four components: in which order? If they are 11, 22, 33, 12, say `--map {symbol}={}`; if 11, \
-             12, 21, 22, say `--map {symbol}={}`",
+            "`{source}` has {}: in which order? If they are 11, 22, 33, 12, say `--map {symbol}={}`; if 11, 12, 21, 22, say \
+             `--map {symbol}={}`. As 12 and 21, two of them differ by {apart:.1e} at most",
+            array(snapshot, self.columns[0].1.place).described(),
             self.listed(snapshot, [0, 3, 3, 1]),
             self.listed(snapshot, [0, 1, 2, 3]),
         )))
@@ -363,7 +465,7 @@ pub(crate) fn array(snapshot: &Snapshot, place: Place) -> &Array {
 }
 
 /// The name of an array, as `--map` takes it.
-fn name(snapshot: &Snapshot, place: Place) -> &str {
+pub(crate) fn name(snapshot: &Snapshot, place: Place) -> &str {
     if place == Place::Grid { "points" } else { &array(snapshot, place).name }
 }
 

@@ -46,6 +46,7 @@ pub fn resolve<'a>(
         snapshot,
         place_name: of(Role::Place).map(|it| it.mapping(snapshot, dimension)).unwrap_or_default(),
         is_called_x: of(Role::Place).is_some_and(|it| it.source == "x"),
+        reading: of(Role::Place).and_then(|it| it.reading.clone()),
         reference: values(Role::Reference)?,
         position: values(Role::Position)?,
         place: values(Role::Place)?,
@@ -70,6 +71,8 @@ struct Known<'a> {
     place_name: String,
     /// Whether they are called x, which is no X where X is given.
     is_called_x: bool,
+    /// The position that they have if both readings lie in the body, and the profile that says so.
+    reading: Option<(Role, String)>,
     reference: Option<Values<'a>>,
     position: Option<Values<'a>>,
     place: Option<Values<'a>>,
@@ -195,17 +198,28 @@ impl<'a> Known<'a> {
             let far = reference.iter().zip(x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             has_moved |= far > ROUNDINGS * place.rounding + STEPS * largest(x);
         }
-        match has_moved {
-            true => Err(self.unclear()),
-            false => Ok(motion(place.clone(), None, "points taken as X: u is 0")),
+        match (has_moved, &self.reading) {
+            (true, Some((Role::Reference, name))) => Ok(motion(
+                place.clone(),
+                None,
+                &format!("points taken as X, as `--from {name}` says"),
+            )),
+            (true, Some((_, name))) => {
+                let how = format!(
+                    "points taken as x, as `--from {name}` says, X by the inverse of the exact motion"
+                );
+                self.inverse(place, back, &how)
+            }
+            (true, None) => Err(self.unclear(&span(place))),
+            (false, _) => Ok(motion(place.clone(), None, "points taken as X: u is 0")),
         }
     }
 
-    fn unclear(&self) -> Mistake {
+    fn unclear(&self, spans: &str) -> Mistake {
         let name = &self.place_name;
         Mistake::new(format!(
-            "points (`{name}`) may be X or x, and lie in the body with both readings: say which with `--map X={name}` or \
-             `--map x={name}`"
+            "points (`{name}`) may be X or x, and lie in the body with both readings ({spans}): say which with `--map \
+             X={name}` or `--map x={name}`"
         ))
     }
 
@@ -231,7 +245,18 @@ impl<'a> Known<'a> {
             (None, None) if u.numbers.iter().all(|it| *it == 0.0) => {
                 Ok(motion(place, Some(u), "points taken as X: u is 0"))
             }
-            (None, None) => Err(self.unclear()),
+            (None, None) => match &self.reading {
+                Some((Role::Reference, name)) => Ok(motion(
+                    place,
+                    Some(u),
+                    &format!("points taken as X, as `--from {name}` says"),
+                )),
+                Some((_, name)) => {
+                    let how = format!("points taken as x, as `--from {name}` says, X = x - u");
+                    Ok(motion(back, Some(u), &how))
+                }
+                None => Err(self.unclear(&format!("X is {}, or {}", span(&place), span(&back)))),
+            },
             (Some((at, far)), Some((other, away))) => Err(Mistake::new(format!(
                 "points lie outside the body with both readings: point {at} by {far:e} as X, point {other} by {away:e} \
                  as x; is it another field, or another unit?"
@@ -274,6 +299,17 @@ impl<'a> Known<'a> {
 
 fn motion<'a>(reference: Values<'a>, displacement: Option<Values<'a>>, how: &str) -> Motion<'a> {
     Motion { reference, displacement, how: how.into(), is_inverse: false }
+}
+
+/// The range of each coordinate, in words.
+fn span(places: &Values<'_>) -> String {
+    let range = |axis: usize| {
+        let own = places.numbers.iter().skip(axis).step_by(places.components);
+        let [least, most] =
+            own.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], it| [a.min(*it), b.max(*it)]);
+        format!("{least:.4} to {most:.4}")
+    };
+    (0..places.components).map(range).collect::<Vec<_>>().join(" by ")
 }
 
 fn largest(numbers: &[f64]) -> f64 {

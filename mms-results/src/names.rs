@@ -1,19 +1,16 @@
-//! What the names of arrays mean: names that codes use, and those that a user maps.
+//! The meanings of arrays: by their names, by what a user maps, and by the profile of a code.
 
+use crate::mapping::mapped;
 use crate::meaning::{Column, Part, Place, array};
-use crate::role::plain;
+use crate::parts::{S, arrays, split, stem, two_meanings};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot};
 
-pub use crate::meaning::{Meaning, Values};
+pub use crate::mapping::Mapping;
+pub use crate::meaning::{Meaning, Values, Why};
+pub use crate::parts::all_names;
+pub use crate::profile::Profile;
 pub use crate::role::{Form, Role};
-
-/// Names that may mean two quantities.
-const UNCLEAR: &[(&str, [Role; 2])] = &[
-    ("stress", [Role::CauchyStress, Role::FirstPiolaKirchhoff]),
-    ("stresses", [Role::CauchyStress, Role::FirstPiolaKirchhoff]),
-    ("piola", [Role::FirstPiolaKirchhoff, Role::SecondPiolaKirchhoff]),
-];
 
 /// Faces that the name of a traction may end with.
 const FACES: [&str; 10] = [
@@ -43,101 +40,93 @@ impl Understood {
     }
 }
 
-/// A quantity and the columns that a user says it is: names, or `name:k` for the component k, counted from 0; `points`
-/// are the places of the grid, `cells:name` is an array of cells.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mapping {
-    /// The quantity.
-    pub role: Role,
-    /// Its columns.
+/// How arrays are called: by the columns of tables without a header, by what a user maps, and by the profile of a code.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    /// The quantities that a user maps.
+    pub map: Vec<Mapping>,
+    /// The names of the columns of tables without a header; those of a header count if there are none here.
     pub columns: Vec<String>,
+    /// The profile of the code that wrote the files.
+    pub profile: Option<Profile>,
 }
 
-impl std::str::FromStr for Mapping {
-    type Err = String;
+/// The names that codes use, without anything that a user says.
+pub static KNOWN: Names = Names { map: Vec::new(), columns: Vec::new(), profile: None };
 
-    fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("`{text}`: expected QUANTITY=COLUMN,.., as in X=x0,y0");
-        let (role, columns) = text.split_once('=').ok_or_else(wrong)?;
-        let symbols = || Role::ALL.iter().map(|role| role.symbol()).collect::<Vec<_>>().join(", ");
-        let known = Role::from_name(role.trim());
-        let role = known.ok_or_else(|| format!("`{role}`: expected one of {}", symbols()))?;
-        let columns: Vec<_> = columns.split(',').map(|it| it.trim().to_owned()).collect();
-        if columns.iter().any(String::is_empty) {
-            return Err(wrong());
+impl Names {
+    /// Whether a user maps an array of this name, or a component of it.
+    fn is_mapped(&self, name: &str) -> bool {
+        let stem = stem(name);
+        let is_it = |column: &String| {
+            let bare = column.strip_prefix("cells:").unwrap_or(column);
+            let whole = bare.rsplit_once(':').map_or(bare, |(whole, _)| whole);
+            column == name || [bare, whole].contains(&name) || bare == stem
+        };
+        self.map.iter().flat_map(|mapping| &mapping.columns).any(is_it)
+    }
+
+    /// The roles that an array of this name may have.
+    fn roles(&self, name: &str) -> Vec<Role> {
+        let stem = stem(name);
+        let mut roles: Vec<Role> = two_meanings(name).into_iter().flatten().collect();
+        let of_profile = self.profile.iter().flat_map(|it| &it.quantities);
+        let is_called = |names: &[String]| names.iter().any(|it| it == name || it == stem);
+        roles.extend(of_profile.filter(|(_, names)| is_called(names)).map(|(role, _)| *role));
+        roles.extend(Role::called(name));
+        roles.extend(Role::called(stem).filter(|role| role.form() != Form::Scalar));
+        match name {
+            "X" | "Y" | "Z" => roles.push(Role::Reference),
+            "x" | "y" | "z" => roles.push(Role::Place),
+            _ if name.starts_with("traction_") => roles.push(Role::Traction),
+            _ => {}
         }
-        Ok(Mapping { role, columns })
+        roles
     }
 }
 
-/// The arrays to read of files in which these roles are looked for, and those of `map`.
-pub fn wanted<'a>(map: &'a [Mapping], wants: &'a dyn Fn(Role) -> bool) -> Wanted<'a> {
-    Wanted::new(move |name| {
-        let roles = meant(name);
-        match is_mapped_by(map, name) || roles.iter().any(|role| wants(*role)) {
+/// The arrays to read of files in which these roles are looked for, and those that are mapped.
+pub fn wanted<'a>(names: &'a Names, wants: &'a dyn Fn(Role) -> bool) -> Wanted<'a> {
+    let need = move |name: &str| {
+        let roles = names.roles(name);
+        match names.is_mapped(name) || roles.iter().any(|role| wants(*role)) {
             true => Need::Must,
             false if roles.is_empty() => Need::No,
             false => Need::Sound,
         }
-    })
+    };
+    Wanted::new(need).named(&names.columns)
 }
 
-/// Reads all that files hold.
-pub fn everything(map: &[Mapping]) -> Wanted<'_> {
-    Wanted::new(move |name| match is_mapped_by(map, name) || !meant(name).is_empty() {
+/// All arrays of files.
+pub fn everything(names: &Names) -> Wanted<'_> {
+    let need = move |name: &str| match names.is_mapped(name) || !names.roles(name).is_empty() {
         true => Need::Must,
         false => Need::Numbers,
-    })
-}
-
-/// Whether a user maps an array of this name, or a component of it.
-fn is_mapped_by(map: &[Mapping], name: &str) -> bool {
-    let stem = stem(name);
-    let is_it = |column: &String| {
-        let bare = column.strip_prefix("cells:").unwrap_or(column);
-        let whole = bare.rsplit_once(':').map_or(bare, |(whole, _)| whole);
-        column == name || [bare, whole].contains(&name) || bare == stem
     };
-    map.iter().flat_map(|mapping| &mapping.columns).any(is_it)
+    Wanted::new(need).named(&names.columns)
 }
 
-/// The roles that an array of this name may have.
-fn meant(name: &str) -> Vec<Role> {
-    let stem = stem(name);
-    let unclear = UNCLEAR.iter().filter(|(word, _)| *word == plain(stem));
-    let mut roles: Vec<Role> = unclear.flat_map(|(_, roles)| *roles).collect();
-    roles.extend(Role::called(name));
-    roles.extend(Role::called(stem).filter(|role| role.form() != Form::Scalar));
-    match name {
-        "X" | "Y" | "Z" => roles.push(Role::Reference),
-        "x" | "y" | "z" => roles.push(Role::Place),
-        _ if name.starts_with("traction_") => roles.push(Role::Traction),
-        _ => {}
-    }
-    roles
-}
-
-/// A name without what says which component it is.
-fn stem(name: &str) -> &str {
-    split(name).map_or(name, |(base, _)| base)
-}
-
-/// Says what arrays of a snapshot mean; those with names that are not known are left out, and those that have a part of
-/// their name in common with what is mapped.
+/// Finds the meanings of arrays. Arrays with unknown names are left out, and so are components of what is mapped. What a
+/// user maps comes first, then what a profile names, then the names that codes use.
 ///
 /// # Errors
 /// A name that may mean two quantities, of those that `wants` takes; two arrays that may be the same quantity; a
 /// mapping to an array that is not there.
 pub fn recognise(
     snapshot: &Snapshot,
-    map: &[Mapping],
+    names: &Names,
     wants: &dyn Fn(Role) -> bool,
 ) -> Result<Vec<Meaning>, Mistake> {
-    let mut found: Vec<Meaning> = Vec::new();
-    for mapping in map {
+    let mut found = Vec::new();
+    for mapping in &names.map {
         found.push(mapped(snapshot, mapping)?);
     }
-    let is_mapped = |role: Role| map.iter().any(|mapping| mapping.role == role);
+    if let Some(profile) = &names.profile {
+        let is_left = |role: Role| wants(role) && names.map.iter().all(|it| it.role != role);
+        found.extend(profile.meanings(snapshot, &is_left));
+    }
+    let named: Vec<Role> = found.iter().map(|it: &Meaning| it.role).collect();
     let taken: Vec<Place> =
         found.iter().flat_map(|it| it.columns.iter().map(|(_, column)| column.place)).collect();
     let settled: Vec<String> =
@@ -146,18 +135,27 @@ pub fn recognise(
         if group(place, array).is_some_and(|it| settled.contains(&it)) {
             continue;
         }
-        hold_clear(&array.name, &|role| wants(role) && !is_mapped(role))
+        let is_wanted = |role: Role| wants(role) && !named.contains(&role);
+        hold_clear(snapshot, (place, array), &named, &is_wanted)
             .map_err(|mistake| mistake.of(&snapshot.path))?;
-        let Some(understood) = understand(place, array) else { continue };
-        if is_mapped(understood.role) || !wants(understood.role) {
-            continue;
-        }
+        let understood = understand(place, array).filter(|it| is_wanted(it.role));
+        let Some(understood) = understood else { continue };
         let column = |component| Column { place, component };
-        let columns: Vec<_> = match understood.part {
-            Some(part) => vec![(part, column(0))],
-            None => (0..array.components).map(|it| (Part::Nth(it), column(it))).collect(),
+        let order = names.profile.as_ref().and_then(|it| it.order(understood.role, array));
+        let columns: Vec<_> = match (understood.part, order) {
+            (Some(part), _) => vec![(part, column(0))],
+            (None, Some(order)) => order
+                .iter()
+                .enumerate()
+                .map(|(at, &(i, j))| (Part::Entry(i, j), column(at)))
+                .collect(),
+            (None, None) => (0..array.components).map(|it| (Part::Nth(it), column(it))).collect(),
         };
         add(&mut found, understood, columns, array).map_err(|it| it.of(&snapshot.path))?;
+    }
+    if let Some(profile) = &names.profile {
+        let places = found.iter_mut().filter(|it| it.role == Role::Place);
+        places.for_each(|it| it.reading = profile.points.map(|role| (role, profile.name.clone())));
     }
     Ok(found)
 }
@@ -182,7 +180,7 @@ fn add(
 ) -> Result<(), Mistake> {
     let Understood { role, part, source, face } = understood;
     let Some(known) = found.iter_mut().find(|it| it.role == role && it.face == face) else {
-        found.push(Meaning { role, source, face, columns, mapped: 0 });
+        found.push(Meaning { role, source, face, columns, why: Why::Name, reading: None });
         return Ok(());
     };
     let is_component = part.is_some() && known.source == source;
@@ -198,52 +196,50 @@ fn add(
     )))
 }
 
-/// All arrays, with the places of points first.
-fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (Place, &Array)> + Clone {
-    let grid = snapshot.points.iter().map(|array| (Place::Grid, array));
-    let points =
-        snapshot.of_points.iter().enumerate().map(|(at, array)| (Place::Points(at), array));
-    let cells = snapshot.of_cells.iter().enumerate().map(|(at, array)| (Place::Cells(at), array));
-    grid.chain(points).chain(cells)
-}
-
-/// How many names a message lists.
-const MOST_LISTED: usize = 30;
-
-/// The names of all arrays.
-pub fn all_names(snapshot: &Snapshot) -> String {
-    let names = arrays(snapshot).map(|(_, array)| &array.name).chain(&snapshot.unread);
-    let listed: Vec<_> = names.clone().take(MOST_LISTED).map(|it| format!("`{it}`")).collect();
-    match names.count() {
-        0 => "no arrays".into(),
-        count if count > listed.len() => {
-            format!("{} and {} others", listed.join(", "), count - listed.len())
+/// Refuses a name that may mean two quantities, one of which is wanted.
+///
+/// # Errors
+/// Neither the file nor the user tells which it is.
+fn hold_clear(
+    snapshot: &Snapshot,
+    (place, array): (Place, &Array),
+    named: &[Role],
+    wants: &dyn Fn(Role) -> bool,
+) -> Result<(), Mistake> {
+    let Some([a, b]) = two_meanings(&array.name) else { return Ok(()) };
+    let stem = stem(&array.name);
+    if stem == S {
+        // A file with another name for a stress means the textbook's S.
+        let is_stress = |role: &Role| {
+            matches!(role, Role::CauchyStress | Role::FirstPiolaKirchhoff | Role::KirchhoffStress)
+        };
+        let called = arrays(snapshot).filter_map(|(_, it)| Role::called(self::stem(&it.name)));
+        if called.chain(named.iter().copied()).any(|it| is_stress(&it)) {
+            return Ok(());
         }
-        _ => listed.join(", "),
     }
+    if !(wants(a) || wants(b)) {
+        return Ok(());
+    }
+    let prefix = if matches!(place, Place::Cells(_)) { "cells:" } else { "" };
+    let said = |role: Role| format!("`--map {}={prefix}{stem}`", role.symbol());
+    let what = format!(
+        "`{}` ({}) may be {} or {}: say which with {} or {}, or the code that wrote it with `--from`",
+        array.name,
+        array.described(),
+        a.name(),
+        b.name(),
+        said(a),
+        said(b)
+    );
+    Err(Mistake::new(what))
 }
 
-fn hold_clear(name: &str, wants: &dyn Fn(Role) -> bool) -> Result<(), Mistake> {
-    let stem = stem(name);
-    let plain = plain(stem);
-    let meant = UNCLEAR.iter().find(|(word, _)| *word == plain);
-    match meant {
-        Some((_, [a, b])) if wants(*a) || wants(*b) => Err(Mistake::new(format!(
-            "`{name}` may be {} or {}: say which with `--map {}={stem}` or `--map {}={stem}`",
-            a.name(),
-            b.name(),
-            a.symbol(),
-            b.symbol()
-        ))),
-        _ => Ok(()),
-    }
-}
-
-/// What an array is, which part of it, and under which name.
+/// The quantity of an array, the part of it, and the name in the file.
 fn understand(place: Place, array: &Array) -> Option<Understood> {
     let name = array.name.as_str();
     match (place, name) {
-        // So the project's own runs call x.
+        // The project's own runs call x so.
         (Place::Grid, "position") => return Some(Understood::new(Role::Position, None, name)),
         (Place::Grid, "reference_position") => {
             return Some(Understood::new(Role::Reference, None, name));
@@ -288,94 +284,4 @@ fn on_face(array: &Array) -> Option<Understood> {
 
 fn letter(text: &str) -> Option<usize> {
     ["x", "y", "z"].iter().position(|it| text.eq_ignore_ascii_case(it))
-}
-
-/// A name without what says which component it is.
-fn split(name: &str) -> Option<(&str, Part)> {
-    let name = name.strip_suffix([']', ')']).unwrap_or(name);
-    let axis = |byte: u8| match byte {
-        b'x' | b'X' => Some(0),
-        b'y' | b'Y' => Some(1),
-        b'z' | b'Z' => Some(2),
-        b'0'..=b'9' => Some(usize::from(byte - b'0')),
-        _ => None,
-    };
-    let (before, last) = name.split_at_checked(name.len().checked_sub(1)?)?;
-    let last = axis(last.bytes().next()?)?;
-    let base = |text: &'_ str| -> usize {
-        text.trim_end_matches(['_', ':', '.', '[', '(', '-', ' ']).len()
-    };
-    let of_entry =
-        before.split_at_checked(before.len().saturating_sub(1)).and_then(|(rest, first)| {
-            let first = axis(first.bytes().next()?)?;
-            Some((&rest[..base(rest)], Part::Entry(first, last)))
-        });
-    let found = of_entry.filter(|(base, _)| has_entries(base));
-    let found = found.unwrap_or((&before[..base(before)], Part::Nth(last)));
-    (!found.0.is_empty()).then_some(found)
-}
-
-/// Whether this may be the name of a matrix.
-fn has_entries(name: &str) -> bool {
-    let is_matrix = |role: &Role| !matches!(role.form(), Form::Scalar | Form::Vector);
-    Role::called(name).as_ref().is_some_and(is_matrix)
-        || UNCLEAR.iter().any(|(word, _)| *word == plain(name))
-}
-
-/// What a user says a quantity is.
-fn mapped(snapshot: &Snapshot, mapping: &Mapping) -> Result<Meaning, Mistake> {
-    let Mapping { role, columns: names } = mapping;
-    let columns = match components(snapshot, names) {
-        Some(columns) => columns,
-        None => {
-            let columns = names.iter().map(|name| columns(snapshot, name));
-            let columns = columns.collect::<Result<Vec<_>, _>>();
-            let columns = columns.map_err(|mistake| mistake.of(&snapshot.path))?;
-            let columns = columns.into_iter().flatten().enumerate();
-            columns.map(|(at, column)| (Part::Nth(at), column)).collect()
-        }
-    };
-    let mapped = names.len();
-    Ok(Meaning { role: *role, source: names.join(","), face: None, columns, mapped })
-}
-
-/// The arrays whose names are one name and a component, as `stress_xx` is of `stress`, if no array has that name itself.
-fn components(snapshot: &Snapshot, names: &[String]) -> Option<Vec<(Part, Column)>> {
-    let [name] = names else { return None };
-    if arrays(snapshot).any(|(_, array)| array.name == *name) {
-        return None;
-    }
-    let part = |(place, array): (Place, &Array)| {
-        let (base, part) = split(&array.name).filter(|_| array.components == 1)?;
-        (base == name).then_some((part, Column { place, component: 0 }))
-    };
-    let found: Vec<_> = arrays(snapshot).filter_map(part).collect();
-    (!found.is_empty()).then_some(found)
-}
-
-/// The columns of an array, or one of them.
-fn columns(snapshot: &Snapshot, name: &str) -> Result<Vec<Column>, Mistake> {
-    let named = |wanted: &str| {
-        arrays(snapshot).find(|(place, array)| match place {
-            Place::Grid => wanted == "points" || wanted == array.name,
-            Place::Points(_) => wanted == array.name,
-            Place::Cells(_) => {
-                wanted == array.name || wanted.strip_prefix("cells:") == Some(&array.name)
-            }
-        })
-    };
-    let all = |(place, array): (Place, &Array)| {
-        (0..array.components).map(|component| Column { place, component }).collect()
-    };
-    if let Some(found) = named(name) {
-        return Ok(all(found));
-    }
-    let one = name.rsplit_once(':').and_then(|(name, component)| {
-        let (found, component) = (named(name)?, component.parse().ok()?);
-        (component < found.1.components).then_some(Column { place: found.0, component })
-    });
-    let one = one.ok_or_else(|| {
-        Mistake::new(format!("`--map`: no array `{name}`; the file has {}", all_names(snapshot)))
-    });
-    Ok(vec![one?])
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::lattice::Lattice;
 use crate::motion::difference;
-use crate::names::{Mapping, Role, Values, recognise};
+use crate::names::{Names, Role, Values, recognise};
 use crate::{Array, Cells, Mistake, Snapshot};
 
 /// Rows of two results that belong together.
@@ -62,14 +62,14 @@ type Alone = (usize, usize);
 ///
 /// # Errors
 /// A point that the other result does not have; as many points, where nothing tells which is which, that are not as many.
-pub fn points(one: &Snapshot, other: &Snapshot, map: &[Mapping]) -> Result<(Pairs, By), Mistake> {
+pub fn points(one: &Snapshot, other: &Snapshot, names: &Names) -> Result<(Pairs, By), Mistake> {
     if let Some((name, [a, b])) = numbered(one, other) {
         let pairs = by_place(&a.values, &b.values, 1, 0.25);
         return pairs
             .map(|it| (it, By::Number(name)))
             .map_err(|it| alone([one, other], it, "number"));
     }
-    let places = [places(one, map)?, places(other, map)?];
+    let places = [places(one, names)?, places(other, names)?];
     let mut refused = None;
     if let [Some(of_one), Some(of_other)] = &places {
         let tried = of_one.readings.iter().zip(&of_other.readings);
@@ -190,11 +190,11 @@ struct Places<'a> {
     is_reference: bool,
 }
 
-fn places<'a>(snapshot: &'a Snapshot, map: &[Mapping]) -> Result<Option<Places<'a>>, Mistake> {
+fn places<'a>(snapshot: &'a Snapshot, names: &Names) -> Result<Option<Places<'a>>, Mistake> {
     let is_place =
         |role| matches!(role, Role::Reference | Role::Position | Role::Place | Role::Displacement);
-    let map: Vec<Mapping> = map.iter().filter(|it| is_place(it.role)).cloned().collect();
-    let meanings = recognise(snapshot, &map, &is_place)?;
+    let map = names.map.iter().filter(|it| is_place(it.role)).cloned().collect();
+    let meanings = recognise(snapshot, &Names { map, ..names.clone() }, &is_place)?;
     let values = |role: Role| -> Result<Option<Values<'a>>, Mistake> {
         let meaning = meanings.iter().find(|it| it.role == role);
         let found = meaning.map(|it| it.values(snapshot, it.dimension())).transpose()?;

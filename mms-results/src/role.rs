@@ -68,6 +68,7 @@ roles! {
     LeftCauchyGreen "left_cauchy_green" "B" Symmetric [] "Left Cauchy-Green tensor.",
     GreenLagrange "green_lagrange" "E" Symmetric ["E" "greenlagrangestrain" "greenstrain"] "Green-Lagrange strain E.",
     SmallStrain "strain" "strain" Symmetric ["smallstrain" "infinitesimalstrain"] "Small strain (H + H^T)/2.",
+    ReferenceDensity "reference_density" "rho0" Scalar ["rho0" "initialdensity"] "Mass per reference volume, which is given to a solver.",
     MassDensity "mass_density" "rho" Scalar ["rho" "density" "massdensity"] "Mass per present volume.",
     StrainEnergy "strain_energy" "W" Scalar ["W" "strainenergydensity" "elasticenergydensity"] "Strain-energy density W.",
     FirstPiolaKirchhoff "first_piola_kirchhoff" "P" Tensor ["P" "pk1" "piola1" "firstpiola" "firstpiolakirchhoffstress"]

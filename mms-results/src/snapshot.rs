@@ -85,6 +85,24 @@ impl Array {
         Array { name: self.name.clone(), values: Vec::new(), ..*self }
     }
 
+    /// The number of its components and the range of each, in words.
+    pub fn described(&self) -> String {
+        let range = |component: usize| {
+            let numbers = self.values.iter().skip(component).step_by(self.components);
+            let [least, most] = numbers
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], it| [a.min(*it), b.max(*it)]);
+            format!("{least:.3e} to {most:.3e}")
+        };
+        let ranges: Vec<_> = (0..self.components).map(range).collect();
+        match ranges.as_slice() {
+            [range] if self.rows() > 0 => format!("one number, {range}"),
+            _ if self.rows() > 0 && self.components <= 9 => {
+                format!("{} components: {}", self.components, ranges.join(", "))
+            }
+            _ => format!("{} components", self.components),
+        }
+    }
+
     /// How far its numbers may be from those that were stored, at the largest of them.
     pub fn rounding(&self) -> f64 {
         let largest = self.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
@@ -153,6 +171,8 @@ pub struct Time {
 pub struct Snapshot {
     /// The file.
     pub path: String,
+    /// The name of its format.
+    pub format: &'static str,
     /// The time, where it is known.
     pub time: Option<Time>,
     /// The places of the points, where the format has such.
@@ -165,6 +185,8 @@ pub struct Snapshot {
     pub of_cells: Vec<Array>,
     /// The lines on which the points stand; none in files without lines.
     pub lines: Vec<usize>,
+    /// The units that the file gives for arrays, by their names.
+    pub units: Vec<(String, String)>,
     /// The names of arrays that were not read.
     pub unread: Vec<String>,
 }

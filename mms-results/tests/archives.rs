@@ -4,7 +4,7 @@ use allocation_counter::measure;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use miniz_oxide::deflate::{compress_to_vec, compress_to_vec_zlib};
-use mms_results::names::{Role, everything, recognise, wanted};
+use mms_results::names::{KNOWN, Role, everything, recognise, wanted};
 use mms_results::wanted::Wanted;
 use mms_results::{Contents, Mistake, Snapshot, parse};
 use proptest::prelude::*;
@@ -84,34 +84,34 @@ fn npz(entries: &[Entry<'_>]) -> Vec<u8> {
 fn an_archive_is_held_to_its_checksums() {
     let u = npy("(2,)", 16);
     let said =
-        |entry: Entry<'_>| one(&npz(&[entry]), &everything(&[])).map(|it| it.of_points.len());
+        |entry: Entry<'_>| one(&npz(&[entry]), &everything(&KNOWN)).map(|it| it.of_points.len());
     assert_eq!(said(Entry::honest("u", &u)), Ok(1));
     let damaged = said(Entry { crc: crc32(&u) ^ 1, ..Entry::honest("u", &u) }).unwrap_err().what;
     assert!(damaged.starts_with("`u`: its checksum (CRC-32) is another"), "{damaged}");
     // A stored array, one bit of which is another.
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/numpy.npz");
     let mut bytes = std::fs::read(path).unwrap();
-    assert!(one(&bytes, &everything(&[])).is_ok());
+    assert!(one(&bytes, &everything(&KNOWN)).is_ok());
     let number = 0.5_f64.to_le_bytes();
     let at = bytes.windows(8).position(|it| it == number).unwrap();
     bytes[at] ^= 1;
-    assert!(one(&bytes, &everything(&[])).unwrap_err().what.contains("checksum"));
+    assert!(one(&bytes, &everything(&KNOWN)).unwrap_err().what.contains("checksum"));
 }
 
 #[test]
 fn an_archive_unpacks_what_is_needed_and_declared() {
     let bomb = npy("(2,)", 16 * MEGABYTE);
-    let said = refused_cheaply(&npz(&[Entry::honest("u", &bomb)]), &everything(&[]));
+    let said = refused_cheaply(&npz(&[Entry::honest("u", &bomb)]), &everything(&KNOWN));
     assert!(said.contains("and its shape needs"), "{said}");
     let claimed = Entry { length: npy("(2,)", 16).len(), ..Entry::honest("u", &bomb) };
-    let said = refused_cheaply(&npz(&[claimed]), &everything(&[]));
+    let said = refused_cheaply(&npz(&[claimed]), &everything(&KNOWN));
     assert!(said.contains("not what its header says"), "{said}");
     let honest = npy("(2097152,)", 16 * MEGABYTE);
     let bytes = npz(&[Entry::honest("u", &honest), Entry::honest("junk", &bomb)]);
-    let scarce = everything(&[]).within(20 << 20, "do something");
+    let scarce = everything(&KNOWN).within(20 << 20, "do something");
     let said = refused_cheaply(&bytes, &scarce);
     assert_eq!(said, "`u` takes 34 MB of memory to read, and there are 20 MB: do something");
-    let snapshot = one(&bytes, &wanted(&[], &|_| true).within(40 << 20, "")).unwrap();
+    let snapshot = one(&bytes, &wanted(&KNOWN, &|_| true).within(40 << 20, "")).unwrap();
     assert_eq!((snapshot.of_points.len(), snapshot.unread), (1, vec!["junk".to_owned()]));
 }
 
@@ -144,11 +144,11 @@ fn vtk_unpacks_what_is_needed_and_declared() {
     let inline = |points: usize, name: &str| {
         [&vtu(points, &[(name, "format=\"binary\"", &packed)])[..], end].concat()
     };
-    let said = refused_cheaply(&inline(1, "u"), &everything(&[]));
+    let said = refused_cheaply(&inline(1, "u"), &everything(&KNOWN));
     assert!(said.contains("`u`: 33554432 bytes of numbers, and expected 8"), "{said}");
-    let said = refused_cheaply(&inline(4 << 20, "u"), &everything(&[]).within(40 << 20, ""));
+    let said = refused_cheaply(&inline(4 << 20, "u"), &everything(&KNOWN).within(40 << 20, ""));
     assert!(said.contains("`u`: it takes 68 MB of memory"), "{said}");
-    assert_eq!(one(&inline(1, "junk"), &wanted(&[], &|_| true)).unwrap().unread, ["junk"]);
+    assert_eq!(one(&inline(1, "junk"), &wanted(&KNOWN, &|_| true)).unwrap().unread, ["junk"]);
     // Many arrays may share the bytes that are appended, but not the memory.
     let at = "format=\"appended\" offset=\"0\"";
     let names: Vec<String> = (0..100).map(|at| format!("n{at}")).collect();
@@ -157,7 +157,7 @@ fn vtk_unpacks_what_is_needed_and_declared() {
         format!("<AppendedData encoding=\"base64\">_{}</AppendedData></VTKFile>", blocks(1));
     let bytes = [vtu(131_072, &arrays), appended.into_bytes()].concat();
     let mut said = String::new();
-    let scarce = everything(&[]).within(4 << 20, "");
+    let scarce = everything(&KNOWN).within(4 << 20, "");
     let taken = measure(|| said = one(&bytes, &scarce).unwrap_err().what).bytes_max;
     assert!(said.contains("takes 3 MB of memory") && taken < 8 << 20, "{taken} bytes: {said}");
 }
@@ -169,7 +169,7 @@ fn a_block_of_vtk_is_held_to_its_checksum() {
         let header = [1, 8, 0, packed.len() as u32].map(u32::to_le_bytes).concat();
         let text = STANDARD.encode(header) + &STANDARD.encode(packed);
         let bytes = [&vtu(1, &[("u", "format=\"binary\"", &text)])[..], b"</VTKFile>"].concat();
-        one(&bytes, &everything(&[])).map(|it| it.of_points[0].values.clone())
+        one(&bytes, &everything(&KNOWN)).map(|it| it.of_points[0].values.clone())
     };
     assert_eq!(read(&packed), Ok(vec![1.5]));
     *packed.last_mut().unwrap() ^= 1;
@@ -182,7 +182,7 @@ fn words_in_an_array_of_a_known_name_are_refused() {
         let text = String::from_utf8(vtu(1, &[(name, "", "0")])).unwrap() + "</VTKFile>";
         text.replace("type=\"Float64\"", "type=\"String\"")
     };
-    let read = |name: &str| one(text(name).as_bytes(), &everything(&[]));
+    let read = |name: &str| one(text(name).as_bytes(), &everything(&KNOWN));
     assert_eq!(read("label").unwrap().unread, ["label"]);
     assert!(read("u").unwrap_err().what.contains("`u`: expected numbers, found words"));
 }
@@ -196,12 +196,12 @@ fn arrays_that_are_not_needed_are_passed_over() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let bytes = std::fs::read(&path).unwrap();
-        let Ok(Contents::Snapshots(all)) = parse(&bytes, &everything(&[])) else { continue };
-        let few = one(&bytes, &wanted(&[], &u)).unwrap();
-        let Ok([meaning]) = recognise(&all[0], &[], &u).map(<[_; 1]>::try_from).unwrap() else {
+        let Ok(Contents::Snapshots(all)) = parse(&bytes, &everything(&KNOWN)) else { continue };
+        let few = one(&bytes, &wanted(&KNOWN, &u)).unwrap();
+        let Ok([meaning]) = recognise(&all[0], &KNOWN, &u).map(<[_; 1]>::try_from).unwrap() else {
             continue;
         };
-        let of_few = &recognise(&few, &[], &u).unwrap()[0];
+        let of_few = &recognise(&few, &KNOWN, &u).unwrap()[0];
         let numbers = meaning.values(&all[0], 2).unwrap().numbers;
         assert_eq!(of_few.values(&few, 2).unwrap().numbers, numbers, "{}", path.display());
         assert_eq!((few.time, &few.cells), (all[0].time, &all[0].cells), "{}", path.display());
@@ -229,8 +229,8 @@ proptest! {
         }
         for name in ["u", "time", "junk"] {
             let archive = npz(&[Entry::honest(name, &bytes)]);
-            let _ = one(&archive, &everything(&[]));
-            let _ = one(&archive, &wanted(&[], &|_| true).within(100, ""));
+            let _ = one(&archive, &everything(&KNOWN));
+            let _ = one(&archive, &wanted(&KNOWN, &|_| true).within(100, ""));
         }
     }
 }

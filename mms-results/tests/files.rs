@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use mms_results::cell::Shape;
 use mms_results::motion::{Motion, hold_distinct, resolve};
-use mms_results::names::{Mapping, Role, everything, recognise, wanted};
+use mms_results::names::{KNOWN, Mapping, Names, Role, everything, recognise, wanted};
 use mms_results::{Contents, Mistake, Snapshot, Stored, parse, read};
 use proptest::prelude::*;
 
@@ -17,7 +17,7 @@ fn open(path: &Path, _: u64) -> Result<Vec<u8>, String> {
 }
 
 fn one(name: &str) -> Snapshot {
-    let mut found = read(&data(name), &open, &everything(&[]))
+    let mut found = read(&data(name), &open, &everything(&KNOWN))
         .unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
     assert_eq!(found.len(), 1, "{name}");
     found.remove(0)
@@ -40,7 +40,7 @@ fn outside(point: &[f64]) -> f64 {
 
 fn motion<'a>(snapshot: &'a Snapshot, map: &[&str]) -> Result<Motion<'a>, Mistake> {
     let map: Vec<Mapping> = map.iter().map(|it| it.parse().unwrap()).collect();
-    let found = recognise(snapshot, &map, &|_| true)?;
+    let found = recognise(snapshot, &Names { map, ..Names::default() }, &|_| true)?;
     resolve(snapshot, &found, 2, &outside, None)
 }
 
@@ -142,12 +142,12 @@ const WITHOUT_POINTS: &str = "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGr
     Name=\"types\" format=\"ascii\">3</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
 
 fn refused(text: &str) -> String {
-    parse(text.as_bytes(), &everything(&[])).unwrap_err().of("file").to_string()
+    parse(text.as_bytes(), &everything(&KNOWN)).unwrap_err().of("file").to_string()
 }
 
 #[test]
 fn what_is_not_read_is_named() {
-    let said = read(&data("meshio_lzma.vtu"), &open, &everything(&[])).unwrap_err().to_string();
+    let said = read(&data("meshio_lzma.vtu"), &open, &everything(&KNOWN)).unwrap_err().to_string();
     assert!(said.contains("vtkLZMADataCompressor"), "{said}");
     for (text, word) in [
         ("", "empty"),
@@ -170,15 +170,15 @@ fn what_is_not_read_is_named() {
         let said = refused(text);
         assert!(said.contains(word), "{text}: {said}");
     }
-    let hdf = parse(b"\x89HDF\r\n\x1a\n", &everything(&[])).unwrap_err();
+    let hdf = parse(b"\x89HDF\r\n\x1a\n", &everything(&KNOWN)).unwrap_err();
     assert!(hdf.what.contains("HDF5"));
     assert!(
-        parse(b"\xff\xfe\x00", &everything(&[])).unwrap_err().what.contains("neither text nor")
+        parse(b"\xff\xfe\x00", &everything(&KNOWN)).unwrap_err().what.contains("neither text nor")
     );
 }
 
 fn table(text: &str) -> Snapshot {
-    match parse(text.as_bytes(), &everything(&[])).unwrap() {
+    match parse(text.as_bytes(), &everything(&KNOWN)).unwrap() {
         Contents::Snapshots(mut found) => found.remove(0),
         other => panic!("{other:?}"),
     }
@@ -252,7 +252,7 @@ fn what_may_be_two_things_is_refused_with_both() {
 fn tensors_are_read_by_their_entries() {
     let snapshot =
         table("X,Y,F11,F12,F21,F22,sigma_xx,sigma_yy,sigma_xy,b:0,b:1\n0,0,1,2,3,4,5,6,7,8,9\n");
-    let found = recognise(&snapshot, &[], &|_| true).unwrap();
+    let found = recognise(&snapshot, &KNOWN, &|_| true).unwrap();
     let values = |role: Role| {
         let meaning = found.iter().find(|it| it.role == role).unwrap();
         meaning.values(&snapshot, 2).unwrap().numbers.into_owned()
@@ -293,7 +293,7 @@ fn numbers_with_long_exponents_are_rounded_to_nothing() {
 #[test]
 fn times_of_a_table_are_snapshots() {
     let text = "t,X,Y,ux,uy\n0.5,0,0,1,2\n0.25,0,0,3,4\n0.5,1,0,5,6\n";
-    let Contents::Snapshots(found) = parse(text.as_bytes(), &everything(&[])).unwrap() else {
+    let Contents::Snapshots(found) = parse(text.as_bytes(), &everything(&KNOWN)).unwrap() else {
         panic!()
     };
     let times: Vec<_> = found.iter().map(|it| it.time.unwrap().value).collect();
@@ -312,7 +312,7 @@ fn a_list_of_times_reads_its_files() {
     let open = |path: &Path, room: u64| {
         if path.ends_with("list.pvd") { Ok(list.into()) } else { open(path, room) }
     };
-    let found = read(&data("list.pvd"), &open, &everything(&[])).unwrap();
+    let found = read(&data("list.pvd"), &open, &everything(&KNOWN)).unwrap();
     let times: Vec<_> = found.iter().map(|it| it.time.unwrap().value).collect();
     assert_eq!(times, [0.125, 0.5]);
     assert!(found[0].path.ends_with("vtk.vtp"));
@@ -321,7 +321,7 @@ fn a_list_of_times_reads_its_files() {
         if path.ends_with("list.pvd") { Ok(itself.clone().into()) } else { open(path, room) }
     };
     assert!(
-        read(&data("list.pvd"), &open, &everything(&[]))
+        read(&data("list.pvd"), &open, &everything(&KNOWN))
             .unwrap_err()
             .what
             .contains("one mesh at one time")
@@ -346,7 +346,7 @@ fn sizes_that_are_claimed_are_not_believed() {
          NumberOfComponents=\"3\" format=\"binary\">////////////////</DataArray></Points></Piece></PolyData></VTKFile>"
             .to_owned(),
     ] {
-        assert!(parse(text.as_bytes(), &everything(&[])).is_err(), "{text}");
+        assert!(parse(text.as_bytes(), &everything(&KNOWN)).is_err(), "{text}");
     }
     let npy = |shape: &str| {
         let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
@@ -354,7 +354,7 @@ fn sizes_that_are_claimed_are_not_believed() {
         bytes.extend((header.len() as u16).to_le_bytes());
         bytes.extend(header.as_bytes());
         bytes.extend([0; 8]);
-        parse(&bytes, &everything(&[]))
+        parse(&bytes, &everything(&KNOWN))
     };
     assert!(npy("(1,)").is_ok());
     for shape in [
@@ -371,9 +371,9 @@ fn sizes_that_are_claimed_are_not_believed() {
 #[test]
 fn deep_and_wide_xml_ends_soon() {
     let deep = "<a>".repeat(200_000);
-    assert!(parse(deep.as_bytes(), &everything(&[])).is_err());
+    assert!(parse(deep.as_bytes(), &everything(&KNOWN)).is_err());
     let closed = format!("{deep}{}", "</a>".repeat(200_000));
-    assert!(parse(closed.as_bytes(), &everything(&[])).is_err());
+    assert!(parse(closed.as_bytes(), &everything(&KNOWN)).is_err());
     let attributes: String = (0..200_000).map(|at| format!(" a{at}=\"\"")).collect();
     assert!(refused(&format!("<a{attributes}/>")).contains("a tag of more than"));
     assert!(refused("<!DOCTYPE a [<!ENTITY b \"c\">]><a>&b;</a>").contains("not XML"));
@@ -382,11 +382,11 @@ fn deep_and_wide_xml_ends_soon() {
 /// Whatever stands in a file, reading it ends, with results or with a mistake, and so does what is made of them.
 fn survive(bytes: &[u8]) {
     let u = |role: Role| role == Role::Displacement;
-    let ways = [everything(&[]), wanted(&[], &u), everything(&[]).within(1 << 12, "")];
+    let ways = [everything(&KNOWN), wanted(&KNOWN, &u), everything(&KNOWN).within(1 << 12, "")];
     let mut all = ways.iter().filter_map(|wanted| parse(bytes, wanted).ok());
     while let Some(Contents::Snapshots(found)) = all.next() {
         for snapshot in found {
-            let Ok(meanings) = recognise(&snapshot, &[], &|_| true) else { continue };
+            let Ok(meanings) = recognise(&snapshot, &KNOWN, &|_| true) else { continue };
             for dimension in 1..=3 {
                 let mut half = |x: &[f64], _: f64| Ok(Some(x.iter().map(|x| x / 2.0).collect()));
                 let _ = resolve(&snapshot, &meanings, dimension, &outside, None);

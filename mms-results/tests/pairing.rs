@@ -1,6 +1,7 @@
 //! Points and cells of two results that list them in another order.
 
 use mms_results::motion::hold_distinct;
+use mms_results::names::KNOWN;
 use mms_results::names::Values;
 use mms_results::pairing::{By, Pairs, cells, points};
 use mms_results::{Array, Cells, Snapshot, Stored};
@@ -19,7 +20,7 @@ fn listed(pairs: &Pairs) -> Vec<[usize; 2]> {
 }
 
 fn said(one: &Snapshot, other: &Snapshot) -> String {
-    points(one, other, &[]).unwrap_err().to_string()
+    points(one, other, &KNOWN).unwrap_err().to_string()
 }
 
 #[test]
@@ -32,7 +33,7 @@ fn points_are_paired_by_their_numbers_before_anything_else() {
         "b",
         vec![array("GlobalNodeIds", 1, &[9.0, 7.0, 8.0]), array("X", 1, &[0.0, 0.5, 1.0])],
     );
-    let (pairs, by) = points(&a, &b, &[]).unwrap();
+    let (pairs, by) = points(&a, &b, &KNOWN).unwrap();
     assert_eq!(
         (listed(&pairs), by),
         (vec![[0, 1], [1, 2], [2, 0]], By::Number("GlobalNodeIds".into()))
@@ -46,7 +47,7 @@ fn points_are_paired_by_their_numbers_before_anything_else() {
         "d",
         vec![array("GlobalNodeIds", 1, &[0.0, 1.0, 0.0]), array("X", 1, &[1.0, 0.5, 0.0])],
     );
-    assert_eq!(points(&ranks, &a, &[]).unwrap().1, By::Place);
+    assert_eq!(points(&ranks, &a, &KNOWN).unwrap().1, By::Place);
 }
 
 #[test]
@@ -54,9 +55,9 @@ fn points_between_ranks_are_one() {
     // Two halves of a line, whose middle both have.
     let whole = snapshot("whole", vec![array("X", 1, &[0.0, 0.5, 1.0])]);
     let halves = snapshot("halves", vec![array("X", 1, &[0.5, 1.0, 0.0, 0.5])]);
-    let (pairs, by) = points(&whole, &halves, &[]).unwrap();
+    let (pairs, by) = points(&whole, &halves, &KNOWN).unwrap();
     assert_eq!((listed(&pairs), by), (vec![[0, 2], [1, 0], [1, 3], [2, 1]], By::Place));
-    let (pairs, _) = points(&halves, &whole, &[]).unwrap();
+    let (pairs, _) = points(&halves, &whole, &KNOWN).unwrap();
     assert_eq!(listed(&pairs), [[0, 1], [1, 2], [2, 0], [3, 1]]);
     let less = snapshot("less", vec![array("X", 1, &[0.0, 1.0])]);
     assert!(
@@ -76,12 +77,12 @@ fn points_without_a_name_are_tried_as_reference_and_as_present_positions() {
     // As x they differ, and x - u is the same.
     let a = place("a", [0.1, 1.3], [0.1, 0.3]);
     let b = place("b", [1.25, 0.125], [0.25, 0.125]);
-    let (pairs, by) = points(&a, &b, &[]).unwrap();
+    let (pairs, by) = points(&a, &b, &KNOWN).unwrap();
     assert_eq!((listed(&pairs), by), (vec![[0, 1], [1, 0]], By::Place));
     // Without u nothing tells, but as many are compared in their order.
     let only = |x: [f64; 2]| snapshot("x", vec![array("x", 1, &x)]);
     assert_eq!(
-        points(&only([0.0, 1.0]), &only([1.5, 0.1]), &[]).unwrap(),
+        points(&only([0.0, 1.0]), &only([1.5, 0.1]), &KNOWN).unwrap(),
         (Pairs::InOrder(2), By::Order)
     );
 }
@@ -93,7 +94,7 @@ fn single_and_double_precision_are_paired() {
     single.stored = Stored::Single;
     single.values.reverse();
     let (pairs, _) =
-        points(&snapshot("a", vec![array("X", 1, &values)]), &snapshot("b", vec![single]), &[])
+        points(&snapshot("a", vec![array("X", 1, &values)]), &snapshot("b", vec![single]), &KNOWN)
             .unwrap();
     assert_eq!(listed(&pairs), [[0, 3], [1, 2], [2, 1], [3, 0]]);
 }
@@ -110,7 +111,7 @@ fn cells_are_paired_by_their_points() {
     };
     let whole = mesh("whole", &[0.0, 0.5, 1.0], &[[0, 1], [1, 2]]);
     let halves = mesh("halves", &[0.5, 1.0, 0.0, 0.5], &[[1, 0], [2, 3]]);
-    let (pairs, _) = points(&whole, &halves, &[]).unwrap();
+    let (pairs, _) = points(&whole, &halves, &KNOWN).unwrap();
     assert_eq!(listed(&cells(&whole, &halves, &pairs).unwrap()), [[0, 1], [1, 0]]);
     let other = mesh("other", &[0.5, 1.0, 0.0, 0.5], &[[1, 0], [2, 1]]);
     let said = cells(&whole, &other, &pairs).unwrap_err().to_string();
@@ -128,7 +129,7 @@ proptest! {
         let straight: Vec<usize> = (0..60).collect();
         let a = snapshot("a", vec![array("X", 2, &of(&straight, 0.0))]);
         let b = snapshot("b", vec![array("X", 2, &of(&order, noise))]);
-        let (pairs, _) = points(&a, &b, &[]).unwrap();
+        let (pairs, _) = points(&a, &b, &KNOWN).unwrap();
         let found = listed(&pairs);
         prop_assert_eq!(found.len(), 60);
         prop_assert!(found.iter().all(|[a, b]| order[*b] == *a));

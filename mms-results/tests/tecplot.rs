@@ -1,10 +1,10 @@
 //! ASCII files of Tecplot, as its guide describes them.
 
-use mms_results::names::everything;
+use mms_results::names::{KNOWN, everything};
 use mms_results::{Contents, Snapshot, parse};
 
 fn read(text: &str) -> Result<Vec<Snapshot>, String> {
-    match parse(text.as_bytes(), &everything(&[]))
+    match parse(text.as_bytes(), &everything(&KNOWN))
         .map_err(|mistake| mistake.of("file").to_string())?
     {
         Contents::Snapshots(found) => Ok(found),

@@ -2,7 +2,7 @@
 
 use mms_results::Snapshot;
 
-use super::plan::{Job, Planned};
+use super::plan::{Job, Judging, Planned};
 use super::work::{Outcome, Work};
 use crate::judge::Measured;
 use crate::judge::results::{Comparison, Measurement, Reading, Results, measure};
@@ -77,9 +77,9 @@ fn measured(
     files: &[String],
 ) -> anyhow::Result<Measurement> {
     let Planned { study, options, .. } = planned;
-    let (map, wanted, weight) = (&options.map, &options.quantities, options.weight);
+    let Judging { names, over, quantities: wanted, weight, .. } = options;
     let (memory, is_part) = (study.max_memory, study.part);
-    let reading = Reading { map, columns: &[], wanted, weight, memory, is_part };
+    let reading = Reading { names, wanted, weight: *weight, memory, is_part, over: *over };
     let all: Vec<Results> =
         files.iter().map(|file| reading.find(file, exact)).collect::<anyhow::Result<_>>()?;
     let h: Vec<f64> = jobs.iter().map(|job| planned.size(job)).collect();

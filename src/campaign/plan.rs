@@ -8,7 +8,7 @@ use mms_campaign::template::{Placeholder, Template};
 use mms_campaign::{Campaign, Study};
 use mms_emit::{TARGETS, Target};
 use mms_mechanics::sample::domain;
-use mms_results::names::{Mapping, Role};
+use mms_results::names::{Mapping, Names, Role};
 use mms_runtime::Division;
 use mms_spec::foreign;
 use mms_spec::quantity::Quantity;
@@ -20,8 +20,9 @@ use super::dependencies::{self, Dependencies, Dependency, UNKNOWN};
 use super::digests::Digests;
 use super::sources;
 
-use crate::judge::results::{Start as How, weight};
+use crate::judge::results::{Over, Start as How, weight};
 use crate::judge::table::{Order, Orders};
+use crate::profile;
 use crate::session::input::{Input, Variant, quantities};
 use crate::session::method::hold_division;
 use crate::session::stability::sound;
@@ -61,8 +62,10 @@ pub struct Planned {
 pub struct Judging {
     /// What is judged; all that is found, if there is none.
     pub quantities: Vec<Quantity>,
-    /// What names of columns mean.
-    pub map: Vec<Mapping>,
+    /// The names of arrays.
+    pub names: Names,
+    /// Whether norms are over points or over cells.
+    pub over: Option<Over>,
     /// The expected orders.
     pub orders: Orders,
     /// The column that means are taken by.
@@ -322,6 +325,16 @@ impl Setting<'_> {
         let text = |word: &str| quantities(&[word.to_owned()]).map_err(|error| error.to_string());
         let quantities = self.options(&study.quantity, "quantity", text)?.concat();
         let map = self.options(&study.map, "map", |word| word.parse::<Mapping>())?;
+        let columns = study.columns.iter().map(|word| word.value.clone()).collect();
+        let profile = |word: &Spanned<String>| {
+            let path = self.here.join(&word.value).to_string_lossy().into_owned();
+            let given = if word.value.ends_with(".toml") { &path } else { &word.value };
+            self.option(word, "from", profile::find(given).map_err(|error| format!("{error:#}")))
+        };
+        let profile = study.from.as_ref().map(profile).transpose()?;
+        let over = |word: &Spanned<String>| self.option(word, "over", Over::of(&word.value));
+        let over = study.over.as_ref().map(over).transpose()?;
+        let names = Names { map, columns, profile };
         let order = |word: &str| word.parse::<Order>().map_err(str::to_owned);
         let orders = Orders::new(&self.options(&study.order, "order", order)?, study.tolerance);
         let of = |word: &Spanned<String>| {
@@ -330,7 +343,7 @@ impl Setting<'_> {
         let weight = study.weight.as_ref().map(of).transpose()?;
         let start = |word: &Spanned<String>| self.option(word, "start", How::of(&word.value));
         let orders = Orders { start: study.start.as_ref().map(start).transpose()?, ..orders };
-        Ok(Judging { quantities, map, orders, weight })
+        Ok(Judging { quantities, names, over, orders, weight })
     }
 }
 

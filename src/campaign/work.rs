@@ -407,6 +407,7 @@ impl<'a> Work<'a> {
             );
             let (bytes, advice) = room(None);
             let wanted = wanted::Wanted::new(|_| Need::Numbers).within(bytes, advice);
+            let wanted = wanted.named(&planned.options.names.columns);
             mms_results::read(&path, &open, &wanted).map_err(placed)?;
         }
         let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);

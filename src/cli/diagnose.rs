@@ -15,11 +15,11 @@ use mms_diagnosis::exact::Quantity as Seen;
 use mms_diagnosis::material::Material;
 use mms_diagnosis::scene::{self, Evidence};
 use mms_diagnosis::solver::Solver;
-use mms_results::names::Mapping;
 use mms_runtime::Method;
 use mms_runtime::scene::Scene;
 use mms_spec::quantity::Quantity;
 
+use super::naming::Naming;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::diagnose::{Alone, Factors, Reading, falls, find, gradients, read};
 use crate::judge::table::{Order, Orders};
@@ -69,12 +69,8 @@ pub struct Diagnose {
     /// is the law alone, in a table of F and P, S, sigma or tau; `tangent` likewise, in one of F and DDSDDE.
     #[arg(long, value_name = "NAME,..|stress|tangent", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// A quantity, and the columns that it is in, as for `mms judge`. May be repeated.
-    #[arg(long, value_name = "QUANTITY=COLUMN,..")]
-    map: Vec<Mapping>,
-    /// The names of the columns of a table without a header, in their order, as in `X,Y,u_x,u_y`; a header is replaced.
-    #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
-    columns: Vec<String>,
+    #[command(flatten)]
+    naming: Naming,
     /// The memory that reading a file may take, in MB; without it what is free.
     #[arg(long, value_name = "MB")]
     max_memory: Option<u64>,
@@ -195,17 +191,16 @@ impl Diagnose {
         let provenance = this_command("diagnose", input.provenance(&self.set));
         let mut exact = Exact::new(input, &self.set)?;
         let (law, wanted) = self.quantities()?;
-        let all =
-            self.files.iter().map(|file| find(file, &self.map, &self.columns, self.max_memory));
+        let names = self.naming.names()?;
+        let all = self.files.iter().map(|file| find(file, &names, self.max_memory));
         let mut all = all.collect::<anyhow::Result<Vec<_>>>()?;
         all.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
-        let right =
-            self.reference.iter().map(|file| find(file, &self.map, &self.columns, self.max_memory));
+        let right = self.reference.iter().map(|file| find(file, &names, self.max_memory));
         let mut right = right.collect::<anyhow::Result<Vec<_>>>()?;
         right.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
         let reading = Reading {
             right: &right,
-            map: &self.map,
+            names: &names,
             times: &self.time,
             rest: scene::is_at_rest(&scene).then_some(exact.window[1]),
             sizes: &self.h,

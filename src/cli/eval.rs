@@ -12,13 +12,13 @@ use mms_mechanics::{Output, Program};
 use mms_program::interpret::{Interpreter, Number, Point};
 use mms_program::precise::Precise;
 use mms_program::precision::Precision;
-use mms_results::names::Mapping;
 use mms_runtime::math::{Double, Scalar as _};
 use mms_spec::foreign::{Foreign, shown};
 use mms_spec::quantity::Quantity;
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
+use super::naming::Naming;
 use super::{Outcome, print, print_json, say};
 use crate::session::input::{Input, Variant, evaluated, precision};
 use crate::session::plane::{self, Beyond, SPACE, nine};
@@ -44,9 +44,8 @@ pub struct Eval {
     /// At the points of this file instead, which are X, or x and u: CSV with a header, VTK or NumPy, by its content.
     #[arg(long, value_name = "FILE")]
     points: Option<String>,
-    /// A quantity of the points file, and the columns that it is in, as in X=x0,y0. May be repeated.
-    #[arg(long, value_name = "QUANTITY=COLUMN,..", requires = "points")]
-    map: Vec<Mapping>,
+    #[command(flatten)]
+    naming: Naming,
     /// The time.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: String,
@@ -301,7 +300,7 @@ impl Eval {
         let Some(path) = &self.points else {
             return self.at.iter().map(|at| coordinates("--at", at, dimension)).collect();
         };
-        let points = Points::of_file(path, &self.map, dimension, &|_| 0.0)?;
+        let points = Points::of_file(path, &self.naming.names()?, dimension, &|_| 0.0)?;
         let point = |point: &[f64]| point.iter().map(|it| T::from_f64(*it)).collect();
         Ok(points.reference.chunks(dimension).map(point).collect())
     }

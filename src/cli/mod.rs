@@ -23,6 +23,7 @@ mod follow;
 mod judge;
 mod list;
 mod methods;
+mod naming;
 mod new;
 mod report;
 mod run;

@@ -7,12 +7,12 @@ use clap::{ArgGroup, Args};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Options, Selection};
 use mms_mechanics::extent::is_between;
-use mms_results::names::Mapping;
 use mms_runtime::Division;
 use mms_runtime::scene::usual_cells;
 use mms_spec::quantity::Quantity;
 use serde_json::json;
 
+use super::naming::Naming;
 use super::{Outcome, print, print_json, spare};
 use crate::session::exact::Exact;
 use crate::session::input::{Input, Variant, evaluated};
@@ -47,9 +47,8 @@ pub struct State {
     /// Particles per cell along each axis, as in 2 or 3x2.
     #[arg(long, value_name = "N[xN..]", default_value_t = PER_CELL, conflicts_with = "points")]
     particles_per_cell: Division,
-    /// A quantity of the points file, and the columns that it is in, as in X=x0,y0. May be repeated.
-    #[arg(long, value_name = "QUANTITY=COLUMN,..")]
-    map: Vec<Mapping>,
+    #[command(flatten)]
+    naming: Naming,
     /// Take the given points as x, and find the X that are there at each time. That it is one, and one alone, is proved in
     /// interval arithmetic; two are both named.
     #[arg(long)]
@@ -154,16 +153,18 @@ impl State {
 
     fn given(&self, exact: &Exact) -> anyhow::Result<Given> {
         let dimension = exact.dimension;
+        let names = self.naming.names()?;
         match (&self.points, &self.cells) {
             (Some(path), _) if self.at_present => {
-                Ok(Given::Present(Box::new(Places::of_file(path, &self.map, dimension)?)))
+                Ok(Given::Present(Box::new(Places::of_file(path, &names, dimension)?)))
             }
             (Some(path), _) => {
                 let outside = |point: &[f64]| exact.body.distance(point);
-                Ok(Given::Reference(Points::of_file(path, &self.map, dimension, &outside)?))
+                Ok(Given::Reference(Points::of_file(path, &names, dimension, &outside)?))
             }
-            (None, _) if self.at_present || !self.map.is_empty() => {
-                let option = if self.at_present { "--at-present" } else { "--map" };
+            (None, _) if self.at_present || self.naming.given().is_some() => {
+                let option = self.naming.given().filter(|_| !self.at_present);
+                let option = option.unwrap_or("--at-present");
                 bail!("`{option}`: it is about points of a file; name one with `--points FILE`")
             }
             (None, cells) => {

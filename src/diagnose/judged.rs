@@ -6,7 +6,7 @@ use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
 use super::Reading;
-use crate::judge::results::{Comparison, Reading as Judging, Results, measure};
+use crate::judge::results::{Comparison, Over, Reading as Judging, Results, measure};
 use crate::judge::table::Orders;
 use crate::judge::worst;
 use crate::session::exact::Exact;
@@ -26,12 +26,12 @@ pub fn falls(
         return Ok(None);
     }
     let judging = Judging {
-        map: reading.map,
-        columns: &[],
+        names: reading.names,
         wanted,
         weight: None,
         memory: None,
         is_part: false,
+        over: Some(Over::Cells),
     };
     let has_times = all.iter().flat_map(|it| &it.snapshots).all(|it| it.time.is_some());
     let given: Vec<f64> = match reading.times {

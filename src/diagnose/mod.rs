@@ -14,7 +14,7 @@ use mms_diagnosis::state::{Computed, Response};
 use mms_diagnosis::table::Measure;
 use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, resolve};
-use mms_results::names::{Mapping, Meaning, Role, Values, recognise, wanted};
+use mms_results::names::{Meaning, Names, Profile, Role, Values, recognise, wanted};
 use mms_results::{Snapshot, Stored};
 use mms_spec::quantity;
 
@@ -27,8 +27,8 @@ use crate::session::exact::Exact;
 
 /// How results are read.
 pub struct Reading<'a> {
-    /// What the user says of names.
-    pub map: &'a [Mapping],
+    /// The names of arrays.
+    pub names: &'a Names,
     /// Times of results that have none.
     pub times: &'a [f64],
     /// A time of a field in which nothing moves, for results that have none.
@@ -95,14 +95,9 @@ pub enum Alone {
 ///
 /// # Errors
 /// As of [`Results::find`].
-pub fn find(
-    given: &str,
-    map: &[Mapping],
-    columns: &[String],
-    memory: Option<u64>,
-) -> anyhow::Result<Results> {
+pub fn find(given: &str, names: &Names, memory: Option<u64>) -> anyhow::Result<Results> {
     let (room, advice) = room(memory);
-    Results::find(given, &wanted(map, &|_| true).within(room, advice).named(columns))
+    Results::find(given, &wanted(names, &|_| true).within(room, advice))
 }
 
 /// Reads files: from coarse to fine.
@@ -172,8 +167,17 @@ fn meanings(
     reading: &Reading<'_>,
     dimension: usize,
 ) -> anyhow::Result<Vec<Meaning>> {
-    let mut found = recognise(snapshot, reading.map, &|_| true).map_err(placed)?;
-    found.retain(|meaning| !meaning.is_other_scalar(snapshot, dimension));
+    // A law alone has the symbols of this project; results of other codes may call another stress S.
+    let profile = reading.names.profile.clone().or_else(|| Some(Profile::symbols()));
+    let symbols = Names { profile, ..reading.names.clone() };
+    let (names, wants): (_, &dyn Fn(Role) -> bool) = match reading.law {
+        Some(_) => (&symbols, &|_| true),
+        None => (reading.names, &|role| !MEASURES.iter().any(|(it, _)| *it == role)),
+    };
+    let mut found = recognise(snapshot, names, wants).map_err(placed)?;
+    if reading.law.is_none() {
+        found.retain(|meaning| meaning.unlike(snapshot, dimension, None).is_none());
+    }
     Ok(found)
 }
 

@@ -5,14 +5,14 @@ use std::borrow::Cow;
 use anyhow::{bail, ensure};
 use mms_analysis::present::{Inverse, Unplaced};
 use mms_results::motion::resolve;
-use mms_results::names::{Mapping, Role, Values, everything, recognise};
+use mms_results::names::{Names, Role, Values, everything, recognise};
 use mms_results::{Array, Cells, Snapshot};
 use mms_runtime::scene::{Layout, Scene};
 use mms_runtime::{Division, Setup};
 use mms_spec::Face;
 use mms_spec::foreign::shown;
 
-use crate::judge::results::{Results, placed};
+use crate::judge::results::{Results, placed, without_positions};
 use crate::session::exact::{Exact, says};
 use crate::session::method::memory;
 
@@ -96,17 +96,20 @@ impl Points {
     /// What is wrong with the file, or points outside the body, and where.
     pub fn of_file(
         path: &str,
-        map: &[Mapping],
+        names: &Names,
         dimension: usize,
         outside: &dyn Fn(&[f64]) -> f64,
     ) -> anyhow::Result<Self> {
-        let mut snapshot = one(path, map)?;
-        let meanings = recognise(&snapshot, map, &is_place).map_err(placed)?;
+        let mut snapshot = one(path, names)?;
+        let meanings = recognise(&snapshot, names, &is_place).map_err(placed)?;
+        if meanings.iter().all(|it| matches!(it.role, Role::Displacement | Role::Volume)) {
+            return Err(without_positions(&snapshot, dimension, outside));
+        }
         let motion = resolve(&snapshot, &meanings, dimension, outside, None).map_err(placed)?;
         let how = format!("`{}`: {}", shown(path), motion.how);
         let rounding = motion.reference.rounding;
         let reference = motion.reference.numbers.into_owned();
-        let volume = volume(&snapshot, map)?;
+        let volume = volume(&snapshot, names)?;
         let cells = std::mem::take(&mut snapshot.cells);
         Ok(Points { reference, rounding, volume, cells, how })
     }
@@ -122,13 +125,13 @@ impl Places {
     ///
     /// # Errors
     /// What is wrong with the file.
-    pub fn of_file(path: &str, map: &[Mapping], dimension: usize) -> anyhow::Result<Self> {
-        let snapshot = one(path, map)?;
-        let meanings = recognise(&snapshot, map, &is_place).map_err(placed)?;
+    pub fn of_file(path: &str, names: &Names, dimension: usize) -> anyhow::Result<Self> {
+        let snapshot = one(path, names)?;
+        let meanings = recognise(&snapshot, names, &is_place).map_err(placed)?;
         let named = |role| meanings.iter().find(move |it| it.role == role);
         let roles = [Role::Position, Role::Place, Role::Reference];
         let Some(found) = roles.into_iter().find_map(named) else {
-            bail!("`{}`: no positions; name them with `--map x=..`", shown(path))
+            return Err(without_positions(&snapshot, dimension, &|_| 0.0));
         };
         let present = found.values(&snapshot, dimension).map_err(placed)?;
         ensure!(
@@ -137,7 +140,7 @@ impl Places {
             shown(path)
         );
         let present = present.into_owned();
-        Ok(Places { present, volume: volume(&snapshot, map)?, snapshot })
+        Ok(Places { present, volume: volume(&snapshot, names)?, snapshot })
     }
 
     /// The points that are there at a time.
@@ -177,8 +180,8 @@ fn unplaced(x: &[f64], time: f64, why: &Unplaced) -> String {
 }
 
 /// The one result of a file.
-fn one(path: &str, map: &[Mapping]) -> anyhow::Result<Snapshot> {
-    let wanted = everything(map).within(memory(), "name a file of fewer points");
+fn one(path: &str, names: &Names) -> anyhow::Result<Snapshot> {
+    let wanted = everything(names).within(memory(), "name a file of fewer points");
     let mut found = Results::find(path, &wanted)?.snapshots;
     ensure!(
         found.len() == 1,
@@ -197,14 +200,14 @@ fn is_place(role: Role) -> bool {
 }
 
 /// V0: the array of that name, or the volume, which is that of points at X.
-fn volume(snapshot: &Snapshot, map: &[Mapping]) -> anyhow::Result<Option<Vec<f64>>> {
+fn volume(snapshot: &Snapshot, names: &Names) -> anyhow::Result<Option<Vec<f64>>> {
     let is_named = |array: &&Array| array.name == "reference_volume" && array.components == 1;
     let own = snapshot.of_points.iter().find(is_named).map(|array| array.values.clone());
     let found = match own {
         Some(values) => Some(values),
         None => {
             let meanings =
-                recognise(snapshot, map, &|role| role == Role::Volume).map_err(placed)?;
+                recognise(snapshot, names, &|role| role == Role::Volume).map_err(placed)?;
             let meaning = meanings.iter().find(|it| it.role == Role::Volume);
             let values = meaning.map(|it| it.values(snapshot, 1)).transpose().map_err(placed)?;
             values.filter(|it| !it.is_of_cells).map(|it| it.numbers.into_owned())

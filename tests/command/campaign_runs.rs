@@ -326,3 +326,29 @@ fn a_run_that_is_left_over_shares_no_folder_with_its_successor() {
     assert!(is_there(&number), "it is at work, and changes nothing");
     assert!(Command::new("kill").args(["-KILL", number.trim()]).status().expect("kill").success());
 }
+
+#[test]
+fn columns_and_profiles_name_the_arrays_of_a_solver() {
+    let folder = Folder::new();
+    let values = "0.25,0.0875\\n0.5,0.15\\n0.75,0.1875\\n";
+    program(&folder, "bare", &format!("#!/bin/sh\nprintf '{values}' > \"$1/u.csv\"\n"));
+    program(&folder, "odd", &format!("#!/bin/sh\nprintf 'p,q\\n{values}' > \"$1/u.csv\"\n"));
+    folder.write("own.toml", "source = 'a test'\n[quantities]\nX = 'p'\nu = 'q'\n");
+    for (solver, keys) in [("bare", "columns = [\"X\", \"u\"]"), ("odd", "from = \"./own.toml\"")] {
+        let text = campaign(&format!("./{solver} {{output}}"), "");
+        folder.write("c.toml", &format!("{text}{keys}\n"));
+        done(&folder, "c.toml").prints("norms of u");
+        folder.write("c.toml", &text);
+        let run = folder.run(&["campaign", "c.toml", "--store", "other"]);
+        assert!(!run.stdout.contains("norms of u"), "{run}");
+    }
+    let text = campaign("./odd {output}", "");
+    for (key, said) in [
+        ("from = \"nobody\"", "no profile of that name"),
+        ("over = \"lines\"", "expected points or cells"),
+    ] {
+        folder.write("c.toml", &format!("{text}{key}\n"));
+        let run = folder.run(&["campaign", "c.toml"]).exits(2);
+        run.complains(said).complains("c.toml:8:");
+    }
+}

@@ -147,7 +147,7 @@ fn columns_without_a_header_are_named_by_an_option() {
     let names = text.lines().next().expect("a header");
     folder.write("bare.dat", &rows);
     let judge = |rest: &str| folder.mms(&format!("judge travelling_wave_2d bare.dat {rest}"));
-    judge("").exits(2).complains("`--columns X,u,..` to `judge` or `diagnose`");
+    judge("").exits(2).complains("`--columns X,u,..`");
     judge(&format!("--columns {names}")).exits(0).prints("exact to round-off");
     let diagnose = format!("diagnose travelling_wave_2d bare.dat --columns {names}");
     folder.mms(&diagnose).exits(0).prints("nothing");

@@ -295,8 +295,8 @@ fn what_is_wrong_is_said_with_its_line() {
         "a.csv:2: `X` has a component of 0.5 beyond the 1 of the field",
     );
     said("X,u\n0.5,0\n", "1 of its 1 results have no time");
-    said("time,u\n0.01,0\n", "X is not known: give it, or x and u");
-    said("time,X,temperature\n0.01,0.5,0\n", "no quantity that can be judged");
+    said("time,u\n0.01,0\n", "no positions found: expected X, or x and u");
+    said("time,X,temperature\n0.01,0.5,0\n", "no quantity found that can be judged");
     said(
         "time,X,u,displacement\n0.01,0.5,0,0\n",
         "both `u` and `displacement` may be displacement",

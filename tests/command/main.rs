@@ -21,6 +21,7 @@ mod form;
 mod judge;
 mod judge_evidence;
 mod judge_files;
+mod judge_names;
 mod judge_orders;
 mod judge_quantities;
 mod judge_results;

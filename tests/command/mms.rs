@@ -74,7 +74,7 @@ impl Folder {
 /// One run of the program.
 pub struct Run {
     command: String,
-    code: i32,
+    pub code: i32,
     pub stdout: String,
     pub stderr: String,
 }

@@ -11,6 +11,8 @@ mod tecplot;
 mod text;
 mod xml;
 
+pub use table::is_time;
+
 use std::path::Path;
 
 use crate::wanted::Wanted;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::text::{Style, number, settle, with_point};
+use super::text::{Style, number, settle, with_point, without_unit};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
@@ -28,6 +28,7 @@ struct Table {
     columns: Vec<Array>,
     lines: Vec<usize>,
     unread: Vec<String>,
+    units: Vec<(String, String)>,
 }
 
 /// A line that is neither empty nor a comment, or the header.
@@ -125,8 +126,8 @@ pub fn block(names: Line<'_>, rows: &[Line<'_>], wanted: &Wanted<'_>) -> Result<
         columns.push(*line, text, Separator::Blanks)?;
     }
     let lines = rows.iter().map(|(line, _)| *line).collect();
-    let Table { columns: of_points, lines, unread } = columns.table(lines);
-    Ok(Snapshot { of_points, lines, unread, ..Snapshot::default() })
+    let Table { columns: of_points, lines, unread, units } = columns.table(lines);
+    Ok(Snapshot { of_points, lines, unread, units, ..Snapshot::default() })
 }
 
 /// The time that a comment says, as in `# time = 0.1` or `# step 5, t = 0.1`. That of a day, as 12:30, and of a processor are none.
@@ -259,9 +260,11 @@ impl<'a> Header<'a> {
             names.insert(0, "");
         }
         let mut seen = BTreeSet::new();
-        let (mut all, mut unread) = (Vec::new(), Vec::new());
+        let (mut all, mut unread, mut units) = (Vec::new(), Vec::new(), Vec::new());
         // No name is no quantity: programs write indices so.
         for (at, name) in names.iter().copied().enumerate().filter(|(_, name)| !name.is_empty()) {
+            let (name, unit) = without_unit(name);
+            units.extend(unit.map(|unit| (name.to_owned(), unit.to_owned())));
             if !seen.insert(name) {
                 let what = format!("two columns are called `{name}`");
                 return Err(Mistake::at(self.line, what));
@@ -272,7 +275,7 @@ impl<'a> Header<'a> {
             }
         }
         let count = names.len();
-        Ok(Columns { count, has_end, index, all, unread, points: None, commas: None })
+        Ok(Columns { count, has_end, index, all, unread, units, points: None, commas: None })
     }
 }
 
@@ -294,7 +297,7 @@ fn header<'a>(comment: Option<Line<'a>>, first: Option<Line<'a>>) -> Result<Head
     let header = Header::of(first);
     if header.names().all(is_number) {
         let what = "expected names of columns, as in `X,u`, and found numbers; add a header, or give \
-                    `--columns X,u,..` to `judge` or `diagnose`";
+                    `--columns X,u,..` (in a campaign, `columns`)";
         return Err(Mistake::at(header.line, what));
     }
     Ok(header)
@@ -309,6 +312,7 @@ struct Columns {
     index: Option<u64>,
     all: Vec<Column>,
     unread: Vec<String>,
+    units: Vec<(String, String)>,
     /// The first lines with a decimal point and with a decimal comma.
     points: Option<usize>,
     commas: Option<usize>,
@@ -364,7 +368,7 @@ impl Columns {
     }
 
     fn table(self, lines: Vec<usize>) -> Table {
-        let Columns { all, mut unread, .. } = self;
+        let Columns { all, mut unread, units, .. } = self;
         let (read, rest): (Vec<_>, Vec<_>) =
             all.into_iter().partition(|it| it.is_stored() && it.word.is_none());
         unread.extend(rest.into_iter().map(|it| it.name));
@@ -375,7 +379,7 @@ impl Columns {
         let mut columns: Vec<Array> = read.into_iter().map(array).collect();
         let single = vec![false; columns.len()];
         settle(&mut columns.iter_mut().collect::<Vec<_>>(), &single);
-        Table { columns, lines, unread }
+        Table { columns, lines, unread, units }
     }
 }
 
@@ -436,8 +440,8 @@ impl Column {
 /// A table as the snapshots of its times.
 fn by_time(mut table: Table) -> Result<Vec<Snapshot>, Mistake> {
     let Some(column) = table.columns.iter().position(|column| is_time(&column.name)) else {
-        let Table { columns: of_points, lines, unread } = table;
-        return Ok(vec![Snapshot { of_points, lines, unread, ..Snapshot::default() }]);
+        let Table { columns: of_points, lines, unread, units } = table;
+        return Ok(vec![Snapshot { of_points, lines, unread, units, ..Snapshot::default() }]);
     };
     let times = table.columns.remove(column);
     let mut rows: Vec<usize> = (0..table.lines.len()).collect();
@@ -486,6 +490,7 @@ fn at_time(table: &Table, times: &Array, rows: &[usize]) -> Snapshot {
         of_points: table.columns.iter().map(part).collect(),
         lines: rows.iter().map(|&row| table.lines[row]).collect(),
         unread: table.unread.clone(),
+        units: table.units.clone(),
         ..Snapshot::default()
     }
 }

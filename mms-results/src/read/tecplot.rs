@@ -1,6 +1,6 @@
 //! ASCII files of Tecplot: zones of points, ordered or with cells ("Data Format Guide", Tecplot Inc.).
 
-use super::text::{Style, number, settle};
+use super::text::{Style, number, settle, without_unit};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Cells, Mistake, Snapshot, Time};
 
@@ -247,6 +247,11 @@ impl Zone {
         }
         let mut snapshot = Snapshot { time: self.time, ..Snapshot::default() };
         let mut columns: Vec<Option<(Vec<f64>, Style)>> = Vec::new();
+        let named: Vec<_> = names.iter().map(|name| without_unit(name)).collect();
+        let names: Vec<String> = named.iter().map(|(name, _)| (*name).to_owned()).collect();
+        let units =
+            named.iter().filter_map(|(name, unit)| Some(((*name).to_owned(), (*unit)?.to_owned())));
+        snapshot.units = units.collect();
         for (at, name) in names.iter().enumerate() {
             if names[..at].contains(name) {
                 return Err(Mistake::at(self.line, format!("two variables are called `{name}`")));

@@ -2,6 +2,22 @@
 
 use crate::{Array, Stored};
 
+/// The name of a column, and the unit in brackets behind it, as in `u_x [mm]`. A component in brackets is no unit.
+pub fn without_unit(text: &str) -> (&str, Option<&str>) {
+    let close = |open: char| if open == '[' { ']' } else { ')' };
+    let found = text.rfind(['[', '(']).and_then(|at| {
+        let open = text[at..].chars().next()?;
+        let inside = text[at + 1..].strip_suffix(close(open))?.trim();
+        Some((text[..at].trim_end(), inside))
+    });
+    let is_component =
+        |it: &str| it.bytes().all(|byte| byte.is_ascii_digit() || b"xyzXYZ, ".contains(&byte));
+    match found {
+        Some((name, unit)) if !name.is_empty() && !is_component(unit) => (name, Some(unit)),
+        _ => (text, None),
+    }
+}
+
 /// What a number of the text is like.
 #[derive(Clone, Copy, Debug, Default)]
 struct Written {

@@ -5,14 +5,18 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use mms_convergence::Verdict;
-use mms_results::names::{Mapping, Role, everything};
+use mms_results::names::{Names, Role, everything};
 use mms_spec::foreign;
 use mms_spec::foreign::shown;
+use mms_spec::quantity::Quantity;
+use serde_json::json;
 
+use super::super::naming::Naming;
 use super::super::{Outcome, say, this_command};
 use super::{Judge, outcome};
 use crate::judge::results::{
-    Baseline, Comparison, Measurement, Reading, Results, Start, measure, room, same, weight,
+    Baseline, Comparison, Explained, Measurement, Over, Reading, Results, Start, measure, room,
+    same, weight,
 };
 use crate::judge::table::Orders;
 use crate::read::{self, Kind};
@@ -24,13 +28,8 @@ use crate::session::method::{finite, length};
 /// How results are read.
 #[derive(Args)]
 pub struct Options {
-    /// A quantity, and the columns that it is in: `X=x0,y0`, `u=disp`, `sigma=stress:0,stress:3,..` for components, counted
-    /// from 0; `points` are the places of points in VTK, `cells:NAME` is an array of cells. May be repeated.
-    #[arg(long, value_name = "QUANTITY=COLUMN,..")]
-    map: Vec<Mapping>,
-    /// The names of the columns of a table without a header, in their order, as in `X,Y,u_x,u_y`; a header is replaced.
-    #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
-    columns: Vec<String>,
+    #[command(flatten)]
+    naming: Naming,
     /// The quantities to judge, by name or symbol, separated by commas; without it all that are found.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     quantity: Vec<String>,
@@ -44,6 +43,13 @@ pub struct Options {
     /// Let results cover a part of the body: a symmetric half, a line, a probe. The verdict says that they do.
     #[arg(long, requires = "field")]
     part: bool,
+    /// Take norms over `points` or over `cells`. A quadratic solution that was written on linear cells is judged over points.
+    #[arg(long, value_name = "points|cells", requires = "field", value_parser = Over::of)]
+    over: Option<Over>,
+    /// Print how each FILE is read and why, and judge nothing: its format, times, points and cells, the array of each quantity,
+    /// the order of components, and what is left out.
+    #[arg(long, requires = "field")]
+    explain: bool,
     /// The times to judge at, also in place of those that files print with fewer digits; or those of the results, where files
     /// have none.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
@@ -90,6 +96,9 @@ impl Judge {
         }
         let input = Input::find(field, &options.variant)?;
         let mut exact = Exact::new(input, &options.set)?.in_space_if(options.all_components);
+        if options.explain {
+            return self.explain(&mut exact);
+        }
         let measurement = self.measured(&mut exact, &self.orders())?;
         measurement.warnings.iter().for_each(|warning| say(format_args!("warning: {warning}")));
         if let Some(path) = &options.baseline {
@@ -100,20 +109,46 @@ impl Judge {
         self.tell(&report)
     }
 
-    fn measured(&self, exact: &mut Exact, orders: &Orders) -> anyhow::Result<Measurement> {
-        let options = &self.results;
-        let wanted = match options.quantity.as_slice() {
+    /// Prints how each file is read.
+    fn explain(&self, exact: &mut Exact) -> anyhow::Result<Outcome> {
+        let (names, wanted) = self.asked()?;
+        let reading = self.reading(&names, &wanted);
+        let mut all = Vec::new();
+        for file in &self.files {
+            let mut results = reading.find(file, exact)?;
+            all.push(Explained::new(&mut results, &reading, exact)?);
+        }
+        let texts: Vec<String> = all.iter().map(Explained::text).collect();
+        let documents: Vec<_> = all.iter().map(Explained::document).collect();
+        self.show((texts.join("\n"), json!({ "files": documents })))?;
+        Ok(Outcome::AsExpected)
+    }
+
+    /// The names of arrays, and the quantities that are asked for.
+    fn asked(&self) -> anyhow::Result<(Names, Vec<Quantity>)> {
+        let wanted = match self.results.quantity.as_slice() {
             [] => Vec::new(),
             names => evaluated(names)?,
         };
-        let reading = Reading {
-            map: &options.map,
-            columns: &options.columns,
-            wanted: &wanted,
+        Ok((self.results.naming.names()?, wanted))
+    }
+
+    fn reading<'a>(&self, names: &'a Names, wanted: &'a [Quantity]) -> Reading<'a> {
+        let options = &self.results;
+        Reading {
+            names,
+            wanted,
             weight: options.weight,
             memory: options.max_memory,
             is_part: options.part,
-        };
+            over: options.over,
+        }
+    }
+
+    fn measured(&self, exact: &mut Exact, orders: &Orders) -> anyhow::Result<Measurement> {
+        let options = &self.results;
+        let (names, wanted) = self.asked()?;
+        let reading = self.reading(&names, &wanted);
         let all = self
             .files
             .iter()
@@ -151,13 +186,9 @@ impl Judge {
     pub(super) fn same(&self) -> anyhow::Result<Outcome> {
         let [a, b] = self.results.same.as_slice() else { bail!("`--same`: expected two results") };
         let (room, advice) = room(self.results.max_memory);
-        let find = |given| {
-            Results::find(
-                given,
-                &everything(&self.results.map).within(room, advice).named(&self.results.columns),
-            )
-        };
-        let found = same(&find(a)?, &find(b)?, &self.results.map)?;
+        let names = self.results.naming.names()?;
+        let find = |given| Results::find(given, &everything(&names).within(room, advice));
+        let found = same(&find(a)?, &find(b)?, &names)?;
         self.show(differences(a, b, &found))?;
         Ok(if found.is_finite() { Outcome::AsExpected } else { Outcome::Refuted })
     }

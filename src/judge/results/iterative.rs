@@ -82,7 +82,7 @@ fn differences(
     reading: &Reading<'_>,
     exact: &Exact,
 ) -> anyhow::Result<Vec<(Quantity, [f64; 3])>> {
-    let (pairs, _) = pairing::points(one, other, reading.map).map_err(placed)?;
+    let (pairs, _) = pairing::points(one, other, reading.names).map_err(placed)?;
     let (of_one, of_other) = (reading.all(one, exact)?, reading.all(other, exact)?);
     let mut found = Vec::new();
     for (quantity, a) in &of_one {

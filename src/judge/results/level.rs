@@ -3,13 +3,16 @@
 use anyhow::{anyhow, bail};
 use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, hold_distinct, resolve};
-use mms_results::names::{Form, Mapping, Meaning, Role, Values, all_names, recognise, wanted};
-use mms_results::{Snapshot, Stored};
+use mms_results::names::{
+    Form, Meaning, Names, Role, Values, all_names, everything, recognise, wanted,
+};
+use mms_results::{Snapshot, Stored, suggestion};
 use mms_spec::quantity::Quantity;
 
 use super::extent::{self, Covered};
 use super::files::{Results, placed, room};
 use super::taken::Taken;
+use super::units;
 use crate::session::exact::Exact;
 
 /// Over what a norm is taken.
@@ -64,6 +67,29 @@ impl Sampling {
     }
 }
 
+/// The points or the cells over which norms are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Over {
+    /// The points, all alike.
+    Points,
+    /// The cells, whose functions carry the values of their points.
+    Cells,
+}
+
+impl Over {
+    /// The one of that name.
+    ///
+    /// # Errors
+    /// Another name.
+    pub fn of(name: &str) -> Result<Self, String> {
+        match name {
+            "points" => Ok(Over::Points),
+            "cells" => Ok(Over::Cells),
+            _ => Err("expected points or cells".into()),
+        }
+    }
+}
+
 /// An error, and what rounding of the file alone may leave of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measure {
@@ -88,6 +114,8 @@ pub struct Errors {
     pub stored: Stored,
     /// The largest exact number.
     pub largest: f64,
+    /// The root mean square over points, of errors over cells.
+    pub at_points: Option<f64>,
     /// The root mean square of its iterative error, where that is known.
     pub iterative: Option<f64>,
     /// The floor that the digits of a time make, and that time.
@@ -98,10 +126,8 @@ pub struct Errors {
 
 /// How snapshots are read.
 pub struct Reading<'a> {
-    /// What the user says of names.
-    pub map: &'a [Mapping],
-    /// The names of the columns of tables without a header.
-    pub columns: &'a [String],
+    /// The names of arrays.
+    pub names: &'a Names,
     /// The quantities that are wanted; all, if there are none.
     pub wanted: &'a [Quantity],
     /// Weights of points.
@@ -110,6 +136,8 @@ pub struct Reading<'a> {
     pub memory: Option<u64>,
     /// Whether a part of the body is enough.
     pub is_part: bool,
+    /// Whether norms are over points or over cells; without it over cells if there are such.
+    pub over: Option<Over>,
 }
 
 /// What was found in a snapshot.
@@ -141,6 +169,23 @@ pub fn weight(text: &str) -> Result<Role, &'static str> {
     role.ok_or("expected volume or mass; `--map volume=NAME` says which column that is")
 }
 
+/// The mistake of a file without positions: all its arrays, and the option that names the columns that may be X.
+pub fn without_positions(
+    whole: &Snapshot,
+    dimension: usize,
+    outside: &dyn Fn(&[f64]) -> f64,
+) -> anyhow::Error {
+    let option = suggestion::positions(whole, dimension, outside).map_or_else(
+        || "name them with `--map X=..`; no columns lie in the body".into(),
+        |it| format!("name them, as with {it}: these lie in the body"),
+    );
+    anyhow!(
+        "{}: no positions found: expected X, or x and u; the file has {}; {option}",
+        whole.path,
+        all_names(whole)
+    )
+}
+
 /// The quantity of the compiler that this is.
 fn quantity(role: Role) -> Option<Quantity> {
     Quantity::from_name(role.name())
@@ -167,7 +212,7 @@ impl Reading<'_> {
     pub fn find(&self, given: &str, exact: &Exact) -> anyhow::Result<Results> {
         let (room, advice) = room(self.memory);
         let wants = |role: Role| self.wants(role, exact);
-        let wanted = wanted(self.map, &wants).within(room, advice).named(self.columns);
+        let wanted = wanted(self.names, &wants).within(room, advice);
         Results::find(given, &wanted)
     }
 
@@ -198,8 +243,7 @@ impl Reading<'_> {
         exact: &mut Exact,
     ) -> anyhow::Result<Found> {
         let dimension = exact.dimension;
-        let meanings =
-            recognise(snapshot, self.map, &|role| self.wants(role, exact)).map_err(placed)?;
+        let meanings = self.meanings(snapshot, exact)?;
         let outside = |point: &[f64]| exact.body.distance(point);
         let motion = {
             let mut back = exact.back(time, snapshot.rows());
@@ -219,7 +263,7 @@ impl Reading<'_> {
         let mut taken = Taken {
             snapshot,
             mesh,
-            is_mesh: sizes.is_some(),
+            is_mesh: sizes.is_some() && self.over != Some(Over::Points),
             motion: &motion,
             time,
             rounding,
@@ -233,21 +277,34 @@ impl Reading<'_> {
             errors.push(taken.errors(Quantity::Displacement, u, weights)?);
         }
         for meaning in meanings.iter().filter(|it| self.is_judged(it, &motion)) {
-            if self.is_something_else(meaning, snapshot, dimension) {
-                let name = meaning.role.name();
-                passed_over.push(format!("{} (one number, and no {name})", meaning.source));
+            if let Some(why) = self.unlike(meaning, snapshot, &motion, taken.exact.rows()) {
+                passed_over.push(why);
                 continue;
             }
             // One after the other: all of them at once would take as much memory as the file.
             match quantity(meaning.role) {
                 Some(quantity) => {
                     let values = values(meaning, snapshot, taken.exact)?;
+                    taken.hold_density(meaning, &values)?;
                     errors.push(taken.errors(quantity, &values, weights)?);
                 }
                 None => passed_over.push(meaning.role.name().into()),
             }
         }
         errors.extend(taken.tractions(&meanings)?);
+        if errors.is_empty() && self.wanted.is_empty() {
+            let whole = self.whole(snapshot)?;
+            let known = recognise(&whole, self.names, &|role| self.wants(role, exact));
+            let known = known.map_err(placed)?;
+            let option = suggestion::quantity(&whole, dimension, Role::Displacement, &known);
+            let option = option.unwrap_or_else(|| "`--map u=..`".into());
+            bail!(
+                "{}: no quantity found that can be judged: expected u, or x and X, or another one; the file has {}; name \
+                 them, as with {option}",
+                snapshot.path,
+                all_names(&whole)
+            );
+        }
         let is_missing = |it: &&Quantity| errors.iter().all(|errors| errors.quantity != **it);
         if let Some(missing) = self.wanted.iter().find(is_missing) {
             bail!(
@@ -279,15 +336,15 @@ impl Reading<'_> {
         snapshot: &'b Snapshot,
         exact: &Exact,
     ) -> anyhow::Result<Vec<(Quantity, Values<'b>)>> {
-        let meanings =
-            recognise(snapshot, self.map, &|role| self.wants(role, exact)).map_err(placed)?;
+        let meanings = self.meanings(snapshot, exact)?;
         let outside = |point: &[f64]| exact.body.distance(point);
         let time = snapshot.time.map_or(exact.window[0], |time| time.value);
         let mut back = exact.back(time, snapshot.rows());
         let motion = resolve(snapshot, &meanings, exact.dimension, &outside, Some(&mut back))
             .map_err(placed)?;
         let judged = meanings.iter().filter(|it| {
-            self.is_judged(it, &motion) && !self.is_something_else(it, snapshot, exact.dimension)
+            self.is_judged(it, &motion)
+                && self.unlike(it, snapshot, &motion, exact.rows()).is_none()
         });
         let judged: Vec<&Meaning> = judged.collect();
         let u = motion.displacement.filter(|_| self.wants_u());
@@ -303,9 +360,56 @@ impl Reading<'_> {
         self.wanted.is_empty() || self.wanted.contains(&Quantity::Displacement)
     }
 
-    /// Whether an array is not the quantity that its name says: one number, and not asked for.
-    fn is_something_else(&self, meaning: &Meaning, snapshot: &Snapshot, dimension: usize) -> bool {
-        meaning.is_other_scalar(snapshot, dimension) && self.wanted.is_empty()
+    /// The reason why an array is not the quantity that its name says; none if it may be, or if the user asks for the quantity
+    /// or for all nine components.
+    pub(super) fn unlike(
+        &self,
+        meaning: &Meaning,
+        snapshot: &Snapshot,
+        motion: &Motion<'_>,
+        rows: usize,
+    ) -> Option<String> {
+        let points = motion.reference.numbers.len() / motion.reference.components;
+        let dimension = match meaning.role.form() {
+            Form::Tensor | Form::Symmetric => rows,
+            Form::Scalar | Form::Vector | Form::Voigt => motion.reference.components,
+        };
+        let is_asked = quantity(meaning.role).is_some_and(|it| self.wanted.contains(&it))
+            || dimension != motion.reference.components;
+        let why = meaning.unlike(snapshot, dimension, Some(points));
+        why.filter(|_| !is_asked)
+    }
+
+    /// The meanings of arrays, with positions among them.
+    ///
+    /// # Errors
+    /// A name that may mean two quantities, or no positions, with the columns that may be X.
+    pub(super) fn meanings(
+        &self,
+        snapshot: &Snapshot,
+        exact: &Exact,
+    ) -> anyhow::Result<Vec<Meaning>> {
+        let found = recognise(snapshot, self.names, &|role| self.wants(role, exact));
+        let found = found.map_err(placed)?;
+        let is_place =
+            |it: &Meaning| matches!(it.role, Role::Reference | Role::Position | Role::Place);
+        if found.iter().any(is_place) {
+            units::hold(snapshot, &found, exact)?;
+            return Ok(found);
+        }
+        let outside = |point: &[f64]| exact.body.distance(point);
+        Err(without_positions(&self.whole(snapshot)?, exact.dimension, &outside))
+    }
+
+    /// The snapshot with all its arrays, those with unknown names too.
+    fn whole(&self, snapshot: &Snapshot) -> anyhow::Result<Snapshot> {
+        let (room, advice) = room(self.memory);
+        let found = Results::find(&snapshot.path, &everything(self.names).within(room, advice))?;
+        let time = snapshot.time.map(|it| it.value);
+        let mut found = found.snapshots.into_iter();
+        let first = found.next();
+        let same = found.find(|it| it.time.map(|it| it.value) == time);
+        same.or(first).ok_or_else(|| anyhow!("{}: no results", snapshot.path))
     }
 
     /// Whether an array of that meaning is judged by itself: u if it is of cells, and else as it was found; x where it is asked

@@ -5,8 +5,10 @@
 //! [`baseline`] and [`same`] compare results with results; [`excluded`] finds the mistakes that a small error excludes.
 
 mod baseline;
+mod degree;
 mod excluded;
 mod expected;
+mod explained;
 mod extent;
 mod files;
 mod given;
@@ -18,6 +20,7 @@ mod start;
 mod taken;
 mod times;
 mod traction;
+mod units;
 
 use anyhow::{bail, ensure};
 use mms_spec::foreign::shown;
@@ -25,9 +28,10 @@ use mms_spec::quantity::Quantity;
 
 pub use baseline::{Baseline, Compared};
 pub use excluded::{Exclusions, exclusions};
+pub use explained::Explained;
 pub use extent::distances;
 pub use files::{Results, placed, room};
-pub use level::{Reading, Sampling, weight};
+pub use level::{Over, Reading, Sampling, weight, without_positions};
 pub use same::{Same, same};
 pub use start::Start;
 
@@ -116,11 +120,14 @@ pub fn measure(
     let mut warnings = Vec::new();
     let sizes = lengths(&levels, sizes, &mut notes, &mut warnings)?;
     notes.push(format!("X: {}", levels[0].found.how));
-    hold_evidence(&levels[0], &quantities)?;
+    hold_evidence(&levels[0], &quantities, reading.over)?;
     let degree = levels.iter().filter_map(|it| it.found.degree).min();
     notes.extend(remarks::order(degree, orders));
     let orders = &expected::named(orders).of_degree(degree);
     expected::hold_orders(&quantities, orders, has_steps)?;
+    if reading.over.is_none() {
+        degree::hold_linear(&levels, &sizes, orders)?;
+    }
     let lowered = Lowered::new(orders, (&levels, &sizes), exact)?;
     notes.extend(quantities.iter().filter_map(|(it, _)| lowered.note(*it, orders)));
     let all = quantities.clone();
@@ -194,11 +201,7 @@ fn level(
         }
     }
     match level {
-        Some(level) if !level.errors.is_empty() => Ok(level),
-        Some(_) => bail!(
-            "`{}`: no quantity that can be judged; it needs u, or x and X, or another one; name them with `--map u=..`",
-            results.name
-        ),
+        Some(level) => Ok(level),
         None => bail!("`{}`: no results", results.name),
     }
 }
@@ -218,6 +221,7 @@ impl Errors {
     /// Keeps the larger of each norm.
     fn raise(&mut self, other: Errors) {
         self.largest = self.largest.max(other.largest);
+        self.at_points = self.at_points.zip(other.at_points).map(|(a, b)| a.max(b));
         self.unit = self.unit.filter(|unit| other.unit == Some(*unit));
         self.is_given &= other.is_given;
         if other.of_time[0] > self.of_time[0] {
@@ -258,10 +262,14 @@ fn quantities(levels: &[Level]) -> anyhow::Result<Vec<(Quantity, Sampling)>> {
 }
 
 /// Refuses to judge a mesh by points or by middles of cells alone: orders there may be higher than elsewhere.
-fn hold_evidence(level: &Level, quantities: &[(Quantity, Sampling)]) -> anyhow::Result<()> {
+fn hold_evidence(
+    level: &Level,
+    quantities: &[(Quantity, Sampling)],
+    over: Option<Over>,
+) -> anyhow::Result<()> {
     let is_over_cells = quantities.iter().any(|(_, it)| *it == Sampling::Cells);
     ensure!(
-        level.found.sizes.is_none() || is_over_cells,
+        level.found.sizes.is_none() || is_over_cells || over == Some(Over::Points),
         "`{}`: only values at {} would be judged, where they may be more accurate than elsewhere (superconvergence); \
          judge a quantity of the points over the cells as well, such as u",
         shown(&level.name),

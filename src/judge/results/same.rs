@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use anyhow::{bail, ensure};
-use mms_results::names::Mapping;
+use mms_results::names::Names;
 use mms_results::pairing::{self, By, Pairs};
 use mms_results::{Array, Snapshot};
 
@@ -50,7 +50,7 @@ pub struct Same {
 ///
 /// # Errors
 /// Results of other times or of other points.
-pub fn same(a: &Results, b: &Results, map: &[Mapping]) -> anyhow::Result<Same> {
+pub fn same(a: &Results, b: &Results, names: &Names) -> anyhow::Result<Same> {
     ensure!(
         a.snapshots.len() == b.snapshots.len(),
         "`{}` has {} times, and `{}` {}",
@@ -67,7 +67,7 @@ pub fn same(a: &Results, b: &Results, map: &[Mapping]) -> anyhow::Result<Same> {
         {
             bail!("{}: t = {first}, and {second} in {}", one.path, other.path);
         }
-        same.compare(one, other, map)?;
+        same.compare(one, other, names)?;
     }
     for names in [&mut same.alone, &mut same.words] {
         names.sort();
@@ -82,7 +82,7 @@ impl Same {
         self.differences.iter().all(|it| it.largest.is_finite())
     }
 
-    fn compare(&mut self, one: &Snapshot, other: &Snapshot, map: &[Mapping]) -> anyhow::Result<()> {
+    fn compare(&mut self, one: &Snapshot, other: &Snapshot, names: &Names) -> anyhow::Result<()> {
         let [of_one, of_other] = [one, other].map(|it| arrays(it).collect::<Arrays<'_>>());
         for (from, to) in [(&of_one, &of_other), (&of_other, &of_one)] {
             let has = |name: &str| [true, false].iter().any(|of| to.contains_key(&(name, *of)));
@@ -90,7 +90,7 @@ impl Same {
             self.alone.extend(missing.map(|(name, _)| (*name).to_owned()));
         }
         self.words.extend(one.unread.iter().chain(&other.unread).cloned());
-        let (points, by) = pairing::points(one, other, map).map_err(placed)?;
+        let (points, by) = pairing::points(one, other, names).map_err(placed)?;
         let cells = pairing::cells(one, other, &points).map_err(placed)?;
         self.paired = match by {
             By::Number(name) => format!("by the number in `{name}`"),

@@ -4,7 +4,7 @@ use anyhow::{anyhow, bail};
 use mms_results::comparison::Comparison;
 use mms_results::mesh::Mesh;
 use mms_results::motion::Motion;
-use mms_results::names::Values;
+use mms_results::names::{Meaning, Role, Values, Why};
 use mms_results::norm::{largest, lengths};
 use mms_results::over_cells::{Asked, Carried};
 use mms_results::{Mistake, Snapshot, Stored};
@@ -49,6 +49,9 @@ pub struct AgainstExact<'a> {
 
 /// Points whose exact values are there at once: threads share them, and a cache holds them.
 const BLOCK: usize = 1 << 16;
+
+/// The distance of two densities that are alike, as a part of the largest.
+const NEAR: f64 = 1e-6;
 
 /// How many times the round-off of double precision a computation has at least.
 const ARITHMETIC: f64 = 16.0;
@@ -116,6 +119,37 @@ impl Taken<'_> {
         let floor = compared.floor;
         let norms = norms.map(|(name, error)| (name, Measure { error, floor })).to_vec();
         Ok(self.result(quantity, values, sampling, norms, compared))
+    }
+
+    /// Refuses a density by a name that leaves open whether it is the present or the reference one, if its numbers are the
+    /// reference density and the present one is another.
+    ///
+    /// # Errors
+    /// Such a density; an exact one that is not finite.
+    pub fn hold_density(&mut self, meaning: &Meaning, values: &Values<'_>) -> anyhow::Result<()> {
+        let is_open = meaning.role == Role::MassDensity && meaning.why == Why::Name;
+        let name = &meaning.source;
+        if !is_open || name == Role::MassDensity.name() || values.is_of_cells {
+            return Ok(());
+        }
+        let places = self.mesh.points;
+        let reference = self.exact.densities(places)?;
+        let present = self.exact.values(Quantity::MassDensity, self.time, places)?;
+        let near = |a: &[f64], b: &[f64]| {
+            let most = NEAR * largest(b) + 2.0 * values.rounding;
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= most)
+        };
+        if !near(&values.numbers, &reference) || near(&present, &reference) {
+            return Ok(());
+        }
+        let [least, most] = present
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], it| [a.min(*it), b.max(*it)]);
+        bail!(
+            "{}: `{name}` is the reference density of the field at all points, and the present one is {least:.6e} to \
+             {most:.6e}: say which it is with `--map rho0={name}`, which is given and not judged, or `--map rho={name}`",
+            self.snapshot.path
+        )
     }
 
     /// The values of the cells that have the dimension of the mesh.
@@ -229,6 +263,7 @@ impl Taken<'_> {
             norms,
             unit: compared.all.unit(),
             largest: compared.all.largest(),
+            at_points: compared.all.norms().map(|it| it.l2).filter(|_| sampling == Sampling::Cells),
             iterative: None,
             stored: values.stored,
             of_time: [compared.of_time, self.time],

@@ -1,0 +1,171 @@
+//! The profile of a code: how its files call quantities.
+//!
+//! ```toml
+//! source = "the public description that this file follows"
+//! points = "X"                          # or "x": decides where both lie in the body
+//! orders = ["11,22,33,12,23,13"]        # of symmetric tensors whose components have no names
+//!
+//! [quantities]                          # names of arrays, the usual one first
+//! u = ["DISP", "U"]
+//! sigma = "STRESS"
+//! ```
+
+use mms_spec::source::Spanned;
+use toml::de::DeValue;
+
+use crate::file::Mistakes;
+use crate::table::{Reader, Value};
+
+/// The rows and columns of a tensor's entries, counted from 0, in the order of an array's components.
+pub type Order = Vec<(usize, usize)>;
+
+/// A profile; a quantity is what the caller makes of its name.
+#[derive(Clone, Debug)]
+pub struct Profile<R> {
+    /// The position of points whose both readings lie in the body.
+    pub points: Option<R>,
+    /// The names of arrays.
+    pub quantities: Vec<(R, Vec<String>)>,
+    /// The orders of components.
+    pub orders: Vec<Order>,
+}
+
+/// Reads a text with the path that messages show for it. `role` gives a quantity, or the names that are expected.
+///
+/// # Errors
+/// Every mistake, at its place.
+pub fn read<R>(
+    path: &str,
+    text: &str,
+    role: &dyn Fn(&str) -> Result<R, String>,
+) -> Result<Profile<R>, Mistakes> {
+    let (mut reader, root) = Reader::new(path, text);
+    let start = reader.sources.span(reader.source, 0, 0);
+    let keys = ["source", "points", "orders", "quantities"];
+    let table = reader.table(root.get_ref(), "a profile", start, &keys);
+    if reader.text(&table, "source").is_none() && table.get("source").is_none() {
+        reader.missing(
+            &table,
+            "source",
+            "source = \"the public description that the names are from\"",
+        );
+    }
+    let points = reader.text(&table, "points").and_then(|word| match word.value.as_str() {
+        "X" | "x" => role(&word.value).ok(),
+        _ => {
+            reader.expect(
+                word.span,
+                "points",
+                "\"X\", the reference position, or \"x\", the present one",
+            );
+            None
+        }
+    });
+    let orders = reader.texts(&table, "orders");
+    let orders = orders.iter().filter_map(|word| order(&mut reader, word)).collect();
+    let quantities = match table.get("quantities") {
+        Some(value) => quantities(&mut reader, value, role),
+        None => Vec::new(),
+    };
+    let profile = Profile { points, quantities, orders };
+    let Reader { sources, diagnostics, .. } = reader;
+    match diagnostics.is_empty() {
+        true => Ok(profile),
+        false => Err(Mistakes { subject: "the profile", sources, diagnostics }),
+    }
+}
+
+fn quantities<R>(
+    reader: &mut Reader,
+    value: &Value<'_>,
+    role: &dyn Fn(&str) -> Result<R, String>,
+) -> Vec<(R, Vec<String>)> {
+    let Some(entries) = value.get_ref().as_table() else {
+        reader.expect(reader.span(value), "quantities", "a table, [quantities]");
+        return Vec::new();
+    };
+    let mut found = Vec::new();
+    for (key, names) in entries.iter() {
+        let listed = texts(names);
+        match (role(key.get_ref()), listed) {
+            (Ok(role), Some(names)) => found.push((role, names)),
+            (Err(expected), _) => reader.expect(reader.span(key), key.get_ref(), &expected),
+            (_, None) => {
+                let expected = "the name of an array, or an array of names, the usual one first";
+                reader.expect(reader.span(names), key.get_ref(), expected);
+            }
+        }
+    }
+    found
+}
+
+/// A text, or several.
+fn texts(value: &Value<'_>) -> Option<Vec<String>> {
+    let text = |value: &Value<'_>| value.get_ref().as_str().map(str::to_owned);
+    match value.get_ref() {
+        DeValue::Array(items) if !items.is_empty() => items.iter().map(text).collect(),
+        _ => text(value).map(|it| vec![it]),
+    }
+}
+
+/// The entries that a text such as `11,22,33,12` lists.
+fn order(reader: &mut Reader, word: &Spanned<String>) -> Option<Order> {
+    let entry = |text: &str| match text.trim().as_bytes() {
+        [row @ b'1'..=b'3', column @ b'1'..=b'3'] => {
+            Some((usize::from(row - b'1'), usize::from(column - b'1')))
+        }
+        _ => None,
+    };
+    let found: Option<Order> = word.value.split(',').map(entry).collect();
+    if found.is_none() {
+        let expected = "entries of a tensor by row and column, as in \"11,22,33,12,23,13\"";
+        reader.expect(word.span, "orders", expected);
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Profile<String>, String> {
+        let role = |name: &str| match name {
+            "u" | "sigma" | "X" | "x" => Ok(name.to_owned()),
+            _ => Err("one of u, sigma".to_owned()),
+        };
+        super::read("code.toml", text, &role).map_err(|it| it.to_string())
+    }
+
+    #[test]
+    fn names_orders_and_positions_are_read() {
+        let text = "source = 'a manual'\npoints = 'x'\norders = ['11,22,33,12']\n[quantities]\nu = ['U', 'disp']\nsigma = 'S'";
+        let profile = read(text).unwrap();
+        assert_eq!(profile.points.as_deref(), Some("x"));
+        assert_eq!(profile.orders, [[(0, 0), (1, 1), (2, 2), (0, 1)]]);
+        let names = |role: &str| {
+            let found = profile.quantities.iter().find(|(it, _)| it == role);
+            found.map_or(Vec::new(), |(_, names)| names.clone())
+        };
+        assert_eq!(names("u"), ["U", "disp"]);
+        assert_eq!(names("sigma"), ["S"]);
+    }
+
+    #[test]
+    fn every_mistake_is_told_at_its_place() {
+        let text = "points = 'Y'\norders = ['1,2']\nname = 1\n[quantities]\nw = 'W'\nu = 3";
+        let said = read(text).unwrap_err();
+        for part in [
+            "the profile has",
+            "missing key `source`",
+            "code.toml:1:10",
+            "code.toml:2:11",
+            "code.toml:3:1",
+        ] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+        for part in ["code.toml:5:1", "expected one of u, sigma", "code.toml:6:5"] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+        assert!(read("source = ").unwrap_err().contains("code.toml:1"));
+    }
+}

@@ -1,0 +1,92 @@
+//! The columns that a user, or the profile of a code, names for a quantity.
+
+use crate::meaning::{Column, Meaning, Part, Place, Why};
+use crate::parts::{all_names, arrays, split};
+use crate::role::Role;
+use crate::{Array, Mistake, Snapshot};
+
+/// A quantity and the columns that a user says it is: names, or `name:k` for the component k, counted from 0; `points`
+/// are the places of the grid, `cells:name` is an array of cells.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mapping {
+    /// The quantity.
+    pub role: Role,
+    /// Its columns.
+    pub columns: Vec<String>,
+}
+
+impl std::str::FromStr for Mapping {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("`{text}`: expected QUANTITY=COLUMN,.., as in X=x0,y0");
+        let (role, columns) = text.split_once('=').ok_or_else(wrong)?;
+        let symbols = || Role::ALL.iter().map(|role| role.symbol()).collect::<Vec<_>>().join(", ");
+        let known = Role::from_name(role.trim());
+        let role = known.ok_or_else(|| format!("`{role}`: expected one of {}", symbols()))?;
+        let columns: Vec<_> = columns.split(',').map(|it| it.trim().to_owned()).collect();
+        if columns.iter().any(String::is_empty) {
+            return Err(wrong());
+        }
+        Ok(Mapping { role, columns })
+    }
+}
+
+/// The meaning that a user gives to columns.
+pub(crate) fn mapped(snapshot: &Snapshot, mapping: &Mapping) -> Result<Meaning, Mistake> {
+    let Mapping { role, columns: names } = mapping;
+    let columns = match components(snapshot, names) {
+        Some(columns) => columns,
+        None => {
+            let columns = names.iter().map(|name| columns(snapshot, name));
+            let columns = columns.collect::<Result<Vec<_>, _>>();
+            let columns = columns.map_err(|mistake| mistake.of(&snapshot.path))?;
+            let columns = columns.into_iter().flatten().enumerate();
+            columns.map(|(at, column)| (Part::Nth(at), column)).collect()
+        }
+    };
+    let why = Why::Map(names.len());
+    Ok(Meaning { role: *role, source: names.join(","), face: None, columns, why, reading: None })
+}
+
+/// The arrays whose names are one name and a component, as `stress_xx` is of `stress`, if no array has that name itself.
+pub(crate) fn components(snapshot: &Snapshot, names: &[String]) -> Option<Vec<(Part, Column)>> {
+    let [name] = names else { return None };
+    if arrays(snapshot).any(|(_, array)| array.name == *name) {
+        return None;
+    }
+    let part = |(place, array): (Place, &Array)| {
+        let (base, part) = split(&array.name).filter(|_| array.components == 1)?;
+        (base == name).then_some((part, Column { place, component: 0 }))
+    };
+    let found: Vec<_> = arrays(snapshot).filter_map(part).collect();
+    (!found.is_empty()).then_some(found)
+}
+
+/// The array of that name, with all its columns.
+pub(crate) fn whole<'a>(snapshot: &'a Snapshot, name: &str) -> Option<(&'a Array, Vec<Column>)> {
+    let bare = |name: &'_ str| name.trim_start_matches('/').to_owned();
+    let is_called = |array: &Array| array.name == name || bare(&array.name) == bare(name);
+    let (place, array) = arrays(snapshot).find(|(place, array)| match place {
+        Place::Grid => name == "points" || array.name == name,
+        Place::Points(_) => is_called(array),
+        Place::Cells(_) => is_called(array) || name.strip_prefix("cells:") == Some(&array.name),
+    })?;
+    let columns = (0..array.components).map(|component| Column { place, component });
+    Some((array, columns.collect()))
+}
+
+/// The columns of an array, or one of them.
+fn columns(snapshot: &Snapshot, name: &str) -> Result<Vec<Column>, Mistake> {
+    if let Some((_, columns)) = whole(snapshot, name) {
+        return Ok(columns);
+    }
+    let one = name.rsplit_once(':').and_then(|(name, component)| {
+        let (_, columns) = whole(snapshot, name)?;
+        columns.get(component.parse::<usize>().ok()?).copied()
+    });
+    let one = one.ok_or_else(|| {
+        Mistake::new(format!("`--map`: no array `{name}`; the file has {}", all_names(snapshot)))
+    });
+    Ok(vec![one?])
+}

@@ -1,0 +1,85 @@
+//! The arrays of a snapshot, and the parts of their names: the name of a quantity, and a component.
+
+use crate::meaning::{Part, Place};
+use crate::role::{Form, Role, plain};
+use crate::{Array, Snapshot};
+
+/// Names that may mean two quantities.
+const UNCLEAR: &[(&str, [Role; 2])] = &[
+    ("stress", [Role::CauchyStress, Role::FirstPiolaKirchhoff]),
+    ("stresses", [Role::CauchyStress, Role::FirstPiolaKirchhoff]),
+    ("piola", [Role::FirstPiolaKirchhoff, Role::SecondPiolaKirchhoff]),
+    (S, [Role::CauchyStress, Role::SecondPiolaKirchhoff]),
+];
+
+/// The Cauchy stress in Abaqus, and the second Piola-Kirchhoff stress in textbooks. A small letter is neither.
+pub(crate) const S: &str = "S";
+
+/// The two quantities that a name may mean, if it may mean two.
+pub(crate) fn two_meanings(name: &str) -> Option<[Role; 2]> {
+    let (stem, plain) = (stem(name), plain(stem(name)));
+    let is_it = |word: &str| if word == S { stem == S } else { word == plain };
+    UNCLEAR.iter().find(|(word, _)| is_it(word)).map(|(_, roles)| *roles)
+}
+
+/// All arrays, with the places of points first.
+pub(crate) fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (Place, &Array)> + Clone {
+    let grid = snapshot.points.iter().map(|array| (Place::Grid, array));
+    let points =
+        snapshot.of_points.iter().enumerate().map(|(at, array)| (Place::Points(at), array));
+    let cells = snapshot.of_cells.iter().enumerate().map(|(at, array)| (Place::Cells(at), array));
+    grid.chain(points).chain(cells)
+}
+
+/// How many names a message lists.
+const MOST_LISTED: usize = 30;
+
+/// The names of all arrays.
+pub fn all_names(snapshot: &Snapshot) -> String {
+    let names = arrays(snapshot).map(|(_, array)| &array.name).chain(&snapshot.unread);
+    let listed: Vec<_> = names.clone().take(MOST_LISTED).map(|it| format!("`{it}`")).collect();
+    match names.count() {
+        0 => "no arrays".into(),
+        count if count > listed.len() => {
+            format!("{} and {} others", listed.join(", "), count - listed.len())
+        }
+        _ => listed.join(", "),
+    }
+}
+
+/// A name without what says which component it is.
+pub(crate) fn stem(name: &str) -> &str {
+    split(name).map_or(name, |(base, _)| base)
+}
+
+/// A name without what says which component it is.
+pub(crate) fn split(name: &str) -> Option<(&str, Part)> {
+    let name = name.strip_suffix([']', ')']).unwrap_or(name);
+    let axis = |byte: u8| match byte {
+        b'x' | b'X' => Some(0),
+        b'y' | b'Y' => Some(1),
+        b'z' | b'Z' => Some(2),
+        b'0'..=b'9' => Some(usize::from(byte - b'0')),
+        _ => None,
+    };
+    let (before, last) = name.split_at_checked(name.len().checked_sub(1)?)?;
+    let last = axis(last.bytes().next()?)?;
+    let base = |text: &'_ str| -> usize {
+        text.trim_end_matches(['_', ':', '.', '[', '(', '-', ' ']).len()
+    };
+    let of_entry =
+        before.split_at_checked(before.len().saturating_sub(1)).and_then(|(rest, first)| {
+            let first = axis(first.bytes().next()?)?;
+            Some((&rest[..base(rest)], Part::Entry(first, last)))
+        });
+    let found = of_entry.filter(|(base, _)| has_entries(base));
+    let found = found.unwrap_or((&before[..base(before)], Part::Nth(last)));
+    (!found.0.is_empty()).then_some(found)
+}
+
+/// Whether this may be the name of a matrix.
+fn has_entries(name: &str) -> bool {
+    let is_matrix = |role: &Role| !matches!(role.form(), Form::Scalar | Form::Vector);
+    Role::called(name).as_ref().is_some_and(is_matrix)
+        || UNCLEAR.iter().any(|(word, _)| *word == plain(name))
+}

@@ -1,0 +1,75 @@
+//! The profile of a code: the names, the order of components and the positions that its files have.
+//!
+//! A profile names. Where the numbers of a file decide, they do: points of which one reading lies in the body have that
+//! reading, and components that a file names are those.
+
+use crate::mapping::{components, whole};
+use crate::meaning::{Meaning, Part, Why};
+use crate::role::{Form, Role};
+use crate::{Array, Snapshot};
+
+/// The rows and columns of a symmetric tensor's entries, counted from 0, in the order of an array's components.
+pub type Order = Vec<(usize, usize)>;
+
+/// The names and orders that a code is known to write.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Profile {
+    /// The name of the code.
+    pub name: String,
+    /// The position of points where both readings lie in the body: X or x.
+    pub points: Option<Role>,
+    /// The names of arrays, the usual one first.
+    pub quantities: Vec<(Role, Vec<String>)>,
+    /// The orders of symmetric tensors, each for arrays of as many components without names.
+    pub orders: Vec<Order>,
+}
+
+impl Profile {
+    /// The profile of this project, whose S is the second Piola-Kirchhoff stress.
+    pub fn symbols() -> Profile {
+        let role = Role::SecondPiolaKirchhoff;
+        let quantities = vec![(role, vec![role.symbol().to_owned()])];
+        Profile { name: "mms".to_owned(), quantities, ..Profile::default() }
+    }
+
+    /// The order of the components of an array; none if the profile has none for as many.
+    pub(crate) fn order(&self, role: Role, array: &Array) -> Option<&Order> {
+        let is_symmetric = role.form() == Form::Symmetric;
+        self.orders.iter().find(|it| is_symmetric && it.len() == array.components)
+    }
+
+    /// The quantities that the profile names, of those that `wants` takes and a snapshot has.
+    pub(crate) fn meanings(
+        &self,
+        snapshot: &Snapshot,
+        wants: &dyn Fn(Role) -> bool,
+    ) -> Vec<Meaning> {
+        let mut found = Vec::new();
+        for (role, names) in self.quantities.iter().filter(|(role, _)| wants(*role)) {
+            let found_here = names.iter().find_map(|name| {
+                let one = std::slice::from_ref(name);
+                if let Some(columns) = components(snapshot, one) {
+                    return Some((name, columns));
+                }
+                let (array, columns) = whole(snapshot, name)?;
+                let part = |at: usize| match self.order(*role, array) {
+                    Some(order) => Part::Entry(order[at].0, order[at].1),
+                    None => Part::Nth(at),
+                };
+                let columns = columns.into_iter().enumerate().map(|(at, it)| (part(at), it));
+                Some((name, columns.collect()))
+            });
+            let Some((name, columns)) = found_here else { continue };
+            let why = Why::Profile(self.name.clone());
+            found.push(Meaning {
+                role: *role,
+                source: name.clone(),
+                face: None,
+                columns,
+                why,
+                reading: None,
+            });
+        }
+        found
+    }
+}

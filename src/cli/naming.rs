@@ -1,0 +1,43 @@
+//! The options that say how the arrays of files are called.
+
+use clap::Args;
+use mms_results::names::{Mapping, Names};
+
+use crate::profile;
+
+/// The options of every command that reads files of other programs.
+#[derive(Args)]
+pub struct Naming {
+    /// A quantity, and the columns that it is in: `X=x0,y0`, `u=disp`, `sigma=stress:0,stress:3,..` for components, counted
+    /// from 0; `points` are the places of points in VTK, `cells:NAME` is an array of cells. May be repeated.
+    #[arg(long, value_name = "QUANTITY=COLUMN,..")]
+    map: Vec<Mapping>,
+    /// The names of the columns of a table without a header, in their order, as in `X,Y,u_x,u_y`; a header is replaced.
+    #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
+    columns: Vec<String>,
+    /// The code that wrote the files, by name (`--from list` lists all), or the path of a profile of your own. A profile says
+    /// the names of arrays, the order of components, and whether points are X or x if the numbers leave it open.
+    #[arg(long, value_name = "CODE")]
+    from: Option<String>,
+}
+
+impl Naming {
+    /// The names of arrays.
+    ///
+    /// # Errors
+    /// An unknown profile, or a mistake in a profile of one's own, with its place.
+    pub fn names(&self) -> anyhow::Result<Names> {
+        let profile = self.from.as_deref().map(profile::find).transpose()?;
+        Ok(Names { map: self.map.clone(), columns: self.columns.clone(), profile })
+    }
+
+    /// The first option that is given; none if none is.
+    pub fn given(&self) -> Option<&'static str> {
+        let all = [
+            ("--map", !self.map.is_empty()),
+            ("--columns", !self.columns.is_empty()),
+            ("--from", self.from.is_some()),
+        ];
+        all.into_iter().find(|(_, is_given)| *is_given).map(|(name, _)| name)
+    }
+}
