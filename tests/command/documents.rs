@@ -273,6 +273,7 @@ fn documents_have_the_keys_of_the_page() {
         ("run", "run bar.toml --cells 8 --vtk states8", 0),
         ("run", "run bar.toml --cells 16 --vtk states16", 0),
         ("judge", "judge bar.toml states8 states16 --quantity u", 0),
+        ("judge-explained", "judge bar.toml states8 --explain", 0),
         ("judge", IRREGULAR, 0),
         ("diagnose", "diagnose bar.toml states16 --like shape=linear", 0),
         ("diagnose", "diagnose bar.toml states8 states16 --expected-order 3", 1),

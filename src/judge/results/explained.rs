@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use anyhow::Context as _;
 use mms_results::Snapshot;
 use mms_results::cell::Shape;
 use mms_results::motion::resolve;
 use mms_results::names::Role;
+use mms_results::own::LeftOut;
 use mms_spec::foreign::shown;
 use serde_json::{Value, json};
 
@@ -15,88 +17,118 @@ use crate::session::exact::Exact;
 
 /// How one file is read.
 pub struct Explained {
-    /// Keys and words: the times, the points, the cells, each quantity, and the arrays that are left out.
-    rows: Vec<(String, String)>,
     /// The file.
-    name: String,
+    file: String,
+    /// The name of its format.
+    format: &'static str,
+    /// The times of its results.
+    times: Vec<f64>,
+    /// The number of points.
+    points: usize,
+    /// How X is found.
+    positions: String,
+    /// The cells by kinds, in words.
+    cells: Vec<String>,
+    /// The quantities, each with its arrays and the reason.
+    quantities: Vec<(Role, String)>,
+    /// The arrays, cells and points that are left out, and why.
+    left_out: Vec<String>,
 }
 
 impl Explained {
     /// How results are read; of several times the first.
     ///
     /// # Errors
-    /// As of [`Reading::measure`].
+    /// Positions or names that cannot be read, or no results.
     pub fn new(
         results: &mut Results,
         reading: &Reading<'_>,
         exact: &mut Exact,
     ) -> anyhow::Result<Self> {
-        let left_out = results.keep_own()?;
-        let mut rows = vec![("times".to_owned(), times(&results.snapshots))];
-        if let Some(snapshot) = results.snapshots.first() {
-            let time = snapshot.time.map_or(exact.window[0], |time| time.value);
-            let meanings = reading.meanings(snapshot, exact)?;
-            let outside = |point: &[f64]| exact.body.distance(point);
-            let mut back = exact.back(time, snapshot.rows());
-            let motion = resolve(snapshot, &meanings, exact.dimension, &outside, Some(&mut back))
-                .map_err(placed)?;
-            rows.insert(0, ("format".to_owned(), snapshot.format.to_owned()));
-            rows.push(("points".to_owned(), format!("{}; {}", snapshot.rows(), motion.how)));
-            rows.push(("cells".to_owned(), cells(snapshot)));
-            let mut other = Vec::new();
-            for meaning in &meanings {
-                let place = matches!(meaning.role, Role::Place | Role::Position | Role::Reference);
-                match reading.unlike(meaning, snapshot, &motion, exact.rows()) {
-                    Some(why) if !place => other.push(why),
-                    _ => rows.push((meaning.role.symbol().to_owned(), meaning.explained(snapshot))),
-                }
+        let ghosts = results.keep_own()?;
+        let file = results.name.clone();
+        let snapshot = results.snapshots.first();
+        let snapshot = snapshot.with_context(|| format!("{}: no results", shown(&file)))?;
+        let time = snapshot.time.map_or(exact.window[0], |time| time.value);
+        let meanings = reading.meanings(snapshot, exact)?;
+        let outside = |point: &[f64]| exact.body.distance(point);
+        let mut back = exact.back(time, snapshot.rows());
+        let motion = resolve(snapshot, &meanings, exact.dimension, &outside, Some(&mut back))
+            .map_err(placed)?;
+        let (mut quantities, mut left_out) = (Vec::new(), Vec::new());
+        for meaning in &meanings {
+            let place = matches!(meaning.role, Role::Place | Role::Position | Role::Reference);
+            match reading.unlike(meaning, snapshot, &motion, exact.rows()) {
+                Some(why) if !place => left_out.push(why),
+                _ => quantities.push((meaning.role, meaning.explained(snapshot))),
             }
-            let is_used = |name: &str| meanings.iter().any(|it| it.has_array(snapshot, name));
-            let arrays = snapshot.of_points.iter().chain(&snapshot.of_cells);
-            let names = arrays.map(|it| &it.name).chain(&snapshot.unread);
-            other
-                .extend(names.filter(|it| !is_used(it)).map(|it| format!("{it} (not a quantity)")));
-            for (count, what) in
-                [(left_out.ghost_cells, "ghost cells"), (left_out.ghost_points, "ghost points")]
-            {
-                if count > 0 {
-                    other.push(format!("{count} {what}"));
-                }
-            }
-            if other.is_empty() {
-                other.push("nothing".to_owned());
-            }
-            rows.push(("left out".to_owned(), other.join(", ")));
         }
-        Ok(Explained { rows, name: results.name.clone() })
+        let is_used = |name: &str| meanings.iter().any(|it| it.has_array(snapshot, name));
+        let arrays = snapshot.of_points.iter().chain(&snapshot.of_cells);
+        let names = arrays.map(|it| &it.name).chain(&snapshot.unread);
+        left_out.extend(names.filter(|it| !is_used(it)).map(|it| format!("{it} (not a quantity)")));
+        let LeftOut { ghost_cells, ghost_points, doubled } = ghosts;
+        let counts = [
+            (ghost_cells, "ghost cells"),
+            (ghost_points, "ghost points"),
+            (doubled, "cells that are there twice"),
+        ];
+        let counts = counts.into_iter().filter(|(count, _)| *count > 0);
+        left_out.extend(counts.map(|(count, of)| format!("{count} {of}")));
+        Ok(Explained {
+            format: snapshot.format,
+            times: results.snapshots.iter().filter_map(|it| Some(it.time?.value)).collect(),
+            points: snapshot.rows(),
+            positions: motion.how.clone(),
+            cells: cells(snapshot),
+            quantities,
+            left_out,
+            file,
+        })
     }
 
-    /// The rows as text.
+    /// All of it as text.
     pub fn text(&self) -> String {
-        let width = self.rows.iter().map(|(key, _)| key.chars().count()).max().unwrap_or(0);
-        let row = |(key, words): &(String, String)| format!("\n  {key:width$}  {words}");
-        format!("{}{}", shown(&self.name), self.rows.iter().map(row).collect::<String>())
+        let times = match self.times.as_slice() {
+            [] => "none in the file: give them with `--time`".into(),
+            [only] => format!("{only:?}"),
+            [first, .., last] => format!("{} from {first:?} to {last:?}", self.times.len()),
+        };
+        let cells = if self.cells.is_empty() { "none".into() } else { self.cells.join(", ") };
+        let left_out =
+            if self.left_out.is_empty() { "nothing".into() } else { self.left_out.join(", ") };
+        let mut rows = vec![
+            ("format", self.format.to_owned()),
+            ("times", times),
+            ("points", format!("{}; {}", self.points, self.positions)),
+            ("cells", cells),
+        ];
+        rows.extend(self.quantities.iter().map(|(role, how)| (role.symbol(), how.clone())));
+        rows.push(("left out", left_out));
+        let width = rows.iter().map(|(key, _)| key.len()).max().unwrap_or(0);
+        let row = |(key, words): &(&str, String)| format!("\n  {key:width$}  {words}");
+        format!("{}{}", shown(&self.file), rows.iter().map(row).collect::<String>())
     }
 
-    /// The rows as a document.
+    /// All of it as a document.
     pub fn document(&self) -> Value {
-        let rows: Vec<Value> =
-            self.rows.iter().map(|(key, words)| json!({ "what": key, "how": words })).collect();
-        json!({ "file": self.name, "rows": rows })
-    }
-}
-
-fn times(snapshots: &[Snapshot]) -> String {
-    let times: Vec<f64> = snapshots.iter().filter_map(|it| it.time.map(|it| it.value)).collect();
-    match times.as_slice() {
-        [] => "none in the file: give it with `--time`".into(),
-        [only] => format!("{only:?}"),
-        [first, .., last] => format!("{} from {first:?} to {last:?}", times.len()),
+        let quantity =
+            |(role, how): &(Role, String)| json!({ "quantity": role.name(), "how": how });
+        json!({
+            "file": self.file,
+            "format": self.format,
+            "times": self.times,
+            "points": self.points,
+            "positions": self.positions,
+            "cells": self.cells,
+            "quantities": self.quantities.iter().map(quantity).collect::<Vec<_>>(),
+            "left_out": self.left_out,
+        })
     }
 }
 
 /// The cells of a snapshot by their types.
-fn cells(snapshot: &Snapshot) -> String {
+fn cells(snapshot: &Snapshot) -> Vec<String> {
     let mut counts = BTreeMap::<u8, usize>::new();
     snapshot.cells.iter().for_each(|(kind, _)| *counts.entry(kind).or_default() += 1);
     let of = |(kind, count): (&u8, &usize)| match Shape::of(*kind) {
@@ -105,8 +137,5 @@ fn cells(snapshot: &Snapshot) -> String {
         }
         None => format!("{count} of type {kind} of VTK"),
     };
-    match counts.is_empty() {
-        true => "none: norms are over points".into(),
-        false => counts.iter().map(of).collect::<Vec<_>>().join(", "),
-    }
+    counts.iter().map(of).collect()
 }
