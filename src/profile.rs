@@ -13,19 +13,26 @@ use crate::read::{self as files, Kind};
 /// The file names and texts of the profiles in `profiles/`.
 const SHIPPED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/profiles.rs"));
 
+/// The names and texts of the shipped profiles.
+fn shipped() -> impl Iterator<Item = (&'static str, &'static str)> + Clone {
+    SHIPPED.iter().filter_map(|(file, text)| Some((file.strip_suffix(".toml")?, *text)))
+}
+
+/// The names of the shipped profiles.
+pub fn names() -> impl Iterator<Item = &'static str> + Clone {
+    shipped().map(|(name, _)| name)
+}
+
 /// The profile of a code, by name or by the path of a file.
 ///
 /// # Errors
 /// A name that is none, or a mistake in a file, with its place.
 pub fn find(given: &str) -> anyhow::Result<Profile> {
-    let shipped =
-        || SHIPPED.iter().filter_map(|(file, text)| Some((file.strip_suffix(".toml")?, *text)));
     if let Some((name, text)) = shipped().find(|(name, _)| *name == given) {
         return profile(name, &format!("profiles/{name}.toml"), text);
     }
     if !given.ends_with(".toml") {
-        let names = shipped().map(|(name, _)| name);
-        let help = advice(given, names, |all| format!("the profiles are {all}"));
+        let help = advice(given, names(), |all| format!("the profiles are {all}"));
         bail!(
             "`--from {}`: no profile of that name; {help}, and a path ends with .toml",
             shown(given)
@@ -52,8 +59,7 @@ mod tests {
 
     #[test]
     fn every_shipped_profile_is_right() {
-        for (file, _) in SHIPPED {
-            let name = file.strip_suffix(".toml").expect("a profile ends so");
+        for name in names() {
             let profile = find(name).unwrap_or_else(|error| panic!("{error:#}"));
             assert!(!profile.quantities.is_empty() || !profile.orders.is_empty(), "{name}");
         }

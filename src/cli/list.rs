@@ -9,9 +9,9 @@ use mms_spec::{Claim, FORMS, FieldSpec, PRECISIONS, StudySpec};
 use serde_json::{Map, Value, json};
 
 use super::{Outcome, print, print_json};
-use crate::gallery;
+use crate::{gallery, profile};
 
-/// List the fields, materials and methods.
+/// List the fields, materials and methods, and the codes whose files have a profile.
 ///
 /// Of each field: its dimension, its material, the shape of its body, what it claims on the faces,
 /// whether its body is deformed and moves at first, and what it is. `--json` tells face by face, and which closed forms and studies the file has.
@@ -26,6 +26,7 @@ impl List {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let fields = gallery::fields();
         let materials: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
+        let profiles: Vec<_> = profile::names().collect();
         if self.json {
             print_json(&json!({
                 "fields": fields.iter().map(document).collect::<Vec<_>>(),
@@ -36,6 +37,7 @@ impl List {
                 "transfers": Transfer::NAMES,
                 "precisions": PRECISIONS,
                 "forms": FORMS,
+                "profiles": profiles,
             }))?;
             return Ok(Outcome::AsExpected);
         }
@@ -47,6 +49,7 @@ impl List {
             ("transfers", Transfer::NAMES),
             ("precisions", PRECISIONS),
             ("forms", FORMS),
+            ("profiles", &profiles),
         ];
         let line = |(what, words): (&str, &[&str])| {
             format!("\n{:13} {}", format!("{what}:"), words.join(", "))

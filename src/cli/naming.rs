@@ -15,7 +15,7 @@ pub struct Naming {
     /// The names of the columns of a table without a header, in their order, as in `X,Y,u_x,u_y`; a header is replaced.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     columns: Vec<String>,
-    /// The code that wrote the files, by name (`--from list` lists all), or the path of a profile of your own. A profile says
+    /// The code that wrote the files, by a name that `mms list` lists, or the path of a profile of your own. A profile says
     /// the names of arrays, the order of components, and whether points are X or x if the numbers leave it open.
     #[arg(long, value_name = "CODE")]
     from: Option<String>,
