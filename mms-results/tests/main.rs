@@ -3,10 +3,12 @@
 mod archives;
 mod dumps;
 mod files;
+mod mat;
 mod memory;
 mod norms;
 mod over_cells;
 mod pairing;
+mod shared;
 mod tables;
 mod tecplot;
 mod write;

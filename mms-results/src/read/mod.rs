@@ -1,8 +1,18 @@
-//! What a file is, by its content.
+//! What a file is, by its content. The reader of each format says where that is described.
+//!
+//! | begins with | format |
+//! |---|---|
+//! | `\x93NUMPY`, `PK` | an array of NumPy, an archive of them |
+//! | `MATLAB 5.0 MAT-file` | variables of MATLAB or Octave; version 4 begins with five numbers of four bytes |
+//! | `# vtk DataFile`, `<` | VTK, legacy and in XML |
+//! | `TITLE`, `VARIABLES`, `FILETYPE` or `ZONE` before `=` | Tecplot |
+//! | `ITEM:` | dumps of LAMMPS and Karamelo |
+//! | anything else | a table |
 
 mod base64;
 mod dump;
 mod legacy;
+mod mat;
 mod npy;
 mod npz;
 mod numbers;
@@ -58,6 +68,8 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
         [] => Err(Mistake::new("the file is empty")),
         _ if bytes.starts_with(npy::MAGIC) => npy::parse(bytes, wanted).map(one),
         _ if bytes.starts_with(b"PK") => npz::parse(bytes, wanted).map(one),
+        _ if bytes.starts_with(mat::MAGIC) => mat::parse(bytes, wanted).map(one),
+        _ if mat::is_version_4(bytes) => mat::parse_version_4(bytes, wanted).map(one),
         _ if start.starts_with(b"# vtk DataFile") => legacy::parse(bytes, wanted).map(one),
         [b'<', ..] => xml::parse(bytes, wanted),
         _ if tecplot::is_tecplot(start) => tecplot::parse(bytes, wanted).map(Contents::Snapshots),

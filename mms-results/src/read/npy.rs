@@ -1,6 +1,6 @@
 //! An array of NumPy: "NEP 1, a simple file format for NumPy arrays".
 
-use super::numbers::{Kind, Order, count};
+use super::numbers::{Kind, Order, by_rows, count};
 use crate::wanted::Wanted;
 use crate::{Array, Mistake, Snapshot};
 
@@ -130,19 +130,4 @@ fn header(text: &str) -> Result<(Kind, Order, bool, Vec<usize>), Mistake> {
     let shape = shape.split(',').filter(|it| !it.trim().is_empty()).map(axis);
     let is_fortran = behind(text, "fortran_order")?.starts_with("True");
     Ok((kind, order, is_fortran, shape.collect::<Result<_, _>>()?))
-}
-
-/// Numbers whose first axis runs fastest, as numbers whose last axis does.
-fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
-    let place = |mut index: usize| {
-        let mut place = 0;
-        let mut stride = values.len();
-        for &axis in shape.iter().rev() {
-            stride /= axis;
-            place += stride * (index % axis);
-            index /= axis;
-        }
-        place
-    };
-    (0..values.len()).map(|index| values[place(index)]).collect()
 }

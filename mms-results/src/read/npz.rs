@@ -9,10 +9,10 @@ use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
 /// What deflate makes of a byte at most.
-const RATIO: u64 = 1032;
+pub const RATIO: u64 = 1032;
 
 /// More bytes than the header of an array that is read has.
-const HEAD: usize = 1 << 16;
+pub const HEAD: usize = 1 << 16;
 
 fn broken(error: rawzip::Error) -> Mistake {
     Mistake::new(format!("not a file of `numpy.savez`: {error}"))
@@ -110,7 +110,7 @@ impl Entry<'_> {
 
 impl Snapshot {
     /// Takes an array of points, or the time.
-    fn take(&mut self, array: Array) {
+    pub(super) fn take(&mut self, array: Array) {
         match array.values.as_slice() {
             [value] if is_time(&array.name) => {
                 self.time = Some(Time { value: *value, rounding: array.rounding() });

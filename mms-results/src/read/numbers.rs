@@ -121,6 +121,29 @@ pub fn count(rows: usize, components: usize, kind: Kind) -> Result<usize, Mistak
     })
 }
 
+/// Numbers whose first axis runs fastest, as numbers whose last axis does.
+pub fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
+    let (rows, axes) = shape.split_first().map_or((1, &[][..]), |(rows, axes)| (*rows, axes));
+    let components: usize = axes.iter().product();
+    // The component that a column is.
+    let place = |mut column: usize| {
+        let (mut place, mut stride) = (0, components);
+        for &axis in axes {
+            stride /= axis;
+            place += stride * (column % axis);
+            column /= axis;
+        }
+        place
+    };
+    let mut numbers = vec![0.0; values.len()];
+    for (at, column) in values.chunks_exact(rows.max(1)).enumerate() {
+        let place = place(at);
+        let to = numbers.chunks_exact_mut(components);
+        to.zip(column).for_each(|(to, number)| to[place] = *number);
+    }
+    numbers
+}
+
 /// Numbers as positions.
 pub fn positions(values: Vec<f64>) -> Result<Vec<usize>, Mistake> {
     // Beyond that, a number in double precision may be another than the integer that was stored.
