@@ -80,6 +80,11 @@ fn npz(entries: &[Entry<'_>]) -> Vec<u8> {
     all
 }
 
+/// An archive of arrays, each by its name.
+pub fn archive(arrays: &[(&str, &[u8])]) -> Vec<u8> {
+    npz(&arrays.iter().map(|(name, bytes)| Entry::honest(name, bytes)).collect::<Vec<_>>())
+}
+
 #[test]
 fn an_archive_is_held_to_its_checksums() {
     let u = npy("(2,)", 16);

@@ -8,6 +8,7 @@ mod memory;
 mod norms;
 mod over_cells;
 mod pairing;
+mod series;
 mod shared;
 mod tables;
 mod tecplot;

@@ -2,7 +2,7 @@
 //!
 //! | begins with | format |
 //! |---|---|
-//! | `\x93NUMPY`, `PK` | an array of NumPy, an archive of them |
+//! | `\x93NUMPY`, `PK` | an array of NumPy, an archive of them, also at several times |
 //! | `MATLAB 5.0 MAT-file` | variables of MATLAB or Octave; version 4 begins with five numbers of four bytes |
 //! | `# vtk DataFile`, `<` | VTK, legacy and in XML |
 //! | `TITLE`, `VARIABLES`, `FILETYPE` or `ZONE` before `=` | Tecplot |
@@ -16,6 +16,7 @@ mod mat;
 mod npy;
 mod npz;
 mod numbers;
+mod series;
 mod table;
 mod tecplot;
 mod text;
@@ -67,7 +68,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
     match start {
         [] => Err(Mistake::new("the file is empty")),
         _ if bytes.starts_with(npy::MAGIC) => npy::parse(bytes, wanted).map(one),
-        _ if bytes.starts_with(b"PK") => npz::parse(bytes, wanted).map(one),
+        _ if bytes.starts_with(b"PK") => npz::parse(bytes, wanted).map(Contents::Snapshots),
         _ if bytes.starts_with(mat::MAGIC) => mat::parse(bytes, wanted).map(one),
         _ if mat::is_version_4(bytes) => mat::parse_version_4(bytes, wanted).map(one),
         _ if start.starts_with(b"# vtk DataFile") => legacy::parse(bytes, wanted).map(one),
