@@ -3,6 +3,7 @@
 mod archives;
 mod dumps;
 mod files;
+mod frd;
 mod mat;
 mod memory;
 mod norms;

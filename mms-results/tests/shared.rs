@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use allocation_counter::measure;
+use mms_results::cell::Shape;
 use mms_results::names::{Role, everything, recognise, wanted};
 use mms_results::{Contents, Mistake, Snapshot, parse};
 
@@ -83,5 +84,51 @@ pub fn survives(name: &str, bytes: &[u8]) {
             read(&changed);
         }
         changed[at] = bytes[at];
+    }
+}
+
+/// Where VTK has the nodes of a cell of this type (`vtkQuadraticWedge.h` and others for those that are no shape here).
+pub fn nodes(kind: u8) -> Vec<[f64; 3]> {
+    if let Some(shape) = Shape::of(kind) {
+        return shape.nodes.clone();
+    }
+    let corners = Shape::of(if kind == 27 { 14 } else { 13 }).unwrap().nodes.clone();
+    let middles: &[&[usize]] = match kind {
+        26 => &WEDGE[..9],
+        27 => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0], &[0, 4], &[1, 4], &[2, 4], &[3, 4]],
+        32 => &WEDGE,
+        _ => panic!("type {kind}"),
+    };
+    let middle = |of: &&[usize]| {
+        [0, 1, 2].map(|axis| of.iter().map(|it| corners[*it][axis]).sum::<f64>() / of.len() as f64)
+    };
+    corners.iter().copied().chain(middles.iter().map(middle)).collect()
+}
+
+const WEDGE: [&[usize]; 12] = [
+    &[0, 1],
+    &[1, 2],
+    &[2, 0],
+    &[3, 4],
+    &[4, 5],
+    &[5, 3],
+    &[0, 3],
+    &[1, 4],
+    &[2, 5],
+    &[0, 1, 4, 3],
+    &[1, 2, 5, 4],
+    &[2, 0, 3, 5],
+];
+
+/// Cells that are reference cells, each so far along X beside the one before, have their nodes where VTK has them.
+#[track_caller]
+pub fn nodes_are_in_place(name: &str, snapshot: &Snapshot, kinds: &[u8], beside: f64) {
+    assert_eq!(snapshot.cells.types, kinds, "{name}");
+    let places = snapshot.points.as_ref().unwrap().values.as_chunks::<3>().0;
+    for (at, (kind, points)) in snapshot.cells.iter().enumerate() {
+        let found: Vec<_> = points.iter().map(|it| places[*it]).collect();
+        let moved = |it: [f64; 3]| [it[0] + beside * at as f64, it[1], it[2]];
+        let expected: Vec<_> = nodes(kind).into_iter().map(moved).collect();
+        near(&format!("{name}: type {kind}"), found.as_flattened(), expected.as_flattened(), 1e-12);
     }
 }

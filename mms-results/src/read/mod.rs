@@ -5,12 +5,14 @@
 //! | `\x93NUMPY`, `PK` | an array of NumPy, an archive of them, also at several times |
 //! | `MATLAB 5.0 MAT-file` | variables of MATLAB or Octave; version 4 begins with five numbers of four bytes |
 //! | `# vtk DataFile`, `<` | VTK, legacy and in XML |
+//! | `1C`, `1U` or `2C` behind four blanks | results of CalculiX (`.frd`) |
 //! | `TITLE`, `VARIABLES`, `FILETYPE` or `ZONE` before `=` | Tecplot |
 //! | `ITEM:` | dumps of LAMMPS and Karamelo |
 //! | anything else | a table |
 
 mod base64;
 mod dump;
+mod frd;
 mod legacy;
 mod mat;
 mod npy;
@@ -18,6 +20,7 @@ mod npz;
 mod numbers;
 mod series;
 mod table;
+mod tags;
 mod tecplot;
 mod text;
 mod xml;
@@ -75,6 +78,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
         [b'<', ..] => xml::parse(bytes, wanted),
         _ if tecplot::is_tecplot(start) => tecplot::parse(bytes, wanted).map(Contents::Snapshots),
         _ if start.starts_with(dump::MARK) => dump::parse(bytes, wanted).map(Contents::Snapshots),
+        _ if frd::is_frd(bytes) => frd::parse(bytes, wanted).map(Contents::Snapshots),
         _ => table::parse(bytes, wanted).map(Contents::Snapshots),
     }
 }
