@@ -152,7 +152,7 @@ fn what_is_not_read_is_named() {
     for (text, word) in [
         ("", "empty"),
         ("CDF\u{1}", "NetCDF"),
-        ("$MeshFormat\n", "Gmsh"),
+        ("$NOD\n", "Gmsh"),
         ("<Xdmf/>", "XDMF"),
         ("<VTKFile type=\"ImageData\"><ImageData/></VTKFile>", "`ImageData` is not read"),
         (

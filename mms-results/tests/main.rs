@@ -4,6 +4,7 @@ mod archives;
 mod dumps;
 mod files;
 mod frd;
+mod gmsh;
 mod mat;
 mod memory;
 mod norms;

@@ -6,6 +6,7 @@
 //! | `MATLAB 5.0 MAT-file` | variables of MATLAB or Octave; version 4 begins with five numbers of four bytes |
 //! | `# vtk DataFile`, `<` | VTK, legacy and in XML |
 //! | `1C`, `1U` or `2C` behind four blanks | results of CalculiX (`.frd`) |
+//! | `$MeshFormat` | meshes and views of Gmsh |
 //! | `TITLE`, `VARIABLES`, `FILETYPE` or `ZONE` before `=` | Tecplot |
 //! | `ITEM:` | dumps of LAMMPS and Karamelo |
 //! | anything else | a table |
@@ -13,6 +14,8 @@
 mod base64;
 mod dump;
 mod frd;
+mod gmsh;
+mod gmsh_mesh;
 mod legacy;
 mod mat;
 mod npy;
@@ -55,7 +58,10 @@ const FOREIGN: &[(&[u8], &str)] = &[
     ),
     (b"CDF", "NetCDF and Exodus are not read; convert it to VTK, as with `meshio convert`"),
     (b"\x1f\x8b", "a file in gzip is not read; unpack it"),
-    (b"$MeshFormat", "Gmsh is not read; convert it to VTK, as with `meshio convert`"),
+    (
+        b"$NOD",
+        "version 1 of Gmsh's format is not read; write 4.1, as with `Mesh.MshFileVersion = 4.1`",
+    ),
 ];
 
 /// Reads what is wanted of bytes, whatever they are.
@@ -78,6 +84,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
         [b'<', ..] => xml::parse(bytes, wanted),
         _ if tecplot::is_tecplot(start) => tecplot::parse(bytes, wanted).map(Contents::Snapshots),
         _ if start.starts_with(dump::MARK) => dump::parse(bytes, wanted).map(Contents::Snapshots),
+        _ if start.starts_with(gmsh::MARK) => gmsh::parse(bytes, wanted).map(Contents::Snapshots),
         _ if frd::is_frd(bytes) => frd::parse(bytes, wanted).map(Contents::Snapshots),
         _ => table::parse(bytes, wanted).map(Contents::Snapshots),
     }
