@@ -15,13 +15,16 @@ fn every_version_has_all_types_of_elements_at_two_times() {
         let found = all(&data(&name)).unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
         let times: Vec<_> = found.iter().map(|it| it.time.unwrap().value).collect();
         assert_eq!(times, [0.25, 0.5], "{name}");
+        assert_eq!(
+            [found[0].unread.as_slice(), &found[1].unread],
+            [&["corners".to_owned()][..], &[]]
+        );
         for (snapshot, time) in found.iter().zip(times) {
             nodes_are_in_place(&name, snapshot, &kinds);
             let places = values(snapshot, "Points").as_chunks::<3>().0;
             let u = places.iter().flat_map(|[x, y, z]| [0.1 * x * y, -0.2 * x, 0.05 * z]);
             let u: Vec<f64> = u.map(|it| time * it).collect();
             near(&name, &of_role(snapshot, Role::Displacement, 3), &u, 1e-15);
-            assert_eq!(snapshot.unread, ["corners"], "{name}");
             let stored = snapshot.of_points[0].stored;
             assert_eq!(
                 (stored, snapshot.points.as_ref().unwrap().stored),
@@ -105,6 +108,14 @@ fn partitions_are_united_and_times_are_sorted() {
     assert_eq!(
         [first(0), first(1)],
         [[7.0, 5.0, 6.0, 9.0], [14.0, 10.0, 12.0, 18.0]].map(|it| it.to_vec())
+    );
+    // Numbers of elements alone say nothing of a node that none of them has.
+    let of_elements = "$ElementData\n1\n\"J\"\n1\n0.5\n3\n0\n1\n1\n3 2.5\n$EndElementData\n";
+    let text = square(of_elements).replace("\n4\n7 0", "\n5\n8 3 3 3\n7 0");
+    let found = all(text.as_bytes()).unwrap();
+    assert_eq!(
+        (found[0].rows(), values(&found[0], "J"), found[0].cells.points.as_slice()),
+        (4, &[2.5][..], &[0, 1, 2, 3][..])
     );
     let mesh = all(square("").as_bytes()).unwrap();
     assert_eq!((mesh.len(), mesh[0].cells.types.as_slice(), mesh[0].time), (1, &[9][..], None));

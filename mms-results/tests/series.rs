@@ -148,6 +148,12 @@ fn what_is_no_number_is_a_mistake_where_it_must_be_one() {
 
 #[test]
 fn broken_files_are_survived() {
+    // No rows of a million million numbers each, column by column.
+    let empty = npy("<f8", &[0, 1_000_000, 1_000_000], 1.0);
+    let empty = String::from_utf8_lossy(&empty[10..]).replace("False", "True ");
+    let bytes =
+        [b"\x93NUMPY\x01\x00", &(empty.len() as u16).to_le_bytes()[..], empty.as_bytes()].concat();
+    assert_eq!(all(&bytes).unwrap()[0].of_points[0].rows(), 0);
     for name in ["times_everywhere.npz", "odd.npz"] {
         survives(name, &data(name));
     }

@@ -79,10 +79,8 @@ pub fn survives(name: &str, bytes: &[u8]) {
     assert!(failed > bytes.len() / 2, "{name}: {failed} of {} are mistakes", bytes.len());
     let mut changed = bytes.to_vec();
     for at in 0..bytes.len() {
-        for byte in [0xff, b'9', bytes[at] ^ 1] {
-            changed[at] = byte;
-            read(&changed);
-        }
+        changed[at] = [0xff, b'9', bytes[at] ^ 1][at % 3];
+        read(&changed);
         changed[at] = bytes[at];
     }
 }

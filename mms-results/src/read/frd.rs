@@ -1,6 +1,7 @@
 //! Results of CalculiX in `.frd` files, in text and in binary ("CalculiX CrunchiX GraphiX User's Manual", section "Result
 //! Format"). Their nodes are where they were before the deformation.
 
+use super::series::tell_unread;
 use super::tags::Tags;
 use super::text::{Numbers, Style, number, settle};
 use crate::wanted::{Need, Wanted};
@@ -40,7 +41,7 @@ const MOST: usize = 1000;
 
 /// Reads the mesh and all blocks of results; those of one time are a snapshot.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
-    let mut file = File { bytes, at: 0, line: 0, wanted };
+    let mut file = File { bytes, at: 0, line: 0, wanted, unread: Vec::new() };
     let (mut tags, mut mesh, mut found) = (None, Snapshot::default(), Vec::new());
     while let Some(line) = file.next() {
         let key = line.trim_ascii_start();
@@ -69,6 +70,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
     if found.is_empty() {
         found.push(mesh);
     }
+    tell_unread(&mut found, file.unread);
     for snapshot in &mut found {
         let mut arrays: Vec<_> =
             snapshot.points.iter_mut().chain(&mut snapshot.of_points).collect();
@@ -98,6 +100,8 @@ struct File<'a> {
     at: usize,
     line: usize,
     wanted: &'a Wanted<'a>,
+    /// What was not read, with its time.
+    unread: Vec<(f64, String)>,
 }
 
 impl<'a> File<'a> {
@@ -297,12 +301,6 @@ impl<'a> File<'a> {
         let mut style = Style::default();
         style.see(text);
         let time = Time { value, rounding: style.stored().rounding(value) };
-        if found.last().and_then(|it| it.time) != Some(time) {
-            let numbers = mesh.points.as_ref().map_or(0, |it| it.values.len());
-            self.wanted.take("the mesh", numbers + mesh.cells.points.len())?;
-            found.push(Snapshot { time: Some(time), ..mesh.clone() });
-        }
-        let Some(snapshot) = found.last_mut() else { return Ok(()) };
         let line = self.record()?;
         if !line.starts_with(b" -4") {
             return Err(self.mistake("expected a record -4 with the name of the results"));
@@ -322,15 +320,20 @@ impl<'a> File<'a> {
                 format!("`{name}` is {kind}: write results of a step in time, or of a static step");
             return Err(self.mistake(what));
         }
+        let before = found.last().filter(|it| it.time == Some(time));
+        let is_before = |names: &[String]| {
+            before.is_some_and(|it| it.of_points.iter().any(|it| names.contains(&it.name)))
+        };
         let real = name.strip_suffix('I').unwrap_or_default();
-        if snapshot.of_points.iter().any(|it| it.name == real) {
+        if is_before(&[real.to_owned()]) {
             let what = format!(
                 "`{name}` is the imaginary part of `{real}`: results of a vibration are not read"
             );
             return Err(self.mistake(what));
         }
+        let unread = names.iter().filter(|it| vibrates.is_some() || !self.wanted.reads(it));
+        self.unread.extend(unread.map(|it| (value, it.clone())));
         if !columns.iter().any(|it| self.wanted.reads(it)) || vibrates.is_some() {
-            snapshot.unread.extend(names);
             return match form {
                 Form::Binary(bytes) => {
                     self.binary(said.unwrap_or(0), 4 + bytes * columns.len()).map(drop)
@@ -343,19 +346,26 @@ impl<'a> File<'a> {
             };
         }
         let rows = self.rows(said, form, columns.len())?;
-        let is_there = snapshot.of_points.iter().any(|it| names.contains(&it.name));
-        let wrong =
-            if is_there { Some("is there twice at one time".into()) } else { rows.misfit(nodes) };
-        match wrong {
-            Some(what) if is_must => return Err(self.mistake(format!("`{name}` {what}"))),
-            Some(_) => snapshot.unread.extend(names),
-            None => {
-                let arrays = rows.arrays(&columns, &names, nodes.1);
-                let (read, left): (Vec<_>, Vec<_>) =
-                    arrays.into_iter().partition(|it| self.wanted.reads(&it.name));
-                snapshot.of_points.extend(read);
-                snapshot.unread.extend(left.into_iter().map(|it| it.name));
+        let misfit = match is_before(&names) {
+            true => Some("is there twice at one time".into()),
+            false => rows.misfit(nodes),
+        };
+        if let Some(what) = misfit {
+            if is_must {
+                return Err(self.mistake(format!("`{name}` {what}")));
             }
+            self.unread.extend(names.into_iter().map(|it| (value, it)));
+            return Ok(());
+        }
+        if before.is_none() {
+            let numbers = mesh.points.as_ref().map_or(0, |it| it.values.len());
+            self.wanted.take("the mesh", numbers + mesh.cells.points.len())?;
+            found.push(Snapshot { time: Some(time), ..mesh.clone() });
+        }
+        names.retain(|it| self.wanted.reads(it));
+        let arrays = rows.arrays(&columns, &names, nodes.1);
+        if let Some(snapshot) = found.last_mut() {
+            snapshot.of_points.extend(arrays);
         }
         Ok(())
     }

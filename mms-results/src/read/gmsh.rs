@@ -56,7 +56,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
                 let head = file.head()?;
                 let is_wanted = wanted.reads(&head.name) && of.is_some();
                 if !is_wanted {
-                    unread.push(head.name.clone());
+                    unread.push((head.time.values[0], head.name.clone()));
                 }
                 // Also a view that is not wanted says which nodes and elements are of the body.
                 match of.map(|of| file.view(of, head, is_wanted)) {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::gmsh::{Of, View};
+use super::series::tell_unread;
 use super::tags::Tags;
 use super::text::{Numbers, settle};
 use crate::wanted::{Need, Wanted};
@@ -176,7 +177,7 @@ impl Mesh {
     pub fn snapshots(
         mut self,
         views: Vec<View>,
-        mut unread: Vec<String>,
+        mut unread: Vec<(f64, String)>,
         wanted: &Wanted<'_>,
     ) -> Result<Vec<Snapshot>, Mistake> {
         if self.tags.is_empty() {
@@ -205,18 +206,20 @@ impl Mesh {
         self.keep_cells(&cells);
         let mut is_used = vec![self.cells.is_empty(); self.tags.len()];
         self.cells.points.iter().for_each(|it| is_used[*it] = true);
-        let (mut of_points, points) =
+        let (mut of_points, mut points) =
             held.fitting("node", of_nodes, (&self.tags, &nodes), &is_used)?;
+        if of_points.is_empty() && !of_cells.is_empty() {
+            points = is_used;
+        }
         let places = self.keep_points(&points);
         for (views, kept) in [(&mut of_points, &points), (&mut of_cells, &cells)] {
             views.retain(|it| wanted.reads(&it.array.name));
             views.iter_mut().try_for_each(|it| it.arrange(kept, wanted))?;
         }
-        let mut unread = held.unread;
-        unread.sort();
-        unread.dedup();
-        Snapshot { points: Some(places), cells: self.cells, unread, ..Snapshot::default() }
-            .at_times(of_points, of_cells, wanted)
+        let mesh = Snapshot { points: Some(places), cells: self.cells, ..Snapshot::default() };
+        let mut found = mesh.at_times(of_points, of_cells, wanted)?;
+        tell_unread(&mut found, held.unread);
+        Ok(found)
     }
 
     fn keep_cells(&mut self, kept: &[bool]) {
@@ -275,7 +278,7 @@ fn positions(kept: &[bool]) -> Vec<usize> {
 /// Views whose partitions are one. Of a view with two steps at one time nobody knows which is meant.
 fn united(
     views: Vec<View>,
-    unread: &mut Vec<String>,
+    unread: &mut Vec<(f64, String)>,
     wanted: &Wanted<'_>,
 ) -> Result<Vec<View>, Mistake> {
     let mut found: BTreeMap<(bool, String, u64), View> = BTreeMap::new();
@@ -296,7 +299,7 @@ fn united(
                 known.step, view.step
             )));
         } else {
-            unread.push(name);
+            unread.push((time, name));
         }
     }
     Ok(found.into_values().collect())
@@ -305,7 +308,7 @@ fn united(
 /// Which views have numbers for all nodes or elements that need them.
 struct Held<'a> {
     wanted: &'a Wanted<'a>,
-    unread: Vec<String>,
+    unread: Vec<(f64, String)>,
 }
 
 impl Held<'_> {
@@ -343,7 +346,7 @@ impl Held<'_> {
                 Some(misfit) if self.wanted.need(&name) == Need::Must => {
                     return Err(Mistake::new(misfit));
                 }
-                Some(_) => self.unread.push(name),
+                Some(_) => self.unread.push((view.time.values[0], name)),
                 None => {
                     view.tags.iter().for_each(|it| times[*it as usize] += 1);
                     found.push(view);

@@ -136,9 +136,16 @@ pub fn count(rows: usize, components: usize, kind: Kind) -> Result<usize, Mistak
     })
 }
 
+/// How many rows are put together at once.
+const BLOCK: usize = 1024;
+
 /// Numbers whose first axis runs fastest, as numbers whose last axis does.
 pub fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
     let (rows, axes) = shape.split_first().map_or((1, &[][..]), |(rows, axes)| (*rows, axes));
+    // Of no rows a file may say that each has any number of components.
+    if values.is_empty() {
+        return Vec::new();
+    }
     let components: usize = axes.iter().product();
     // The component that a column is.
     let place = |mut column: usize| {
@@ -150,11 +157,15 @@ pub fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
         }
         place
     };
+    let places: Vec<usize> = (0..components).map(place).collect();
     let mut numbers = vec![0.0; values.len()];
-    for (at, column) in values.chunks_exact(rows.max(1)).enumerate() {
-        let place = place(at);
-        let to = numbers.chunks_exact_mut(components);
-        to.zip(column).for_each(|(to, number)| to[place] = *number);
+    // Rows by the block, so that what is written stays at hand.
+    for (block, to) in numbers.chunks_mut(BLOCK * components).enumerate() {
+        for (column, place) in values.chunks_exact(rows).zip(&places) {
+            let from = &column[block * BLOCK..];
+            let to = to.chunks_exact_mut(components);
+            to.zip(from).for_each(|(to, number)| to[*place] = *number);
+        }
     }
     numbers
 }

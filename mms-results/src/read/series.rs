@@ -1,6 +1,6 @@
 //! Arrays whose first axis are times, as the snapshots of these.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use super::table::is_time;
 use crate::wanted::Wanted;
@@ -130,4 +130,21 @@ fn points(times: &Shaped, known: &[Vec<usize>]) -> Result<Option<usize>, Mistake
         "an array of shape ({shape}) may be {count} times of {points} points, or {others}, for `{name}` has {count} \
          numbers: save one file for each time, with one number as `{name}`"
     )))
+}
+
+/// Gives snapshots the names of what was not read at their times; the first has those of other times, too.
+pub fn tell_unread(found: &mut [Snapshot], unread: Vec<(f64, String)>) {
+    let time = |it: &Snapshot| it.time.map(|time| time.value.to_bits());
+    let places: HashMap<_, _> =
+        found.iter().enumerate().rev().map(|(at, it)| (time(it), at)).collect();
+    for (time, name) in unread {
+        let at = places.get(&Some(time.to_bits())).copied().unwrap_or(0);
+        if let Some(snapshot) = found.get_mut(at) {
+            snapshot.unread.push(name);
+        }
+    }
+    for snapshot in found {
+        snapshot.unread.sort();
+        snapshot.unread.dedup();
+    }
 }
