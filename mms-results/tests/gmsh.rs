@@ -60,6 +60,27 @@ fn what_has_no_numbers_and_needs_none_is_left_out() {
 }
 
 #[test]
+fn parameters_of_nodes_are_passed_over() {
+    for form in ["text", "binary"] {
+        let name = format!("gmsh_parametric_41_{form}.msh");
+        let bytes = data(&name);
+        for section in [&b"$Periodic"[..], b"$Entities"] {
+            assert!(bytes.windows(section.len()).any(|it| it == section), "{name}");
+        }
+        let snapshot = one(&name);
+        let places = values(&snapshot, "Points").as_chunks::<3>().0;
+        let mut sorted: Vec<_> = places.iter().map(|[x, y, z]| [*y, *x, *z]).collect();
+        sorted.sort_by(|a, b| a.partial_cmp(b).unwrap());
+        let [x, _] = grid(1.0);
+        let found: Vec<f64> = sorted.iter().flat_map(|[y, x, _]| [*x, *y]).collect();
+        near(&name, &found, &x, 1e-12);
+        let u: Vec<f64> = places.iter().flat_map(|[x, y, _]| [0.1 * x * y, -0.2 * x]).collect();
+        near(&name, &of_role(&snapshot, Role::Displacement, 2), &u, 1e-16);
+        assert_eq!(snapshot.cells.types.iter().filter(|it| **it == 5).count(), 8, "{name}");
+    }
+}
+
+#[test]
 fn files_of_meshio_have_the_mesh_that_was_written() {
     let [x, u] = grid(1.0);
     for form in ["22_text", "22_binary", "40_text", "40_binary", "41_text", "41_binary"] {
@@ -126,6 +147,9 @@ fn broken_files_are_mistakes() {
     for form in FORMS {
         let name = format!("gmsh_square_{form}.msh");
         survives(&name, &data(&name));
+    }
+    for name in ["meshio_40_binary.msh", "gmsh_parametric_41_binary.msh"] {
+        survives(name, &data(name));
     }
     let full = [(7, 1.0), (5, 1.0), (6, 1.0), (9, 1.0)];
     let said = |text: &str| all(text.as_bytes()).unwrap_err().of("file").to_string();

@@ -66,7 +66,7 @@ fn npy(kind: &str, shape: &[usize], step: f64) -> Vec<u8> {
     all
 }
 
-/// What is read of arrays of these shapes: the times, and the numbers of each point and of all points of `u`.
+/// Reads arrays of these shapes: how many times there are, numbers of a point, and points of `u`.
 fn read(arrays: &[(&str, &str, &[usize])]) -> Result<(usize, usize, usize), String> {
     let arrays: Vec<_> = arrays
         .iter()

@@ -100,7 +100,7 @@ struct File<'a> {
     at: usize,
     line: usize,
     wanted: &'a Wanted<'a>,
-    /// What was not read, with its time.
+    /// Names of arrays that were not read, each with its time.
     unread: Vec<(f64, String)>,
 }
 
@@ -424,7 +424,7 @@ struct Rows {
 }
 
 impl Rows {
-    /// What is wrong with these rows as those of all nodes.
+    /// Says why these rows are not those of all nodes.
     fn misfit(&self, (count, nodes): (usize, &Tags)) -> Option<String> {
         if let Some(tag) = self.tags.iter().find(|it| nodes.place(**it).is_none()) {
             return Some(format!("has the node {tag}, which is not there"));

@@ -16,7 +16,7 @@ pub const MARK: &[u8] = b"$MeshFormat";
 /// The most components, and tags of a view or an element.
 const MOST: usize = 1000;
 
-/// What numbers are of.
+/// The parts of a mesh that may have numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Of {
     Nodes,
@@ -75,7 +75,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
     mesh.snapshots(views, unread, wanted)
 }
 
-/// What `$MeshFormat` says.
+/// The content of `$MeshFormat`.
 #[derive(Clone, Copy)]
 struct Format {
     /// 20, 40 or 41.
@@ -400,7 +400,7 @@ impl<'a> File<'a> {
         Ok(())
     }
 
-    /// What stands before the numbers of a view.
+    /// Reads the lines before the numbers of a view.
     fn head(&mut self) -> Result<Head, Mistake> {
         let strings: usize = self.parsed("how many texts there are")?;
         self.end_line();
@@ -469,7 +469,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// What stands before the numbers of a view.
+/// The lines before the numbers of a view.
 struct Head {
     name: String,
     time: Array,

@@ -157,7 +157,7 @@ struct Matrix<'a> {
     is_complex: bool,
     shape: Vec<usize>,
     name: String,
-    /// What stands behind its name.
+    /// The elements behind its name.
     rest: &'a [u8],
 }
 
@@ -323,7 +323,7 @@ fn of_columns(name: &str, values: Vec<f64>, shape: &[usize], stored: Stored) -> 
     Array { name: name.to_owned(), components, values, stored }
 }
 
-/// What a variable of version 4 says of itself: five numbers before its name.
+/// The head of a variable of version 4: five numbers before its name.
 struct Old {
     order: Order,
     kind: Kind,

@@ -92,7 +92,7 @@ impl Numbers {
         Ok(())
     }
 
-    /// The same as an array; how they were stored is for [`settle`] to say.
+    /// An array of these numbers; how they were stored is for [`settle`] to say.
     pub fn into_array(self, name: &str, components: usize) -> Array {
         let (name, stored) = (name.to_owned(), self.style.stored());
         Array { name, components, values: self.values, stored }

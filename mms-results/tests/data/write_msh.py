@@ -78,6 +78,31 @@ def square(name):
     return u, J, s
 
 
+def parametric():
+    """The unit square with nodes that have parameters, and with sides that are periodic."""
+    gmsh.clear()
+    gmsh.model.add("parametric")
+    gmsh.model.occ.addRectangle(0, 0, 0, 1, 1)
+    gmsh.model.occ.synchronize()
+    for curve in [1, 2, 3, 4]:
+        gmsh.model.mesh.setTransfiniteCurve(curve, 3)
+    gmsh.model.mesh.setTransfiniteSurface(1)
+    gmsh.model.mesh.setPeriodic(1, [2], [4], [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
+    gmsh.model.mesh.generate(2)
+    tags, x = nodes()
+    u = gmsh.view.add("u")
+    values = numpy.column_stack([0.1 * x[:, 0] * x[:, 1], -0.2 * x[:, 0], 0 * x[:, 0]])
+    gmsh.view.addHomogeneousModelData(u, 0, "parametric", "NodeData", tags, values.ravel(), 0.5, 3)
+    gmsh.option.setNumber("Mesh.SaveParametric", 1)
+    gmsh.option.setNumber("PostProcessing.SaveMesh", 0)
+    gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
+    for binary, form in enumerate(["text", "binary"]):
+        gmsh.option.setNumber("Mesh.Binary", binary)
+        path = str(HERE / f"gmsh_parametric_41_{form}.msh")
+        gmsh.write(path)
+        gmsh.view.write(u, path, True)
+
+
 def with_gmsh():
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)
@@ -95,6 +120,7 @@ def with_gmsh():
             for at, view in enumerate(found):
                 gmsh.option.setNumber("PostProcessing.SaveMesh", int(at == 0))
                 gmsh.view.write(view, str(path), True)
+    parametric()
     gmsh.finalize()
 
 
