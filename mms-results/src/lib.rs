@@ -1,7 +1,8 @@
 //! Results of any solver: what files hold, what its names mean, and how far it is from an exact solution.
 //!
-//! A file is known by its content: a table with a header, VTK in XML or in the legacy format, NumPy. What is read is a
-//! [`Snapshot`]: points, cells, and named arrays of numbers, each with the precision in which it was stored. [`names`]
+//! A file is known by its content: a table with a header, VTK in XML or in the legacy format, NumPy, MATLAB, CalculiX,
+//! Gmsh, Tecplot, dumps of particles. What is read is a [`Snapshot`]: points, cells, and named arrays of numbers, each with
+//! the precision in which it was stored. [`names`]
 //! says which of them are displacement, velocity and so on; [`norm`] measures them over points,
 //! [`over_cells`] over the [cells](cell) of a [`mesh`], and [`comparison`] block by block of the exact solution;
 //! [`pairing`] finds the same points in two results,

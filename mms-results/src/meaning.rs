@@ -12,6 +12,9 @@ const SYMMETRIC: f64 = 1e-5;
 /// A strain that is larger is none.
 const LARGEST_STRAIN: f64 = 1e3;
 
+/// The part of the largest component of a vector in a plane that one across the plane may be: some codes compute it.
+const ROUNDOFF: f64 = 1e-12;
+
 /// Which numbers of a quantity a column has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Part {
@@ -398,7 +401,8 @@ impl Meaning {
         )))
     }
 
-    /// Refuses a vector with more than the field's components, unless they are 0 throughout.
+    /// Refuses a vector with more than the field's components, unless they are 0 throughout, but for roundoff beside the
+    /// others.
     fn hold_flat(&self, snapshot: &Snapshot, dimension: usize) -> Result<(), Mistake> {
         let from = self.least_number();
         let is_beyond = |part: &Part| matches!(part, Part::Nth(at) if *at >= dimension + from);
@@ -406,10 +410,16 @@ impl Meaning {
         if self.role.form() != Form::Vector {
             return Ok(());
         }
-        for (_, column) in beyond {
+        let numbers = |column: &Column| {
             let array = array(snapshot, column.place);
-            let numbers = array.values.iter().skip(column.component).step_by(array.components);
-            if let Some((row, value)) = numbers.enumerate().find(|(_, value)| **value != 0.0) {
+            array.values.iter().skip(column.component).step_by(array.components)
+        };
+        let own = self.columns.iter().filter(|(part, _)| !is_beyond(part));
+        let own = own.flat_map(|(_, column)| numbers(column));
+        let least = ROUNDOFF * own.fold(0.0, |most: f64, it| most.max(it.abs()));
+        for (_, column) in beyond {
+            let is_large = |(_, it): &(usize, &f64)| it.is_nan() || it.abs() > least;
+            if let Some((row, value)) = numbers(column).enumerate().find(is_large) {
                 let what = format!(
                     "`{}` has a component of {value} beyond the {dimension} of the field; expected 0",
                     self.source

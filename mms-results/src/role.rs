@@ -58,7 +58,7 @@ roles! {
     Place "place" "points" Vector ["x" "position" "positions" "pos" "points" "point" "coordinates" "coords" "coord"]
         "Positions that may be X or x.",
     Displacement "displacement" "u" Vector ["u" "U" "d" "displacements" "disp" "displ"] "Displacement u.",
-    Velocity "velocity" "v" Vector ["v" "V" "velocities" "vel"] "Velocity v.",
+    Velocity "velocity" "v" Vector ["v" "V" "velocities" "vel" "velo"] "Velocity v.",
     Acceleration "acceleration" "a" Vector ["a" "A" "accelerations" "accel" "acc"] "Acceleration a.",
     Residual "residual" "r" Vector ["r" "residuals"] "Residual of the balance of momentum, per reference volume.",
     DisplacementGradient "displacement_gradient" "H" Tensor ["H" "gradu"] "Displacement gradient H.",

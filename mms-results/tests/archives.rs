@@ -80,6 +80,11 @@ fn npz(entries: &[Entry<'_>]) -> Vec<u8> {
     all
 }
 
+/// An archive of arrays, each by its name.
+pub fn archive(arrays: &[(&str, &[u8])]) -> Vec<u8> {
+    npz(&arrays.iter().map(|(name, bytes)| Entry::honest(name, bytes)).collect::<Vec<_>>())
+}
+
 #[test]
 fn an_archive_is_held_to_its_checksums() {
     let u = npy("(2,)", 16);
@@ -202,8 +207,9 @@ fn arrays_that_are_not_needed_are_passed_over() {
             continue;
         };
         let of_few = &recognise(&few, &KNOWN, &u).unwrap()[0];
-        let numbers = meaning.values(&all[0], 2).unwrap().numbers;
-        assert_eq!(of_few.values(&few, 2).unwrap().numbers, numbers, "{}", path.display());
+        let dimension = if meaning.values(&all[0], 2).is_ok() { 2 } else { 3 };
+        let numbers = meaning.values(&all[0], dimension).unwrap().numbers;
+        assert_eq!(of_few.values(&few, dimension).unwrap().numbers, numbers, "{}", path.display());
         assert_eq!((few.time, &few.cells), (all[0].time, &all[0].cells), "{}", path.display());
         assert!(few.unread.len() >= all[0].of_points.len() - few.of_points.len());
         count += 1;

@@ -97,7 +97,7 @@ fn every_vtk_file_has_the_mesh_that_was_written() {
 #[test]
 fn every_numpy_file_has_the_mesh_that_was_written() {
     for name in files(&[".npz", ".csv", ".tsv", ".txt"]) {
-        if name == "nodes.txt" {
+        if !name.starts_with("numpy") {
             continue;
         }
         let snapshot = one(&name);
@@ -152,7 +152,7 @@ fn what_is_not_read_is_named() {
     for (text, word) in [
         ("", "empty"),
         ("CDF\u{1}", "NetCDF"),
-        ("$MeshFormat\n", "Gmsh"),
+        ("$NOD\n", "Gmsh"),
         ("<Xdmf/>", "XDMF"),
         ("<VTKFile type=\"ImageData\"><ImageData/></VTKFile>", "`ImageData` is not read"),
         (

@@ -3,10 +3,15 @@
 mod archives;
 mod dumps;
 mod files;
+mod frd;
+mod gmsh;
+mod mat;
 mod memory;
 mod norms;
 mod over_cells;
 mod pairing;
+mod series;
+mod shared;
 mod tables;
 mod tecplot;
 mod write;

@@ -15,7 +15,24 @@ fn no_file_takes_more_memory_than_it_honestly_asks_for() {
     let claimed = usize::MAX / 32;
     let vtk = "# vtk DataFile Version 3.0\n\nBINARY\nDATASET POLYDATA\n";
     let attributes: String = (0..100_000).map(|at| format!(" a{at}=\"\"")).collect();
+    let nodes: String =
+        (1..=1000).map(|it| format!(" -1{it:5}{:12}{:12}{:12}\n", 1, 2, 3)).collect();
+    let frd = "    1C\n    2C\n".to_owned() + &nodes + " -3\n";
+    let step = |it: usize| {
+        format!("  100CL  101{it:12}\n -4  T           1    1\n -5  T           1    1\n -3\n")
+    };
+    let msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    let view = |it: usize| format!("$NodeData\n1\n\"T\"\n1\n{it}\n3\n{it}\n1\n0\n$EndNodeData\n");
     let texts = [
+        format!("    2C{:18}{claimed:12}{:37}2\n", "", ""),
+        format!("    2C{:18}{claimed:12}{:37}1\n -1", "", ""),
+        frd + &(0..3000).map(step).collect::<String>(),
+        format!("{msh}$Nodes\n{claimed}\n1 0 0 0\n"),
+        format!(
+            "{msh}$Nodes\n1000\n{}$EndNodes\n{}",
+            nodes.replace(" -1", ""),
+            (0..5000).map(view).collect::<String>()
+        ),
         format!("{vtk}POINTS {claimed} double\n"),
         format!("{vtk}VERTICES {claimed} {claimed}\n"),
         format!("{vtk}FIELD FieldData {claimed}\n"),

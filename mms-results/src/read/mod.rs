@@ -1,12 +1,29 @@
-//! What a file is, by its content.
+//! What a file is, by its content. The reader of each format says where that is described.
+//!
+//! | begins with | format |
+//! |---|---|
+//! | `\x93NUMPY`, `PK` | an array of NumPy, an archive of them, also at several times |
+//! | `MATLAB 5.0 MAT-file` | variables of MATLAB or Octave; version 4 begins with five numbers of four bytes |
+//! | `# vtk DataFile`, `<` | VTK, legacy and in XML |
+//! | `1C`, `1U` or `2C` behind four blanks | results of CalculiX (`.frd`) |
+//! | `$MeshFormat` | meshes and views of Gmsh |
+//! | `TITLE`, `VARIABLES`, `FILETYPE` or `ZONE` before `=` | Tecplot |
+//! | `ITEM:` | dumps of LAMMPS and Karamelo |
+//! | anything else | a table |
 
 mod base64;
 mod dump;
+mod frd;
+mod gmsh;
+mod gmsh_mesh;
 mod legacy;
+mod mat;
 mod npy;
 mod npz;
 mod numbers;
+mod series;
 mod table;
+mod tags;
 mod tecplot;
 mod text;
 mod xml;
@@ -43,7 +60,10 @@ const FOREIGN: &[(&[u8], &str)] = &[
     ),
     (b"CDF", "NetCDF and Exodus are not read; convert it to VTK, as with `meshio convert`"),
     (b"\x1f\x8b", "a file in gzip is not read; unpack it"),
-    (b"$MeshFormat", "Gmsh is not read; convert it to VTK, as with `meshio convert`"),
+    (
+        b"$NOD",
+        "version 1 of Gmsh's format is not read; write 4.1, as with `Mesh.MshFileVersion = 4.1`",
+    ),
 ];
 
 /// Reads what is wanted of bytes, whatever they are.
@@ -59,11 +79,15 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
     match start {
         [] => Err(Mistake::new("the file is empty")),
         _ if bytes.starts_with(npy::MAGIC) => npy::parse(bytes, wanted).map(one),
-        _ if bytes.starts_with(b"PK") => npz::parse(bytes, wanted).map(one),
+        _ if bytes.starts_with(b"PK") => npz::parse(bytes, wanted).map(Contents::Snapshots),
+        _ if bytes.starts_with(mat::MAGIC) => mat::parse(bytes, wanted).map(one),
+        _ if mat::is_version_4(bytes) => mat::parse_version_4(bytes, wanted).map(one),
         _ if start.starts_with(b"# vtk DataFile") => legacy::parse(bytes, wanted).map(one),
         [b'<', ..] => xml::parse(bytes, wanted),
         _ if tecplot::is_tecplot(start) => tecplot::parse(bytes, wanted).map(Contents::Snapshots),
         _ if start.starts_with(dump::MARK) => dump::parse(bytes, wanted).map(Contents::Snapshots),
+        _ if start.starts_with(gmsh::MARK) => gmsh::parse(bytes, wanted).map(Contents::Snapshots),
+        _ if frd::is_frd(bytes) => frd::parse(bytes, wanted).map(Contents::Snapshots),
         _ => table::parse(bytes, wanted).map(Contents::Snapshots),
     }
 }

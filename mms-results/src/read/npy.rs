@@ -1,6 +1,6 @@
 //! An array of NumPy: "NEP 1, a simple file format for NumPy arrays".
 
-use super::numbers::{Kind, Order, count};
+use super::numbers::{Kind, Order, by_rows, count};
 use crate::wanted::Wanted;
 use crate::{Array, Mistake, Snapshot};
 
@@ -37,6 +37,11 @@ impl Head {
         self.bytes as u64 + (self.numbers * self.kind.bytes()) as u64
     }
 
+    /// The length of each axis.
+    pub fn into_shape(self) -> Vec<usize> {
+        self.shape
+    }
+
     /// How many numbers it has.
     pub fn numbers(&self) -> usize {
         self.numbers
@@ -69,10 +74,10 @@ pub fn array(name: &str, bytes: &[u8]) -> Result<Array, Mistake> {
     Ok(Array { name: name.to_owned(), components, values, stored: head.kind.stored() })
 }
 
-/// Whether an array holds words, as bytes or in Unicode.
-pub fn are_words(bytes: &[u8]) -> bool {
+/// Whether an array holds something else than numbers that are read: words, objects, structures, complex numbers.
+pub fn has_no_numbers(bytes: &[u8]) -> bool {
     let described = split(bytes).and_then(|(text, _)| behind(text, "descr").ok());
-    described.is_some_and(|it| it.starts_with("'|S") || it.starts_with("'<U"))
+    described.is_some_and(|it| numbers(it).is_err())
 }
 
 /// The header and the numbers.
@@ -101,9 +106,8 @@ fn behind<'a>(text: &'a str, key: &str) -> Result<&'a str, Mistake> {
         .ok_or_else(|| Mistake::new(format!("its header has no `{key}`")))
 }
 
-/// The type of numbers, their order, whether the first axis runs fastest, and the shape.
-fn header(text: &str) -> Result<(Kind, Order, bool, Vec<usize>), Mistake> {
-    let described = behind(text, "descr")?;
+/// The type of numbers, and their order, by what describes them.
+fn numbers(described: &str) -> Result<(Kind, Order), Mistake> {
     let name = described.strip_prefix('\'').and_then(|it| it.split_once('\'')).map(|it| it.0);
     let name = name.ok_or_else(|| {
         Mistake::new(
@@ -115,11 +119,23 @@ fn header(text: &str) -> Result<(Kind, Order, bool, Vec<usize>), Mistake> {
         Some(("<" | "|" | "=", kind)) => (Order::Little, kind),
         _ => (Order::Little, name),
     };
+    let advice = match kind.as_bytes() {
+        [b'c', ..] => "; of complex numbers save the real part",
+        [b'f', ..] => "; `longdouble` differs between machines, save `astype(float)`",
+        [b'O', ..] => "; of objects save an array of numbers each",
+        _ => "",
+    };
     let kind = Kind::of_numpy(kind).ok_or_else(|| {
         Mistake::new(format!(
-            "numbers of type `{name}` are not read; expected floating-point numbers or integers"
+            "numbers of type `{name}` are not read; expected floating-point numbers or integers{advice}"
         ))
     })?;
+    Ok((kind, order))
+}
+
+/// The type of numbers, their order, whether the first axis runs fastest, and the shape.
+fn header(text: &str) -> Result<(Kind, Order, bool, Vec<usize>), Mistake> {
+    let (kind, order) = numbers(behind(text, "descr")?)?;
     let shape = behind(text, "shape")?;
     let shape = shape.strip_prefix('(').and_then(|it| it.split_once(')')).map(|it| it.0);
     let axis = |text: &str| {
@@ -130,19 +146,4 @@ fn header(text: &str) -> Result<(Kind, Order, bool, Vec<usize>), Mistake> {
     let shape = shape.split(',').filter(|it| !it.trim().is_empty()).map(axis);
     let is_fortran = behind(text, "fortran_order")?.starts_with("True");
     Ok((kind, order, is_fortran, shape.collect::<Result<_, _>>()?))
-}
-
-/// Numbers whose first axis runs fastest, as numbers whose last axis does.
-fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
-    let place = |mut index: usize| {
-        let mut place = 0;
-        let mut stride = values.len();
-        for &axis in shape.iter().rev() {
-            stride /= axis;
-            place += stride * (index % axis);
-            index /= axis;
-        }
-        place
-    };
-    (0..values.len()).map(|index| values[place(index)]).collect()
 }

@@ -1,18 +1,20 @@
 //! Arrays of NumPy in one file, as `numpy.savez` writes them.
 
+use std::borrow::Cow;
+
 use miniz_oxide::inflate::decompress_to_vec_with_limit;
 use rawzip::{CompressionMethod, ZipArchive, crc32};
 
 use super::npy;
-use super::table::is_time;
+use super::series::{Shaped, are_times, by_time};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
 /// What deflate makes of a byte at most.
-const RATIO: u64 = 1032;
+pub const RATIO: u64 = 1032;
 
 /// More bytes than the header of an array that is read has.
-const HEAD: usize = 1 << 16;
+pub const HEAD: usize = 1 << 16;
 
 fn broken(error: rawzip::Error) -> Mistake {
     Mistake::new(format!("not a file of `numpy.savez`: {error}"))
@@ -29,56 +31,83 @@ struct Entry<'a> {
     crc: u32,
 }
 
-/// Reads the arrays that are wanted. The time is one of them.
-pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
+/// Reads the arrays that are wanted. The time, or the times along the first axis of others, is one of them.
+pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let archive = ZipArchive::from_slice(bytes).map_err(broken)?;
     let mut entries = archive.entries();
-    let mut snapshot = Snapshot::default();
-    let mut taken = 0;
+    let (mut snapshot, mut arrays, mut times) = (Snapshot::default(), Vec::new(), Vec::new());
+    // The shapes of arrays with known names: others may be no arrays of points.
+    let (mut known, mut taken, mut has_arrays) = (Vec::new(), 0, false);
     while let Some(entry) = entries.next_entry().map_err(broken)? {
         let path = String::from_utf8_lossy(entry.file_path().as_bytes()).into_owned();
-        let name = path.strip_suffix(".npy").ok_or_else(|| {
-            Mistake::new(format!(
-                "`{path}`: expected arrays of NumPy, as `numpy.savez` writes them"
-            ))
-        })?;
+        let Some(name) = path.strip_suffix(".npy") else {
+            snapshot.unread.push(path);
+            continue;
+        };
+        has_arrays = true;
         let found = archive.get_entry(entry.wayfinder()).map_err(broken)?;
         taken += found.data().len();
         if taken > bytes.len() {
             return Err(Mistake::new("two arrays have the same bytes"));
         }
-        if !is_time(name) && !wanted.reads(name) {
-            snapshot.unread.push(name.to_owned());
-            continue;
-        }
+        let is_time = are_times(name);
         let (method, length, crc) =
             (entry.compression_method(), entry.uncompressed_size_hint(), entry.crc32());
-        match (Entry { name, data: found.data(), method, length, crc }).array(wanted)? {
-            Some(array) => snapshot.take(array),
-            None => snapshot.unread.push(name.to_owned()),
+        let entry = Entry { name, data: found.data(), method, length, crc };
+        let array = match wanted.need(name) {
+            Need::Numbers | Need::Must => entry.array(wanted)?,
+            _ if is_time => entry.array(wanted)?,
+            Need::Sound => {
+                known.extend(entry.shape());
+                None
+            }
+            Need::No => None,
+        };
+        match array {
+            Some(array) if is_time => times.push(array),
+            Some(array) if wanted.need(name) == Need::Must => {
+                known.push(array.shape.clone());
+                arrays.push(array);
+            }
+            Some(array) if !array.shape.is_empty() => arrays.push(array),
+            _ => snapshot.unread.push(name.to_owned()),
         }
     }
-    Ok(snapshot)
+    if !has_arrays {
+        let found =
+            snapshot.unread.first().map_or(String::new(), |it| format!(" (`{it}` is none)"));
+        let what = format!("expected arrays of NumPy, as `numpy.savez` writes them{found}");
+        return Err(Mistake::new(what));
+    }
+    by_time(times, arrays, &known, snapshot, wanted)
 }
 
 impl Entry<'_> {
-    /// The array; none if it holds words and need not hold numbers.
-    fn array(&self, wanted: &Wanted<'_>) -> Result<Option<Array>, Mistake> {
-        let head;
-        let head = match self.method {
-            CompressionMethod::STORE => self.data,
+    /// The front of its bytes.
+    fn head(&self) -> Result<Cow<'_, [u8]>, Mistake> {
+        match self.method {
+            CompressionMethod::STORE => Ok(self.data.into()),
             CompressionMethod::DEFLATE => {
-                head = decompress_to_vec_with_limit(self.data, HEAD)
-                    .unwrap_or_else(|error| error.output);
-                &head
+                let head = decompress_to_vec_with_limit(self.data, HEAD);
+                Ok(head.unwrap_or_else(|error| error.output).into())
             }
-            other => return Err(self.wrong(format!("compression {other:?} is not read"))),
-        };
-        if npy::are_words(head) && wanted.need(self.name) != Need::Must {
+            other => Err(self.wrong(format!("compression {other:?} is not read"))),
+        }
+    }
+
+    /// The length of each axis, where it is an array of numbers.
+    fn shape(&self) -> Option<Vec<usize>> {
+        Some(npy::Head::of(&self.head().ok()?).ok()?.into_shape())
+    }
+
+    /// The array; none if it holds no numbers that are read, and need not.
+    fn array(&self, wanted: &Wanted<'_>) -> Result<Option<Shaped>, Mistake> {
+        let head = self.head()?;
+        if npy::has_no_numbers(&head) && wanted.need(self.name) != Need::Must {
             return Ok(None);
         }
         // Nothing is unpacked beyond what the header of the array declares.
-        let head = npy::Head::of(head).map_err(|mistake| self.wrong(mistake.what))?;
+        let head = npy::Head::of(&head).map_err(|mistake| self.wrong(mistake.what))?;
         let declared = head.length();
         let most = RATIO * self.data.len() as u64;
         if declared != self.length || self.method == CompressionMethod::DEFLATE && declared > most {
@@ -100,7 +129,8 @@ impl Entry<'_> {
                 "its checksum (CRC-32) is another: the file is damaged, write or copy it again";
             return Err(self.wrong(what));
         }
-        npy::array(self.name, bytes).map(Some)
+        let array = npy::array(self.name, bytes)?;
+        Ok(Some(Shaped { array, shape: head.into_shape() }))
     }
 
     fn wrong(&self, what: impl std::fmt::Display) -> Mistake {
@@ -110,9 +140,9 @@ impl Entry<'_> {
 
 impl Snapshot {
     /// Takes an array of points, or the time.
-    fn take(&mut self, array: Array) {
+    pub(super) fn take(&mut self, array: Array) {
         match array.values.as_slice() {
-            [value] if is_time(&array.name) => {
+            [value] if are_times(&array.name) && value.is_finite() => {
                 self.time = Some(Time { value: *value, rounding: array.rounding() });
             }
             _ => self.of_points.push(array),

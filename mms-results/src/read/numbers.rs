@@ -14,7 +14,7 @@ pub enum Order {
 /// A type of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A floating-point number of so many bytes: 4 or 8.
+    /// A floating-point number of so many bytes: 2, 4 or 8.
     Float(usize),
     /// An integer with a sign, of so many bytes: 1, 2, 4 or 8.
     Signed(usize),
@@ -63,7 +63,7 @@ impl Kind {
         let (letter, bytes) = name.split_at_checked(1)?;
         let bytes = bytes.parse().ok()?;
         match (letter, bytes) {
-            ("f", 4 | 8) => Some(Kind::Float(bytes)),
+            ("f", 2 | 4 | 8) => Some(Kind::Float(bytes)),
             ("i", 1 | 2 | 4 | 8) => Some(Kind::Signed(bytes)),
             ("u", 1 | 2 | 4 | 8) | ("b", 1) => Some(Kind::Unsigned(bytes)),
             _ => None,
@@ -79,6 +79,8 @@ impl Kind {
     /// How exact its numbers are.
     pub fn stored(self) -> Stored {
         match self {
+            // A number of 11 bits is off by less than one of three digits may be.
+            Kind::Float(2) => Stored::Digits(3),
             Kind::Float(4) => Stored::Single,
             Kind::Float(_) => Stored::Double,
             Kind::Signed(_) | Kind::Unsigned(_) => Stored::Whole,
@@ -88,6 +90,7 @@ impl Kind {
     /// All numbers of some bytes.
     pub fn read(self, bytes: &[u8], order: Order) -> Vec<f64> {
         match self {
+            Kind::Float(2) => each(bytes, order, |it| of_half(u16::from_le_bytes(it))),
             Kind::Float(4) => each(bytes, order, |it| f64::from(f32::from_le_bytes(it))),
             Kind::Float(_) => each(bytes, order, f64::from_le_bytes),
             Kind::Signed(1) => each(bytes, order, |it| f64::from(i8::from_le_bytes(it))),
@@ -100,6 +103,18 @@ impl Kind {
             Kind::Unsigned(_) => each(bytes, order, |it| u64::from_le_bytes(it) as f64),
         }
     }
+}
+
+/// A number of half precision, by its bits: a sign, five of the exponent, ten of the fraction.
+fn of_half(bits: u16) -> f64 {
+    let (exponent, fraction) = (i32::from(bits >> 10 & 0x1f), f64::from(bits & 0x3ff));
+    let size = match exponent {
+        0 => fraction * 2f64.powi(-24),
+        0x1f if fraction == 0.0 => f64::INFINITY,
+        0x1f => f64::NAN,
+        _ => (1024.0 + fraction) * 2f64.powi(exponent - 25),
+    };
+    if bits >> 15 == 0 { size } else { -size }
 }
 
 fn each<const N: usize>(bytes: &[u8], order: Order, read: impl Fn([u8; N]) -> f64) -> Vec<f64> {
@@ -119,6 +134,40 @@ pub fn count(rows: usize, components: usize, kind: Kind) -> Result<usize, Mistak
     numbers.ok_or_else(|| {
         Mistake::new(format!("{rows} times {components} numbers: no file holds as many"))
     })
+}
+
+/// How many rows are put together at once.
+const BLOCK: usize = 1024;
+
+/// Numbers whose first axis runs fastest, as numbers whose last axis does.
+pub fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
+    let (rows, axes) = shape.split_first().map_or((1, &[][..]), |(rows, axes)| (*rows, axes));
+    // Of no rows a file may say that each has any number of components.
+    if values.is_empty() {
+        return Vec::new();
+    }
+    let components: usize = axes.iter().product();
+    // The component that a column is.
+    let place = |mut column: usize| {
+        let (mut place, mut stride) = (0, components);
+        for &axis in axes {
+            stride /= axis;
+            place += stride * (column % axis);
+            column /= axis;
+        }
+        place
+    };
+    let places: Vec<usize> = (0..components).map(place).collect();
+    let mut numbers = vec![0.0; values.len()];
+    // Rows by the block, so that what is written stays at hand.
+    for (block, to) in numbers.chunks_mut(BLOCK * components).enumerate() {
+        for (column, place) in values.chunks_exact(rows).zip(&places) {
+            let from = &column[block * BLOCK..];
+            let to = to.chunks_exact_mut(components);
+            to.zip(from).for_each(|(to, number)| to[*place] = *number);
+        }
+    }
+    numbers
 }
 
 /// Numbers as positions.

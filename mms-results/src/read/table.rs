@@ -55,7 +55,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
 fn not_text(bytes: &[u8], at: usize) -> Mistake {
     let line = 1 + memchr::memchr_iter(b'\n', &bytes[..at]).count();
     let what = "neither text nor a format that is known: expected a table with a header, VTK (.vtu, .vtp, .pvd, \
-                .vtk) or NumPy (.npz, .npy)";
+                .vtk), NumPy (.npz, .npy), MATLAB (.mat), CalculiX (.frd) or Gmsh (.msh)";
     Mistake::at(line, what)
 }
 

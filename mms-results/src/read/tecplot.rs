@@ -1,8 +1,8 @@
 //! ASCII files of Tecplot: zones of points, ordered or with cells ("Data Format Guide", Tecplot Inc.).
 
-use super::text::{Style, number, settle, without_unit};
+use super::text::{Numbers, Style, number, settle, without_unit};
 use crate::wanted::{Need, Wanted};
-use crate::{Array, Cells, Mistake, Snapshot, Time};
+use crate::{Cells, Mistake, Snapshot, Time};
 
 /// The words with which a file may begin.
 const BEGINNINGS: [&str; 4] = ["TITLE", "VARIABLES", "FILETYPE", "ZONE"];
@@ -246,7 +246,7 @@ impl Zone {
             return Err(Mistake::at(self.line, "a zone without VARIABLES before it"));
         }
         let mut snapshot = Snapshot { time: self.time, ..Snapshot::default() };
-        let mut columns: Vec<Option<(Vec<f64>, Style)>> = Vec::new();
+        let mut columns: Vec<Option<Numbers>> = Vec::new();
         let named: Vec<_> = names.iter().map(|name| without_unit(name)).collect();
         let names: Vec<String> = named.iter().map(|(name, _)| (*name).to_owned()).collect();
         let units =
@@ -262,16 +262,10 @@ impl Zone {
                 snapshot.unread.push(name.clone());
             }
         }
-        // A file of a few bytes may declare any number: room is taken as numbers come.
-        wanted.take("the zone", 0)?;
         let mut see = |words: &mut Words<'_>, variable: usize| -> Result<(), Mistake> {
             let text = words.number()?;
-            if let Some((values, style)) = &mut columns[variable] {
-                if values.len().is_multiple_of(CHUNK) {
-                    wanted.take("the zone", CHUNK)?;
-                }
-                values.push(number(text).unwrap_or(f64::NAN));
-                style.see(text);
+            if let Some(column) = &mut columns[variable] {
+                column.push(text, wanted)?;
             }
             Ok(())
         };
@@ -291,10 +285,7 @@ impl Zone {
             }
         }
         for (name, column) in names.iter().zip(columns) {
-            if let Some((values, style)) = column {
-                let (name, stored) = (name.clone(), style.stored());
-                snapshot.of_points.push(Array { name, components: 1, values, stored });
-            }
+            snapshot.of_points.extend(column.map(|it| it.into_array(name, 1)));
         }
         let single = vec![false; snapshot.of_points.len()];
         settle(&mut snapshot.of_points.iter_mut().collect::<Vec<_>>(), &single);
@@ -354,6 +345,3 @@ impl Zone {
         cells
     }
 }
-
-/// Numbers for which room is taken at once.
-const CHUNK: usize = 4096;

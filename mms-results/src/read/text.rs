@@ -1,6 +1,7 @@
 //! Numbers in text, and how many digits they have.
 
-use crate::{Array, Stored};
+use crate::wanted::Wanted;
+use crate::{Array, Mistake, Stored};
 
 /// The name of a column, and the unit in brackets behind it, as in `u_x [mm]`. A component in brackets is no unit.
 pub fn without_unit(text: &str) -> (&str, Option<&str>) {
@@ -79,6 +80,38 @@ impl Style {
             false if ends_in_zero => Stored::Fixed(decimals),
             _ => Stored::Digits(significant),
         }
+    }
+}
+
+/// Numbers for which room is taken at once.
+const CHUNK: usize = 4096;
+
+/// Numbers of a text. A file of a few bytes may declare any number of them: room is taken as they come.
+#[derive(Default)]
+pub struct Numbers {
+    pub values: Vec<f64>,
+    pub style: Style,
+}
+
+impl Numbers {
+    /// Adds one more number.
+    ///
+    /// # Errors
+    /// A word, or too little memory.
+    pub fn push(&mut self, text: &str, wanted: &Wanted<'_>) -> Result<(), Mistake> {
+        if self.values.len().is_multiple_of(CHUNK) {
+            wanted.take("the file", CHUNK)?;
+        }
+        let expected = || Mistake::new(format!("expected a number, found `{text}`"));
+        self.values.push(number(text).ok_or_else(expected)?);
+        self.style.see(text);
+        Ok(())
+    }
+
+    /// An array of these numbers; how they were stored is for [`settle`] to say.
+    pub fn into_array(self, name: &str, components: usize) -> Array {
+        let (name, stored) = (name.to_owned(), self.style.stored());
+        Array { name, components, values: self.values, stored }
     }
 }
 
