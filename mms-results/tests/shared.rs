@@ -92,7 +92,7 @@ pub fn nodes(kind: u8) -> Vec<[f64; 3]> {
     if let Some(shape) = Shape::of(kind) {
         return shape.nodes.clone();
     }
-    let corners = Shape::of(if kind == 27 { 14 } else { 13 }).unwrap().nodes.clone();
+    let corners = if kind == 27 { &PYRAMID[..] } else { &PRISM };
     let middles: &[&[usize]] = match kind {
         26 => &WEDGE[..9],
         27 => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0], &[0, 4], &[1, 4], &[2, 4], &[3, 4]],
@@ -104,6 +104,18 @@ pub fn nodes(kind: u8) -> Vec<[f64; 3]> {
     };
     corners.iter().copied().chain(middles.iter().map(middle)).collect()
 }
+
+const PYRAMID: [[f64; 3]; 5] =
+    [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+const PRISM: [[f64; 3]; 6] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [0.0, 1.0, 1.0],
+];
 
 const WEDGE: [&[usize]; 12] = [
     &[0, 1],
