@@ -134,6 +134,16 @@ const ROWS: &[Row] = &[
     (29, 3, HEX, &HEX_MIDDLES, Space::Product(2)),
 ];
 
+/// The dimension of a type of cells in VTK, also of such as are not known otherwise.
+pub(crate) fn dimension(kind: u8) -> usize {
+    match kind {
+        0..=2 => 0,
+        3 | 4 | 21 | 35 | 68 | 75 => 1,
+        5..=9 | 22 | 23 | 28 | 30 | 34 | 36 | 69 | 70 | 76 | 77 => 2,
+        _ => 3,
+    }
+}
+
 /// A kind of cell.
 #[derive(Debug)]
 pub struct Shape {

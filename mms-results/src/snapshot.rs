@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::Mistake;
+use crate::cell::dimension;
 
 /// How numbers were stored, and so how far each may be from what the solver had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,6 +81,11 @@ impl Array {
         self.values.len() / self.components
     }
 
+    /// Whether it has this name, and so many components.
+    fn is_like(&self, name: &str, components: usize) -> bool {
+        self.name == name && self.components == components
+    }
+
     /// The same, without numbers.
     pub(crate) fn clone_without_values(&self) -> Array {
         Array { name: self.name.clone(), values: Vec::new(), ..*self }
@@ -114,6 +120,11 @@ impl Cells {
     /// How many there are.
     pub fn len(&self) -> usize {
         self.types.len()
+    }
+
+    /// The highest dimension that one has.
+    pub(crate) fn dimension(&self) -> usize {
+        self.types.iter().map(|kind| dimension(*kind)).max().unwrap_or(0)
     }
 
     /// Whether there are none.
@@ -189,17 +200,68 @@ impl Snapshot {
         }
     }
 
-    /// The snapshots as one: pieces of a mesh, with the same arrays.
+    /// The snapshots as one: pieces of a mesh, with the same arrays. Pieces without points and cells may have any.
     ///
     /// # Errors
     /// An array that only some have, or that has other components there.
     pub(crate) fn join(pieces: Vec<Snapshot>) -> Result<Snapshot, Mistake> {
+        let time = pieces.iter().find_map(|it| it.time);
+        let (mut empty, pieces): (Vec<_>, Vec<_>) =
+            pieces.into_iter().partition(|it| it.rows() == 0 && it.cells.is_empty());
         let mut pieces = pieces.into_iter();
-        let mut whole = pieces.next().unwrap_or_default();
+        let mut whole = pieces.next().or_else(|| empty.pop()).unwrap_or_default();
         for piece in pieces {
             whole.append(piece)?;
         }
+        Ok(Snapshot { time, ..whole })
+    }
+
+    /// The snapshots as one: blocks of a mesh. Arrays that are not in all of its blocks are left out, and so are blocks of a
+    /// lower dimension, as boundaries are, that lack an array which the others have.
+    ///
+    /// # Errors
+    /// Points that only some have.
+    pub(crate) fn join_blocks(mut blocks: Vec<Snapshot>) -> Result<Snapshot, Mistake> {
+        blocks.retain(|it| it.rows() > 0 || !it.cells.is_empty());
+        let most = blocks.iter().map(|it| it.cells.dimension()).max();
+        let is_full = |it: &Snapshot| Some(it.cells.dimension()) == most;
+        let mut unread = Vec::new();
+        let is_mark = |it: &Array| GHOSTS.contains(&&*it.name);
+        for arrays in [Snapshot::of_points_mut, Snapshot::of_cells_mut] {
+            let mut common: Option<Vec<(String, usize)>> = None;
+            for block in blocks.iter_mut().filter(|it| is_full(it)) {
+                let own = arrays(block).iter().filter(|it| !is_mark(it));
+                let own: Vec<_> = own.map(|it| (it.name.clone(), it.components)).collect();
+                match &mut common {
+                    None => common = Some(own),
+                    Some(common) => common.retain(|it| own.contains(it)),
+                }
+            }
+            let common = common.unwrap_or_default();
+            let is_common = |it: &Array| common.iter().any(|(name, size)| it.is_like(name, *size));
+            blocks.retain_mut(|block| {
+                let is_fit = is_full(block)
+                    || arrays(block).iter().filter(|it| is_common(it)).count() == common.len();
+                let left_out = |it: &Array| !is_mark(it) && !(is_fit && is_common(it));
+                let names = arrays(block).iter().filter(|it| left_out(it));
+                unread.extend(names.map(|it| it.name.clone()));
+                arrays(block).retain(|it| !left_out(it));
+                is_fit
+            });
+        }
+        let mut whole = Snapshot::join(blocks)?;
+        whole.unread.extend(unread);
+        whole.unread.sort();
+        whole.unread.dedup();
         Ok(whole)
+    }
+
+    fn of_points_mut(&mut self) -> &mut Vec<Array> {
+        &mut self.of_points
+    }
+
+    fn of_cells_mut(&mut self) -> &mut Vec<Array> {
+        &mut self.of_cells
     }
 
     fn append(&mut self, mut piece: Snapshot) -> Result<(), Mistake> {
@@ -214,6 +276,7 @@ impl Snapshot {
         self.cells.ends.extend(piece.cells.ends.iter().map(|end| end + connected));
         self.cells.types.extend(piece.cells.types);
         self.lines.extend(piece.lines);
+        self.unread.extend(piece.unread);
         append(self.points.as_mut_slice(), piece.points.into_iter().collect())?;
         append(&mut self.of_points, piece.of_points)?;
         append(&mut self.of_cells, piece.of_cells)
@@ -234,19 +297,22 @@ fn mark_none(arrays: &mut Vec<Array>, of_other: &[Array], rows: usize) {
 }
 
 /// Appends arrays to those of the same names.
-fn append(arrays: &mut [Array], more: Vec<Array>) -> Result<(), Mistake> {
-    if arrays.len() != more.len() {
-        return Err(Mistake::new("its pieces do not have the same arrays"));
+fn append(arrays: &mut [Array], mut more: Vec<Array>) -> Result<(), Mistake> {
+    let only_in_some = |name: &str| {
+        Mistake::new(format!(
+            "the array `{name}` is not in all its pieces, or has other components in some: write it in all"
+        ))
+    };
+    for (at, array) in arrays.iter_mut().enumerate() {
+        let is_it = |it: &Array| it.is_like(&array.name, array.components);
+        // Most often in the same order.
+        let found = (at..more.len()).find(|&at| is_it(&more[at]));
+        let found = found.ok_or_else(|| only_in_some(&array.name))?;
+        more.swap(at, found);
+        array.values.append(&mut more[at].values);
+        array.stored = array.stored.coarser(more[at].stored);
     }
-    for (array, more) in arrays.iter_mut().zip(more) {
-        if array.name != more.name || array.components != more.components {
-            let what = format!("the array `{}` is not in all its pieces", array.name);
-            return Err(Mistake::new(what));
-        }
-        array.values.extend(more.values);
-        array.stored = array.stored.coarser(more.stored);
-    }
-    Ok(())
+    more.get(arrays.len()).map_or(Ok(()), |it| Err(only_in_some(&it.name)))
 }
 
 impl Stored {

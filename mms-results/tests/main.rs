@@ -9,4 +9,5 @@ mod over_cells;
 mod pairing;
 mod tables;
 mod tecplot;
+mod vtk_more;
 mod write;

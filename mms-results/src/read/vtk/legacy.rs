@@ -1,8 +1,9 @@
 //! Legacy VTK: "VTK File Formats" (Kitware), of versions 2 to 5.
 
-use super::numbers::{Kind, Order, count, positions};
-use super::table::is_time;
-use super::text::{Style, number, settle};
+use super::super::numbers::{Kind, Order, count, positions};
+use super::super::table::is_time;
+use super::super::text::{Style, number, settle};
+use super::structured::{Extent, Lattice, numbers};
 use crate::snapshot::Section;
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Stored, Time};
@@ -22,6 +23,12 @@ struct Found {
     single: Vec<bool>,
     /// Of which the arrays that follow are.
     of: Option<Of>,
+    /// The extent of a structured grid.
+    extent: Option<Extent>,
+    lattice: Lattice,
+    /// Coordinates along each axis, and whether they are in single precision.
+    axes: Vec<Array>,
+    single_axes: Vec<bool>,
 }
 
 /// Whose numbers an array has.
@@ -50,6 +57,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     let rows = found.snapshot.points.as_ref().map_or(0, Array::rows);
     found.snapshot.cells.hold(rows)?;
     found.settle();
+    found.extend(wanted)?;
     Ok(found.snapshot)
 }
 
@@ -89,6 +97,15 @@ impl<'a> Cursor<'a> {
 
     fn needed(&mut self, what: &str) -> Result<&'a str, Mistake> {
         self.word().ok_or_else(|| Mistake::new(format!("expected {what}, and the file ends")))
+    }
+
+    fn words<const N: usize>(&mut self) -> Result<[&'a str; N], Mistake> {
+        let mut words = [""; N];
+        words.iter_mut().try_for_each(|it| {
+            *it = self.needed("a number")?;
+            Ok(())
+        })?;
+        Ok(words)
     }
 
     fn integer(&mut self) -> Result<usize, Mistake> {
@@ -226,11 +243,37 @@ impl Found {
     fn part(&mut self, word: &str, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
         match word {
             "DATASET" => match cursor.needed("a kind of grid")?.to_ascii_uppercase().as_str() {
-                "UNSTRUCTURED_GRID" | "POLYDATA" => Ok(()),
+                "UNSTRUCTURED_GRID" | "POLYDATA" | "STRUCTURED_GRID" | "STRUCTURED_POINTS"
+                | "RECTILINEAR_GRID" => Ok(()),
                 other => Err(Mistake::new(format!(
-                    "`{other}` is not read: expected UNSTRUCTURED_GRID or POLYDATA"
+                    "`{other}` is not read: expected UNSTRUCTURED_GRID, POLYDATA, STRUCTURED_GRID, STRUCTURED_POINTS or \
+                     RECTILINEAR_GRID"
                 ))),
             },
+            "DIMENSIONS" => {
+                let counts = [cursor.integer()?, cursor.integer()?, cursor.integer()?];
+                self.extent = Some(Extent::default().of(counts)?);
+                Ok(())
+            }
+            "EXTENT" => {
+                self.extent = Some(Extent::parse(&cursor.words::<6>()?.join(" "))?);
+                Ok(())
+            }
+            "ORIGIN" => {
+                self.lattice.origin = numbers(&cursor.words::<3>()?.join(" "))?;
+                Ok(())
+            }
+            // So it was called at first.
+            "SPACING" | "ASPECT_RATIO" => {
+                self.lattice.spacing = numbers(&cursor.words::<3>()?.join(" "))?;
+                Ok(())
+            }
+            "X_COORDINATES" | "Y_COORDINATES" | "Z_COORDINATES" => {
+                let (rows, kind) = (cursor.integer()?, cursor.kind()?);
+                self.axes.push(cursor.array(word, rows, 1, kind)?);
+                self.single_axes.push(kind == Kind::Float(4));
+                Ok(())
+            }
             "POINTS" => {
                 let (rows, kind) = (cursor.integer()?, cursor.kind()?);
                 self.snapshot.points = Some(cursor.array("Points", rows, 3, kind)?);
@@ -285,8 +328,14 @@ impl Found {
     fn rows(&self, of: Of) -> usize {
         match of {
             Of::Whole => 0,
-            Of::Points => self.snapshot.points.as_ref().map_or(0, Array::rows),
-            Of::Cells => self.snapshot.cells.ends.len(),
+            Of::Points => match &self.extent {
+                Some(extent) => extent.points(),
+                None => self.snapshot.points.as_ref().map_or(0, Array::rows),
+            },
+            Of::Cells => match &self.extent {
+                Some(extent) => extent.cells(),
+                None => self.snapshot.cells.ends.len(),
+            },
         }
     }
 
@@ -395,9 +444,36 @@ impl Found {
         }
     }
 
+    /// Makes the points and the cells of a structured grid. Where it has no arrays, nothing says that it is as large as its
+    /// extent.
+    fn extend(&mut self, wanted: &Wanted<'_>) -> Result<(), Mistake> {
+        let Some(extent) = self.extent else { return Ok(()) };
+        let Snapshot { points, of_points, of_cells, cells, .. } = &mut self.snapshot;
+        if points.is_none() && of_points.is_empty() && of_cells.is_empty() {
+            return Ok(());
+        }
+        let axes = std::mem::take(&mut self.axes);
+        let places = match (points.take(), <[Array; 3]>::try_from(axes)) {
+            (Some(points), _) if points.rows() == extent.points() => points,
+            (Some(points), _) => {
+                return Err(Mistake::new(format!(
+                    "{} points, and expected {} by the dimensions of the grid",
+                    points.rows(),
+                    extent.points()
+                )));
+            }
+            (None, Ok(axes)) => extent.along(&axes, wanted)?,
+            (None, Err(axes)) if axes.is_empty() => self.lattice.places(&extent, wanted)?,
+            _ => return Err(Mistake::new("expected coordinates along each of three axes")),
+        };
+        *points = Some(places);
+        *cells = extent.mesh(wanted)?;
+        Ok(())
+    }
+
     fn settle(&mut self) {
         let Snapshot { points, of_points, of_cells, .. } = &mut self.snapshot;
-        let all = points.iter_mut().chain(of_points).chain(of_cells);
-        settle(&mut all.collect::<Vec<_>>(), &self.single);
+        let all = points.iter_mut().chain(of_points).chain(of_cells).chain(&mut self.axes);
+        settle(&mut all.collect::<Vec<_>>(), &[&*self.single, &self.single_axes].concat());
     }
 }

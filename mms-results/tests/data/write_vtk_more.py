@@ -1,0 +1,148 @@
+"""Writes the files of VTK in `vtk_more/`: structured grids, pieces, blocks, series, and cells of higher degree.
+
+Needs vtk, meshio and numpy. Meshes of the unit square and of the unit cube carry u = (0.1 X Y, -0.2 X, 0.3 Z) in points,
+and `middle`, the X of the middle, in cells; see ../vtk_more.rs. What VTK reads back of files whose order it changes is in
+`read_back.txt`.
+"""
+
+import json
+import pathlib
+import re
+import shutil
+
+import meshio
+import numpy
+import vtk
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+HERE = pathlib.Path(__file__).parent / "vtk_more"
+
+
+def array(name, values):
+    found = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+    found.SetName(name)
+    return found
+
+
+def carry(grid, time=0.25):
+    """Adds u, `middle` and the time to a grid."""
+    X = numpy.array([grid.GetPoint(i) for i in range(grid.GetNumberOfPoints())]).reshape(-1, 3)
+    u = numpy.column_stack([0.1 * X[:, 0] * X[:, 1], -0.2 * X[:, 0], 0.3 * X[:, 2]])
+    grid.GetPointData().AddArray(array("u", u))
+    bounds = [grid.GetCell(i).GetBounds() for i in range(grid.GetNumberOfCells())]
+    grid.GetCellData().AddArray(array("middle", numpy.array([(it[0] + it[1]) / 2 for it in bounds])))
+    if time is not None:
+        found = vtk.vtkDoubleArray()
+        found.SetName("TimeValue")
+        found.InsertNextValue(time)
+        grid.GetFieldData().AddArray(found)
+    return grid
+
+
+def image(extent, spacing=0.25):
+    grid = vtk.vtkImageData()
+    grid.SetExtent(*extent)
+    grid.SetSpacing(spacing, spacing, spacing)
+    return carry(grid)
+
+
+def rectilinear(extent):
+    grid = vtk.vtkRectilinearGrid()
+    grid.SetExtent(*extent)
+    for axis, name in enumerate("XYZ"):
+        along = numpy.arange(extent[2 * axis], extent[2 * axis + 1] + 1) / 4
+        getattr(grid, f"Set{name}Coordinates")(array(name, along * along))
+    return carry(grid)
+
+
+def structured(extent):
+    grid = vtk.vtkStructuredGrid()
+    grid.SetExtent(*extent)
+    i, j, k = (numpy.arange(extent[2 * axis], extent[2 * axis + 1] + 1) / 4 for axis in range(3))
+    k, j, i = numpy.meshgrid(k, j, i, indexing="ij")
+    X = numpy.stack([i + 0.1 * i * j, j, k], axis=-1).reshape(-1, 3)
+    points = vtk.vtkPoints()
+    points.SetData(array("Points", X))
+    grid.SetPoints(points)
+    return carry(grid)
+
+
+GRIDS = {
+    "vti": (image, vtk.vtkXMLImageDataWriter),
+    "vtr": (rectilinear, vtk.vtkXMLRectilinearGridWriter),
+    "vts": (structured, vtk.vtkXMLStructuredGridWriter),
+}
+
+
+def write(writer, grid, name, mode=None):
+    writer.SetInputData(grid)
+    if mode is not None:
+        writer.SetDataMode(["ascii", "binary", "appended"].index(mode))
+    writer.SetFileName(str(HERE / name))
+    writer.Write()
+
+
+def pieces(end, make, writer):
+    """Two pieces that share a row of points, and one that is empty, with the list that the ranks of VTK write of them."""
+    extents = [[0, 2, 0, 4, 0, 0], [2, 4, 0, 4, 0, 0], [0, -1, 0, -1, 0, -1]]
+    names = [f"pieces_{rank}.{end}" for rank in range(3)]
+    for extent, name in zip(extents[:2], names):
+        write(writer(), make(extent), name)
+    empty = type(make(extents[0]))()
+    empty.SetExtent(*extents[2])
+    write(writer(), empty, names[2], "ascii")
+    kind = "P" + re.search('type="(\\w+)"', (HERE / names[0]).read_text(errors="replace"))[1]
+    text = " ".join(str(it) for it in extents[0][:1] + [4] + extents[0][2:])
+    listed = [
+        f'<Piece Extent="{" ".join(map(str, extent))}" Source="{name}"/>' for extent, name in zip(extents, names)
+    ]
+    (HERE / f"pieces.p{end}").write_text(
+        f'<?xml version="1.0"?>\n<VTKFile type="{kind}" version="0.1" byte_order="LittleEndian">\n'
+        f'<{kind} WholeExtent="{text}" GhostLevel="0">\n' + "\n".join(listed) + f"\n</{kind}>\n</VTKFile>\n"
+    )
+
+
+def structured_grids():
+    flat, solid, across = [0, 4, 0, 4, 0, 0], [0, 2, 0, 1, 0, 2], [0, 3, 0, 0, 0, 2]
+    for end, (make, writer) in GRIDS.items():
+        write(writer(), make(flat), f"flat.{end}", "ascii")
+        write(writer(), make(solid), f"solid.{end}", "appended")
+        write(writer(), make(across), f"across.{end}", "binary")
+        for name, extent in [("flat", flat), ("solid", solid)]:
+            for mode in ["ascii", "binary"]:
+                legacy = vtk.vtkDataSetWriter()
+                legacy.SetFileType(1 if mode == "ascii" else 2)
+                write(legacy, make(extent), f"{end}_{name}_{mode}.vtk")
+        pieces(end, make, writer)
+    # Steps of a third in six digits, as the legacy writer has them.
+    write(vtk.vtkDataSetWriter(), image([0, 3, 0, 3, 0, 0], 1 / 3), "thirds.vtk")
+    # Axes that are turned by a quarter and moved.
+    turned = vtk.vtkImageData()
+    turned.SetExtent(-2, 2, 1, 5, 0, 0)
+    turned.SetSpacing(0.25, 0.25, 1)
+    turned.SetOrigin(1.25, 0.5, 0)
+    turned.SetDirectionMatrix(0, -1, 0, 1, 0, 0, 0, 0, 1)
+    write(vtk.vtkXMLImageDataWriter(), carry(turned), "turned.vti")
+    # The last column of cells belongs to another rank.
+    ghosts = image([0, 5, 0, 4, 0, 0])
+    cells = numpy.array([i % 5 == 4 for i in range(20)], dtype=numpy.uint8)
+    points = numpy.array([i % 6 == 5 for i in range(30)], dtype=numpy.uint8)
+    ghosts.GetCellData().AddArray(array("vtkGhostType", cells))
+    ghosts.GetPointData().AddArray(array("vtkGhostType", points))
+    write(vtk.vtkXMLImageDataWriter(), ghosts, "ghosts.vti")
+    write(vtk.vtkDataSetWriter(), ghosts, "ghosts.vtk")
+
+
+def compressed():
+    for mode in ["binary", "appended"]:
+        writer = vtk.vtkXMLImageDataWriter()
+        writer.SetCompressorTypeToLZ4()
+        writer.SetBlockSize(256)
+        write(writer, image([0, 4, 0, 4, 0, 0]), f"lz4_{mode}.vti", mode)
+
+
+if __name__ == "__main__":
+    shutil.rmtree(HERE, ignore_errors=True)
+    HERE.mkdir()
+    structured_grids()
+    compressed()

@@ -1,0 +1,220 @@
+//! Files of VTK beyond lists of points and cells (`data/write_vtk_more.py`).
+
+use std::path::{Path, PathBuf};
+
+use mms_results::mesh::Mesh;
+use mms_results::motion::{Motion, resolve};
+use mms_results::names::{Mapping, everything, recognise};
+use mms_results::own::keep;
+use mms_results::{Contents, Snapshot, Stored, parse, read};
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/vtk_more").join(name)
+}
+
+fn open(path: &Path, _: u64) -> Result<Vec<u8>, String> {
+    std::fs::read(path).map_err(|error| error.to_string())
+}
+
+fn all(name: &str) -> Vec<Snapshot> {
+    read(&data(name), &open, &everything(&[])).unwrap_or_else(|mistake| panic!("{name}: {mistake}"))
+}
+
+fn one(name: &str) -> Snapshot {
+    let mut found = all(name);
+    assert_eq!(found.len(), 1, "{name}");
+    found.remove(0)
+}
+
+fn motion<'a>(snapshot: &'a Snapshot, dimension: usize) -> Motion<'a> {
+    let map: [Mapping; 1] = ["X=points".parse().unwrap()];
+    let found = recognise(snapshot, &map, &|_| true).unwrap();
+    resolve(snapshot, &found, dimension, &|_| 0.0, None).unwrap()
+}
+
+/// X, u and the middles of cells are those that were written.
+#[track_caller]
+fn holds_the_mesh(name: &str, snapshot: &Snapshot, rows: usize, cells: usize) {
+    assert_eq!((snapshot.rows(), snapshot.cells.len()), (rows, cells), "{name}");
+    let points = &snapshot.points.as_ref().unwrap().values;
+    let u = snapshot.of_points.iter().find(|it| it.name == "u").unwrap();
+    for (at, (x, u)) in points.chunks(3).zip(u.values.chunks(3)).enumerate() {
+        let exact = [0.1 * x[0] * x[1], -0.2 * x[0], 0.3 * x[2]];
+        let off = (0..3).map(|it| (u[it] - exact[it]).abs()).fold(0.0, f64::max);
+        assert!(off <= 1e-11, "{name}: {at}: {u:?} is not {exact:?}");
+    }
+    let middle = snapshot.of_cells.iter().find(|it| it.name == "middle").unwrap();
+    for ((_, own), middle) in snapshot.cells.iter().zip(&middle.values) {
+        let along = || own.iter().map(|it| points[3 * it]);
+        let ends = [along().fold(f64::MAX, f64::min), along().fold(f64::MIN, f64::max)];
+        assert!((middle - (ends[0] + ends[1]) / 2.0).abs() < 1e-11, "{name}: {middle} {ends:?}");
+    }
+    let time = snapshot.time.map(|it| it.value);
+    assert_eq!(time, Some(0.25), "{name}");
+}
+
+/// The measure of a mesh.
+fn measure(snapshot: &Snapshot, dimension: usize) -> f64 {
+    let motion = motion(snapshot, dimension);
+    let points = &motion.reference.numbers;
+    Mesh { cells: &snapshot.cells, points, dimension }.volumes().unwrap().iter().sum()
+}
+
+#[test]
+fn structured_grids_have_points_and_cells_by_their_extents() {
+    for end in ["vti", "vtr", "vts"] {
+        // A plane of unit area, but that of which one side is longer.
+        let area = if end == "vts" { 1.05 } else { 1.0 };
+        for name in [
+            format!("flat.{end}"),
+            format!("{end}_flat_ascii.vtk"),
+            format!("{end}_flat_binary.vtk"),
+        ] {
+            let found = one(&name);
+            holds_the_mesh(&name, &found, 25, 16);
+            assert_eq!(found.cells.types, [9; 16], "{name}");
+            assert!((measure(&found, 2) - area).abs() < 1e-10, "{name}");
+        }
+        for name in [
+            format!("solid.{end}"),
+            format!("{end}_solid_ascii.vtk"),
+            format!("{end}_solid_binary.vtk"),
+        ] {
+            let found = one(&name);
+            holds_the_mesh(&name, &found, 18, 4);
+            assert_eq!(found.cells.types, [12; 4], "{name}");
+            let volume = match end {
+                "vti" => 0.5 * 0.25 * 0.5,
+                "vtr" => 0.25 * 0.0625 * 0.25,
+                _ => 0.5 * 0.25 * 0.5 * (1.0 + 0.1 * 0.125),
+            };
+            assert!((measure(&found, 3) - volume).abs() < 1e-10, "{name}");
+        }
+        let across = one(&format!("across.{end}"));
+        holds_the_mesh("across", &across, 12, 6);
+        assert_eq!(across.cells.types, [9; 6], "{end}");
+    }
+}
+
+#[test]
+fn pieces_of_structured_grids_share_their_points() {
+    for (end, area) in [("vti", 1.0), ("vtr", 1.0), ("vts", 1.05)] {
+        let mut found = one(&format!("pieces.p{end}"));
+        holds_the_mesh(end, &found, 30, 16);
+        assert_eq!(keep(&mut found).unwrap().doubled, 0, "{end}");
+        assert!((measure(&found, 2) - area).abs() < 1e-10, "{end}");
+    }
+}
+
+#[test]
+fn ghosts_of_structured_grids_are_left_out() {
+    for name in ["ghosts.vti", "ghosts.vtk"] {
+        let mut found = one(name);
+        let left_out = keep(&mut found).unwrap();
+        assert_eq!([left_out.ghost_cells, left_out.ghost_points], [4, 5], "{name}");
+        holds_the_mesh(name, &found, 25, 16);
+    }
+}
+
+#[test]
+fn images_have_axes_and_steps_as_exact_as_they_are_written() {
+    let turned = one("turned.vti");
+    holds_the_mesh("turned", &turned, 25, 16);
+    assert_eq!(turned.points.as_ref().unwrap().values[..3], [1.0, 0.0, 0.0]);
+    assert!((measure(&turned, 2) - 1.0).abs() < 1e-15);
+    let stored = |name: &str| one(name).points.unwrap().stored;
+    assert_eq!(stored("flat.vti"), Stored::Double);
+    let thirds = one("thirds.vtk").points.unwrap();
+    assert_eq!(thirds.stored, Stored::Fixed(5));
+    assert!(thirds.values.iter().any(|it| *it > 0.0 && (it - 1.0).abs() < 2e-6));
+}
+
+#[test]
+fn blocks_of_lz4_are_read() {
+    for name in ["lz4_binary.vti", "lz4_appended.vti"] {
+        holds_the_mesh(name, &one(name), 25, 16);
+    }
+}
+
+/// Files of VTK in XML, with this inside.
+fn vtk(kind: &str, body: &str) -> Vec<u8> {
+    format!("<VTKFile type=\"{kind}\">{body}</VTKFile>").into_bytes()
+}
+
+fn refused(bytes: &[u8]) -> String {
+    match parse(bytes, &everything(&[])) {
+        Ok(found) => panic!("{found:?}"),
+        Err(mistake) => mistake.what,
+    }
+}
+
+#[test]
+fn extents_are_not_believed_without_arrays() {
+    let huge = "0 99999 0 99999 0 9";
+    let text = format!("<ImageData WholeExtent=\"{huge}\"><Piece Extent=\"{huge}\"/></ImageData>");
+    let Ok(Contents::Snapshots(found)) = parse(&vtk("ImageData", &text), &everything(&[])) else {
+        panic!()
+    };
+    assert!(found[0].points.is_none() && found[0].cells.is_empty());
+    let array = "<PointData><DataArray type=\"Int8\" Name=\"a\" format=\"ascii\">1 2</DataArray></PointData>";
+    let piece = format!("<ImageData><Piece Extent=\"{huge}\">{array}</Piece></ImageData>");
+    assert!(refused(&vtk("ImageData", &piece)).contains("`a`: 2 numbers"));
+    for (extent, word) in [
+        ("0 1 0 1", "expected the first and the last point along three axes"),
+        ("0 9223372036854775807 0 9223372036854775807 0 1", "no file holds as many"),
+    ] {
+        let piece = format!("<ImageData><Piece Extent=\"{extent}\">{array}</Piece></ImageData>");
+        let said = refused(&vtk("ImageData", &piece));
+        assert!(said.contains(word), "{said}");
+    }
+    let piece = format!(
+        "<ImageData Spacing=\"1 nan 1\"><Piece Extent=\"0 1 0 0 0 0\">{array}</Piece></ImageData>"
+    );
+    assert!(refused(&vtk("ImageData", &piece)).contains("expected 3 finite numbers"));
+    let piece =
+        format!("<RectilinearGrid><Piece Extent=\"0 1 0 0 0 0\">{array}</Piece></RectilinearGrid>");
+    assert!(
+        refused(&vtk("RectilinearGrid", &piece)).contains("expected an element `<Coordinates>`")
+    );
+    let piece =
+        format!("<StructuredGrid><Piece Extent=\"0 1 0 0 0 0\">{array}</Piece></StructuredGrid>");
+    assert!(refused(&vtk("StructuredGrid", &piece)).contains("expected an element `<Points>`"));
+    let legacy = |body: &str| format!("# vtk DataFile Version 3.0\n\nASCII\nDATASET {body}");
+    for (body, word) in [
+        ("STRUCTURED_GRID\nDIMENSIONS 2 2 1\nPOINTS 1 double\n0 0 0\n", "1 points, and expected 4"),
+        ("STRUCTURED_POINTS\nDIMENSIONS 2 2 1\nSPACING 1 x 1\n", "expected 3 finite numbers"),
+        (
+            "RECTILINEAR_GRID\nDIMENSIONS 2 1 1\nX_COORDINATES 2 double\n0 1\nPOINT_DATA 2\nSCALARS a int\n1 2\n",
+            "expected coordinates along each of three axes",
+        ),
+        (
+            "RECTILINEAR_GRID\nDIMENSIONS 2 1 1\nX_COORDINATES 1 double\n0\nY_COORDINATES 1 double\n0\nZ_COORDINATES \
+             1 double\n0\nPOINT_DATA 2\nSCALARS a int\n1 2\n",
+            "expected as many coordinates along each axis",
+        ),
+    ] {
+        let said = refused(legacy(body).as_bytes());
+        assert!(said.contains(word), "{body}: {said}");
+    }
+}
+
+/// Each file of one mesh, cut off anywhere.
+#[test]
+fn files_that_are_cut_off_are_survived() {
+    let mut count = 0;
+    for entry in std::fs::read_dir(data("")).unwrap() {
+        let bytes = std::fs::read(entry.unwrap().path()).unwrap();
+        let step = 1 + bytes.len() / 150;
+        for end in (0..bytes.len()).step_by(step) {
+            if let Ok(Contents::Snapshots(found)) = parse(&bytes[..end], &everything(&[])) {
+                for snapshot in found {
+                    snapshot.cells.iter().for_each(|(_, own)| {
+                        assert!(own.iter().all(|it| *it < snapshot.rows()));
+                    });
+                }
+            }
+            count += 1;
+        }
+    }
+    assert!(count > 4_000);
+}
