@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::Mistake;
-use crate::cell::dimension;
+use crate::cell::{dimension, last_edges, refused};
 
 /// How numbers were stored, and so how far each may be from what the solver had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,11 +141,23 @@ impl Cells {
         if !self.ends.is_sorted() || self.ends.last().copied().unwrap_or(0) != self.points.len() {
             return Err(Mistake::new("the offsets of the cells do not fit their connectivity"));
         }
-        match self.points.iter().find(|&&point| point >= points) {
-            Some(point) => Err(Mistake::new(format!(
+        if let Some(point) = self.points.iter().find(|&&point| point >= points) {
+            return Err(Mistake::new(format!(
                 "a cell has the point {point}, counted from 0, but there are {points} points"
-            ))),
-            None => Ok(()),
+            )));
+        }
+        let refused = |(kind, points): (u8, &[usize])| refused(kind, points.len());
+        self.iter().find_map(refused).map_or(Ok(()), |what| Err(Mistake::new(what)))
+    }
+
+    /// Gives hexahedra of Lagrange the nodes of their last two upright edges the other way round, as old files have them.
+    pub(crate) fn renumber_old(&mut self) {
+        let mut start = 0;
+        for (kind, &end) in self.types.iter().zip(&self.ends) {
+            if let Some([from, middle, to]) = last_edges(*kind, end - start) {
+                self.points[start..end][from..to].rotate_left(middle - from);
+            }
+            start = end;
         }
     }
 }
@@ -242,7 +254,7 @@ impl Snapshot {
             blocks.retain_mut(|block| {
                 let is_fit = is_full(block)
                     || arrays(block).iter().filter(|it| is_common(it)).count() == common.len();
-                let left_out = |it: &Array| !is_mark(it) && !(is_fit && is_common(it));
+                let left_out = |it: &Array| !(is_mark(it) || is_fit && is_common(it));
                 let names = arrays(block).iter().filter(|it| left_out(it));
                 unread.extend(names.map(|it| it.name.clone()));
                 arrays(block).retain(|it| !left_out(it));

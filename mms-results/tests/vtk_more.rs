@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use mms_results::cell::Shape;
 use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, resolve};
 use mms_results::names::{Mapping, everything, recognise};
@@ -133,6 +134,83 @@ fn images_have_axes_and_steps_as_exact_as_they_are_written() {
 fn blocks_of_lz4_are_read() {
     for name in ["lz4_binary.vti", "lz4_appended.vti"] {
         holds_the_mesh(name, &one(name), 25, 16);
+    }
+}
+
+/// The words of each line of a text.
+fn words(name: &str) -> Vec<Vec<String>> {
+    let text = std::fs::read_to_string(data(name)).unwrap();
+    text.lines().map(|line| line.split(' ').map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn nodes_of_higher_degree_are_where_vtk_has_them() {
+    let mut count = 0;
+    for line in words("steps.txt") {
+        let numbers: Vec<f64> = line.iter().map(|it| it.parse().unwrap()).collect();
+        let shape = Shape::of(numbers[0] as u8, numbers[1] as usize).unwrap();
+        let n = f64::from(shape.degree());
+        let steps: Vec<f64> =
+            shape.nodes.as_flattened().iter().map(|it| (it * n).round()).collect();
+        assert_eq!(steps, &numbers[2..], "{} {n}", shape.kind());
+        count += 1;
+    }
+    assert_eq!(count, 21);
+}
+
+#[test]
+fn functions_have_the_values_that_vtk_has() {
+    let mut count = 0;
+    for line in words("functions.txt") {
+        let numbers: Vec<f64> = line.iter().map(|it| it.parse().unwrap()).collect();
+        let shape = Shape::of(numbers[0] as u8, numbers.len() - 1).unwrap();
+        let place = [0.3, 0.2, 0.1];
+        let place = [0, 1, 2].map(|it| if it < shape.dimension { place[it] } else { 0.0 });
+        for (own, theirs) in shape.values(place).iter().zip(&numbers[1..]) {
+            assert!((own - theirs).abs() < 1e-11, "{}: {own} {theirs}", shape.kind());
+        }
+        count += 1;
+    }
+    assert_eq!(count, 32);
+}
+
+#[test]
+fn cells_of_higher_degree_are_read_in_the_order_of_their_version() {
+    let mut orders = std::collections::BTreeSet::new();
+    for line in words("read_back.txt") {
+        let points: Vec<usize> = line[1..].iter().map(|it| it.parse().unwrap()).collect();
+        assert_eq!(one(&line[0]).cells.points, points, "{}", line[0]);
+        orders.insert(points);
+    }
+    assert_eq!(orders.len(), 2);
+    for name in ["lagrange.vtu", "lagrange.vtk"] {
+        let found = one(name);
+        assert_eq!(found.cells.types, [69, 69, 70, 70], "{name}");
+        // Two triangles and two squares, whose edges are bent without a change of area.
+        let area = measure(&found, 2);
+        assert!((area - 3.0).abs() < 1e-10, "{name}: {area}");
+    }
+}
+
+#[test]
+fn cells_that_are_not_read_are_named() {
+    for (kind, points, word) in [
+        (79, 8, "a cell of Bezier, type 79 of VTK"),
+        (72, 12, "a cell of Lagrange, type 72 of VTK, with 12 points"),
+        (70, 144, "with 144 points"),
+    ] {
+        let list = |of: &dyn Fn(usize) -> usize, count: usize| {
+            (0..count).map(|it| of(it).to_string()).collect::<Vec<_>>().join(" ")
+        };
+        let text = format!(
+            "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {points} double\n{}\nCELLS 1 \
+             {}\n{points} {}\nCELL_TYPES 1\n{kind}\n",
+            list(&|it| it, 3 * points),
+            points + 1,
+            list(&|it| it, points),
+        );
+        let said = refused(text.as_bytes());
+        assert!(said.contains(word), "{said}");
     }
 }
 

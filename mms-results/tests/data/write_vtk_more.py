@@ -91,6 +91,9 @@ def pieces(end, make, writer):
     empty = type(make(extents[0]))()
     empty.SetExtent(*extents[2])
     write(writer(), empty, names[2], "ascii")
+    # VTK names arrays without a name by where they are in memory.
+    text = (HERE / names[2]).read_text()
+    (HERE / names[2]).write_text(re.sub("Array 0x[0-9a-f]+", "along", text))
     kind = "P" + re.search('type="(\\w+)"', (HERE / names[0]).read_text(errors="replace"))[1]
     text = " ".join(str(it) for it in extents[0][:1] + [4] + extents[0][2:])
     listed = [
@@ -141,8 +144,88 @@ def compressed():
         write(writer, image([0, 4, 0, 4, 0, 0]), f"lz4_{mode}.vti", mode)
 
 
+def instance(kind, points):
+    """A cell of that kind with so many points."""
+    cell = vtk.vtkGenericCell.InstantiateCell(kind)
+    cell.GetPointIds().SetNumberOfIds(points)
+    cell.GetPoints().SetNumberOfPoints(points)
+    if hasattr(cell, "SetUniformOrderFromNumPoints"):
+        cell.SetUniformOrderFromNumPoints(points)
+    cell.Initialize()
+    return cell
+
+
+def count(kind, n):
+    """How many points a cell of Lagrange of the degree n has."""
+    triangle = (n + 1) * (n + 2) // 2
+    return {68: n + 1, 69: triangle, 70: (n + 1) ** 2, 71: triangle * (n + 3) // 3, 72: (n + 1) ** 3, 73: triangle * (n + 1)}[kind]
+
+
+def nodes(kind, points):
+    places = instance(kind, points).GetParametricCoords()
+    return numpy.array([places[i] for i in range(3 * points)]).reshape(-1, 3)
+
+
+def of_higher_degree():
+    """Nodes of cells in VTK as steps, and the values of their functions at a place: the type, the points, and numbers."""
+    lines = []
+    for n, kinds in [(1, range(68, 74)), (3, range(68, 74)), (4, [69, 70, 71, 73]), (5, [69, 71, 73]), (6, [69, 71])]:
+        for kind in kinds:
+            steps = numpy.rint(n * nodes(kind, count(kind, n))).astype(int)
+            lines.append(" ".join(map(str, [kind, len(steps), *steps.ravel()])))
+    (HERE / "steps.txt").write_text("\n".join(lines) + "\n")
+    lines = []
+    fixed = [3, 5, 8, 9, 10, 11, 12, 13, 21, 22, 23, 24, 25, 26, 28, 29, 30, 31, 32, 33]
+    kinds = [(kind, vtk.vtkGenericCell.InstantiateCell(kind).GetNumberOfPoints()) for kind in fixed]
+    for kind, points in kinds + [(kind, count(kind, n)) for n in [2, 3] for kind in range(68, 74)]:
+        values = [0.0] * points
+        instance(kind, points).InterpolateFunctions([0.3, 0.2, 0.1], values)
+        lines.append(" ".join([str(kind), *(f"{it:.12g}" for it in values)]))
+    (HERE / "functions.txt").write_text("\n".join(lines) + "\n")
+    # One cell of degree 3 and of degree 4 of each kind, with x = X + 0.1 Y^2 as nodes.
+    grid = vtk.vtkUnstructuredGrid()
+    points = vtk.vtkPoints()
+    points.SetDataTypeToDouble()
+    grid.SetPoints(points)
+    for kind in [69, 70]:
+        for n in [3, 4]:
+            own = nodes(kind, count(kind, n))
+            first = points.GetNumberOfPoints()
+            for x, y, z in own:
+                points.InsertNextPoint(x + 0.1 * y * y + 2 * (n - 3), y + 2 * (kind - 69), z)
+            grid.InsertNextCell(kind, len(own), list(range(first, first + len(own))))
+    write(vtk.vtkXMLUnstructuredGridWriter(), carry(grid), "lagrange.vtu")
+    write(vtk.vtkUnstructuredGridWriter(), grid, "lagrange.vtk")
+    # A hexahedron of degree 3 in versions that have its nodes in two orders.
+    grid = vtk.vtkUnstructuredGrid()
+    points = vtk.vtkPoints()
+    for place in nodes(72, 64):
+        points.InsertNextPoint(place)
+    grid.SetPoints(points)
+    grid.InsertNextCell(72, 64, list(range(64)))
+    write(vtk.vtkXMLUnstructuredGridWriter(), grid, "hexahedron_2.3.vtu", "ascii")
+    new = (HERE / "hexahedron_2.3.vtu").read_text()
+    for version in ["1.0", "2.0", "2.1"]:
+        (HERE / f"hexahedron_{version}.vtu").write_text(new.replace('version="2.3"', f'version="{version}"'))
+    write(vtk.vtkUnstructuredGridWriter(), grid, "hexahedron_5.1.vtk")
+    new = (HERE / "hexahedron_5.1.vtk").read_text()
+    cells = "CELLS 1 65\n64 " + " ".join(map(str, range(64))) + "\n"
+    old = new[: new.index("CELLS")].replace("Version 5.1", "Version 4.2") + cells + new[new.index("CELL_TYPES") :]
+    (HERE / "hexahedron_4.2.vtk").write_text(old)
+    lines = []
+    for path in sorted(HERE.glob("hexahedron_*")):
+        reader = vtk.vtkXMLUnstructuredGridReader() if path.suffix == ".vtu" else vtk.vtkUnstructuredGridReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        cell = reader.GetOutput().GetCell(0)
+        own = [cell.GetPointId(i) for i in range(cell.GetNumberOfPoints())]
+        lines.append(" ".join([path.name, *map(str, own)]))
+    (HERE / "read_back.txt").write_text("\n".join(lines) + "\n")
+
+
 if __name__ == "__main__":
     shutil.rmtree(HERE, ignore_errors=True)
     HERE.mkdir()
     structured_grids()
     compressed()
+    of_higher_degree()

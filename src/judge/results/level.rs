@@ -219,7 +219,7 @@ impl Reading<'_> {
         let mut taken = Taken {
             snapshot,
             mesh,
-            is_mesh: sizes.is_some(),
+            is_mesh: sizes.is_some() && mesh.has_functions(),
             motion: &motion,
             time,
             rounding,

@@ -19,6 +19,8 @@ pub struct Format<'a> {
     compressor: Option<Compressor>,
     appended: Option<Encoded<'a>>,
     pub wanted: &'a Wanted<'a>,
+    /// Of a version in which hexahedra of Lagrange have some nodes in another order.
+    pub is_old: bool,
 }
 
 /// By which the blocks of an array are compressed.
@@ -85,8 +87,15 @@ impl<'a> Format<'a> {
             Some(_) => Encoded::Base64(letters(data), Vec::new()),
             None => Encoded::Raw(data),
         });
-        Ok(Format { order, header, compressor, appended, wanted })
+        let is_old = is_before(root.attribute("version").unwrap_or(""), [2, 1]);
+        Ok(Format { order, header, compressor, appended, wanted, is_old })
     }
+}
+
+/// Whether a version, as 2.0, is one before another; a file without one is old.
+pub fn is_before(version: &str, other: [u32; 2]) -> bool {
+    let (major, minor) = version.trim().split_once('.').unwrap_or((version, "0"));
+    [major, minor].map(|it| it.trim().parse().unwrap_or(0)) < other
 }
 
 /// What is base64 of these bytes.
@@ -231,7 +240,7 @@ impl Declared<'_> {
         match self.numbers {
             None => true,
             Some(rows) if self.is_open && rows > 0 => {
-                numbers % rows == 0 && (1..=MOST_OPEN).contains(&(numbers / rows))
+                numbers.is_multiple_of(rows) && (1..=MOST_OPEN).contains(&(numbers / rows))
             }
             Some(expected) => numbers == expected,
         }

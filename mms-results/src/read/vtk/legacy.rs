@@ -3,6 +3,7 @@
 use super::super::numbers::{Kind, Order, count, positions};
 use super::super::table::is_time;
 use super::super::text::{Style, number, settle};
+use super::arrays::is_before;
 use super::structured::{Extent, Lattice, numbers};
 use crate::snapshot::Section;
 use crate::wanted::{Need, Wanted};
@@ -42,7 +43,8 @@ enum Of {
 /// Reads a file of one grid.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     let mut cursor = Cursor { bytes, at: 0, is_binary: false, wanted };
-    cursor.line();
+    let first = String::from_utf8_lossy(cursor.line());
+    let version = first.rsplit(' ').find(|it| it.contains('.')).unwrap_or("");
     cursor.line();
     cursor.is_binary = match cursor.line().trim_ascii() {
         b"ASCII" => false,
@@ -56,6 +58,9 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     }
     let rows = found.snapshot.points.as_ref().map_or(0, Array::rows);
     found.snapshot.cells.hold(rows)?;
+    if is_before(version, [5, 1]) {
+        found.snapshot.cells.renumber_old();
+    }
     found.settle();
     found.extend(wanted)?;
     Ok(found.snapshot)

@@ -194,8 +194,11 @@ fn piece(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Snapshot, Mistake> 
     if rows == 0 && none("Cells") && Section::ALL.iter().all(|it| none(it.name())) {
         return Ok(Snapshot::default());
     }
-    let cells = cells(piece, format)?;
+    let mut cells = cells(piece, format)?;
     cells.hold(rows).map_err(|mistake| Mistake { line: Some(line(piece)), ..mistake })?;
+    if format.is_old {
+        cells.renumber_old();
+    }
     let arrays = Arrays::of(piece, [rows, cells.len()], format)?;
     match arrays.points {
         None if !cells.is_empty() => Err(without_places(piece)),
