@@ -212,6 +212,45 @@ impl Snapshot {
         }
     }
 
+    /// The same, with arrays of cells as such of points, where each cell is a vertex of one point and each point has one: so
+    /// programs write particles that have no nodes. Marks of ghosts, and arrays of names that points have, stay where they
+    /// are.
+    pub(crate) fn with_vertices_as_points(mut self) -> Snapshot {
+        let (rows, Cells { types, points, ends }) = (self.rows(), &self.cells);
+        let mut is_there = vec![false; if types.len() == rows { rows } else { 0 }];
+        let is_vertex = |kind: &u8| matches!(kind, 1 | 2);
+        let is_one_each = rows > 0
+            && types.len() == rows
+            && types.iter().all(is_vertex)
+            && ends.iter().enumerate().all(|(cell, end)| *end == cell + 1)
+            && points.iter().all(|&point| !std::mem::replace(&mut is_there[point], true));
+        if !is_one_each {
+            return self;
+        }
+        let is_moved = |it: &Array| {
+            !GHOSTS.contains(&&*it.name)
+                && it.rows() == rows
+                && self.of_points.iter().all(|of_point| of_point.name != it.name)
+        };
+        let (moved, kept) = self.of_cells.into_iter().partition(is_moved);
+        self.of_cells = kept;
+        let in_order = points.is_sorted();
+        let of_points = |array: Array| match in_order {
+            true => array,
+            false => {
+                let size = array.components;
+                let mut values = vec![0.0; array.values.len()];
+                for (own, &point) in array.values.chunks_exact(size).zip(points) {
+                    values[point * size..][..size].copy_from_slice(own);
+                }
+                Array { values, ..array }
+            }
+        };
+        let moved: Vec<Array> = moved;
+        self.of_points.extend(moved.into_iter().map(of_points));
+        self
+    }
+
     /// The snapshots as one: pieces of a mesh, with the same arrays. Pieces without points and cells may have any.
     ///
     /// # Errors

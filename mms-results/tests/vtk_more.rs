@@ -214,6 +214,42 @@ fn cells_that_are_not_read_are_named() {
     }
 }
 
+/// As the particles of Kratos: a vertex for each, and arrays of these.
+#[test]
+fn arrays_of_vertices_are_arrays_of_points() {
+    let file = |vertices: &str, cells: &str, more: &str| {
+        format!(
+            "# vtk DataFile Version 4.0\nvtk output\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0.25 0.5 0\n0.5 0.5 \
+             0\n0.75 0.5 0\n\nCELLS {vertices}\n\nCELL_TYPES {cells}\n{more}CELL_DATA 3\nFIELD FieldData 2\n\
+             MP_DISPLACEMENT 3 3 float\n0.1 0.2 0\n0.3 0.4 0\n0.5 0.6 0\nMP_ID 1 3 int\n7 8 9\n"
+        )
+    };
+    let parsed = |text: &str| match parse(text.as_bytes(), &everything(&[])).unwrap() {
+        Contents::Snapshots(mut found) => found.remove(0),
+        other => panic!("{other:?}"),
+    };
+    let u = |snapshot: &Snapshot| {
+        let map = ["X=points", "u=MP_DISPLACEMENT"].map(|it| it.parse::<Mapping>().unwrap());
+        let found = recognise(snapshot, &map, &|_| true).unwrap();
+        let motion = resolve(snapshot, &found, 2, &|_| 0.0, None).unwrap();
+        motion.displacement.map(|it| it.numbers.iter().map(|it| *it as f32).collect::<Vec<_>>())
+    };
+    let in_order = parsed(&file("3 6\n1 0\n1 1\n1 2\n", "3\n1\n1\n1", ""));
+    assert_eq!(u(&in_order), Some(vec![0.1, 0.2, 0.3, 0.4, 0.5, 0.6]));
+    assert!(in_order.of_cells.is_empty());
+    let turned = parsed(&file("3 6\n1 2\n1 0\n1 1\n", "3\n1\n2\n1", ""));
+    assert_eq!(u(&turned), Some(vec![0.3, 0.4, 0.5, 0.6, 0.1, 0.2]));
+    assert_eq!(turned.of_points[1].values, [8.0, 9.0, 7.0]);
+    // A point with two vertices and one with none; cells that are no vertices; an array that points have, too.
+    for text in [
+        file("3 6\n1 2\n1 0\n1 2\n", "3\n1\n1\n1", ""),
+        file("3 9\n2 0 1\n2 1 2\n2 2 0\n", "3\n3\n3\n3", ""),
+        file("3 6\n1 0\n1 1\n1 2\n", "3\n1\n1\n1", "POINT_DATA 3\nSCALARS MP_ID int\nLOOKUP_TABLE default\n1 2 3\n"),
+    ] {
+        assert!(parsed(&text).of_cells.iter().any(|it| it.name == "MP_ID"), "{text}");
+    }
+}
+
 /// Files of VTK in XML, with this inside.
 fn vtk(kind: &str, body: &str) -> Vec<u8> {
     format!("<VTKFile type=\"{kind}\">{body}</VTKFile>").into_bytes()

@@ -12,6 +12,9 @@ use super::files::{Results, placed, room};
 use super::taken::Taken;
 use crate::session::exact::Exact;
 
+/// The number of a polygon among the types of cells in VTK.
+const POLYGON: u8 = 7;
+
 /// Over what a norm is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
@@ -124,7 +127,7 @@ pub struct Found {
     pub imbalance: Option<f64>,
     /// The part of the body that is there, and how fine.
     pub covered: Covered,
-    /// The type of cells that are not known, where there are such and no others.
+    /// The type of cells between whose points nothing is known, where norms are over points for them.
     pub unknown: Option<u8>,
     /// How X was found.
     pub how: String,
@@ -259,7 +262,10 @@ impl Reading<'_> {
                 all_names(snapshot)
             );
         }
-        let unknown = mesh.unknown().filter(|_| sizes.is_none());
+        let unknown = match mesh.has_functions() {
+            true => mesh.unknown().filter(|_| sizes.is_none()),
+            false => Some(POLYGON),
+        };
         let degree = mesh.degree();
         let how = motion.how.clone();
         let is_rate =

@@ -63,7 +63,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     }
     found.settle();
     found.extend(wanted)?;
-    Ok(found.snapshot)
+    Ok(found.snapshot.with_vertices_as_points())
 }
 
 impl<'a> Cursor<'a> {

@@ -202,7 +202,7 @@ fn piece(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Snapshot, Mistake> 
     let arrays = Arrays::of(piece, [rows, cells.len()], format)?;
     match arrays.points {
         None if !cells.is_empty() => Err(without_places(piece)),
-        _ => Ok(Snapshot { cells, ..arrays }),
+        _ => Ok(Snapshot { cells, ..arrays }.with_vertices_as_points()),
     }
 }
 
