@@ -13,6 +13,7 @@
 
 pub mod cell;
 pub mod comparison;
+mod components;
 pub mod lattice;
 mod meaning;
 pub mod mesh;

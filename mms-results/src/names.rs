@@ -1,5 +1,6 @@
 //! What the names of arrays mean: names that codes use, and those that a user maps.
 
+use crate::components::{of_columns, parts};
 use crate::meaning::{Column, Part, Place, array};
 use crate::role::plain;
 use crate::wanted::{Need, Wanted};
@@ -155,7 +156,7 @@ pub fn recognise(
         let column = |component| Column { place, component };
         let columns: Vec<_> = match understood.part {
             Some(part) => vec![(part, column(0))],
-            None => (0..array.components).map(|it| (Part::Nth(it), column(it))).collect(),
+            None => parts(array).into_iter().enumerate().map(|(at, it)| (it, column(at))).collect(),
         };
         add(&mut found, understood, columns, array).map_err(|it| it.of(&snapshot.path))?;
     }
@@ -331,8 +332,10 @@ fn mapped(snapshot: &Snapshot, mapping: &Mapping) -> Result<Meaning, Mistake> {
             let columns = names.iter().map(|name| columns(snapshot, name));
             let columns = columns.collect::<Result<Vec<_>, _>>();
             let columns = columns.map_err(|mistake| mistake.of(&snapshot.path))?;
-            let columns = columns.into_iter().flatten().enumerate();
-            columns.map(|(at, column)| (Part::Nth(at), column)).collect()
+            let columns: Vec<Column> = columns.into_iter().flatten().collect();
+            let parts = of_columns(snapshot, &columns).filter(|_| names.len() == 1);
+            let parts = parts.unwrap_or_else(|| (0..columns.len()).map(Part::Nth).collect());
+            parts.into_iter().zip(columns).collect()
         }
     };
     let mapped = names.len();

@@ -201,7 +201,13 @@ mod tests {
     use crate::Stored;
 
     fn array(name: &str, components: usize, values: &[f64]) -> Array {
-        Array { name: name.into(), components, values: values.to_vec(), stored: Stored::Double }
+        Array {
+            name: name.into(),
+            components,
+            values: values.to_vec(),
+            stored: Stored::Double,
+            component_names: Vec::new(),
+        }
     }
 
     /// Lines of a bar by the points that they have.

@@ -73,6 +73,8 @@ pub struct Array {
     pub values: Vec<f64>,
     /// How they were stored.
     pub stored: Stored,
+    /// The names of its components, where the file has such.
+    pub component_names: Vec<String>,
 }
 
 impl Array {
@@ -88,7 +90,8 @@ impl Array {
 
     /// The same, without numbers.
     pub(crate) fn clone_without_values(&self) -> Array {
-        Array { name: self.name.clone(), values: Vec::new(), ..*self }
+        let (name, component_names) = (self.name.clone(), self.component_names.clone());
+        Array { name, component_names, values: Vec::new(), ..*self }
     }
 
     /// How far its numbers may be from those that were stored, at the largest of them.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use mms_results::cell::Shape;
 use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, resolve};
-use mms_results::names::{Mapping, everything, recognise};
+use mms_results::names::{Mapping, Role, everything, recognise};
 use mms_results::own::keep;
 use mms_results::{Contents, Snapshot, Stored, parse, read};
 
@@ -244,9 +244,60 @@ fn arrays_of_vertices_are_arrays_of_points() {
     for text in [
         file("3 6\n1 2\n1 0\n1 2\n", "3\n1\n1\n1", ""),
         file("3 9\n2 0 1\n2 1 2\n2 2 0\n", "3\n3\n3\n3", ""),
-        file("3 6\n1 0\n1 1\n1 2\n", "3\n1\n1\n1", "POINT_DATA 3\nSCALARS MP_ID int\nLOOKUP_TABLE default\n1 2 3\n"),
+        file(
+            "3 6\n1 0\n1 1\n1 2\n",
+            "3\n1\n1\n1",
+            "POINT_DATA 3\nSCALARS MP_ID int\nLOOKUP_TABLE default\n1 2 3\n",
+        ),
     ] {
         assert!(parsed(&text).of_cells.iter().any(|it| it.name == "MP_ID"), "{text}");
+    }
+}
+
+/// The numbers of a quantity at all points or cells.
+fn numbers(snapshot: &Snapshot, role: Role, dimension: usize, map: &[&str]) -> Vec<f64> {
+    let map: Vec<Mapping> = map.iter().map(|it| it.parse().unwrap()).collect();
+    let found = recognise(snapshot, &map, &|it| it == role).unwrap();
+    let meaning = found.iter().find(|it| it.role == role).unwrap();
+    meaning.values(snapshot, dimension).unwrap().numbers.into_owned()
+}
+
+#[test]
+fn components_are_told_by_their_names() {
+    for name in ["names.vti", "names.vtk"] {
+        let found = one(name);
+        let points = &found.points.as_ref().unwrap().values;
+        for map in ["sigma=Cauchy Stress", "tau=Cauchy Stress"] {
+            let role =
+                if map.starts_with('s') { Role::CauchyStress } else { Role::KirchhoffStress };
+            let plane: Vec<f64> =
+                points.chunks(3).flat_map(|x| [7.0 + x[0], x[1], x[1], 3.0 + x[0]]).collect();
+            assert_eq!(numbers(&found, role, 2, &[map]), plane, "{name}");
+            let space = numbers(&found, role, 3, &[map]);
+            let exact =
+                |x: &[f64]| [7.0 + x[0], x[1], x[0], x[1], 3.0 + x[0], 0.0, x[0], 0.0, 5.0 + x[1]];
+            assert_eq!(space, points.chunks(3).flat_map(exact).collect::<Vec<_>>(), "{name}");
+        }
+        assert_eq!(numbers(&found, Role::CauchyStress, 2, &[]).len(), 36, "{name}");
+    }
+}
+
+#[test]
+fn matrices_have_as_many_components_as_there_are() {
+    let rows = |count: usize| (0..count * 9).map(|it| it as f64).collect::<Vec<f64>>();
+    for name in ["meshio_matrix_zlib.vtu", "meshio_matrix_ascii.vtu"] {
+        let found = one(name);
+        assert_eq!(
+            (found.of_cells[0].components, &found.of_cells[0].values),
+            (9, &rows(2)),
+            "{name}"
+        );
+        let plane = numbers(&found, Role::DeformationGradient, 2, &[]);
+        assert_eq!(plane, [0.0, 1.0, 3.0, 4.0, 9.0, 10.0, 12.0, 13.0], "{name}");
+    }
+    for name in ["tensors_1.vtk", "tensors_2.vtk"] {
+        let array = one(name).of_points.into_iter().find(|it| it.name == "F").unwrap();
+        assert_eq!((array.components, &array.values), (9, &rows(4)), "{name}");
     }
 }
 

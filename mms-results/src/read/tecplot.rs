@@ -288,7 +288,13 @@ impl Zone {
         for (name, column) in names.iter().zip(columns) {
             if let Some((values, style)) = column {
                 let (name, stored) = (name.clone(), style.stored());
-                snapshot.of_points.push(Array { name, components: 1, values, stored });
+                snapshot.of_points.push(Array {
+                    name,
+                    components: 1,
+                    values,
+                    stored,
+                    component_names: Vec::new(),
+                });
             }
         }
         let single = vec![false; snapshot.of_points.len()];

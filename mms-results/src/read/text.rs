@@ -139,6 +139,7 @@ mod tests {
             components: 1,
             values: Vec::new(),
             stored: stored(texts),
+            component_names: Vec::new(),
         };
         let zeros = array(&["0.0", "-0.0", "1.0"]);
         let settled = |mut one: Array, mut other: Array| {

@@ -144,6 +144,36 @@ def compressed():
         write(writer, image([0, 4, 0, 4, 0, 0]), f"lz4_{mode}.vti", mode)
 
 
+def named_components():
+    """Symmetric tensors with names of their components, in an order that no convention has."""
+    for end, writer in [("vti", vtk.vtkXMLImageDataWriter()), ("vtk", vtk.vtkDataSetWriter())]:
+        grid = image([0, 2, 0, 2, 0, 0])
+        X = numpy.array([grid.GetPoint(i) for i in range(9)])
+        stress = array("Cauchy Stress", numpy.column_stack([X[:, 1], 3 + X[:, 0], 5 + X[:, 1], X[:, 0], 0 * X[:, 0], 7 + X[:, 0]]))
+        for at, name in enumerate(["XY", "YY", "ZZ", "XZ", "YZ", "XX"]):
+            stress.SetComponentName(at, name)
+        grid.GetPointData().AddArray(stress)
+        write(writer, grid, f"names.{end}")
+
+
+def matrices():
+    """Matrices in cells as meshio writes them, without their number of components; and tensors of the legacy format."""
+    points = numpy.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0]])
+    cells = [("quad", numpy.array([[0, 1, 2, 3], [1, 4, 5, 2]]))]
+    F = numpy.arange(18.0).reshape(2, 3, 3)
+    u = numpy.column_stack([0.1 * points[:, 0] * points[:, 1], -0.2 * points[:, 0], 0 * points[:, 0]])
+    mesh = meshio.Mesh(points, cells, point_data={"u": u}, cell_data={"F": [F]})
+    mesh.write(HERE / "meshio_matrix_zlib.vtu", compression="zlib")
+    mesh.write(HERE / "meshio_matrix_ascii.vtu", binary=False)
+    for mode in [1, 2]:
+        grid = image([0, 1, 0, 1, 0, 0])
+        values = numpy.arange(36.0).reshape(4, 9)
+        grid.GetPointData().SetTensors(array("F", values))
+        writer = vtk.vtkDataSetWriter()
+        writer.SetFileType(mode)
+        write(writer, grid, f"tensors_{mode}.vtk")
+
+
 def instance(kind, points):
     """A cell of that kind with so many points."""
     cell = vtk.vtkGenericCell.InstantiateCell(kind)
@@ -229,3 +259,5 @@ if __name__ == "__main__":
     structured_grids()
     compressed()
     of_higher_degree()
+    named_components()
+    matrices()

@@ -203,7 +203,9 @@ impl Arrays {
             );
             return Err(at(node, what));
         }
-        self.all.push(Array { name, components, values, stored });
+        let name_of = |at: usize| node.attribute(&*format!("ComponentName{at}")).map(str::to_owned);
+        let component_names = (0..components).map_while(name_of).collect();
+        self.all.push(Array { name, components, values, stored, component_names });
         self.single.push(kind == Kind::Float(4));
         Ok(())
     }

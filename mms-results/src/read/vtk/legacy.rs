@@ -24,6 +24,8 @@ struct Found {
     single: Vec<bool>,
     /// Of which the arrays that follow are.
     of: Option<Of>,
+    /// Of which the array is that was read last, if it was.
+    last: Option<Of>,
     /// The extent of a structured grid.
     extent: Option<Extent>,
     lattice: Lattice,
@@ -139,7 +141,13 @@ impl<'a> Cursor<'a> {
             true => (self.binary(numbers, kind)?, kind.stored()),
             false => self.ascii(numbers, kind)?,
         };
-        Ok(Array { name: name.to_owned(), components: components.max(1), values, stored })
+        Ok(Array {
+            name: name.to_owned(),
+            components: components.max(1),
+            values,
+            stored,
+            component_names: Vec::new(),
+        })
     }
 
     fn binary(&mut self, numbers: usize, kind: Kind) -> Result<Vec<f64>, Mistake> {
@@ -226,6 +234,28 @@ impl<'a> Cursor<'a> {
     }
 }
 
+/// A name in which letters that part words are written as `%20` and the like.
+fn decoded(name: &str) -> String {
+    let bytes = name.as_bytes();
+    let mut all = Vec::with_capacity(bytes.len());
+    let mut at = 0;
+    while at < bytes.len() {
+        let code = bytes.get(at + 1..at + 3).and_then(|it| std::str::from_utf8(it).ok());
+        let code = code.and_then(|it| u8::from_str_radix(it, 16).ok());
+        match code.filter(|_| bytes[at] == b'%') {
+            Some(byte) => {
+                all.push(byte);
+                at += 3;
+            }
+            None => {
+                all.push(bytes[at]);
+                at += 1;
+            }
+        }
+    }
+    String::from_utf8_lossy(&all).into_owned()
+}
+
 /// Cells, each with the number of its points in front.
 fn counted(cells: usize, all: &[usize]) -> Result<(Vec<usize>, Vec<usize>), Mistake> {
     let (mut ends, mut points, mut rest) = (Vec::new(), Vec::new(), all);
@@ -304,12 +334,35 @@ impl Found {
             "POINT_DATA" => self.begin(Of::Points, cursor),
             "CELL_DATA" => self.begin(Of::Cells, cursor),
             "METADATA" => {
-                while !cursor.line().trim_ascii().is_empty() {}
-                // The word itself stands on a line of its own.
-                while !cursor.rest().is_empty() && !cursor.line().trim_ascii().is_empty() {}
+                self.metadata(cursor);
                 Ok(())
             }
             _ => self.attribute(word, cursor),
+        }
+    }
+
+    /// Reads the names of the components of the last array, and passes over what else there is of it up to an empty line.
+    fn metadata(&mut self, cursor: &mut Cursor<'_>) {
+        // The word itself stands on a line of its own.
+        while !cursor.line().trim_ascii().is_empty() {}
+        let (mut names, mut are_names) = (Vec::new(), false);
+        while !cursor.rest().is_empty() {
+            match cursor.line().trim_ascii() {
+                b"" => break,
+                b"COMPONENT_NAMES" => are_names = true,
+                line if line.starts_with(b"INFORMATION") => are_names = false,
+                line if are_names => names.push(decoded(&String::from_utf8_lossy(line))),
+                _ => {}
+            }
+        }
+        let last = match self.last.take() {
+            Some(Of::Points) => self.snapshot.of_points.last_mut(),
+            Some(Of::Cells) => self.snapshot.of_cells.last_mut(),
+            _ => None,
+        };
+        if let Some(array) = last {
+            names.truncate(array.components);
+            array.component_names = names;
         }
     }
 
@@ -346,9 +399,15 @@ impl Found {
 
     /// Reads arrays of points or cells.
     fn attribute(&mut self, word: &str, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
-        let name = cursor.needed("a name")?.to_owned();
+        let name = decoded(cursor.needed("a name")?);
+        self.last = None;
         let components = match word {
             "FIELD" => return self.fields(cursor),
+            "COLOR_SCALARS" => {
+                let (of, components) = (self.of.unwrap_or(Of::Whole), cursor.integer()?);
+                return cursor.pass(self.rows(of), components, Kind::Unsigned(1));
+            }
+            "GLOBAL_IDS" | "PEDIGREE_IDS" | "EDGE_FLAGS" => 1,
             "LOOKUP_TABLE" => {
                 let rows = cursor.integer()?;
                 let kind = if cursor.is_binary { Kind::Unsigned(1) } else { Kind::Float(4) };
@@ -399,6 +458,8 @@ impl Found {
                 self.part(name, cursor)?;
                 name = cursor.needed("a name")?;
             }
+            let name = &decoded(name);
+            self.last = None;
             let (components, rows) = (cursor.integer()?, cursor.integer()?);
             let is_words = cursor.passes_words(components.saturating_mul(rows))?;
             if is_words && of != Of::Whole && cursor.wanted.need(name) == Need::Must {
@@ -429,6 +490,7 @@ impl Found {
     }
 
     fn add(&mut self, of: Of, array: Array, kind: Kind) {
+        self.last = Some(of);
         match of {
             Of::Whole => self.time(&array),
             Of::Points => {

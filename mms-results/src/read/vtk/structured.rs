@@ -119,7 +119,13 @@ impl Extent {
                 (0..x).for_each(|i| values.extend(sum(row, moved(0, i))));
             }
         }
-        Ok(Array { name: "Points".into(), components: 3, values, stored })
+        Ok(Array {
+            name: "Points".into(),
+            components: 3,
+            values,
+            stored,
+            component_names: Vec::new(),
+        })
     }
 
     /// The places of the points by coordinates along each axis.
