@@ -279,7 +279,7 @@ impl Snapshot {
         blocks.retain(|it| it.rows() > 0 || !it.cells.is_empty());
         let most = blocks.iter().map(|it| it.cells.dimension()).max();
         let is_full = |it: &Snapshot| Some(it.cells.dimension()) == most;
-        let mut unread = Vec::new();
+        let mut unread: Vec<String> = blocks.iter().flat_map(|it| it.unread.clone()).collect();
         let is_mark = |it: &Array| GHOSTS.contains(&&*it.name);
         for arrays in [Snapshot::of_points_mut, Snapshot::of_cells_mut] {
             let mut common: Option<Vec<(String, usize)>> = None;
@@ -303,11 +303,9 @@ impl Snapshot {
                 is_fit
             });
         }
-        let mut whole = Snapshot::join(blocks)?;
-        whole.unread.extend(unread);
-        whole.unread.sort();
-        whole.unread.dedup();
-        Ok(whole)
+        unread.sort();
+        unread.dedup();
+        Ok(Snapshot { unread, ..Snapshot::join(blocks)? })
     }
 
     fn of_points_mut(&mut self) -> &mut Vec<Array> {
@@ -330,7 +328,6 @@ impl Snapshot {
         self.cells.ends.extend(piece.cells.ends.iter().map(|end| end + connected));
         self.cells.types.extend(piece.cells.types);
         self.lines.extend(piece.lines);
-        self.unread.extend(piece.unread);
         append(self.points.as_mut_slice(), piece.points.into_iter().collect())?;
         append(&mut self.of_points, piece.of_points)?;
         append(&mut self.of_cells, piece.of_cells)

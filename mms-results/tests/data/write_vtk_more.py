@@ -174,6 +174,72 @@ def matrices():
         write(writer, grid, f"tensors_{mode}.vtk")
 
 
+def unstructured(extent, dtype=numpy.float64):
+    """An image as a list of points and cells."""
+    found = vtk.vtkAppendFilter()
+    found.AddInputData(image(extent))
+    found.Update()
+    return found.GetOutput()
+
+
+def without_points():
+    """Pieces of which one has no points: with arrays, without, and with an array of other components."""
+    grid = vtk.vtkXMLUnstructuredGridWriter()
+    write(grid, unstructured([0, 4, 0, 4, 0, 0]), "some_0.vtu")
+    empty = vtk.vtkUnstructuredGrid()
+    write(vtk.vtkXMLUnstructuredGridWriter(), empty, "some_1.vtu", "ascii")
+    empty = vtk.vtkUnstructuredGrid()
+    odd = array("u", numpy.zeros((0, 2)))
+    empty.GetPointData().AddArray(odd)
+    write(vtk.vtkXMLUnstructuredGridWriter(), empty, "some_2.vtu")
+    listed = "\n".join(f'<Piece Source="some_{rank}.vtu"/>' for rank in [1, 0, 2])
+    (HERE / "some.pvtu").write_text(
+        f'<VTKFile type="PUnstructuredGrid" version="1.0">\n<PUnstructuredGrid>\n{listed}\n</PUnstructuredGrid>\n</VTKFile>\n'
+    )
+    # The same as several pieces in one file.
+    text = (HERE / "some_1.vtu").read_text()
+    piece = text[text.index("<Piece") : text.index("</Piece>") + len("</Piece>")]
+    mesh = unstructured([0, 4, 0, 4, 0, 0])
+    write(vtk.vtkXMLUnstructuredGridWriter(), mesh, "in_one.vtu", "ascii")
+    text = (HERE / "in_one.vtu").read_text()
+    (HERE / "in_one.vtu").write_text(text.replace("<Piece", piece + "\n<Piece", 1))
+
+
+def blocks():
+    """Blocks within blocks: two halves of a square of different arrays, one that is empty, and an edge with u alone."""
+    left, right = unstructured([0, 2, 0, 4, 0, 0]), unstructured([2, 4, 0, 4, 0, 0])
+    right.GetPointData().AddArray(array("more", numpy.zeros(right.GetNumberOfPoints())))
+    edge = unstructured([0, 0, 0, 4, 0, 0])
+    edge.GetCellData().RemoveArray("middle")
+    all = vtk.vtkMultiBlockDataSet()
+    inner = vtk.vtkMultiBlockDataSet()
+    for at, block in enumerate([left, right, None]):
+        inner.SetBlock(at, block)
+    all.SetBlock(0, edge)
+    all.SetBlock(1, inner)
+    write(vtk.vtkXMLMultiBlockDataWriter(), all, "blocks.vtm")
+    parts = vtk.vtkPartitionedDataSetCollection()
+    parts.SetPartition(0, 0, left)
+    parts.SetPartition(1, 0, right)
+    write(vtk.vtkXMLPartitionedDataSetCollectionWriter(), parts, "parts.vtpc")
+    part = vtk.vtkPartitionedDataSet()
+    part.SetPartition(0, left)
+    part.SetPartition(1, right)
+    write(vtk.vtkXMLPartitionedDataSetWriter(), part, "part.vtpd")
+
+
+def times():
+    """Lists of times: a series of ParaView, and a collection of blocks and of parts."""
+    files = [{"name": "flat.vti", "time": 0.5}, {"name": "vti_flat_ascii.vtk", "time": 0.1}]
+    series = {"file-series-version": "1.0", "files": files}
+    (HERE / "flat.vti.series").write_text(json.dumps(series, indent=2))
+    sets = [("0.5", 0, "blocks.vtm"), ("0.25", 0, "pieces_0.vti"), ("0.25", 1, "pieces_1.vti"), ("0.125", 0, "some.pvtu")]
+    listed = "\n".join(f'<DataSet timestep="{time}" part="{part}" file="{name}"/>' for time, part, name in sets)
+    (HERE / "times.pvd").write_text(
+        f'<VTKFile type="Collection" version="0.1">\n<Collection>\n{listed}\n</Collection>\n</VTKFile>\n'
+    )
+
+
 def instance(kind, points):
     """A cell of that kind with so many points."""
     cell = vtk.vtkGenericCell.InstantiateCell(kind)
@@ -261,3 +327,6 @@ if __name__ == "__main__":
     of_higher_degree()
     named_components()
     matrices()
+    without_points()
+    blocks()
+    times()
