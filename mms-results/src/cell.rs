@@ -153,6 +153,7 @@ pub struct Shape {
     /// Along each axis; 0 of polygons.
     degrees: [u32; 3],
     functions: Functions,
+    edges: Vec<[usize; 2]>,
 }
 
 static SHAPES: LazyLock<Vec<Shape>> = LazyLock::new(|| ROWS.iter().map(Shape::of_row).collect());
@@ -204,7 +205,8 @@ impl Shape {
     fn new(kind: u8, dimension: usize, nodes: Vec<Local>, corners: usize, space: Space) -> Shape {
         let functions = space.functions(dimension, &nodes);
         let (form, degrees) = (space.form(), space.degrees());
-        Shape { kind, dimension, nodes, corners, form, degrees, functions }
+        let edges = edges(form, &nodes[..corners]);
+        Shape { kind, dimension, nodes, corners, form, degrees, functions, edges }
     }
 
     fn lagrange(at: usize, degree: usize) -> Shape {
@@ -227,9 +229,10 @@ impl Shape {
             let (sin, cos) = (std::f64::consts::TAU * at as f64 / corners as f64).sin_cos();
             [(1.0 + cos) / 2.0, (1.0 + sin) / 2.0, 0.0]
         };
-        let nodes = (0..corners).map(corner).collect();
-        let (form, functions) = (Form::Polygon, Functions::None);
-        Shape { kind: 7, dimension: 2, nodes, corners, form, degrees: [0; 3], functions }
+        let nodes: Vec<Local> = (0..corners).map(corner).collect();
+        let (form, functions, degrees) = (Form::Polygon, Functions::None, [0; 3]);
+        let edges = edges(form, &nodes);
+        Shape { kind: 7, dimension: 2, nodes, corners, form, degrees, functions, edges }
     }
 
     /// Its number in VTK.
@@ -279,18 +282,8 @@ impl Shape {
     }
 
     /// Pairs of corners between which there is an edge.
-    pub fn edges(&self) -> Vec<[usize; 2]> {
-        let differ = |a: usize, b: usize, axis: usize| self.nodes[a][axis] != self.nodes[b][axis];
-        let is_along = |a: usize, b: usize| (0..3).filter(|&it| differ(a, b, it)).count() == 1;
-        let is_edge = |a: usize, b: usize| match self.form {
-            Form::Simplex => true,
-            Form::Wedge => is_along(a, b) || !differ(a, b, 2),
-            Form::Pyramid => is_along(a, b) || differ(a, b, 2),
-            Form::Cube => is_along(a, b),
-            Form::Polygon => b - a == 1 || b - a == self.corners - 1,
-        };
-        let pairs = (0..self.corners).flat_map(|a| (a + 1..self.corners).map(move |b| [a, b]));
-        pairs.filter(|&[a, b]| is_edge(a, b)).collect()
+    pub fn edges(&self) -> &[[usize; 2]] {
+        &self.edges
     }
 
     /// The nodes between two corners, in their order.
@@ -327,6 +320,22 @@ impl Shape {
             _ => ([x, y, z], 1.0),
         }
     }
+}
+
+/// Pairs of corners between which there is an edge.
+fn edges(form: Form, corners: &[Local]) -> Vec<[usize; 2]> {
+    let differ = |a: usize, b: usize, axis: usize| corners[a][axis] != corners[b][axis];
+    let is_along = |a: usize, b: usize| (0..3).filter(|&it| differ(a, b, it)).count() == 1;
+    let count = corners.len();
+    let is_edge = |a: usize, b: usize| match form {
+        Form::Simplex => true,
+        Form::Wedge => is_along(a, b) || !differ(a, b, 2),
+        Form::Pyramid => is_along(a, b) || differ(a, b, 2),
+        Form::Cube => is_along(a, b),
+        Form::Polygon => b - a == 1 || b - a == count - 1,
+    };
+    let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
+    pairs.filter(|&[a, b]| is_edge(a, b)).collect()
 }
 
 /// Gauss's points and weights on [0, 1]: the roots of Legendre's polynomial, by Newton's method.

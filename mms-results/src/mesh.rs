@@ -51,9 +51,9 @@ impl<'a> Mesh<'a> {
     /// The shortest and the longest of the longest edges of the cells; `None` where there are none of full dimension.
     pub fn sizes(&self) -> Option<[f64; 2]> {
         let longest = |(_, shape, points): (usize, &'static Shape, &[usize])| {
-            let edges = shape.edges().into_iter();
+            let edges = shape.edges().iter();
             edges
-                .map(|[a, b]| length(self.point(points[a]), self.point(points[b])))
+                .map(|&[a, b]| length(self.point(points[a]), self.point(points[b])))
                 .fold(0.0, f64::max)
         };
         let both = |range: Option<[f64; 2]>, size: f64| {
@@ -108,7 +108,7 @@ impl<'a> Mesh<'a> {
         let middles = self.middles();
         let mut edges = Vec::new();
         for (own, (_, shape, points)) in middles.chunks(dimension).zip(self.full()) {
-            for ends in shape.edges() {
+            for &ends in shape.edges() {
                 edges.push((ends.map(|it| self.point(points[it])), own));
             }
         }
@@ -134,7 +134,7 @@ impl<'a> Mesh<'a> {
     pub fn free_edges(&self, is_asked: &dyn Fn([&[f64]; 2]) -> bool) -> Vec<Vec<&'a [f64]>> {
         let mut found = Vec::new();
         for (_, shape, points) in self.full() {
-            for ends in shape.edges() {
+            for &ends in shape.edges() {
                 let places = ends.map(|it| self.point(points[it]));
                 if is_asked(places) {
                     let between = shape.between(ends).into_iter().map(|it| self.point(points[it]));

@@ -371,6 +371,19 @@ fn legacy_files_have_their_time() {
     }
 }
 
+#[test]
+fn odd_arrays_are_passed_over() {
+    for name in ["odd_1.vtk", "odd_2.vtk", "odd.vti"] {
+        let found = one(name);
+        holds_the_mesh(name, &found, 9, 4);
+        let last = found.of_points.iter().find(|it| it.name == "last").unwrap();
+        assert_eq!(last.values, (0..9).map(f64::from).collect::<Vec<_>>(), "{name}");
+        for odd in ["bits", "words"] {
+            assert!(found.unread.contains(&odd.to_owned()), "{name}: {:?}", found.unread);
+        }
+    }
+}
+
 /// Files of VTK in XML, with this inside.
 fn vtk(kind: &str, body: &str) -> Vec<u8> {
     format!("<VTKFile type=\"{kind}\">{body}</VTKFile>").into_bytes()

@@ -60,7 +60,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
         _ if bytes.starts_with(b"PK") => npz::parse(bytes, wanted).map(one),
         _ if start.starts_with(b"# vtk DataFile") => vtk::legacy::parse(bytes, wanted).map(one),
         [b'<', ..] => vtk::xml::parse(bytes, wanted),
-        _ if vtk::lists::is_series(start) => vtk::lists::series(bytes),
+        _ if vtk::lists::is_series(start) => vtk::lists::series(bytes, wanted),
         _ if tecplot::is_tecplot(start) => tecplot::parse(bytes, wanted).map(Contents::Snapshots),
         _ if start.starts_with(dump::MARK) => dump::parse(bytes, wanted).map(Contents::Snapshots),
         _ => table::parse(bytes, wanted).map(Contents::Snapshots),

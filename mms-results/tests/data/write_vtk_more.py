@@ -240,6 +240,30 @@ def times():
     )
 
 
+def odd_arrays():
+    """Arrays that are no numbers of a quantity, before and behind such: bits, words, colours, numbers of points."""
+    for mode in [1, 2]:
+        grid = image([0, 2, 0, 2, 0, 0])
+        bits = vtk.vtkBitArray()
+        bits.SetName("bits")
+        for at in range(9):
+            bits.InsertNextValue(at % 2)
+        words = vtk.vtkStringArray()
+        words.SetName("words")
+        for at in range(9):
+            words.InsertNextValue("a word" * at)
+        data = grid.GetPointData()
+        data.AddArray(bits)
+        data.AddArray(words)
+        data.AddArray(array("last", numpy.arange(9.0)))
+        data.SetScalars(array("colours", numpy.arange(27, dtype=numpy.uint8).reshape(9, 3)))
+        data.SetGlobalIds(array("ids", numpy.arange(9, dtype=numpy.int64)))
+        writer = vtk.vtkDataSetWriter()
+        writer.SetFileType(mode)
+        write(writer, grid, f"odd_{mode}.vtk")
+    write(vtk.vtkXMLImageDataWriter(), grid, "odd.vti")
+
+
 def instance(kind, points):
     """A cell of that kind with so many points."""
     cell = vtk.vtkGenericCell.InstantiateCell(kind)
@@ -327,6 +351,7 @@ if __name__ == "__main__":
     of_higher_degree()
     named_components()
     matrices()
+    odd_arrays()
     without_points()
     blocks()
     times()

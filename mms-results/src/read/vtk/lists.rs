@@ -6,6 +6,7 @@ use serde_json::Value;
 use super::super::text::{Style, number};
 use super::super::{Contents, MOST_FILES};
 use super::xml::at;
+use crate::wanted::Wanted;
 use crate::{Mistake, Stored, Time};
 
 /// The files of the pieces of a grid.
@@ -84,21 +85,27 @@ fn digits(stored: Stored) -> u32 {
     if let Stored::Digits(digits) = stored { digits } else { 0 }
 }
 
+/// How many bytes a byte of JSON takes at most: a value of three bytes is one of eighty, while their list grows.
+const OF_JSON: usize = 80;
+
 /// Whether a text may be the list of files that ParaView reads as a series.
 pub fn is_series(text: &[u8]) -> bool {
     text.starts_with(b"{")
 }
 
 /// Reads a series of ParaView: files with their times, in JSON ("ParaView Reference Manual", file series).
-pub fn series(text: &[u8]) -> Result<Contents, Mistake> {
+pub fn series(text: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
     let wrong = |what: &str| {
         Mistake::new(format!(
             "{what}: expected a series of files, as {{\"files\": [{{\"name\": \"a.vtu\", \"time\": 0.5}}]}}"
         ))
     };
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
-    let found: Value = serde_json::from_slice(text)
-        .map_err(|error| Mistake::at(error.line(), format!("not JSON: {error}")))?;
+    let parse = || {
+        serde_json::from_slice::<Value>(text)
+            .map_err(|error| Mistake::at(error.line(), format!("not JSON: {error}")))
+    };
+    let found = wanted.beside(text.len().saturating_mul(OF_JSON), parse)?;
     let all = found.get("files").and_then(Value::as_array);
     let all = all.ok_or_else(|| wrong("no list `files`"))?;
     let names = all.iter().map(|it| it.get("name")?.as_str().map(str::to_owned));

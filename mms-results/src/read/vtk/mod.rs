@@ -2,6 +2,7 @@
 
 mod arrays;
 mod base64;
+mod cursor;
 pub mod legacy;
 pub mod lists;
 mod structured;
