@@ -47,19 +47,19 @@ enum Form {
 /// The polynomials of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Space {
-    /// All of a degree.
+    /// Polynomials of a degree, all of them.
     Complete(u32),
-    /// Those of a degree in each coordinate.
+    /// Polynomials of a degree in each coordinate.
     Product([u32; 3]),
-    /// Those of a degree in the first two together, and of another in the third.
+    /// Polynomials of a degree in the first two coordinates together, and of another in the third.
     Wedge([u32; 2]),
-    /// Those of degree 1 in each, which do not depend on the first two where the third is 1.
+    /// Polynomials of degree 1 in each, which do not depend on the first two where the third is 1.
     Pyramid,
-    /// Those of degree 2 in one coordinate at most, and 1 in the others (serendipity).
+    /// Polynomials of degree 2 in one coordinate at most, and 1 in the others (serendipity).
     Serendipity,
-    /// These, and those of degree 2 in the third and one other: with nodes in the middles of the upright sides.
+    /// The serendipity ones, and those of degree 2 in the third and one other: with nodes in the middles of the upright sides.
     Sides,
-    /// Those of degree 2 in a wedge, without those of degree 2 both in the plane and along it (serendipity).
+    /// Polynomials of degree 2 in a wedge, but for those of degree 2 both in the plane and along it (serendipity).
     WedgeSerendipity,
 }
 

@@ -11,7 +11,7 @@ pub(crate) fn parts(array: &Array) -> Vec<Part> {
         .unwrap_or_else(by_order)
 }
 
-/// The same of columns that are all components of one array, where they have names that tell.
+/// The parts that columns are by their names, where these are all components of one array and tell it.
 pub(crate) fn of_columns(snapshot: &Snapshot, columns: &[Column]) -> Option<Vec<Part>> {
     let array: &Array = array(snapshot, columns.first()?.place);
     let place: Place = columns[0].place;

@@ -215,8 +215,8 @@ impl Snapshot {
         }
     }
 
-    /// The same, with arrays of cells as such of points, where each cell is a vertex of one point and each point has one: so
-    /// programs write particles that have no nodes. Marks of ghosts, and arrays of names that points have, stay where they
+    /// This snapshot with arrays of cells as such of points, where each cell is a vertex of one point and each point has one:
+    /// so programs write particles that have no nodes. Marks of ghosts, and arrays of names that points have, stay where they
     /// are.
     pub(crate) fn with_vertices_as_points(mut self) -> Snapshot {
         let (rows, Cells { types, points, ends }) = (self.rows(), &self.cells);

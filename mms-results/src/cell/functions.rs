@@ -45,12 +45,12 @@ struct Factor {
 #[derive(Debug)]
 pub(super) struct Products {
     factors: Vec<Factor>,
-    /// Of each node the polynomial of each factor, by its degree.
+    /// The polynomial of each factor that a node has, by its degree, node by node.
     nodes: Vec<Vec<usize>>,
 }
 
 impl Products {
-    /// Of nodes in a cell of a form, with a degree along each axis.
+    /// The functions of nodes in a cell of a form, with a degree along each axis.
     pub fn new(form: Form, dimension: usize, degrees: [u32; 3], nodes: &[Local]) -> Self {
         let groups: &[&[usize]] = match (form, dimension) {
             (Form::Simplex, 2) => &[&[0, 1][..]],
@@ -106,7 +106,7 @@ impl Factor {
         self.constant + along.sum::<f64>()
     }
 
-    /// Of each degree up to the own one, the polynomial that is 0 at the steps before, and its slope.
+    /// The polynomials of each degree up to the own one that are 0 at the steps before, and their slopes.
     fn polynomials(&self, at: Local) -> Vec<[f64; 2]> {
         let n = self.degree as f64;
         let scaled = n * self.value(at);
@@ -124,12 +124,12 @@ impl Factor {
 #[derive(Debug)]
 pub(super) struct Solved {
     monomials: Vec<[u32; 3]>,
-    /// Of each node.
+    /// The coefficients of each node.
     coefficients: Vec<Vec<f64>>,
 }
 
 impl Solved {
-    /// Of nodes, by as many monomials.
+    /// The functions of nodes, by as many monomials.
     pub fn new(nodes: &[Local], monomials: Vec<[u32; 3]>) -> Self {
         Solved { coefficients: solve(nodes, &monomials), monomials }
     }

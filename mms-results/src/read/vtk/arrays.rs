@@ -19,7 +19,7 @@ pub struct Format<'a> {
     compressor: Option<Compressor>,
     appended: Option<Encoded<'a>>,
     pub wanted: &'a Wanted<'a>,
-    /// Of a version in which hexahedra of Lagrange have some nodes in another order.
+    /// Whether hexahedra of Lagrange have some nodes in an older order.
     pub is_old: bool,
 }
 

@@ -131,8 +131,8 @@ impl<'a> Cursor<'a> {
         Ok((values, if kind.stored() == Stored::Whole { Stored::Whole } else { style.stored() }))
     }
 
-    /// Passes over words or bits, if the type of an array is that: bits eight in a byte, words one on each line, or each behind its length, whose first two
-    /// bits say how long that is.
+    /// Passes over words or bits, if the type of an array is that: bits eight in a byte, words one on each line, or each behind
+    /// its length, whose first two bits say how long that is.
     pub fn passes_words(&mut self, words: usize) -> Result<bool, Mistake> {
         let before = self.at;
         match self.word() {

@@ -17,7 +17,7 @@ struct Found {
     single: Vec<bool>,
     /// Of which the arrays that follow are.
     of: Option<Of>,
-    /// Of which the array is that was read last, if it was.
+    /// Whose the array is that was read last, if it was.
     last: Option<Of>,
     /// The extent of a structured grid.
     extent: Option<Extent>,
