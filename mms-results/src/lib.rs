@@ -14,6 +14,7 @@
 
 pub mod cell;
 pub mod comparison;
+mod components;
 pub mod lattice;
 mod mapping;
 mod meaning;

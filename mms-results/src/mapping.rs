@@ -1,5 +1,6 @@
 //! The columns that a user, or the profile of a code, names for a quantity.
 
+use crate::components::of_columns;
 use crate::meaning::{Column, Meaning, Part, Place, Why};
 use crate::parts::{all_names, arrays, split};
 use crate::role::Role;
@@ -41,8 +42,10 @@ pub(crate) fn mapped(snapshot: &Snapshot, mapping: &Mapping) -> Result<Meaning, 
             let columns = names.iter().map(|name| columns(snapshot, name));
             let columns = columns.collect::<Result<Vec<_>, _>>();
             let columns = columns.map_err(|mistake| mistake.of(&snapshot.path))?;
-            let columns = columns.into_iter().flatten().enumerate();
-            columns.map(|(at, column)| (Part::Nth(at), column)).collect()
+            let columns: Vec<Column> = columns.into_iter().flatten().collect();
+            let parts = of_columns(snapshot, &columns).filter(|_| names.len() == 1);
+            let parts = parts.unwrap_or_else(|| (0..columns.len()).map(Part::Nth).collect());
+            parts.into_iter().zip(columns).collect()
         }
     };
     let why = Why::Map(names.len());

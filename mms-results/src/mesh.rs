@@ -1,7 +1,7 @@
 //! A mesh: its cells of full dimension, their sizes and middles, and the edges that one cell alone has.
 
 use crate::Cells;
-use crate::cell::Shape;
+use crate::cell::{Shape, gauss};
 use crate::norm::length;
 
 /// A mesh in the reference configuration.
@@ -20,24 +20,28 @@ impl<'a> Mesh<'a> {
     pub fn full(&self) -> impl Iterator<Item = (usize, &'static Shape, &'a [usize])> {
         let dimension = self.dimension;
         self.cells.iter().enumerate().filter_map(move |(cell, (kind, points))| {
-            let shape = Shape::of(kind).filter(|shape| shape.dimension == dimension)?;
-            (shape.nodes.len() == points.len()).then_some((cell, shape, points))
+            let shape = Shape::of(kind, points.len()).filter(|it| it.dimension == dimension)?;
+            Some((cell, shape, points))
         })
     }
 
     /// The types of cells that may be of the dimension of the mesh, and are not known.
     pub fn unknown(&self) -> Option<u8> {
         let lines = [1, 2, 4];
-        self.cells
-            .types
-            .iter()
-            .copied()
-            .find(|kind| Shape::of(*kind).is_none() && !lines.contains(kind))
+        let is_unknown = |(kind, points): &(u8, &[usize])| {
+            !lines.contains(kind) && Shape::of(*kind, points.len()).is_none()
+        };
+        self.cells.iter().find(is_unknown).map(|(kind, _)| kind)
     }
 
-    /// The lowest degree of its cells, if there are such.
+    /// Whether it is known what is between the points of all its cells.
+    pub fn has_functions(&self) -> bool {
+        self.full().all(|(_, shape, _)| shape.has_functions())
+    }
+
+    /// The lowest degree of its cells, if there are such and all have one.
     pub fn degree(&self) -> Option<u32> {
-        self.full().map(|(_, shape, _)| shape.degree()).min()
+        self.full().map(|(_, shape, _)| shape.degree()).min().filter(|it| *it > 0)
     }
 
     pub(crate) fn point(&self, point: usize) -> &'a [f64] {
@@ -47,9 +51,9 @@ impl<'a> Mesh<'a> {
     /// The shortest and the longest of the longest edges of the cells; `None` where there are none of full dimension.
     pub fn sizes(&self) -> Option<[f64; 2]> {
         let longest = |(_, shape, points): (usize, &'static Shape, &[usize])| {
-            let edges = shape.edges().into_iter();
+            let edges = shape.edges().iter();
             edges
-                .map(|[a, b]| length(self.point(points[a]), self.point(points[b])))
+                .map(|&[a, b]| length(self.point(points[a]), self.point(points[b])))
                 .fold(0.0, f64::max)
         };
         let both = |range: Option<[f64; 2]>, size: f64| {
@@ -58,16 +62,42 @@ impl<'a> Mesh<'a> {
         self.full().map(longest).fold(None, both)
     }
 
-    /// X at the middle of the reference cell of each, of all cells of full dimension.
+    /// X at the middle of the reference cell of each, of all cells of full dimension; of polygons at the centre of area.
     pub fn middles(&self) -> Vec<f64> {
-        let middle = |(_, shape, points): (usize, &'static Shape, &'a [usize])| {
-            let values = shape.values(shape.middle());
-            let of = move |axis| {
-                points.iter().zip(&values).map(|(&point, n)| n * self.point(point)[axis]).sum()
+        // Most cells are of the kind of the one before.
+        let mut last: Option<(&Shape, Vec<f64>)> = None;
+        let mut all = Vec::new();
+        for (_, shape, points) in self.full() {
+            if !shape.has_functions() {
+                all.extend(self.polygon(points).1);
+                continue;
+            }
+            let (_, values) = match last.take().filter(|it| std::ptr::eq(it.0, shape)) {
+                Some(known) => last.insert(known),
+                None => last.insert((shape, shape.values(shape.middle()))),
             };
-            (0..self.dimension).map(of).collect::<Vec<f64>>()
-        };
-        self.full().flat_map(middle).collect()
+            let of = |axis: usize| -> f64 {
+                points.iter().zip(&*values).map(|(&point, n)| n * self.point(point)[axis]).sum()
+            };
+            all.extend((0..self.dimension).map(of));
+        }
+        all
+    }
+
+    /// The area of a polygon in a plane, and its centre, by triangles from its first corner.
+    pub(crate) fn polygon(&self, points: &[usize]) -> (f64, [f64; 2]) {
+        let corner = |at: usize| self.point(points[at]);
+        let first = corner(0);
+        let from = |at: usize| [corner(at)[0] - first[0], corner(at)[1] - first[1]];
+        let (mut area, mut moment) = (0.0, [0.0; 2]);
+        for at in 2..points.len() {
+            let (a, b) = (from(at - 1), from(at));
+            let own = (a[0] * b[1] - a[1] * b[0]) / 2.0;
+            area += own;
+            [0, 1].into_iter().for_each(|axis| moment[axis] += own * (a[axis] + b[axis]) / 3.0);
+        }
+        let by = if area == 0.0 { 0.0 } else { 1.0 / area };
+        (area, [0, 1].map(|axis| first[axis] + moment[axis] * by))
     }
 
     /// How far the cells around inner edges are out of balance: the distance from the middle of an edge to the mean of the
@@ -78,7 +108,7 @@ impl<'a> Mesh<'a> {
         let middles = self.middles();
         let mut edges = Vec::new();
         for (own, (_, shape, points)) in middles.chunks(dimension).zip(self.full()) {
-            for ends in shape.edges() {
+            for &ends in shape.edges() {
                 edges.push((ends.map(|it| self.point(points[it])), own));
             }
         }
@@ -99,18 +129,15 @@ impl<'a> Mesh<'a> {
         (count > 0).then(|| (sum / f64::from(count)).sqrt())
     }
 
-    /// Edges of cells in a plane that no other cell has, each as X of its ends and of the node between them, if there is
-    /// one; of those with ends that are asked for.
+    /// Edges of cells in a plane that no other cell has, each as X of its ends and of the nodes between them, in their order;
+    /// of those with ends that are asked for.
     pub fn free_edges(&self, is_asked: &dyn Fn([&[f64]; 2]) -> bool) -> Vec<Vec<&'a [f64]>> {
         let mut found = Vec::new();
         for (_, shape, points) in self.full() {
-            for ends @ [a, b] in shape.edges() {
+            for &ends in shape.edges() {
                 let places = ends.map(|it| self.point(points[it]));
                 if is_asked(places) {
-                    let middle =
-                        [0, 1, 2].map(|at| (shape.nodes[a][at] + shape.nodes[b][at]) / 2.0);
-                    let between = shape.nodes.iter().position(|it| *it == middle);
-                    let between = between.map(|it| self.point(points[it]));
+                    let between = shape.between(ends).into_iter().map(|it| self.point(points[it]));
                     found.push(places.into_iter().chain(between).collect::<Vec<_>>());
                 }
             }
@@ -120,6 +147,21 @@ impl<'a> Mesh<'a> {
         let alone = found.chunk_by(|a, b| key(a) == key(b)).filter(|it| it.len() == 1);
         alone.map(|it| it[0].clone()).collect()
     }
+}
+
+/// The area that the ray from the origin to an edge in a plane sweeps, by X of its ends and of the nodes between them: half the
+/// integral of x dy - y dx.
+pub fn swept(edge: &[&[f64]]) -> f64 {
+    let Some(shape) = Shape::of(68, edge.len()) else { return 0.0 };
+    let sum = |values: &[f64], axis: usize| -> f64 {
+        values.iter().zip(edge).map(|(value, x)| value * x[axis]).sum()
+    };
+    let part = |(at, weight): (f64, f64)| {
+        let (values, slopes) = (shape.values([at, 0.0, 0.0]), shape.derivatives([at, 0.0, 0.0], 0));
+        let (x, by) = ([0, 1].map(|it| sum(&values, it)), [0, 1].map(|it| sum(&slopes, it)));
+        weight * (x[0] * by[1] - x[1] * by[0]) / 2.0
+    };
+    gauss(edge.len()).into_iter().map(part).sum()
 }
 
 /// Tells an edge by its ends: pieces of a mesh have points of their own.
@@ -178,5 +220,40 @@ mod tests {
         // Four of the eight inner edges are off by a sixth.
         let found = imbalance(5, &star, [1.0, 1.0]).expect("inner edges");
         assert!((found - 72f64.powf(-0.5)).abs() < 1e-15, "{found}");
+    }
+
+    #[test]
+    fn edges_of_any_degree_sweep_their_area() {
+        let on_circle = |count: usize| -> Vec<[f64; 2]> {
+            let at = |part: usize| (part as f64 / (count - 1) as f64 * 1.2).sin_cos();
+            let order = [0, count - 1].into_iter().chain(1..count - 1);
+            order.map(at).map(|(sin, cos)| [cos, sin]).collect()
+        };
+        for (count, most) in [(2, 0.15), (3, 2e-2), (4, 2e-3), (5, 2e-4), (7, 2e-6)] {
+            let nodes = on_circle(count);
+            let edge: Vec<&[f64]> = nodes.iter().map(|it| &it[..]).collect();
+            let off = (swept(&edge) - 0.6).abs();
+            assert!(off < most, "{count}: {off:e}");
+        }
+        // A parabola through three points.
+        let edge: [&[f64]; 3] = [&[1.0, 0.0], &[0.0, 2.0], &[0.8, 1.1]];
+        assert!((swept(&edge) - (4.0 * (1.1 + 1.6) - 2.0) / 6.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn polygons_have_areas_and_centres() {
+        // A square of 2 x 2 beside which a triangle of area 1 stands, turned either way round.
+        let points = [0.0, 0.0, 2.0, 0.0, 3.0, 1.0, 2.0, 2.0, 0.0, 2.0];
+        for own in [vec![0, 1, 2, 3, 4], vec![3, 2, 1, 0, 4]] {
+            let cells = Cells { types: vec![7], points: own, ends: vec![5] };
+            let mesh = Mesh { cells: &cells, points: &points, dimension: 2 };
+            let centre = mesh.middles();
+            assert!((centre[0] - (4.0 + 7.0 / 3.0) / 5.0).abs() < 1e-15, "{centre:?}");
+            assert!((centre[1] - 1.0).abs() < 1e-15, "{centre:?}");
+            assert_eq!(mesh.sizes(), Some([2.0; 2]));
+            assert!((mesh.volumes().unwrap().iter().sum::<f64>() - 5.0).abs() < 1e-15);
+            assert_eq!((mesh.degree(), mesh.has_functions(), mesh.unknown()), (None, false, None));
+            assert_eq!(mesh.free_edges(&|_| true).len(), 5);
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! The meanings of arrays: by their names, by what a user maps, and by the profile of a code.
 
+use crate::components::parts;
 use crate::mapping::mapped;
 use crate::meaning::{Column, Part, Place, array};
 use crate::parts::{S, arrays, split, stem, two_meanings};
@@ -141,15 +142,13 @@ pub fn recognise(
         let understood = understand(place, array).filter(|it| is_wanted(it.role));
         let Some(understood) = understood else { continue };
         let column = |component| Column { place, component };
-        let order = names.profile.as_ref().and_then(|it| it.order(understood.role, array));
-        let columns: Vec<_> = match (understood.part, order) {
-            (Some(part), _) => vec![(part, column(0))],
-            (None, Some(order)) => order
-                .iter()
-                .enumerate()
-                .map(|(at, &(i, j))| (Part::Entry(i, j), column(at)))
-                .collect(),
-            (None, None) => (0..array.components).map(|it| (Part::Nth(it), column(it))).collect(),
+        let all = || match &names.profile {
+            Some(profile) => profile.parts(understood.role, array),
+            None => parts(array),
+        };
+        let columns: Vec<_> = match understood.part {
+            Some(part) => vec![(part, column(0))],
+            None => all().into_iter().enumerate().map(|(at, it)| (it, column(at))).collect(),
         };
         add(&mut found, understood, columns, array).map_err(|it| it.of(&snapshot.path))?;
     }

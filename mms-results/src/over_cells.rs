@@ -8,7 +8,7 @@
 //! largest values, the exact solution is asked for in the end.
 
 use crate::Mistake;
-use crate::cell::{ALONG, Local, Shape, gauss};
+use crate::cell::{Local, Shape, gauss};
 use crate::mesh::Mesh;
 use crate::norm::{Norms, lengths};
 
@@ -47,7 +47,8 @@ pub struct OverCells {
 /// How many points of quadrature are taken at once.
 const BATCH: usize = 8192;
 
-/// How many parts of an axis have two points of Gauss each for l1, by the dimension.
+/// How many parts of an axis have two points of Gauss each for l1, by the dimension; several times as many of cells of a degree
+/// above 2, whose errors have more waves.
 const PARTS: [usize; 3] = [64, 8, 6];
 /// How many parts have ends where the maximum is looked for.
 const STEPS: [usize; 3] = [64, 12, 6];
@@ -82,6 +83,8 @@ struct Table {
     points: Vec<Point>,
     fine: Interpolation,
     ends: Interpolation,
+    /// Into how many parts an axis is divided where the maximum is looked for.
+    steps: usize,
 }
 
 /// Values of Lagrange's polynomials at places along an axis.
@@ -149,14 +152,15 @@ impl Table {
     fn new(shape: &'static Shape, count: usize) -> Self {
         let (dimension, along) = (shape.dimension, gauss(count));
         let knots: Vec<f64> = along.iter().map(|it| it.0).collect();
-        let parts = PARTS[dimension - 1];
+        let finer = (shape.highest() as usize).div_ceil(2).max(1);
+        let parts = finer * PARTS[dimension - 1];
         let in_parts = |places: &[(f64, f64)]| -> Vec<(f64, f64)> {
             let part = |at: usize| {
                 places.iter().map(move |(x, w)| ((at as f64 + x) / parts as f64, w / parts as f64))
             };
             (0..parts).flat_map(part).collect()
         };
-        let steps = STEPS[dimension - 1];
+        let steps = finer * STEPS[dimension - 1];
         let ends = (0..=steps).map(|at| (at as f64 / steps as f64, 0.0)).collect();
         let quadrature = Interpolation::new(&knots, along);
         let point = |index: usize| {
@@ -174,12 +178,13 @@ impl Table {
             points: (0..knots.len().pow(dimension as u32)).map(point).collect(),
             fine: Interpolation::new(&knots, in_parts(&gauss(2))),
             ends: Interpolation::new(&knots, ends),
+            steps,
         }
     }
 
     /// The position of a kind of cell among those that are known, which it joins.
     fn among(known: &mut Vec<Table>, shape: &'static Shape, count: usize) -> usize {
-        let found = known.iter().position(|it| it.shape.kind() == shape.kind());
+        let found = known.iter().position(|it| std::ptr::eq(it.shape, shape));
         found.unwrap_or_else(|| {
             known.push(Table::new(shape, count));
             known.len() - 1
@@ -240,8 +245,20 @@ impl Mesh<'_> {
         let mut tables = Vec::new();
         let mut batch = Batch::default();
         for (cell, shape, points) in self.full() {
-            // Exact for the function of a point, times the volume of a cell with straight edges.
-            let table = Table::among(&mut tables, shape, shape.degree() as usize + 2);
+            if !shape.has_functions() {
+                let (area, _) = self.polygon(points);
+                if area == 0.0 || !area.is_finite() {
+                    return Err(Mistake::new(format!("cell {cell} is flat: its area is {area:e}")));
+                }
+                // Nothing says which part of it belongs to which of its points.
+                let part = area.abs() / points.len() as f64;
+                points.iter().for_each(|&point| volumes[point] += part);
+                continue;
+            }
+            // Exact for the function of a point, times the volume of a cell with straight edges; and for the volume of one
+            // with curved edges.
+            let degree = shape.highest() as usize;
+            let table = Table::among(&mut tables, shape, (degree + 2).max(2 * degree));
             batch.clear();
             self.place(&mut batch, cell, &tables[table], points, none)?;
             for (weight, at) in batch.weights.iter().zip(&tables[table].points) {
@@ -261,7 +278,12 @@ impl Mesh<'_> {
         let mut tables: Vec<Table> = Vec::new();
         let mut batch = Batch::default();
         for (cell, shape, points) in self.full() {
-            let table = Table::among(&mut tables, shape, ALONG);
+            if !shape.has_functions() {
+                return Err(Mistake::new(format!(
+                    "cell {cell} is a polygon: what is between its points is not known"
+                )));
+            }
+            let table = Table::among(&mut tables, shape, shape.along());
             self.place(&mut batch, cell, &tables[table], points, carried)?;
             batch.cells.push((cell, table));
             if batch.weights.len() >= BATCH {
@@ -387,10 +409,11 @@ impl Mesh<'_> {
         found.keep_peaks();
         let dimension = self.dimension;
         found.peaks.iter_mut().for_each(|it| it.error = 0.0);
-        let mut step = 0.5 / STEPS[dimension - 1] as f64;
+        let mut part = 0.5;
         for _ in 0..ROUNDS {
+            let step_of = |peak: &Peak| part / tables[peak.table].steps as f64;
             let beside = |peak: &Peak| {
-                let at = peak.at;
+                let (at, step) = (peak.at, step_of(peak));
                 let moved = (0..2 * dimension).map(move |which| {
                     let (axis, by) = (which / 2, if which % 2 == 0 { -step } else { step });
                     let mut at = at;
@@ -415,10 +438,10 @@ impl Mesh<'_> {
                     } else {
                         rise.signum()
                     };
-                    peak.at[axis] = (peak.at[axis] + far * step).clamp(0.0, 1.0);
+                    peak.at[axis] = (peak.at[axis] + far * step_of(peak)).clamp(0.0, 1.0);
                 }
             }
-            step *= SHRINKS;
+            part *= SHRINKS;
         }
         let larger = |most: (f64, usize), it: &Peak| match it.error > most.0 {
             true => (it.error, it.cell),
@@ -519,7 +542,7 @@ impl Found {
         self.numbers.extend(self.room[0].chunks_exact(components).map(square));
         let squares = &self.numbers;
         let least = HIGH * HIGH * squares.iter().copied().fold(0.0, f64::max);
-        let steps = STEPS[dimension - 1];
+        let steps = of.steps;
         let side = steps + 1;
         for (at, &own) in squares.iter().enumerate().filter(|(_, own)| **own >= least) {
             let (mut place, mut most) = (of.ends.point(at, dimension).0, own);

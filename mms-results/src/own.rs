@@ -136,7 +136,8 @@ fn doubled(snapshot: &Snapshot) -> Result<Vec<bool>, Mistake> {
         place(point).iter().fold(1, mix)
     };
     let all: Vec<(u8, &[usize])> = snapshot.cells.iter().collect();
-    let known = all.iter().enumerate().filter(|(_, (kind, _))| Shape::of(*kind).is_some());
+    let is_known = |(kind, points): (u8, &[usize])| Shape::of(kind, points.len()).is_some();
+    let known = all.iter().enumerate().filter(|(_, cell)| is_known(**cell));
     let sum =
         |points: &[usize]| points.iter().fold(0, |sum: u64, &it| sum.wrapping_add(digest(it)));
     let mut digests: Vec<_> = known.map(|(at, (_, points))| (sum(points), at)).collect();
@@ -200,7 +201,13 @@ mod tests {
     use crate::Stored;
 
     fn array(name: &str, components: usize, values: &[f64]) -> Array {
-        Array { name: name.into(), components, values: values.to_vec(), stored: Stored::Double }
+        Array {
+            name: name.into(),
+            components,
+            values: values.to_vec(),
+            stored: Stored::Double,
+            component_names: Vec::new(),
+        }
     }
 
     /// Lines of a bar by the points that they have.

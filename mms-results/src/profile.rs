@@ -3,6 +3,7 @@
 //! A profile names. Where the numbers of a file decide, they do: points of which one reading lies in the body have that
 //! reading, and components that a file names are those.
 
+use crate::components::{has_names, parts};
 use crate::mapping::{components, whole};
 use crate::meaning::{Meaning, Part, Why};
 use crate::role::{Form, Role};
@@ -32,10 +33,14 @@ impl Profile {
         Profile { name: "mms".to_owned(), quantities, ..Profile::default() }
     }
 
-    /// The order of the components of an array; none if the profile has none for as many.
-    pub(crate) fn order(&self, role: Role, array: &Array) -> Option<&Order> {
-        let is_symmetric = role.form() == Form::Symmetric;
-        self.orders.iter().find(|it| is_symmetric && it.len() == array.components)
+    /// The parts of a quantity that the components of an array are: by the names in the file, else by the order for as many.
+    pub(crate) fn parts(&self, role: Role, array: &Array) -> Vec<Part> {
+        let is_open = role.form() == Form::Symmetric && !has_names(array);
+        let order = self.orders.iter().find(|it| is_open && it.len() == array.components);
+        match order {
+            Some(order) => order.iter().map(|&(row, column)| Part::Entry(row, column)).collect(),
+            None => parts(array),
+        }
     }
 
     /// The quantities that the profile names, of those that `wants` takes and a snapshot has.
@@ -52,12 +57,8 @@ impl Profile {
                     return Some((name, columns));
                 }
                 let (array, columns) = whole(snapshot, name)?;
-                let part = |at: usize| match self.order(*role, array) {
-                    Some(order) => Part::Entry(order[at].0, order[at].1),
-                    None => Part::Nth(at),
-                };
-                let columns = columns.into_iter().enumerate().map(|(at, it)| (part(at), it));
-                Some((name, columns.collect()))
+                let parts = self.parts(*role, array);
+                Some((name, parts.into_iter().zip(columns).collect()))
             });
             let Some((name, columns)) = found_here else { continue };
             let why = Why::Profile(self.name.clone());

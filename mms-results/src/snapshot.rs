@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::Mistake;
+use crate::cell::{dimension, last_edges, refused};
 
 /// How numbers were stored, and so how far each may be from what the solver had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,6 +73,8 @@ pub struct Array {
     pub values: Vec<f64>,
     /// How they were stored.
     pub stored: Stored,
+    /// The names of its components, where the file has such.
+    pub component_names: Vec<String>,
 }
 
 impl Array {
@@ -80,9 +83,15 @@ impl Array {
         self.values.len() / self.components
     }
 
+    /// Whether it has this name, and so many components.
+    fn is_like(&self, name: &str, components: usize) -> bool {
+        self.name == name && self.components == components
+    }
+
     /// The same, without numbers.
     pub(crate) fn clone_without_values(&self) -> Array {
-        Array { name: self.name.clone(), values: Vec::new(), ..*self }
+        let (name, component_names) = (self.name.clone(), self.component_names.clone());
+        Array { name, component_names, values: Vec::new(), ..*self }
     }
 
     /// The number of its components and the range of each, in words.
@@ -134,6 +143,11 @@ impl Cells {
         self.types.len()
     }
 
+    /// The highest dimension that one has.
+    pub(crate) fn dimension(&self) -> usize {
+        self.types.iter().map(|kind| dimension(*kind)).max().unwrap_or(0)
+    }
+
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.types.is_empty()
@@ -148,11 +162,23 @@ impl Cells {
         if !self.ends.is_sorted() || self.ends.last().copied().unwrap_or(0) != self.points.len() {
             return Err(Mistake::new("the offsets of the cells do not fit their connectivity"));
         }
-        match self.points.iter().find(|&&point| point >= points) {
-            Some(point) => Err(Mistake::new(format!(
+        if let Some(point) = self.points.iter().find(|&&point| point >= points) {
+            return Err(Mistake::new(format!(
                 "a cell has the point {point}, counted from 0, but there are {points} points"
-            ))),
-            None => Ok(()),
+            )));
+        }
+        let refused = |(kind, points): (u8, &[usize])| refused(kind, points.len());
+        self.iter().find_map(refused).map_or(Ok(()), |what| Err(Mistake::new(what)))
+    }
+
+    /// Gives hexahedra of Lagrange the nodes of their last two upright edges the other way round, as old files have them.
+    pub(crate) fn renumber_old(&mut self) {
+        let mut start = 0;
+        for (kind, &end) in self.types.iter().zip(&self.ends) {
+            if let Some([from, middle, to]) = last_edges(*kind, end - start) {
+                self.points[start..end][from..to].rotate_left(middle - from);
+            }
+            start = end;
         }
     }
 }
@@ -211,17 +237,105 @@ impl Snapshot {
         }
     }
 
-    /// The snapshots as one: pieces of a mesh, with the same arrays.
+    /// This snapshot with arrays of cells as such of points, where each cell is a vertex of one point and each point has one:
+    /// so programs write particles that have no nodes. Marks of ghosts, and arrays of names that points have, stay where they
+    /// are.
+    pub(crate) fn with_vertices_as_points(mut self) -> Snapshot {
+        let (rows, Cells { types, points, ends }) = (self.rows(), &self.cells);
+        let mut is_there = vec![false; if types.len() == rows { rows } else { 0 }];
+        let is_vertex = |kind: &u8| matches!(kind, 1 | 2);
+        let is_one_each = rows > 0
+            && types.len() == rows
+            && types.iter().all(is_vertex)
+            && ends.iter().enumerate().all(|(cell, end)| *end == cell + 1)
+            && points.iter().all(|&point| !std::mem::replace(&mut is_there[point], true));
+        if !is_one_each {
+            return self;
+        }
+        let is_moved = |it: &Array| {
+            !GHOSTS.contains(&&*it.name)
+                && it.rows() == rows
+                && self.of_points.iter().all(|of_point| of_point.name != it.name)
+        };
+        let (moved, kept) = self.of_cells.into_iter().partition(is_moved);
+        self.of_cells = kept;
+        let in_order = points.is_sorted();
+        let of_points = |array: Array| match in_order {
+            true => array,
+            false => {
+                let size = array.components;
+                let mut values = vec![0.0; array.values.len()];
+                for (own, &point) in array.values.chunks_exact(size).zip(points) {
+                    values[point * size..][..size].copy_from_slice(own);
+                }
+                Array { values, ..array }
+            }
+        };
+        let moved: Vec<Array> = moved;
+        self.of_points.extend(moved.into_iter().map(of_points));
+        self
+    }
+
+    /// The snapshots as one: pieces of a mesh, with the same arrays. Pieces without points and cells may have any.
     ///
     /// # Errors
     /// An array that only some have, or that has other components there.
     pub(crate) fn join(pieces: Vec<Snapshot>) -> Result<Snapshot, Mistake> {
+        let time = pieces.iter().find_map(|it| it.time);
+        let (mut empty, pieces): (Vec<_>, Vec<_>) =
+            pieces.into_iter().partition(|it| it.rows() == 0 && it.cells.is_empty());
         let mut pieces = pieces.into_iter();
-        let mut whole = pieces.next().unwrap_or_default();
+        let mut whole = pieces.next().or_else(|| empty.pop()).unwrap_or_default();
         for piece in pieces {
             whole.append(piece)?;
         }
-        Ok(whole)
+        Ok(Snapshot { time, ..whole })
+    }
+
+    /// The snapshots as one: blocks of a mesh. Arrays that are not in all of its blocks are left out, and so are blocks of a
+    /// lower dimension, as boundaries are, that lack an array which the others have.
+    ///
+    /// # Errors
+    /// Points that only some have.
+    pub(crate) fn join_blocks(mut blocks: Vec<Snapshot>) -> Result<Snapshot, Mistake> {
+        blocks.retain(|it| it.rows() > 0 || !it.cells.is_empty());
+        let most = blocks.iter().map(|it| it.cells.dimension()).max();
+        let is_full = |it: &Snapshot| Some(it.cells.dimension()) == most;
+        let mut unread: Vec<String> = blocks.iter().flat_map(|it| it.unread.clone()).collect();
+        let is_mark = |it: &Array| GHOSTS.contains(&&*it.name);
+        for arrays in [Snapshot::of_points_mut, Snapshot::of_cells_mut] {
+            let mut common: Option<Vec<(String, usize)>> = None;
+            for block in blocks.iter_mut().filter(|it| is_full(it)) {
+                let own = arrays(block).iter().filter(|it| !is_mark(it));
+                let own: Vec<_> = own.map(|it| (it.name.clone(), it.components)).collect();
+                match &mut common {
+                    None => common = Some(own),
+                    Some(common) => common.retain(|it| own.contains(it)),
+                }
+            }
+            let common = common.unwrap_or_default();
+            let is_common = |it: &Array| common.iter().any(|(name, size)| it.is_like(name, *size));
+            blocks.retain_mut(|block| {
+                let is_fit = is_full(block)
+                    || arrays(block).iter().filter(|it| is_common(it)).count() == common.len();
+                let left_out = |it: &Array| !(is_mark(it) || is_fit && is_common(it));
+                let names = arrays(block).iter().filter(|it| left_out(it));
+                unread.extend(names.map(|it| it.name.clone()));
+                arrays(block).retain(|it| !left_out(it));
+                is_fit
+            });
+        }
+        unread.sort();
+        unread.dedup();
+        Ok(Snapshot { unread, ..Snapshot::join(blocks)? })
+    }
+
+    fn of_points_mut(&mut self) -> &mut Vec<Array> {
+        &mut self.of_points
+    }
+
+    fn of_cells_mut(&mut self) -> &mut Vec<Array> {
+        &mut self.of_cells
     }
 
     fn append(&mut self, mut piece: Snapshot) -> Result<(), Mistake> {
@@ -256,19 +370,22 @@ fn mark_none(arrays: &mut Vec<Array>, of_other: &[Array], rows: usize) {
 }
 
 /// Appends arrays to those of the same names.
-fn append(arrays: &mut [Array], more: Vec<Array>) -> Result<(), Mistake> {
-    if arrays.len() != more.len() {
-        return Err(Mistake::new("its pieces do not have the same arrays"));
+fn append(arrays: &mut [Array], mut more: Vec<Array>) -> Result<(), Mistake> {
+    let only_in_some = |name: &str| {
+        Mistake::new(format!(
+            "the array `{name}` is not in all its pieces, or has other components in some: write it in all"
+        ))
+    };
+    for (at, array) in arrays.iter_mut().enumerate() {
+        let is_it = |it: &Array| it.is_like(&array.name, array.components);
+        // Most often in the same order.
+        let found = (at..more.len()).find(|&at| is_it(&more[at]));
+        let found = found.ok_or_else(|| only_in_some(&array.name))?;
+        more.swap(at, found);
+        array.values.append(&mut more[at].values);
+        array.stored = array.stored.coarser(more[at].stored);
     }
-    for (array, more) in arrays.iter_mut().zip(more) {
-        if array.name != more.name || array.components != more.components {
-            let what = format!("the array `{}` is not in all its pieces", array.name);
-            return Err(Mistake::new(what));
-        }
-        array.values.extend(more.values);
-        array.stored = array.stored.coarser(more.stored);
-    }
-    Ok(())
+    more.get(arrays.len()).map_or(Ok(()), |it| Err(only_in_some(&it.name)))
 }
 
 impl Stored {

@@ -198,16 +198,17 @@ fn arrays_that_are_not_needed_are_passed_over() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data");
     let mut count = 0;
     let u = |role: Role| role == Role::Displacement;
-    for entry in std::fs::read_dir(folder).unwrap() {
+    let folders = [folder.to_owned(), format!("{folder}/vtk_more")];
+    for entry in folders.iter().flat_map(|it| std::fs::read_dir(it).unwrap()) {
         let path = entry.unwrap().path();
-        let bytes = std::fs::read(&path).unwrap();
+        let Ok(bytes) = std::fs::read(&path) else { continue };
         let Ok(Contents::Snapshots(all)) = parse(&bytes, &everything(&KNOWN)) else { continue };
         let few = one(&bytes, &wanted(&KNOWN, &u)).unwrap();
         let Ok([meaning]) = recognise(&all[0], &KNOWN, &u).map(<[_; 1]>::try_from).unwrap() else {
             continue;
         };
         let of_few = &recognise(&few, &KNOWN, &u).unwrap()[0];
-        let dimension = if meaning.values(&all[0], 2).is_ok() { 2 } else { 3 };
+        let dimension = meaning.dimension();
         let numbers = meaning.values(&all[0], dimension).unwrap().numbers;
         assert_eq!(of_few.values(&few, dimension).unwrap().numbers, numbers, "{}", path.display());
         assert_eq!((few.time, &few.cells), (all[0].time, &all[0].cells), "{}", path.display());

@@ -14,4 +14,10 @@ mod series;
 mod shared;
 mod tables;
 mod tecplot;
+mod vtk_more;
 mod write;
+
+/// The kind of cells of that number in VTK.
+fn shape(kind: u8) -> &'static mms_results::cell::Shape {
+    mms_results::cell::Shape::all().find(|it| it.kind() == kind).unwrap()
+}

@@ -43,6 +43,9 @@ fn no_file_takes_more_memory_than_it_honestly_asks_for() {
         "<a/>".repeat(100_000),
         "<a>".repeat(100_000),
         "\u{93}".repeat(100_000),
+        "# vtk DataFile Version 3.0\n\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 99999 99999 9\n".into(),
+        "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"0 99999 0 99999 0 9\"><Piece/></ImageData></VTKFile>".into(),
+        format!("{{\"files\": [{}0]}}", "[],".repeat(100_000)),
     ];
     for text in &texts {
         let taken =

@@ -2,7 +2,6 @@
 //! are written down by hand.
 
 use mms_results::Cells;
-use mms_results::cell::Shape;
 use mms_results::mesh::Mesh;
 use mms_results::over_cells::{Asked, Carried};
 
@@ -30,7 +29,7 @@ struct Case {
 }
 
 fn case(kind: u8, n: usize, components: usize) -> Case {
-    let shape = Shape::of(kind).unwrap();
+    let shape = crate::shape(kind);
     let (dimension, degree) = (shape.dimension, shape.degree() as usize);
     let side = degree * n + 1;
     let axes = |mut index: usize, count: usize| {
@@ -110,7 +109,7 @@ fn by(rule: &Rule, case: &Case) -> [f64; 4] {
     let Case { dimension, components, .. } = *case;
     let (mut volume, mut sums, mut largest) = (0.0, [0.0; 3], 0.0_f64);
     for (kind, points) in case.cells.iter() {
-        let shape = Shape::of(kind).unwrap();
+        let shape = crate::shape(kind);
         let degree = shape.degree() as usize;
         for mut index in 0..rule.len().pow(dimension as u32) {
             let (mut xi, mut w) = ([0.0; 3], 1.0);
@@ -185,7 +184,7 @@ fn norms_are_those_of_fine_rules_on_every_mesh() {
     let rules = [(256, 16), (24, 4), (10, 2)].map(|(a, b)| [simpson(a), gauss(b)]);
     let meshes: [&[usize]; 3] = [&[4, 8, 16, 32], &[3, 6, 12], &[2, 4]];
     for kind in KINDS {
-        let dimension = Shape::of(kind).unwrap().dimension;
+        let dimension = crate::shape(kind).dimension;
         // One component is 0 along surfaces, and several at points alone.
         for components in if dimension == 2 { vec![1, 2] } else { vec![dimension] } {
             let off = meshes[dimension - 1].iter().map(|&n| {

@@ -8,7 +8,13 @@ use mms_results::{Array, Cells, Snapshot, Stored};
 use proptest::prelude::*;
 
 fn array(name: &str, components: usize, values: &[f64]) -> Array {
-    Array { name: name.into(), components, values: values.to_vec(), stored: Stored::Double }
+    Array {
+        name: name.into(),
+        components,
+        values: values.to_vec(),
+        stored: Stored::Double,
+        component_names: Vec::new(),
+    }
 }
 
 fn snapshot(path: &str, arrays: Vec<Array>) -> Snapshot {

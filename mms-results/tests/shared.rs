@@ -88,8 +88,8 @@ pub fn survives(name: &str, bytes: &[u8]) {
 }
 
 /// Where VTK has the nodes of a cell of this type (`vtkQuadraticWedge.h` and others for those that are no shape here).
-pub fn nodes(kind: u8) -> Vec<[f64; 3]> {
-    if let Some(shape) = Shape::of(kind) {
+pub fn nodes(kind: u8, points: usize) -> Vec<[f64; 3]> {
+    if let Some(shape) = Shape::of(kind, points) {
         return shape.nodes.clone();
     }
     let corners = if kind == 27 { &PYRAMID[..] } else { &PRISM };
@@ -141,7 +141,7 @@ pub fn nodes_are_in_place(name: &str, snapshot: &Snapshot, kinds: &[u8]) {
         let mut own: Vec<_> = points.iter().map(|it| places[*it]).collect();
         let start = own.iter().fold(f64::INFINITY, |least, it| least.min(it[0]));
         own.iter_mut().for_each(|it| it[0] -= start);
-        let expected = nodes(kind);
+        let expected = nodes(kind, points.len());
         near(&format!("{name}: type {kind}"), own.as_flattened(), expected.as_flattened(), 1e-12);
         found.push((start, kind));
     }

@@ -36,7 +36,7 @@ pub fn volumes(
     exact: &mut Exact,
 ) -> anyhow::Result<Vec<f64>> {
     let Some(column) = column else {
-        if mesh.sizes().is_some() {
+        if mesh.sizes().is_some() && mesh.has_functions() {
             return mesh.volumes().map_err(|it| placed(it.of(path)));
         }
         return by_distance(mesh.points, rounding, exact).ok_or_else(|| {

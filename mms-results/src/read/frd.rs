@@ -453,7 +453,13 @@ impl Rows {
                     to.iter_mut().zip(&own).for_each(|(to, column)| *to = row[*column]);
                 }
             }
-            Array { name: name.clone(), components: own.len(), values, stored }
+            Array {
+                name: name.clone(),
+                components: own.len(),
+                values,
+                stored,
+                component_names: Vec::new(),
+            }
         };
         names.iter().map(array).collect()
     }

@@ -11,12 +11,10 @@
 //! | `ITEM:` | dumps of LAMMPS and Karamelo |
 //! | anything else | a table |
 
-mod base64;
 mod dump;
 mod frd;
 mod gmsh;
 mod gmsh_mesh;
-mod legacy;
 mod mat;
 mod npy;
 mod npz;
@@ -26,11 +24,11 @@ mod table;
 mod tags;
 mod tecplot;
 mod text;
-mod xml;
+mod vtk;
 
 pub use table::is_time;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::wanted::Wanted;
 use crate::{Mistake, Snapshot, Time};
@@ -45,6 +43,8 @@ pub enum Contents {
     Snapshots(Vec<Snapshot>),
     /// The files of the pieces of one mesh at one time.
     Pieces(Vec<String>),
+    /// The files of blocks of one mesh at one time, which need not have the same arrays.
+    Blocks(Vec<String>),
     /// The files of one mesh at times; more than one at the same time are pieces.
     Times(Vec<(Time, String)>),
 }
@@ -82,8 +82,9 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
         _ if bytes.starts_with(b"PK") => npz::parse(bytes, wanted).map(Contents::Snapshots),
         _ if bytes.starts_with(mat::MAGIC) => mat::parse(bytes, wanted).map(one),
         _ if mat::is_version_4(bytes) => mat::parse_version_4(bytes, wanted).map(one),
-        _ if start.starts_with(b"# vtk DataFile") => legacy::parse(bytes, wanted).map(one),
-        [b'<', ..] => xml::parse(bytes, wanted),
+        _ if start.starts_with(b"# vtk DataFile") => vtk::legacy::parse(bytes, wanted).map(one),
+        [b'<', ..] => vtk::xml::parse(bytes, wanted),
+        _ if vtk::lists::is_series(start) => vtk::lists::series(bytes, wanted),
         _ if tecplot::is_tecplot(start) => tecplot::parse(bytes, wanted).map(Contents::Snapshots),
         _ if start.starts_with(dump::MARK) => dump::parse(bytes, wanted).map(Contents::Snapshots),
         _ if start.starts_with(gmsh::MARK) => gmsh::parse(bytes, wanted).map(Contents::Snapshots),
@@ -105,8 +106,8 @@ pub fn read(path: &Path, open: Open<'_>, wanted: &Wanted<'_>) -> Result<Vec<Snap
     let beside = |file: &str| path.with_file_name(file);
     let found = match contents(path, open)? {
         Contents::Snapshots(snapshots) => Ok(snapshots),
-        Contents::Pieces(files) => pieces(&files, &beside, open).map(|one| vec![one]),
         Contents::Times(files) => times(&files, &beside, open),
+        list => joined(list, &beside, open).map(|one| vec![one]),
     };
     let mut found = found.map_err(|mistake| mistake.of(&name))?;
     for snapshot in found.iter_mut().filter(|it| it.path.is_empty()) {
@@ -123,51 +124,76 @@ fn contents(path: &Path, open: Opened<'_>) -> Result<Contents, Mistake> {
     found.map_err(|mistake| mistake.of(&name))
 }
 
-/// The one snapshot of a file that a list names: lists of lists end with the pieces of a time.
+/// The one mesh of a file that a list names: lists of lists end with the pieces of a time.
 fn listed(path: &Path, open: Opened<'_>) -> Result<Snapshot, Mistake> {
-    let snapshots = match contents(path, open)? {
-        Contents::Snapshots(snapshots) => snapshots,
-        Contents::Pieces(files) => {
-            vec![pieces(&files, &|file| path.with_file_name(file), open)?]
-        }
-        Contents::Times(_) => Vec::new(),
-    };
-    let path = path.to_string_lossy();
-    match <[Snapshot; 1]>::try_from(snapshots) {
-        Ok([snapshot]) => Ok(Snapshot { path: path.into_owned(), ..snapshot }),
-        Err(_) => Err(Mistake::new("expected one mesh at one time, as it is in a list").of(&path)),
-    }
+    let list = contents(path, open)?;
+    let name = path.to_string_lossy();
+    let found = joined(list, &|file| path.with_file_name(file), open);
+    let found = found.map_err(|mistake| mistake.of(&name))?;
+    Ok(Snapshot { path: name.into_owned(), ..found })
 }
 
-/// The files of one mesh at one time, joined.
-fn pieces(
-    files: &[String],
-    beside: &dyn Fn(&str) -> std::path::PathBuf,
+/// One mesh at one time, of a file and those that it lists. Lists of times name those of blocks, and these those of pieces.
+fn joined(
+    found: Contents,
+    beside: &dyn Fn(&str) -> PathBuf,
     open: Opened<'_>,
 ) -> Result<Snapshot, Mistake> {
-    let piece = |file: &String| match contents(&beside(file), open)? {
-        Contents::Snapshots(snapshots) => Snapshot::join(snapshots),
-        _ => Err(Mistake::new(format!("the piece `{file}` is itself a list of files"))),
-    };
-    Snapshot::join(files.iter().map(piece).collect::<Result<_, _>>()?)
+    let several = || Mistake::new("expected one mesh at one time, as it is in a list");
+    match found {
+        Contents::Snapshots(mut all) => {
+            let time = |it: &Snapshot| it.time.map(|time| time.value);
+            match all.windows(2).all(|pair| time(&pair[0]) == time(&pair[1])) {
+                true if all.len() == 1 => Ok(all.remove(0)),
+                true => Snapshot::join(all),
+                false => Err(several()),
+            }
+        }
+        Contents::Pieces(files) => {
+            let piece = |file: &String| match contents(&beside(file), open)? {
+                found @ Contents::Snapshots(_) => joined(found, beside, open),
+                _ => Err(Mistake::new(format!("the piece `{file}` is itself a list of files"))),
+            };
+            Snapshot::join(files.iter().map(piece).collect::<Result<_, _>>()?)
+        }
+        Contents::Blocks(files) => {
+            let block = |file: &String| {
+                let path = beside(file);
+                match contents(&path, open)? {
+                    Contents::Blocks(_) => {
+                        Err(Mistake::new(format!("the block `{file}` is itself a list of blocks")))
+                    }
+                    found => joined(found, &|file| path.with_file_name(file), open)
+                        .map_err(|mistake| mistake.of(&path.to_string_lossy())),
+                }
+            };
+            Snapshot::join_blocks(files.iter().map(block).collect::<Result<_, _>>()?)
+        }
+        Contents::Times(_) => Err(several()),
+    }
 }
 
 fn times(
     files: &[(Time, String)],
-    beside: &dyn Fn(&str) -> std::path::PathBuf,
+    beside: &dyn Fn(&str) -> PathBuf,
     open: Opened<'_>,
 ) -> Result<Vec<Snapshot>, Mistake> {
-    let mut found: Vec<Snapshot> = Vec::new();
+    let mut found: Vec<Vec<Snapshot>> = Vec::new();
     for (time, file) in files {
         let snapshot = Snapshot { time: Some(*time), ..listed(&beside(file), open)? };
-        match found.last_mut().filter(|last| last.time.map(|it| it.value) == Some(time.value)) {
-            Some(last) => {
-                let path = last.path.clone();
-                let whole = Snapshot::join(vec![std::mem::take(last), snapshot])?;
-                *last = Snapshot { path, ..whole };
-            }
-            None => found.push(snapshot),
+        let is_same = |it: &&mut Vec<Snapshot>| it[0].time.map(|it| it.value) == Some(time.value);
+        match found.last_mut().filter(is_same) {
+            Some(parts) => parts.push(snapshot),
+            None => found.push(vec![snapshot]),
         }
     }
-    Ok(found)
+    let whole = |mut parts: Vec<Snapshot>| match parts.len() {
+        1 => Ok(parts.remove(0)),
+        _ => {
+            let (path, time) = (parts[0].path.clone(), parts[0].time);
+            let whole = Snapshot::join_blocks(parts).map_err(|mistake| mistake.of(&path))?;
+            Ok(Snapshot { path, time, ..whole })
+        }
+    };
+    found.into_iter().map(whole).collect()
 }

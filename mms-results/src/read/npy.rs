@@ -71,7 +71,13 @@ pub fn array(name: &str, bytes: &[u8]) -> Result<Array, Mistake> {
         values = by_rows(&values, &head.shape);
     }
     let components = head.shape.iter().skip(1).product::<usize>().max(1);
-    Ok(Array { name: name.to_owned(), components, values, stored: head.kind.stored() })
+    Ok(Array {
+        name: name.to_owned(),
+        components,
+        values,
+        stored: head.kind.stored(),
+        component_names: Vec::new(),
+    })
 }
 
 /// Whether an array holds something else than numbers that are read: words, objects, structures, complex numbers.

@@ -374,7 +374,13 @@ impl Columns {
         unread.extend(rest.into_iter().map(|it| it.name));
         let array = |Column { name, values, style, .. }| {
             let style: Style = style;
-            Array { name, components: 1, values, stored: style.stored() }
+            Array {
+                name,
+                components: 1,
+                values,
+                stored: style.stored(),
+                component_names: Vec::new(),
+            }
         };
         let mut columns: Vec<Array> = read.into_iter().map(array).collect();
         let single = vec![false; columns.len()];

@@ -111,7 +111,7 @@ impl Numbers {
     /// An array of these numbers; how they were stored is for [`settle`] to say.
     pub fn into_array(self, name: &str, components: usize) -> Array {
         let (name, stored) = (name.to_owned(), self.style.stored());
-        Array { name, components, values: self.values, stored }
+        Array { name, components, values: self.values, stored, component_names: Vec::new() }
     }
 }
 
@@ -188,6 +188,7 @@ mod tests {
             components: 1,
             values: Vec::new(),
             stored: stored(texts),
+            component_names: Vec::new(),
         };
         let zeros = array(&["0.0", "-0.0", "1.0"]);
         let settled = |mut one: Array, mut other: Array| {

@@ -122,7 +122,7 @@ def with_vtk():
 def corners():
     """Where VTK has the nodes of each type of cell."""
     lines = []
-    for kind in [3, 5, 8, 9, 10, 11, 12, 13, 14, 21, 22, 23, 24, 25, 28, 29]:
+    for kind in [3, 5, 8, 9, 10, 11, 12, 13, 14, 21, 22, 23, 24, 25, 28, 29, 26, 30, 31, 32, 33]:
         cell = vtk.vtkGenericCell.InstantiateCell(kind)
         places = cell.GetParametricCoords()
         numbers = [f"{places[i]:g}" for i in range(3 * cell.GetNumberOfPoints())]

@@ -129,9 +129,10 @@ impl Explained {
 
 /// The cells of a snapshot by their types.
 fn cells(snapshot: &Snapshot) -> Vec<String> {
-    let mut counts = BTreeMap::<u8, usize>::new();
-    snapshot.cells.iter().for_each(|(kind, _)| *counts.entry(kind).or_default() += 1);
-    let of = |(kind, count): (&u8, &usize)| match Shape::of(*kind) {
+    let mut counts = BTreeMap::<(u8, usize), usize>::new();
+    let kinds = snapshot.cells.iter().map(|(kind, points)| (kind, points.len()));
+    kinds.for_each(|kind| *counts.entry(kind).or_default() += 1);
+    let of = |(&(kind, points), count): (&(u8, usize), &usize)| match Shape::of(kind, points) {
         Some(shape) => {
             format!("{count} of dimension {} and degree {}", shape.dimension, shape.degree())
         }

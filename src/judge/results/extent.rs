@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use anyhow::ensure;
 use mms_mechanics::extent::Extent;
 use mms_results::lattice::Lattice;
-use mms_results::mesh::Mesh;
+use mms_results::mesh::{Mesh, swept};
 use mms_spec::Face;
 
 use super::ALIKE;
@@ -109,12 +109,7 @@ fn beside(edge: &[&[f64]], radius: f64) -> f64 {
     let cross = |a: &[f64], b: &[f64]| a[0] * b[1] - a[1] * b[0];
     let (a, b) = (edge[0], edge[1]);
     let angle = cross(a, b).atan2(a[0] * b[0] + a[1] * b[1]);
-    // Half the integral of x dy - y dx, of a parabola through three points as well.
-    let swept = match edge.get(2) {
-        None => cross(a, b) / 2.0,
-        Some(middle) => (4.0 * (cross(a, middle) + cross(middle, b)) - cross(a, b)) / 6.0,
-    };
-    (radius * radius * angle / 2.0).abs() - swept.abs()
+    (radius * radius * angle / 2.0).abs() - swept(edge).abs()
 }
 
 /// Finds how much of the body points without cells fill.

@@ -15,6 +15,9 @@ use super::taken::Taken;
 use super::units;
 use crate::session::exact::Exact;
 
+/// The number of a polygon among the types of cells in VTK.
+const POLYGON: u8 = 7;
+
 /// Over what a norm is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
@@ -152,7 +155,7 @@ pub struct Found {
     pub imbalance: Option<f64>,
     /// The part of the body that is there, and how fine.
     pub covered: Covered,
-    /// The type of cells that are not known, where there are such and no others.
+    /// The type of cells between whose points nothing is known, where norms are over points for them.
     pub unknown: Option<u8>,
     /// How X was found.
     pub how: String,
@@ -263,7 +266,7 @@ impl Reading<'_> {
         let mut taken = Taken {
             snapshot,
             mesh,
-            is_mesh: sizes.is_some() && self.over != Some(Over::Points),
+            is_mesh: sizes.is_some() && mesh.has_functions() && self.over != Some(Over::Points),
             motion: &motion,
             time,
             rounding,
@@ -316,7 +319,10 @@ impl Reading<'_> {
                 all_names(snapshot)
             );
         }
-        let unknown = mesh.unknown().filter(|_| sizes.is_none());
+        let unknown = match mesh.has_functions() {
+            true => mesh.unknown().filter(|_| sizes.is_none()),
+            false => Some(POLYGON),
+        };
         let degree = mesh.degree();
         let how = motion.how.clone();
         let is_rate =

@@ -261,7 +261,8 @@ fn quantities(levels: &[Level]) -> anyhow::Result<Vec<(Quantity, Sampling)>> {
     Ok(all)
 }
 
-/// Refuses to judge a mesh by points or by middles of cells alone: orders there may be higher than elsewhere.
+/// Refuses to judge a mesh by points or by middles of cells alone: orders there may be higher than elsewhere. Polygons have
+/// nothing else.
 fn hold_evidence(
     level: &Level,
     quantities: &[(Quantity, Sampling)],
@@ -269,7 +270,10 @@ fn hold_evidence(
 ) -> anyhow::Result<()> {
     let is_over_cells = quantities.iter().any(|(_, it)| *it == Sampling::Cells);
     ensure!(
-        level.found.sizes.is_none() || is_over_cells || over == Some(Over::Points),
+        level.found.sizes.is_none()
+            || level.found.unknown.is_some()
+            || is_over_cells
+            || over == Some(Over::Points),
         "`{}`: only values at {} would be judged, where they may be more accurate than elsewhere (superconvergence); \
          judge a quantity of the points over the cells as well, such as u",
         shown(&level.name),

@@ -84,7 +84,7 @@ pub fn left_out(common: &Common, levels: &[Level], own: &[LeftOut]) -> String {
     }
     if let Some(kind) = found.unknown {
         all.push(format!(
-            "cells of type {kind} of VTK, which are not known: norms are over points"
+            "functions of cells of type {kind} of VTK, which are not known: norms are over points"
         ));
     }
     format!("left out: {}", if all.is_empty() { "nothing".into() } else { all.join("; ") })

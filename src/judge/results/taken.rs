@@ -20,7 +20,7 @@ pub struct Taken<'a> {
     pub snapshot: &'a Snapshot,
     /// Its mesh.
     pub mesh: Mesh<'a>,
-    /// Whether that has cells of its dimension.
+    /// Whether that has cells of its dimension, and it is known what is between their points.
     pub is_mesh: bool,
     /// X and u.
     pub motion: &'a Motion<'a>,

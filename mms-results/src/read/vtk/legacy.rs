@@ -1,19 +1,14 @@
 //! Legacy VTK: "VTK File Formats" (Kitware), of versions 2 to 5.
 
-use super::numbers::{Kind, Order, count, positions};
-use super::table::is_time;
-use super::text::{Style, number, settle};
+use super::super::numbers::Kind;
+use super::super::table::is_time;
+use super::super::text::settle;
+use super::arrays::is_before;
+use super::cursor::{Cursor, decoded};
+use super::structured::{Extent, Lattice, numbers};
 use crate::snapshot::Section;
 use crate::wanted::{Need, Wanted};
-use crate::{Array, Mistake, Snapshot, Stored, Time};
-
-/// A place in a file.
-struct Cursor<'a> {
-    bytes: &'a [u8],
-    at: usize,
-    is_binary: bool,
-    wanted: &'a Wanted<'a>,
-}
+use crate::{Array, Mistake, Snapshot, Time};
 
 /// The parts of the file that were read so far.
 #[derive(Default)]
@@ -22,6 +17,14 @@ struct Found {
     single: Vec<bool>,
     /// Of which the arrays that follow are.
     of: Option<Of>,
+    /// Whose the array is that was read last, if it was.
+    last: Option<Of>,
+    /// The extent of a structured grid.
+    extent: Option<Extent>,
+    lattice: Lattice,
+    /// Coordinates along each axis, and whether they are in single precision.
+    axes: Vec<Array>,
+    single_axes: Vec<bool>,
 }
 
 /// Whose numbers an array has.
@@ -35,7 +38,8 @@ enum Of {
 /// Reads a file of one grid.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     let mut cursor = Cursor { bytes, at: 0, is_binary: false, wanted };
-    cursor.line();
+    let first = String::from_utf8_lossy(cursor.line());
+    let version = first.rsplit(' ').find(|it| it.contains('.')).unwrap_or("");
     cursor.line();
     cursor.is_binary = match cursor.line().trim_ascii() {
         b"ASCII" => false,
@@ -49,176 +53,12 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     }
     let rows = found.snapshot.points.as_ref().map_or(0, Array::rows);
     found.snapshot.cells.hold(rows)?;
+    if is_before(version, [5, 1]) {
+        found.snapshot.cells.renumber_old();
+    }
     found.settle();
-    Ok(found.snapshot)
-}
-
-impl<'a> Cursor<'a> {
-    /// A mistake here; a line number means nothing among bytes.
-    fn mistake(&self, what: impl Into<String>) -> Mistake {
-        let before = &self.bytes[..self.at.min(self.bytes.len())];
-        match self.is_binary {
-            true => Mistake::new(what),
-            false => {
-                Mistake::at(1 + memchr::memchr_iter(b'\n', before.trim_ascii_end()).count(), what)
-            }
-        }
-    }
-
-    fn rest(&self) -> &'a [u8] {
-        &self.bytes[self.at..]
-    }
-
-    /// What is left of the line.
-    fn line(&mut self) -> &'a [u8] {
-        let rest = self.rest();
-        let end = memchr::memchr(b'\n', rest);
-        self.at += end.map_or(rest.len(), |end| end + 1);
-        &rest[..end.unwrap_or(rest.len())]
-    }
-
-    /// The next word.
-    fn word(&mut self) -> Option<&'a str> {
-        let rest = self.rest();
-        let start = rest.iter().position(|it| !it.is_ascii_whitespace())?;
-        let length = rest[start..].iter().position(u8::is_ascii_whitespace);
-        let end = length.map_or(rest.len(), |length| start + length);
-        self.at += end;
-        Some(std::str::from_utf8(&rest[start..end]).unwrap_or("\u{fffd}"))
-    }
-
-    fn needed(&mut self, what: &str) -> Result<&'a str, Mistake> {
-        self.word().ok_or_else(|| Mistake::new(format!("expected {what}, and the file ends")))
-    }
-
-    fn integer(&mut self) -> Result<usize, Mistake> {
-        let word = self.needed("a number")?;
-        word.parse().map_err(|_| Mistake::new(format!("expected a whole number, found `{word}`")))
-    }
-
-    fn kind(&mut self) -> Result<Kind, Mistake> {
-        let word = self.needed("a type")?;
-        let kind = Kind::of_legacy(&word.to_ascii_lowercase());
-        kind.ok_or_else(|| Mistake::new(format!("expected a type such as double, found `{word}`")))
-    }
-
-    /// An array of these numbers.
-    fn array(
-        &mut self,
-        name: &str,
-        rows: usize,
-        components: usize,
-        kind: Kind,
-    ) -> Result<Array, Mistake> {
-        let numbers = count(rows, components.max(1), kind)?;
-        // No number has fewer bytes than one, and one that parts it from the next.
-        self.wanted.take(&format!("`{name}`"), numbers.min(self.rest().len()))?;
-        let (values, stored) = match self.is_binary {
-            true => (self.binary(numbers, kind)?, kind.stored()),
-            false => self.ascii(numbers, kind)?,
-        };
-        Ok(Array { name: name.to_owned(), components: components.max(1), values, stored })
-    }
-
-    fn binary(&mut self, numbers: usize, kind: Kind) -> Result<Vec<f64>, Mistake> {
-        Ok(kind.read(self.bytes_of(numbers, kind)?, Order::Big))
-    }
-
-    fn bytes_of(&mut self, numbers: usize, kind: Kind) -> Result<&'a [u8], Mistake> {
-        self.line();
-        let bytes = self.rest().get(..numbers * kind.bytes());
-        let bytes =
-            bytes.ok_or_else(|| Mistake::new("the file ends within an array: it was cut off"))?;
-        self.at += bytes.len();
-        Ok(bytes)
-    }
-
-    /// Passes over an array that is not read.
-    fn pass(&mut self, rows: usize, components: usize, kind: Kind) -> Result<(), Mistake> {
-        let numbers = count(rows, components.max(1), kind)?;
-        match self.is_binary {
-            true => self.bytes_of(numbers, kind).map(drop),
-            false => (0..numbers).try_for_each(|_| self.needed("a number").map(drop)),
-        }
-    }
-
-    fn ascii(&mut self, numbers: usize, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
-        let mut style = Style::default();
-        let mut values = Vec::new();
-        for _ in 0..numbers {
-            let word = self.needed("a number")?;
-            let value = number(word);
-            style.see(word);
-            values.push(
-                value.ok_or_else(|| Mistake::new(format!("expected a number, found `{word}`")))?,
-            );
-        }
-        Ok((values, if kind.stored() == Stored::Whole { Stored::Whole } else { style.stored() }))
-    }
-
-    /// Passes over words, if the type of an array is that: one on each line, or each behind its length, whose first two
-    /// bits say how long that is.
-    fn passes_words(&mut self, words: usize) -> Result<bool, Mistake> {
-        let before = self.at;
-        if self.word() != Some("string") {
-            self.at = before;
-            return Ok(false);
-        }
-        self.line();
-        for _ in 0..words {
-            let Some(&first) = self.rest().first() else {
-                return Err(Mistake::new("the file ends within an array: it was cut off"));
-            };
-            if !self.is_binary {
-                self.line();
-                continue;
-            }
-            let bytes = 1 << (3 - (first >> 6));
-            let head = self.rest().iter().take(bytes).enumerate();
-            let value =
-                |(at, &byte): (usize, &u8)| usize::from(if at == 0 { byte & 63 } else { byte });
-            let length = head.map(value).fold(0, |all: usize, byte| all.wrapping_mul(256) + byte);
-            self.at = self.bytes.len().min(self.at.saturating_add(bytes).saturating_add(length));
-        }
-        Ok(true)
-    }
-
-    fn positions(&mut self, numbers: usize, kind: Kind) -> Result<Vec<usize>, Mistake> {
-        positions(self.array("", numbers, 1, kind)?.values)
-    }
-
-    /// Ends and points of cells: since version 5.1 as two arrays, before with the number of points in front of each
-    /// cell.
-    fn lists(&mut self) -> Result<(Vec<usize>, Vec<usize>), Mistake> {
-        let (first, second) = (self.integer()?, self.integer()?);
-        let before = self.at;
-        if self.word() == Some("OFFSETS") {
-            let kind = self.kind()?;
-            let offsets = self.positions(first, kind)?;
-            self.needed("CONNECTIVITY")?;
-            let kind = self.kind()?;
-            return Ok((offsets.into_iter().skip(1).collect(), self.positions(second, kind)?));
-        }
-        self.at = before;
-        counted(first, &self.positions(second, Kind::Signed(4))?)
-    }
-}
-
-/// Cells, each with the number of its points in front.
-fn counted(cells: usize, all: &[usize]) -> Result<(Vec<usize>, Vec<usize>), Mistake> {
-    let (mut ends, mut points, mut rest) = (Vec::new(), Vec::new(), all);
-    while let Some((&count, tail)) = rest.split_first() {
-        let cell = tail.get(..count);
-        let cell =
-            cell.ok_or_else(|| Mistake::new("the last cell has fewer points than it says"))?;
-        points.extend(cell);
-        ends.push(points.len());
-        rest = &tail[count..];
-    }
-    match ends.len() == cells {
-        true => Ok((ends, points)),
-        false => Err(Mistake::new(format!("{} cells, and expected {cells}", ends.len()))),
-    }
+    found.extend(wanted)?;
+    Ok(found.snapshot.with_vertices_as_points())
 }
 
 impl Found {
@@ -226,11 +66,37 @@ impl Found {
     fn part(&mut self, word: &str, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
         match word {
             "DATASET" => match cursor.needed("a kind of grid")?.to_ascii_uppercase().as_str() {
-                "UNSTRUCTURED_GRID" | "POLYDATA" => Ok(()),
+                "UNSTRUCTURED_GRID" | "POLYDATA" | "STRUCTURED_GRID" | "STRUCTURED_POINTS"
+                | "RECTILINEAR_GRID" => Ok(()),
                 other => Err(Mistake::new(format!(
-                    "`{other}` is not read: expected UNSTRUCTURED_GRID or POLYDATA"
+                    "`{other}` is not read: expected UNSTRUCTURED_GRID, POLYDATA, STRUCTURED_GRID, STRUCTURED_POINTS or \
+                     RECTILINEAR_GRID"
                 ))),
             },
+            "DIMENSIONS" => {
+                let counts = [cursor.integer()?, cursor.integer()?, cursor.integer()?];
+                self.extent = Some(Extent::default().of(counts)?);
+                Ok(())
+            }
+            "EXTENT" => {
+                self.extent = Some(Extent::parse(&cursor.words::<6>()?.join(" "))?);
+                Ok(())
+            }
+            "ORIGIN" => {
+                self.lattice.origin = numbers(&cursor.words::<3>()?.join(" "))?;
+                Ok(())
+            }
+            // So it was called at first.
+            "SPACING" | "ASPECT_RATIO" => {
+                self.lattice.spacing = numbers(&cursor.words::<3>()?.join(" "))?;
+                Ok(())
+            }
+            "X_COORDINATES" | "Y_COORDINATES" | "Z_COORDINATES" => {
+                let (rows, kind) = (cursor.integer()?, cursor.kind()?);
+                self.axes.push(cursor.array(word, rows, 1, kind)?);
+                self.single_axes.push(kind == Kind::Float(4));
+                Ok(())
+            }
             "POINTS" => {
                 let (rows, kind) = (cursor.integer()?, cursor.kind()?);
                 self.snapshot.points = Some(cursor.array("Points", rows, 3, kind)?);
@@ -256,12 +122,35 @@ impl Found {
             "POINT_DATA" => self.begin(Of::Points, cursor),
             "CELL_DATA" => self.begin(Of::Cells, cursor),
             "METADATA" => {
-                while !cursor.line().trim_ascii().is_empty() {}
-                // The word itself stands on a line of its own.
-                while !cursor.rest().is_empty() && !cursor.line().trim_ascii().is_empty() {}
+                self.metadata(cursor);
                 Ok(())
             }
             _ => self.attribute(word, cursor),
+        }
+    }
+
+    /// Reads the names of the components of the last array, and passes over what else there is of it up to an empty line.
+    fn metadata(&mut self, cursor: &mut Cursor<'_>) {
+        // The word itself stands on a line of its own.
+        while !cursor.line().trim_ascii().is_empty() {}
+        let (mut names, mut are_names) = (Vec::new(), false);
+        while !cursor.rest().is_empty() {
+            match cursor.line().trim_ascii() {
+                b"" => break,
+                b"COMPONENT_NAMES" => are_names = true,
+                line if line.starts_with(b"INFORMATION") => are_names = false,
+                line if are_names => names.push(decoded(&String::from_utf8_lossy(line))),
+                _ => {}
+            }
+        }
+        let last = match self.last.take() {
+            Some(Of::Points) => self.snapshot.of_points.last_mut(),
+            Some(Of::Cells) => self.snapshot.of_cells.last_mut(),
+            _ => None,
+        };
+        if let Some(array) = last {
+            names.truncate(array.components);
+            array.component_names = names;
         }
     }
 
@@ -285,16 +174,28 @@ impl Found {
     fn rows(&self, of: Of) -> usize {
         match of {
             Of::Whole => 0,
-            Of::Points => self.snapshot.points.as_ref().map_or(0, Array::rows),
-            Of::Cells => self.snapshot.cells.ends.len(),
+            Of::Points => match &self.extent {
+                Some(extent) => extent.points(),
+                None => self.snapshot.points.as_ref().map_or(0, Array::rows),
+            },
+            Of::Cells => match &self.extent {
+                Some(extent) => extent.cells(),
+                None => self.snapshot.cells.ends.len(),
+            },
         }
     }
 
     /// Reads arrays of points or cells.
     fn attribute(&mut self, word: &str, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
-        let name = cursor.needed("a name")?.to_owned();
+        let name = decoded(cursor.needed("a name")?);
+        self.last = None;
         let components = match word {
             "FIELD" => return self.fields(cursor),
+            "COLOR_SCALARS" => {
+                let (of, components) = (self.of.unwrap_or(Of::Whole), cursor.integer()?);
+                return cursor.pass(self.rows(of), components, Kind::Unsigned(1));
+            }
+            "GLOBAL_IDS" | "PEDIGREE_IDS" | "EDGE_FLAGS" => 1,
             "LOOKUP_TABLE" => {
                 let rows = cursor.integer()?;
                 let kind = if cursor.is_binary { Kind::Unsigned(1) } else { Kind::Float(4) };
@@ -345,6 +246,8 @@ impl Found {
                 self.part(name, cursor)?;
                 name = cursor.needed("a name")?;
             }
+            let name = &decoded(name);
+            self.last = None;
             let (components, rows) = (cursor.integer()?, cursor.integer()?);
             let is_words = cursor.passes_words(components.saturating_mul(rows))?;
             if is_words && of != Of::Whole && cursor.wanted.need(name) == Need::Must {
@@ -375,6 +278,7 @@ impl Found {
     }
 
     fn add(&mut self, of: Of, array: Array, kind: Kind) {
+        self.last = Some(of);
         match of {
             Of::Whole => self.time(&array),
             Of::Points => {
@@ -395,9 +299,36 @@ impl Found {
         }
     }
 
+    /// Makes the points and the cells of a structured grid. Where it has no arrays, nothing says that it is as large as its
+    /// extent.
+    fn extend(&mut self, wanted: &Wanted<'_>) -> Result<(), Mistake> {
+        let Some(extent) = self.extent else { return Ok(()) };
+        let Snapshot { points, of_points, of_cells, cells, .. } = &mut self.snapshot;
+        if points.is_none() && of_points.is_empty() && of_cells.is_empty() {
+            return Ok(());
+        }
+        let axes = std::mem::take(&mut self.axes);
+        let places = match (points.take(), <[Array; 3]>::try_from(axes)) {
+            (Some(points), _) if points.rows() == extent.points() => points,
+            (Some(points), _) => {
+                return Err(Mistake::new(format!(
+                    "{} points, and expected {} by the dimensions of the grid",
+                    points.rows(),
+                    extent.points()
+                )));
+            }
+            (None, Ok(axes)) => extent.along(&axes, wanted)?,
+            (None, Err(axes)) if axes.is_empty() => self.lattice.places(&extent, wanted)?,
+            _ => return Err(Mistake::new("expected coordinates along each of three axes")),
+        };
+        *points = Some(places);
+        *cells = extent.mesh(wanted)?;
+        Ok(())
+    }
+
     fn settle(&mut self) {
         let Snapshot { points, of_points, of_cells, .. } = &mut self.snapshot;
-        let all = points.iter_mut().chain(of_points).chain(of_cells);
-        settle(&mut all.collect::<Vec<_>>(), &self.single);
+        let all = points.iter_mut().chain(of_points).chain(of_cells).chain(&mut self.axes);
+        settle(&mut all.collect::<Vec<_>>(), &[&*self.single, &self.single_axes].concat());
     }
 }

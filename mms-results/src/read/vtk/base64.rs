@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::numbers::{Kind, Order};
+use super::super::numbers::{Kind, Order};
 use crate::Mistake;
 
 /// Bytes that are taken from the front.

@@ -1,0 +1,331 @@
+//! VTK in XML: "VTK XML Formats" (Kitware, VTK documentation).
+
+use std::borrow::Cow;
+
+use roxmltree::{Document, Node, ParsingOptions};
+
+use super::super::Contents;
+use super::super::numbers::positions;
+use super::super::table::is_time;
+use super::arrays::{Arrays, Format};
+use super::lists;
+use super::structured::{Extent, Lattice, numbers};
+use crate::snapshot::Section;
+use crate::wanted::Wanted;
+use crate::{Array, Cells, Mistake, Snapshot, Time};
+
+/// How many elements a file may have: its numbers are none.
+const MOST_ELEMENTS: u32 = 200_000;
+/// How long a tag may be. The attributes of one are compared with each other.
+const LONGEST_TAG: usize = 4096;
+
+/// Reads a file: its grid, or the list of its files.
+pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
+    let (text, appended) = split(bytes);
+    let text = match appended {
+        Some(_) => Cow::Owned([text, b"</VTKFile>"].concat()),
+        None => Cow::Borrowed(text),
+    };
+    let text = std::str::from_utf8(&text).map_err(|_| Mistake::new("expected XML in UTF-8"))?;
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    hold_tags(text.as_bytes())?;
+    let options = ParsingOptions { nodes_limit: MOST_ELEMENTS, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options)
+        .map_err(|error| Mistake::at(error.pos().row as usize, format!("not XML: {error}")))?;
+    let root = document.root_element();
+    if !root.has_tag_name("VTKFile") {
+        let what = match root.tag_name().name() {
+            "Xdmf" => "XDMF is not read; convert it to VTK, as with `meshio convert`".into(),
+            other => format!("expected `<VTKFile>`, found `<{other}>`"),
+        };
+        return Err(Mistake::new(what));
+    }
+    contents(root, &Format::of(root, appended, wanted)?)
+}
+
+/// The XML of a file, and what stands behind it in bytes, after the tag of its element.
+fn split(bytes: &[u8]) -> (&[u8], Option<[&[u8]; 2]>) {
+    let Some(start) = memchr::memmem::find(bytes, b"<AppendedData") else { return (bytes, None) };
+    let (text, rest) = bytes.split_at(start);
+    let Some(end) = memchr::memchr(b'>', rest) else { return (bytes, None) };
+    let (tag, data) = rest.split_at(end);
+    let data = memchr::memchr(b'_', data).map_or(&data[..0], |at| &data[at + 1..]);
+    (text, Some([tag, data]))
+}
+
+/// Refuses tags that are longer than any program writes.
+fn hold_tags(text: &[u8]) -> Result<(), Mistake> {
+    let mut at = 0;
+    while let Some(start) = memchr::memchr(b'<', &text[at..]) {
+        at += start;
+        let rest = &text[at..];
+        let length = match rest.starts_with(b"<!--") {
+            true => memchr::memmem::find(rest, b"-->"),
+            false => tag(&rest[..rest.len().min(LONGEST_TAG)]),
+        };
+        match length {
+            Some(length) => at += length + 1,
+            None if rest.len() <= LONGEST_TAG || rest.starts_with(b"<!--") => break,
+            None => {
+                return Err(Mistake::new(format!("a tag of more than {LONGEST_TAG} bytes")));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Where a tag ends.
+fn tag(text: &[u8]) -> Option<usize> {
+    let mut quote = None;
+    text.iter().position(|&byte| match quote {
+        Some(mark) => {
+            quote = quote.filter(|_| byte != mark);
+            false
+        }
+        None => {
+            quote = matches!(byte, b'"' | b'\'').then_some(byte);
+            byte == b'>'
+        }
+    })
+}
+
+/// A mistake at the line of an element.
+pub fn at(node: Node<'_, '_>, what: impl Into<String>) -> Mistake {
+    Mistake::at(line(node), what)
+}
+
+fn line(node: Node<'_, '_>) -> usize {
+    node.document().text_pos_at(node.range().start).row as usize
+}
+
+pub fn child<'a, 'b>(node: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
+    node.children().find(|child| child.has_tag_name(name))
+}
+
+fn contents(root: Node<'_, '_>, format: &Format<'_>) -> Result<Contents, Mistake> {
+    let kind = root.attribute("type").unwrap_or("");
+    let body =
+        child(root, kind).ok_or_else(|| at(root, format!("expected an element `<{kind}>`")))?;
+    let one = |snapshot| Contents::Snapshots(vec![snapshot]);
+    match (kind, kind.strip_prefix('P').and_then(Grid::named)) {
+        ("Collection", _) => lists::times(body),
+        (
+            "vtkMultiBlockDataSet" | "vtkPartitionedDataSet" | "vtkPartitionedDataSetCollection",
+            _,
+        ) => lists::blocks(body),
+        (_, Some(_)) => lists::pieces(body),
+        _ => match Grid::named(kind) {
+            Some(kind) => grid(root, body, kind, format).map(one),
+            None => Err(at(
+                root,
+                format!(
+                    "`{kind}` is not read: expected UnstructuredGrid, PolyData, StructuredGrid, ImageData, \
+                     RectilinearGrid, or a list of such files"
+                ),
+            )),
+        },
+    }
+}
+
+/// How a grid tells its points and cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Grid {
+    /// By lists of both.
+    Listed,
+    /// By a list of points, and an extent.
+    Structured,
+    /// By an origin and steps, and an extent.
+    Image,
+    /// By coordinates along each axis, and an extent.
+    Rectilinear,
+}
+
+impl Grid {
+    fn named(name: &str) -> Option<Grid> {
+        Some(match name {
+            "UnstructuredGrid" | "PolyData" => Grid::Listed,
+            "StructuredGrid" => Grid::Structured,
+            "ImageData" => Grid::Image,
+            "RectilinearGrid" => Grid::Rectilinear,
+            _ => return None,
+        })
+    }
+}
+
+fn grid(
+    root: Node<'_, '_>,
+    body: Node<'_, '_>,
+    kind: Grid,
+    format: &Format<'_>,
+) -> Result<Snapshot, Mistake> {
+    let pieces = body.children().filter(|it| it.has_tag_name("Piece"));
+    let read = |piece| match kind {
+        Grid::Listed => self::piece(piece, format),
+        _ => structured(body, piece, kind, format),
+    };
+    let pieces = pieces.map(read).collect::<Result<Vec<_>, _>>()?;
+    if pieces.is_empty() {
+        return Err(at(body, "expected an element `<Piece>`"));
+    }
+    let time = [body, root].into_iter().find_map(|it| child(it, "FieldData"));
+    let time = time.map(|data| time_of(data, format)).transpose()?.flatten();
+    Ok(Snapshot { time, ..Snapshot::join(pieces)? })
+}
+
+/// The time of a file, if its data of the whole have one.
+fn time_of(data: Node<'_, '_>, format: &Format<'_>) -> Result<Option<Time>, Mistake> {
+    let named = |it: &Node<'_, '_>| it.attribute("Name").is_some_and(is_time);
+    let Some(node) = data.children().filter(|it| it.has_tag_name("DataArray")).find(named) else {
+        return Ok(None);
+    };
+    let mut arrays = Arrays::default();
+    arrays.read(node, Some(1), format)?;
+    arrays.settle();
+    let found = arrays.all.first().filter(|array| array.values.len() == 1);
+    let array = found.ok_or_else(|| at(node, "expected one time"))?;
+    let value = array.values[0];
+    Ok(Some(Time { value, rounding: array.stored.rounding(value) }))
+}
+
+/// Reads a piece; one without points may have arrays of any kind, and stands for nothing.
+fn piece(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Snapshot, Mistake> {
+    let rows = attribute(piece, "NumberOfPoints")?;
+    let none = |of: &str| attribute(piece, &format!("NumberOf{of}")) == Ok(0);
+    if rows == 0 && none("Cells") && Section::ALL.iter().all(|it| none(it.name())) {
+        return Ok(Snapshot::default());
+    }
+    let mut cells = cells(piece, format)?;
+    cells.hold(rows).map_err(|mistake| Mistake { line: Some(line(piece)), ..mistake })?;
+    if format.is_old {
+        cells.renumber_old();
+    }
+    let arrays = Arrays::of(piece, [rows, cells.len()], format)?;
+    match arrays.points {
+        None if !cells.is_empty() => Err(without_places(piece)),
+        _ => Ok(Snapshot { cells, ..arrays }.with_vertices_as_points()),
+    }
+}
+
+fn without_places(piece: Node<'_, '_>) -> Mistake {
+    at(piece, "expected an element `<Points>` with the places of the points of its cells")
+}
+
+/// Reads a piece of a grid that has an extent. Where it has no arrays, nothing says that it is as large as its extent.
+fn structured(
+    body: Node<'_, '_>,
+    piece: Node<'_, '_>,
+    kind: Grid,
+    format: &Format<'_>,
+) -> Result<Snapshot, Mistake> {
+    let here = |mistake: Mistake| at(piece, mistake.what);
+    let extent = piece.attribute("Extent").or_else(|| body.attribute("WholeExtent"));
+    let extent = Extent::parse(extent.unwrap_or("")).map_err(here)?;
+    if extent.points() == 0 {
+        return Ok(Snapshot::default());
+    }
+    let mut found = Arrays::of(piece, [extent.points(), extent.cells()], format)?;
+    let has_arrays = !found.of_points.is_empty() || !found.of_cells.is_empty();
+    match kind {
+        Grid::Image if has_arrays => {
+            let places =
+                lattice(body).map_err(|it| at(body, it.what))?.places(&extent, format.wanted);
+            found.points = Some(places.map_err(here)?);
+        }
+        Grid::Rectilinear if has_arrays => {
+            found.points = Some(rectilinear(piece, &extent, format)?);
+        }
+        Grid::Structured if found.points.is_none() => return Err(without_places(piece)),
+        _ => {}
+    }
+    if found.points.is_some() {
+        found.cells = extent.mesh(format.wanted).map_err(here)?;
+    }
+    Ok(found)
+}
+
+/// The origin, the steps and the directions of the axes of an image.
+fn lattice(body: Node<'_, '_>) -> Result<Lattice, Mistake> {
+    let usual = Lattice::default();
+    Ok(Lattice {
+        origin: body.attribute("Origin").map_or(Ok(usual.origin), numbers)?,
+        spacing: body.attribute("Spacing").map_or(Ok(usual.spacing), numbers)?,
+        direction: body.attribute("Direction").map_or(Ok(usual.direction), numbers)?,
+    })
+}
+
+/// The places of points by their coordinates along each axis.
+fn rectilinear(
+    piece: Node<'_, '_>,
+    extent: &Extent,
+    format: &Format<'_>,
+) -> Result<Array, Mistake> {
+    let nodes = child(piece, "Coordinates").into_iter().flat_map(|it| it.children());
+    let mut arrays = Arrays::default();
+    for (node, rows) in nodes.filter(|it| it.has_tag_name("DataArray")).zip(extent.counts()) {
+        arrays.read(node, Some(rows), format)?;
+    }
+    arrays.settle();
+    let all: [Array; 3] = arrays.all.try_into().map_err(|_| {
+        at(piece, "expected an element `<Coordinates>` with an array along each of three axes")
+    })?;
+    extent.along(&all, format.wanted).map_err(|mistake| at(piece, mistake.what))
+}
+
+/// An attribute that is a number; 0 where there is none.
+pub fn attribute(node: Node<'_, '_>, name: &str) -> Result<usize, Mistake> {
+    let text = node.attribute(name).unwrap_or("0").trim();
+    let wrong = || at(node, format!("{name}=\"{text}\": expected a whole number"));
+    text.parse().map_err(|_| wrong())
+}
+
+/// How many there are, as an attribute declares it, if it does.
+fn declared(node: Node<'_, '_>, name: &str) -> Result<Option<usize>, Mistake> {
+    node.attribute(name).map(|_| attribute(node, name)).transpose()
+}
+
+fn cells(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Cells, Mistake> {
+    if let Some(node) = child(piece, "Cells") {
+        let count = declared(piece, "NumberOfCells")?;
+        let (ends, points) = lists(node, count, format)?;
+        let types = integers(node, "types", count, format)?.into_iter();
+        let kind = |kind: usize| {
+            u8::try_from(kind).map_err(|_| at(node, format!("no type of cells: {kind}")))
+        };
+        return Ok(Cells { types: types.map(kind).collect::<Result<_, _>>()?, points, ends });
+    }
+    let mut cells = Cells::default();
+    for section in Section::ALL {
+        let Some(node) = child(piece, section.name()) else { continue };
+        let count = declared(piece, &format!("NumberOf{}", section.name()))?;
+        let (ends, points) = lists(node, count, format)?;
+        cells.add(section, &ends, points);
+    }
+    Ok(cells)
+}
+
+/// Where so many cells end, and their points: as many as the last end says.
+fn lists(
+    node: Node<'_, '_>,
+    count: Option<usize>,
+    format: &Format<'_>,
+) -> Result<(Vec<usize>, Vec<usize>), Mistake> {
+    let ends = integers(node, "offsets", count, format)?;
+    let points = ends.last().copied().unwrap_or(0);
+    let points = integers(node, "connectivity", Some(points), format)?;
+    Ok((ends, points))
+}
+
+/// The array of that name as positions; none where it is not there.
+fn integers(
+    node: Node<'_, '_>,
+    name: &str,
+    count: Option<usize>,
+    format: &Format<'_>,
+) -> Result<Vec<usize>, Mistake> {
+    let named = |it: &Node<'_, '_>| it.attribute("Name") == Some(name);
+    let Some(node) = node.children().find(named) else { return Ok(Vec::new()) };
+    let mut arrays = Arrays::default();
+    arrays.read(node, count, format)?;
+    let values = arrays.all.pop().map(|array| array.values).unwrap_or_default();
+    positions(values).map_err(|mistake| at(node, mistake.what))
+}
