@@ -151,9 +151,10 @@ fn what_is_not_read_is_named() {
     assert!(said.contains("vtkLZMADataCompressor"), "{said}");
     for (text, word) in [
         ("", "empty"),
-        ("CDF\u{1}", "NetCDF"),
+        ("CDF\u{1}", "etCDF"),
         ("$MeshFormat\n", "Gmsh"),
-        ("<Xdmf/>", "XDMF"),
+        ("<Xdmf/>", "expected a `<Grid>`"),
+        ("ADIOS-BP v2", "ADIOS2 is not read; write XDMF"),
         ("<VTKFile type=\"ImageData\"><ImageData/></VTKFile>", "`ImageData` is not read"),
         (
             "# vtk DataFile Version 3.0\n\nASCII\nDATASET STRUCTURED_POINTS\n",

@@ -3,6 +3,8 @@
 mod archives;
 mod dumps;
 mod files;
+#[cfg(feature = "hdf5")]
+mod hdf5;
 mod memory;
 mod norms;
 mod over_cells;
@@ -10,3 +12,4 @@ mod pairing;
 mod tables;
 mod tecplot;
 mod write;
+mod xdmf;

@@ -133,7 +133,7 @@ fn header(text: &str) -> Result<(Kind, Order, bool, Vec<usize>), Mistake> {
 }
 
 /// Numbers whose first axis runs fastest, as numbers whose last axis does.
-fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
+pub fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
     let place = |mut index: usize| {
         let mut place = 0;
         let mut stride = values.len();

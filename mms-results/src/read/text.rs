@@ -1,6 +1,6 @@
 //! Numbers in text, and how many digits they have.
 
-use crate::{Array, Stored};
+use crate::{Array, Stored, Time};
 
 /// What a number of the text is like.
 #[derive(Clone, Copy, Debug, Default)]
@@ -86,6 +86,16 @@ pub fn settle(arrays: &mut [&mut Array], single: &[bool]) {
             other => other,
         };
     }
+}
+
+/// Times as they are written, each with as many digits as the one that has most.
+pub fn times_of(found: &[(f64, Stored)]) -> impl Iterator<Item = Time> {
+    let digits = |stored| if let Stored::Digits(digits) = stored { digits } else { 0 };
+    let most = found.iter().map(|(_, stored)| digits(*stored)).max().unwrap_or(0);
+    found.iter().map(move |&(value, stored)| {
+        let stored = if let Stored::Digits(_) = stored { Stored::Digits(most) } else { stored };
+        Time { value, rounding: stored.rounding(value) }
+    })
 }
 
 /// A number as programs write it, also in Fortran: `1.0D-3`, and `1.0-103` where three digits leave no room for a letter.

@@ -7,8 +7,8 @@ use roxmltree::{Document, Node, ParsingOptions};
 use super::base64::Encoded;
 use super::numbers::{Kind, Order, count, positions};
 use super::table::is_time;
-use super::text::{Style, number, settle};
-use super::{Contents, MOST_FILES};
+use super::text::{Style, number, settle, times_of};
+use super::{Beside, Contents, MOST_FILES, xdmf};
 use crate::snapshot::Section;
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Cells, Mistake, Snapshot, Stored, Time};
@@ -37,7 +37,7 @@ struct Arrays {
 }
 
 /// Reads a file: its grid, or the list of its files.
-pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
+pub fn parse(bytes: &[u8], wanted: &Wanted<'_>, beside: Beside<'_>) -> Result<Contents, Mistake> {
     let (text, appended) = split(bytes);
     let text = match appended {
         Some(_) => Cow::Owned([text, b"</VTKFile>"].concat()),
@@ -46,18 +46,18 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
     let text = std::str::from_utf8(&text).map_err(|_| Mistake::new("expected XML in UTF-8"))?;
     let text = text.trim_start_matches('\u{feff}').trim_start();
     hold_tags(text.as_bytes())?;
-    let options = ParsingOptions { nodes_limit: MOST_ELEMENTS, ..ParsingOptions::default() };
+    // XDMF has a declaration of its type, which declares nothing.
+    let allow_dtd = !text.contains("<!ENTITY");
+    let options =
+        ParsingOptions { nodes_limit: MOST_ELEMENTS, allow_dtd, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options)
         .map_err(|error| Mistake::at(error.pos().row as usize, format!("not XML: {error}")))?;
     let root = document.root_element();
-    if !root.has_tag_name("VTKFile") {
-        let what = match root.tag_name().name() {
-            "Xdmf" => "XDMF is not read; convert it to VTK, as with `meshio convert`".into(),
-            other => format!("expected `<VTKFile>`, found `<{other}>`"),
-        };
-        return Err(Mistake::new(what));
+    match root.tag_name().name() {
+        "VTKFile" => contents(root, &Format::of(root, appended, wanted)?),
+        "Xdmf" => xdmf::parse(root, wanted, beside).map(Contents::Snapshots),
+        other => Err(Mistake::new(format!("expected `<VTKFile>` or `<Xdmf>`, found `<{other}>`"))),
     }
-    contents(root, &Format::of(root, appended, wanted)?)
 }
 
 /// The XML of a file, and what stands behind it in bytes, after the tag of its element.
@@ -149,7 +149,7 @@ fn letters(bytes: &[u8]) -> &[u8] {
 }
 
 /// A mistake at the line of an element.
-fn at(node: Node<'_, '_>, what: impl Into<String>) -> Mistake {
+pub(super) fn at(node: Node<'_, '_>, what: impl Into<String>) -> Mistake {
     Mistake::at(line(node), what)
 }
 
@@ -157,7 +157,7 @@ fn line(node: Node<'_, '_>) -> usize {
     node.document().text_pos_at(node.range().start).row as usize
 }
 
-fn child<'a, 'b>(node: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
+pub(super) fn child<'a, 'b>(node: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
     node.children().find(|child| child.has_tag_name(name))
 }
 
@@ -220,18 +220,9 @@ fn times(body: Node<'_, '_>) -> Result<Contents, Mistake> {
         Ok((value, style.stored()))
     };
     let found = sets().map(time).collect::<Result<Vec<_>, Mistake>>()?;
-    let digits = found.iter().map(|(_, stored)| digits(*stored)).max().unwrap_or(0);
-    let times = found.into_iter().map(|(value, stored)| {
-        let stored = if let Stored::Digits(_) = stored { Stored::Digits(digits) } else { stored };
-        Time { value, rounding: stored.rounding(value) }
-    });
-    let mut times: Vec<_> = times.zip(files).collect();
+    let mut times: Vec<_> = times_of(&found).zip(files).collect();
     times.sort_by(|a, b| a.0.value.total_cmp(&b.0.value));
     Ok(Contents::Times(times))
-}
-
-fn digits(stored: Stored) -> u32 {
-    if let Stored::Digits(digits) = stored { digits } else { 0 }
 }
 
 fn grid(root: Node<'_, '_>, body: Node<'_, '_>, format: &Format<'_>) -> Result<Snapshot, Mistake> {

@@ -1,0 +1,296 @@
+//! Files of HDF5 and netCDF, and of the formats over them, that other programs wrote (`data/write_hdf5.py`).
+
+use std::path::{Path, PathBuf};
+
+use mms_results::motion::resolve;
+use mms_results::names::{Mapping, everything, recognise, wanted};
+use mms_results::{Array, Snapshot, Stored, parse, read};
+
+const TIMES: [f64; 3] = [0.0, 0.5, 2.0];
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/hdf5").join(name)
+}
+
+fn open(path: &Path, _: u64) -> Result<Vec<u8>, String> {
+    std::fs::read(path).map_err(|error| error.to_string())
+}
+
+fn all(name: &str, map: &[Mapping]) -> Vec<Snapshot> {
+    read(&data(name), &open, &everything(map)).unwrap_or_else(|it| panic!("{it}"))
+}
+
+fn reference(point: usize) -> [f64; 2] {
+    [(point % 3) as f64 / 2.0, (point / 3) as f64 / 2.0]
+}
+
+fn displacement(time: f64, point: usize) -> [f64; 2] {
+    let [x, y] = reference(point);
+    [(1.0 + time) * (0.1 * x * y), (1.0 + time) * (-0.2 * x)]
+}
+
+/// X and u of a snapshot are those that were written for its time.
+#[track_caller]
+fn holds_the_motion(name: &str, snapshot: &Snapshot, map: &[&str], tolerance: f64) {
+    let map: Vec<Mapping> = map.iter().map(|it| it.parse().unwrap()).collect();
+    let is_wanted = |role: mms_results::names::Role| role.symbol() == "u" || role.symbol() == "X";
+    let found = recognise(snapshot, &map, &|role| is_wanted(role) || role.symbol() == "points");
+    let found = found.unwrap_or_else(|it| panic!("{name}: {it}"));
+    let outside = |x: &[f64]| x.iter().map(|x| f64::max(-x, x - 1.0).max(0.0)).fold(0.0, f64::max);
+    let motion = resolve(snapshot, &found, 2, &outside, None);
+    let motion = motion.unwrap_or_else(|it| panic!("{name}: {it}"));
+    let time = snapshot.time.map_or(0.0, |it| it.value);
+    let u = motion.displacement.unwrap_or_else(|| panic!("{name}: no u"));
+    assert_eq!((motion.reference.numbers.len(), u.numbers.len()), (18, 18), "{name}");
+    for at in 0..18 {
+        assert_eq!(motion.reference.numbers[at], reference(at / 2)[at % 2], "{name}: X {at}");
+        let exact = displacement(time, at / 2)[at % 2];
+        let found = u.numbers[at];
+        assert!((found - exact).abs() <= tolerance, "{name}: {at}: {found} is not {exact}");
+    }
+}
+
+fn times(found: &[Snapshot]) -> Vec<f64> {
+    found.iter().map(|it| it.time.map_or(f64::NAN, |it| it.value)).collect()
+}
+
+#[track_caller]
+fn named<'a>(arrays: &'a [Array], name: &str) -> &'a Array {
+    arrays.iter().find(|it| it.name == name).unwrap_or_else(|| panic!("no {name} in {arrays:?}"))
+}
+
+const MIDDLE: [f64; 4] = [0.25, 0.75, 0.25, 0.75];
+
+#[test]
+fn arrays_are_read_however_they_are_stored() {
+    for name in ["h5py_earliest.h5", "h5py_latest.h5"] {
+        let found = all(name, &[]);
+        let [one] = &found[..] else { panic!("{name}: {} snapshots", found.len()) };
+        assert_eq!(one.time.unwrap().value, 0.25, "{name}");
+        let arrays = &one.of_points;
+        let u = |at: usize| displacement(0.0, at / 2)[at % 2];
+        let exact: Vec<f64> = (0..18).map(u).collect();
+        for kind in [
+            "as_f8",
+            "as_big_f8",
+            "chunks",
+            "one_chunk",
+            "gzip",
+            "filters",
+            "grows",
+            "grows_gzip",
+            "grows_both",
+            "compact",
+            "early",
+        ] {
+            let array = named(arrays, &format!("stored/{kind}"));
+            assert_eq!((array.components, array.stored), (2, Stored::Double), "{name}: {kind}");
+            for (value, exact) in array.values.iter().zip(&exact) {
+                assert!((value - exact).abs() < 1e-16, "{name}: {kind}");
+            }
+        }
+        let link = named(arrays, "link");
+        assert_eq!(link.values, named(arrays, "stored/compact").values);
+        for kind in ["as_f4", "as_big_f4"] {
+            let array = named(arrays, &format!("stored/{kind}"));
+            let single: Vec<f64> = exact.iter().map(|it| f64::from(*it as f32)).collect();
+            assert_eq!((array.stored, &array.values), (Stored::Single, &single), "{name}: {kind}");
+        }
+        let whole: Vec<f64> = (0..18).map(|at| 2.0 * reference(at / 2)[at % 2]).collect();
+        for kind in ["i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "big_i2", "big_u4", "big_i8"] {
+            let array = named(arrays, &format!("stored/whole_{kind}"));
+            assert_eq!((array.stored, &array.values), (Stored::Whole, &whole), "{name}: {kind}");
+        }
+        let truth: Vec<f64> = whole.iter().map(|it| f64::from(u8::from(*it > 1.0))).collect();
+        assert_eq!(named(arrays, "stored/truth").values, truth);
+        let lzf = named(arrays, "stored/lzf");
+        assert!(lzf.values.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-16));
+        let filled = &named(arrays, "stored/filled").values;
+        assert_eq!((&filled[..6], &filled[12..]), (&[-7.5; 6][..], &[-7.5; 6][..]));
+        assert_eq!(filled[6..12], named(arrays, "stored/as_f8").values[6..12]);
+        assert_eq!(named(arrays, "stored/never").values, [1.5; 18]);
+        let many: Vec<f64> = (0..400).map(f64::from).collect();
+        assert_eq!(named(arrays, "many").values, many);
+        for member in 0..60 {
+            let array = named(arrays, &format!("members/m{member:02}"));
+            assert_eq!(array.values, [f64::from(member)]);
+        }
+        let mut unread = one.unread.clone();
+        unread.sort();
+        assert_eq!(unread, ["name", "names", "record"], "{name}");
+        holds_the_motion(name, &Snapshot { time: None, ..one.clone() }, &[], 1e-16);
+    }
+}
+
+#[test]
+fn paths_are_mapped_with_and_without_the_slash() {
+    for slash in ["", "/"] {
+        let texts = [format!("X={slash}run/mesh/X"), format!("u={slash}run/fields/u")];
+        let map: Vec<Mapping> = texts.iter().map(|it| it.parse().unwrap()).collect();
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        holds_the_motion("groups.h5", &all("groups.h5", &map)[0], &texts, 1e-16);
+        let is_none = |_| false;
+        let read = read(&data("groups.h5"), &open, &wanted(&map[1..], &is_none)).unwrap();
+        assert_eq!((read[0].of_points.len(), read[0].unread.len()), (1, 1));
+    }
+}
+
+#[test]
+fn the_first_of_three_axes_may_be_times() {
+    let found = all("times.h5", &[]);
+    assert_eq!(times(&found), TIMES);
+    for snapshot in &found {
+        holds_the_motion("times.h5", snapshot, &[], 1e-15);
+        let gradient = named(&snapshot.of_points, "F");
+        assert_eq!((gradient.components, gradient.rows()), (4, 9));
+    }
+}
+
+#[test]
+fn every_version_of_netcdf_holds_the_same() {
+    for kind in [
+        "netcdf3_classic",
+        "netcdf3_64bit_offset",
+        "netcdf3_64bit_data",
+        "netcdf4",
+        "netcdf4_classic",
+    ] {
+        let name = format!("{kind}.nc");
+        let found = all(&name, &[]);
+        assert_eq!(times(&found), TIMES, "{name}");
+        for snapshot in &found {
+            holds_the_motion(&name, snapshot, &[], 1e-15);
+            assert_eq!(named(&snapshot.of_points, "v").stored, Stored::Single, "{name}");
+            let kinds: Vec<f64> = (0..9).map(f64::from).collect();
+            assert_eq!(named(&snapshot.of_points, "kind").values, kinds, "{name}");
+            assert_eq!(named(&snapshot.of_points, "odd").values, [0.0, 1.0, 2.0], "{name}");
+            assert_eq!(snapshot.unread, ["words"], "{name}");
+        }
+    }
+}
+
+#[test]
+fn variables_of_matlab_have_their_axes_in_reverse() {
+    for (name, tolerance) in [("matlab.mat", 1e-16), ("matlab_single.mat", 1e-8)] {
+        let found = all(name, &[]);
+        assert_eq!(times(&found), [0.25]);
+        let snapshot = Snapshot { time: None, ..found[0].clone() };
+        holds_the_motion(name, &snapshot, &[], tolerance);
+    }
+    let single = &all("matlab_single.mat", &[])[0];
+    assert_eq!(named(&single.of_points, "u").stored, Stored::Single);
+    let gradient = named(&single.of_points, "F");
+    let exact: Vec<f64> = (0..36).map(f64::from).collect();
+    assert_eq!((gradient.components, &gradient.values), (4, &exact));
+    let row = named(&single.of_points, "row");
+    assert_eq!((row.components, row.rows()), (1, 9));
+    assert_eq!(single.unread, ["none", "word", "#refs#/a"]);
+    let other = &all("matlab.mat", &[])[0];
+    assert_eq!(
+        (named(&other.of_points, "J").components, &other.unread[..]),
+        (1, &["name".into()][..])
+    );
+}
+
+#[test]
+fn exodus_has_the_reference_at_all_times() {
+    for name in ["moose_netcdf3_64bit_offset.e", "moose_netcdf4.e", "old.exo"] {
+        let found = all(name, &[]);
+        assert_eq!(times(&found), TIMES, "{name}");
+        for (snapshot, time) in found.iter().zip(TIMES) {
+            holds_the_motion(name, snapshot, &[], 1e-15);
+            assert_eq!(snapshot.cells.types, [9; 4], "{name}");
+            assert_eq!(snapshot.cells.iter().nth(3).unwrap().1, [4, 5, 8, 7], "{name}");
+            if name != "old.exo" {
+                assert_eq!(named(&snapshot.of_points, "temp").values, [time; 9]);
+                assert_eq!(named(&snapshot.of_cells, "middle").values, MIDDLE);
+                assert_eq!(named(&snapshot.of_cells, "time_of").values, [time; 4]);
+            }
+        }
+    }
+    let found = all("meshio.e", &[]);
+    holds_the_motion("meshio.e", &found[0], &[], 1e-16);
+    let few = read(&data("moose_netcdf4.e"), &open, &wanted(&[], &|role| role.symbol() == "u"));
+    let few = &few.unwrap()[0];
+    assert_eq!((few.of_points.len(), few.of_cells.len()), (2, 0));
+    assert_eq!(few.unread, ["temp", "middle", "time_of"]);
+}
+
+/// Where VTK, reading the same file, has the nodes of each element.
+#[test]
+fn nodes_of_elements_are_where_vtk_has_them() {
+    let found = all("elements.e", &[]);
+    let snapshot = &found[0];
+    assert_eq!(snapshot.time, None);
+    let text = std::fs::read_to_string(data("elements.txt")).unwrap();
+    let points = snapshot.points.as_ref().unwrap();
+    let mut count = 0;
+    for (line, (kind, nodes)) in text.lines().zip(snapshot.cells.iter()) {
+        let expected: Vec<f64> = line.split(' ').map(|it| it.parse().unwrap()).collect();
+        let places = nodes.iter().flat_map(|node| &points.values[3 * node..][..3]).copied();
+        let found: Vec<f64> = [f64::from(kind)].into_iter().chain(places).collect();
+        assert_eq!(found, expected, "{line}");
+        count += 1;
+    }
+    assert_eq!((count, snapshot.cells.len()), (15, 15));
+}
+
+#[test]
+fn vtkhdf_has_steps_pieces_and_surfaces() {
+    for name in ["vtk_grid.vtkhdf", "vtk_surface.vtkhdf", "image.vtkhdf"] {
+        let found = all(name, &[]);
+        assert_eq!(found.len(), 1, "{name}");
+        holds_the_motion(name, &found[0], &["X=points"], 1e-16);
+        assert_eq!(found[0].cells.types, [9; 4], "{name}");
+        assert_eq!(found[0].cells.iter().nth(3).unwrap().1, [4, 5, 8, 7], "{name}");
+        assert_eq!(named(&found[0].of_cells, "middle").values, MIDDLE, "{name}");
+    }
+    for name in ["vtk_grid_times.vtkhdf", "vtk_surface_times.vtkhdf"] {
+        let found = all(name, &[]);
+        assert_eq!(times(&found), TIMES, "{name}");
+        for snapshot in &found {
+            holds_the_motion(name, snapshot, &["X=points"], 1e-15);
+            assert_eq!(snapshot.cells.iter().nth(3).unwrap().1, [4, 5, 8, 7], "{name}");
+            assert_eq!(named(&snapshot.of_cells, "middle").values, MIDDLE, "{name}");
+        }
+    }
+    let found = all("pieces.vtkhdf", &[]);
+    assert_eq!(times(&found), TIMES);
+    for (snapshot, time) in found.iter().zip(TIMES) {
+        assert_eq!((snapshot.rows(), snapshot.cells.len()), (12, 4));
+        assert_eq!(snapshot.cells.iter().nth(3).unwrap().1, [7, 8, 11, 10]);
+        assert_eq!(named(&snapshot.of_cells, "middle").values, MIDDLE);
+        // The middle row of points is in both pieces.
+        let u = &named(&snapshot.of_points, "u").values;
+        for (row, point) in [0, 1, 2, 3, 4, 5, 3, 4, 5, 6, 7, 8].into_iter().enumerate() {
+            let exact = displacement(time, point);
+            assert!((u[3 * row] - exact[0]).abs() + (u[3 * row + 1] - exact[1]).abs() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn xdmf_takes_its_numbers_from_hdf5() {
+    let found = all("meshio_hdf.xdmf", &[]);
+    holds_the_motion("meshio_hdf.xdmf", &found[0], &["X=points"], 1e-16);
+    assert_eq!(found[0].cells.types, [9; 4]);
+    assert_eq!(named(&found[0].of_cells, "middle").values, MIDDLE);
+    for name in ["meshio_times.xdmf", "dolfinx.xdmf", "dolfin.xdmf"] {
+        let found = all(name, &[]);
+        assert_eq!(times(&found), TIMES, "{name}");
+        for snapshot in &found {
+            holds_the_motion(name, snapshot, &["X=points"], 1e-15);
+            let kind = if name == "meshio_times.xdmf" { 9 } else { 5 };
+            assert!(
+                snapshot.cells.types.iter().all(|it| *it == kind) && !snapshot.cells.is_empty()
+            );
+            if name == "dolfinx.xdmf" {
+                assert_eq!(named(&snapshot.of_points, "J").values[2], 2.0);
+            }
+        }
+    }
+    holds_the_motion("checkpoint", &all("dolfin_checkpoint.xdmf", &[])[0], &["X=points"], 1e-16);
+    let file = std::fs::read(data("dolfin.h5")).unwrap();
+    let said = parse(&file, &everything(&[])).unwrap_err().what;
+    assert!(said.contains("a checkpoint of dolfin") && said.contains("`XDMFFile.write`"), "{said}");
+}
