@@ -381,7 +381,7 @@ fn deep_and_wide_xml_ends_soon() {
 }
 
 /// Whatever stands in a file, reading it ends, with results or with a mistake, and so does what is made of them.
-fn survive(bytes: &[u8]) {
+pub fn survive(bytes: &[u8]) {
     let u = |role: Role| role == Role::Displacement;
     let ways = [everything(&[]), wanted(&[], &u), everything(&[]).within(1 << 12, "")];
     let mut all = ways.iter().filter_map(|wanted| parse(bytes, wanted).ok());

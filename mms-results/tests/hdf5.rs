@@ -2,9 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use allocation_counter::measure;
 use mms_results::motion::resolve;
 use mms_results::names::{Mapping, everything, recognise, wanted};
-use mms_results::{Array, Snapshot, Stored, parse, read};
+use mms_results::{Array, Contents, Snapshot, Stored, parse, read};
+use proptest::prelude::*;
+
+use crate::files::survive;
 
 const TIMES: [f64; 3] = [0.0, 0.5, 2.0];
 
@@ -293,4 +297,116 @@ fn xdmf_takes_its_numbers_from_hdf5() {
     let file = std::fs::read(data("dolfin.h5")).unwrap();
     let said = parse(&file, &everything(&[])).unwrap_err().what;
     assert!(said.contains("a checkpoint of dolfin") && said.contains("`XDMFFile.write`"), "{said}");
+}
+
+/// The files that stand alone, with their bytes.
+fn files() -> Vec<(String, Vec<u8>)> {
+    let entries = std::fs::read_dir(data("")).unwrap().map(|it| it.unwrap().path());
+    let is_whole = |it: &PathBuf| it.extension().is_some_and(|end| end != "xdmf" && end != "txt");
+    let named = |it: PathBuf| {
+        (it.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(&it).unwrap())
+    };
+    let mut all: Vec<_> = entries.filter(is_whole).map(named).collect();
+    all.sort();
+    all
+}
+
+/// A file that ends early is refused, or has lost nothing that was read.
+#[test]
+fn files_that_are_cut_off_are_refused() {
+    let mut count = 0;
+    for (name, bytes) in
+        files().into_iter().filter(|(name, it)| it.len() < 7000 && !name.ends_with("bin"))
+    {
+        let Ok(Contents::Snapshots(whole)) = parse(&bytes, &everything(&[])) else { continue };
+        for length in 0..bytes.len() {
+            match parse(&bytes[..length], &everything(&[])) {
+                Ok(Contents::Snapshots(found)) => assert_eq!(found, whole, "{name}: {length}"),
+                Ok(other) => panic!("{name}: {length}: {other:?}"),
+                Err(mistake) => assert!(!mistake.what.is_empty()),
+            }
+            count += 1;
+        }
+        let half = parse(&bytes[..bytes.len() / 2], &everything(&[]));
+        assert!(half.is_err(), "{name}");
+    }
+    assert!(count > 20_000, "{count}");
+}
+
+/// A header of netCDF that declares one variable of so many numbers.
+fn classic(count: u32) -> Vec<u8> {
+    let words = [
+        0,
+        10,
+        1,
+        1,
+        u32::from_be_bytes(*b"n\0\0\0"),
+        count,
+        0,
+        0,
+        11,
+        1,
+        1,
+        u32::from_be_bytes(*b"u\0\0\0"),
+        1,
+        0,
+        0,
+        0,
+        6,
+        0,
+        80,
+    ];
+    let mut bytes = b"CDF\x01".to_vec();
+    bytes.extend(words.iter().flat_map(|it: &u32| it.to_be_bytes()));
+    bytes.extend(1.5_f64.to_be_bytes());
+    bytes
+}
+
+#[test]
+fn sizes_that_are_claimed_are_not_believed() {
+    let found = parse(&classic(1), &everything(&[])).unwrap();
+    let Contents::Snapshots(found) = found else { panic!() };
+    assert_eq!(found[0].of_points[0].values, [1.5]);
+    for count in [2, 1000, 1 << 20, u32::MAX] {
+        let mut said = String::new();
+        let bytes = classic(count);
+        let taken = measure(|| said = parse(&bytes, &everything(&[])).unwrap_err().what).bytes_max;
+        assert!(said.starts_with("`u`: ") && taken < 1 << 20, "{count}: {said} {taken}");
+    }
+    for (name, bytes) in files() {
+        let taken = measure(|| drop(parse(&bytes, &everything(&[])))).bytes_max as usize;
+        assert!(taken < (1 << 20) + 8 * bytes.len(), "{name}: {taken} bytes for {}", bytes.len());
+        let little = everything(&[]).within(100, "give it more");
+        if let Err(mistake) = parse(&bytes, &little) {
+            let what = mistake.what;
+            assert!(
+                what.contains("give it more")
+                    || what.contains("checkpoint")
+                    || name.ends_with("bin"),
+                "{name}: {what}"
+            );
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn files_that_are_changed_are_survived(
+        which: prop::sample::Index,
+        cut in prop::option::of(any::<prop::sample::Index>()),
+        flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+    ) {
+        let all = files();
+        let mut bytes = all[which.index(all.len())].1.clone();
+        // Headers are at the front, and small beside the numbers.
+        for (at, byte) in flips {
+            let at = at.index(bytes.len().min(4096));
+            bytes[at] = byte;
+        }
+        if let Some(cut) = cut {
+            bytes.truncate(cut.index(bytes.len()));
+        }
+        let taken = measure(|| survive(&bytes)).bytes_max;
+        prop_assert!(taken < 64 << 20, "{} bytes", taken);
+    }
 }
