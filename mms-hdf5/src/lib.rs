@@ -78,6 +78,27 @@ impl Set {
     }
 }
 
+/// What is wrong with an array.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// What is wrong, and what to do.
+    pub what: String,
+    /// Whether the array may be sound, and is compressed in a way that is not read.
+    pub is_foreign: bool,
+}
+
+impl Fault {
+    fn of(what: impl Into<String>) -> Fault {
+        Fault { what: what.into(), is_foreign: false }
+    }
+}
+
+impl From<String> for Fault {
+    fn from(what: String) -> Fault {
+        Fault::of(what)
+    }
+}
+
 /// The value of an attribute.
 pub enum Value {
     /// Words.
@@ -158,19 +179,26 @@ impl Store {
     ///
     /// # Errors
     /// What is wrong with them.
-    pub fn bytes(&self, set: &Set) -> Result<Vec<u8>, String> {
-        let size = set.kind.bytes().ok_or("expected numbers")?;
+    pub fn bytes(&self, set: &Set) -> Result<Vec<u8>, Fault> {
+        let size = match set.kind {
+            Type::Words => return Err(Fault::of("expected numbers, found words")),
+            kind => kind.bytes(),
+        };
+        let size = size.ok_or_else(|| Fault::of("expected floating-point numbers or integers"))?;
         let needed = set.count().and_then(|it| it.checked_mul(size));
-        let needed = needed.ok_or("no file holds as many numbers")?;
+        let needed = needed.ok_or_else(|| Fault::of("no file holds as many numbers"))?;
         self.hold(needed)?;
         let bytes = match (&self.source, &set.place) {
             (Source::Tree(_), Place::Tree(found)) => tree::bytes(found)?,
             (Source::Classic(classic), Place::Classic(at)) => classic.bytes(*at, needed)?,
-            _ => return Err("it cannot be opened".into()),
+            _ => return Err(Fault::of("it cannot be opened")),
         };
         match bytes.len() == needed {
             true => Ok(bytes),
-            false => Err(format!("{} bytes of numbers, and its shape needs {needed}", bytes.len())),
+            false => Err(Fault::of(format!(
+                "{} bytes of numbers, and its shape needs {needed}",
+                bytes.len()
+            ))),
         }
     }
 

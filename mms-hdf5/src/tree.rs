@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use hdf5_reader::error::Error;
 use hdf5_reader::{
     ByteOrder, Dataset, Datatype, FilterRegistry, Hdf5File, OpenOptions, RawAttribute, StringSize,
 };
 
-use crate::{MOST_WORDS, Place, Set, Type, Value, letters, lzf, word};
+use crate::{Fault, MOST_WORDS, Place, Set, Type, Value, letters, lzf, word};
 
 /// How many groups and arrays are listed.
 const MOST_OBJECTS: usize = 20_000;
@@ -38,7 +39,7 @@ impl Tree {
     pub fn open(bytes: Vec<u8>, most: u64) -> Result<Tree, String> {
         let mut filters = FilterRegistry::new();
         let unpack = |packed: &[u8], most: usize| {
-            let wrong = || hdf5_reader::error::Error::InvalidData("not LZF".into());
+            let wrong = || Error::InvalidData("not LZF".into());
             lzf::unpack(packed, most).ok_or_else(wrong)
         };
         filters.register(
@@ -124,13 +125,27 @@ impl Tree {
 
     pub fn words(&self, found: &Dataset, last: Option<usize>) -> Result<Vec<String>, String> {
         let follow = |it: &[u8]| found.resolve_vlen_reference_bytes(it, 1).map_err(said);
-        words(&bytes(found)?, found.dtype(), found.vlen_reference_size(), last, &follow)
+        let bytes = bytes(found).map_err(|it| it.what)?;
+        words(&bytes, found.dtype(), found.vlen_reference_size(), last, &follow)
     }
 }
 
 /// The bytes of an array.
-pub fn bytes(found: &Dataset) -> Result<Vec<u8>, String> {
-    found.read_raw_bytes().map_err(said)
+pub fn bytes(found: &Dataset) -> Result<Vec<u8>, Fault> {
+    found.read_raw_bytes().map_err(|error| {
+        let mut cause = &error;
+        while let Error::Context { source, .. } = cause {
+            cause = source;
+        }
+        let is_foreign = matches!(cause, Error::UnsupportedFilter(_));
+        let what = match is_foreign {
+            true => format!(
+                "compressed in a way that is not read ({cause}): write it with gzip, or without"
+            ),
+            false => error.to_string(),
+        };
+        Fault { what, is_foreign }
+    })
 }
 
 /// Words of fixed length, or those that references of so many bytes lead to.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use allocation_counter::measure;
 use mms_results::motion::resolve;
 use mms_results::names::{Mapping, everything, recognise, wanted};
+use mms_results::wanted::{Need, Wanted};
 use mms_results::{Array, Contents, Snapshot, Stored, parse, read};
 use proptest::prelude::*;
 
@@ -135,7 +136,9 @@ fn paths_are_mapped_with_and_without_the_slash() {
         holds_the_motion("groups.h5", &all("groups.h5", &map)[0], &texts, 1e-16);
         let is_none = |_| false;
         let read = read(&data("groups.h5"), &open, &wanted(&map[1..], &is_none)).unwrap();
-        assert_eq!((read[0].of_points.len(), read[0].unread.len()), (1, 1));
+        assert_eq!((read[0].of_points.len(), read[0].unread.len()), (1, 2));
+        // An array of this name may be times or temperatures.
+        assert_eq!(named(&all("groups.h5", &map)[0].of_points, "T").values[1], 300.5);
     }
 }
 
@@ -147,7 +150,17 @@ fn the_first_of_three_axes_may_be_times() {
         holds_the_motion("times.h5", snapshot, &[], 1e-15);
         let gradient = named(&snapshot.of_points, "F");
         assert_eq!((gradient.components, gradient.rows()), (4, 9));
+        let exact: Vec<f64> =
+            (0..9).map(|at| 1.0 + snapshot.time.unwrap().value * reference(at)[0]).collect();
+        assert_eq!(named(&snapshot.of_points, "J").values, exact);
     }
+}
+
+#[test]
+fn one_time_may_have_an_axis() {
+    let found = all("one_time.h5", &[]);
+    assert_eq!(times(&found), [0.5]);
+    holds_the_motion("one_time.h5", &found[0], &[], 1e-16);
 }
 
 #[test]
@@ -218,6 +231,55 @@ fn exodus_has_the_reference_at_all_times() {
     let few = &few.unwrap()[0];
     assert_eq!((few.of_points.len(), few.of_cells.len()), (2, 0));
     assert_eq!(few.unread, ["temp", "middle", "time_of"]);
+}
+
+/// What is refused of a file in which some bytes are others.
+fn refused(name: &str, from: &[u8], to: &[u8]) -> String {
+    let mut bytes = std::fs::read(data(name)).unwrap();
+    let at = bytes.windows(from.len()).position(|it| it == from).expect("these bytes");
+    bytes[at..at + to.len()].copy_from_slice(to);
+    parse(&bytes, &everything(&[])).unwrap_err().what
+}
+
+#[test]
+fn mistakes_name_the_array_and_what_was_expected() {
+    let exodus = "moose_netcdf3_64bit_offset.e";
+    let said = refused(exodus, b"QUAD4", b"BLOB4");
+    assert!(
+        said.starts_with("`connect1`: elements `BLOB4` of 4 nodes are not read: write"),
+        "{said}"
+    );
+    let nodes = |all: [i32; 4]| all.map(i32::to_be_bytes).concat();
+    let said = refused(exodus, &nodes([1, 2, 5, 4]), &nodes([1, 2, 10, 4]));
+    assert_eq!(said, "`connect1`: expected a node from 1 to 9, found 10");
+    let said = refused(exodus, b"disp_y", b"disp_x");
+    assert_eq!(said, "two variables are called `disp_x`");
+    let said = refused(exodus, &2.0_f64.to_be_bytes(), &f64::NAN.to_be_bytes());
+    assert_eq!(said, "`time_whole`: NaN is no time");
+    let said = refused("vtk_grid.vtkhdf", b"UnstructuredGrid\0", b"HyperTreeGrid\0\0\0\0");
+    assert!(
+        said.starts_with("`HyperTreeGrid` of VTKHDF is not read: expected UnstructuredGrid"),
+        "{said}"
+    );
+    let none = |_| false;
+    let few = |map: &str| read(&data("zstd.h5"), &open, &wanted(&[map.parse().unwrap()], &none));
+    let said = few("u=u").unwrap_err().what;
+    let why = "`u`: compressed in a way that is not read (unsupported filter: filter id 32015): write it with gzip";
+    assert!(said.starts_with(why), "{said}");
+    let read = parse(
+        &std::fs::read(data("zstd.h5")).unwrap(),
+        &Wanted::new(|name| match name {
+            "X" => Need::Must,
+            _ => Need::Numbers,
+        }),
+    );
+    let Ok(Contents::Snapshots(read)) = read else { panic!() };
+    assert_eq!(
+        (read[0].of_points.len(), &read[0].unread[..]),
+        (1, &["other".into(), "u".into()][..])
+    );
+    let said = refused("netcdf3_classic.nc", b"CDF\x01", b"CDF\x03");
+    assert!(said.contains("version 3 of netCDF: expected 1, 2 or 5"), "{said}");
 }
 
 /// Where VTK, reading the same file, has the nodes of each element.

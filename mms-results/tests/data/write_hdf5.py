@@ -1,6 +1,6 @@
 """Writes the files in `hdf5/`: one small mesh in the formats over HDF5 and netCDF, and in XDMF.
 
-Needs h5py, hdf5storage, meshio[all], netCDF4, numpy and vtk. What the files hold is in ../hdf5.rs and ../xdmf.rs: X on
+Needs h5py, hdf5plugin, hdf5storage, meshio[all], netCDF4, numpy and vtk. What the files hold is in ../hdf5.rs and ../xdmf.rs: X on
 a grid of 3 x 3 points, u = (1 + t) (0.1 X Y, -0.2 X) at the times t, and of each cell the mean of X over its points.
 
 h5py, hdf5storage, meshio, netCDF4 and VTK write their own files. MOOSE, dolfin and dolfinx are not packages of
@@ -12,6 +12,7 @@ import pathlib
 import sys
 
 import h5py
+import hdf5plugin
 import hdf5storage
 import meshio
 import netCDF4
@@ -91,10 +92,20 @@ def with_h5py():
         f["X"] = X
         f["u"] = numpy.array([at(t) for t in TIMES])
         f["t"] = TIMES
+        f["J"] = numpy.array([1 + t * X[:, 0] for t in TIMES])
         f["F"] = numpy.zeros((9, 2, 2)) + numpy.eye(2)
+    with h5py.File(HERE / "one_time.h5", "w") as f:
+        f["X"] = X
+        f["u"] = at(0.5)[None]
+        f["time"] = [0.5]
+    with h5py.File(HERE / "zstd.h5", "w") as f:
+        f["X"] = X
+        f.create_dataset("u", data=U, chunks=(9, 2), **hdf5plugin.Zstd())
+        f.create_dataset("other", data=U, chunks=(9, 2), **hdf5plugin.Zstd())
     with h5py.File(HERE / "groups.h5", "w") as f:
         f["run/mesh/X"] = X
         f["run/fields/u"] = U
+        f["T"] = 300 + X[:, 0]
 
 
 def with_matlab():

@@ -1,5 +1,7 @@
 //! Exodus II: "EXODUS II: A Finite Element Data Model" (Sandia report SAND92-2137), in netCDF or in HDF5.
 
+use std::collections::BTreeSet;
+
 use super::{File, by_time};
 use crate::{Array, Cells, Mistake, Snapshot};
 
@@ -165,9 +167,9 @@ fn variables(
     unread: &mut Vec<String>,
     read: impl Fn(usize) -> Result<Option<Array>, Mistake>,
 ) -> Result<Vec<Array>, Mistake> {
-    let mut all: Vec<Array> = Vec::new();
+    let (mut all, mut seen) = (Vec::new(), BTreeSet::new());
     for (at, name) in file.words(names)?.into_iter().enumerate() {
-        if all.iter().any(|it| it.name == name) {
+        if !seen.insert(name.clone()) {
             return Err(Mistake::new(format!("two variables are called `{name}`")));
         }
         let found = if file.wanted.reads(&name) { read(at)? } else { None };

@@ -6,10 +6,10 @@ mod vtkhdf;
 
 use std::borrow::Cow;
 
-use mms_hdf5::{Set, Store, Type, Value};
+use mms_hdf5::{Fault, Set, Store, Type, Value};
 
 use super::numbers::{Kind, Order, positions};
-use crate::wanted::Wanted;
+use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
 /// How a file of MATLAB begins: its user block.
@@ -56,26 +56,40 @@ impl<'a> File<'a> {
 
     /// Reads an array under another name: its first axis are the rows.
     fn array(&self, set: &Set, name: &str) -> Result<Array, Mistake> {
-        let wrong = |what: String| Mistake::new(format!("`{}`: {what}", set.path));
-        let kind = match set.kind {
-            Type::Float(bytes) => Kind::Float(bytes),
-            Type::Signed(bytes) => Kind::Signed(bytes),
-            Type::Unsigned(bytes) => Kind::Unsigned(bytes),
-            Type::Words => return Err(wrong("expected numbers, found words".into())),
-            Type::Other => {
-                return Err(wrong("expected floating-point numbers or integers".into()));
-            }
-        };
-        let numbers = set.count().ok_or_else(|| wrong("no file holds as many numbers".into()))?;
-        let needed = (numbers as u64).saturating_mul(kind.bytes() as u64);
-        // What the file cannot hold is refused there, and takes no room.
-        if needed <= self.store.left() {
-            self.wanted.take(&format!("`{}`", set.path), numbers)?;
+        self.take(set)?;
+        self.made(set, name, self.store.bytes(set))
+    }
+
+    /// Reads an array if its name is wanted; none if it is not, or if the file may do without it and it has no numbers or is
+    /// compressed in a way that is not read.
+    fn wanted(&self, set: &Set, name: &str) -> Result<Option<Array>, Mistake> {
+        let need = self.wanted.need(name);
+        let is_plain = need == Need::Must || need == Need::Numbers && kind(set.kind).is_some();
+        if !is_plain {
+            return Ok(None);
         }
-        let bytes = self.store.bytes(set).map_err(wrong)?;
-        let values = kind.read(&bytes, if set.is_big { Order::Big } else { Order::Little });
+        self.take(set)?;
+        match self.store.bytes(set) {
+            Err(fault) if fault.is_foreign && need == Need::Numbers => Ok(None),
+            found => self.made(set, name, found).map(Some),
+        }
+    }
+
+    /// Takes room for an array. What the file cannot hold takes none: reading it is refused.
+    fn take(&self, set: &Set) -> Result<(), Mistake> {
+        let numbers = set.count().filter(|it| *it as u64 <= self.store.left());
+        self.wanted.take(&format!("`{}`", set.path), numbers.unwrap_or(0))
+    }
+
+    /// Makes an array of its bytes.
+    fn made(&self, set: &Set, name: &str, bytes: Result<Vec<u8>, Fault>) -> Result<Array, Mistake> {
+        let wrong = |what: String| Mistake::new(format!("`{}`: {what}", set.path));
+        let kind = kind(set.kind).ok_or_else(|| wrong("expected numbers".into()));
+        let bytes = bytes.map_err(|fault| wrong(fault.what))?;
+        let (kind, name) = (kind?, name.to_owned());
         let components = set.shape.iter().skip(1).product::<usize>().max(1);
-        Ok(Array { name: name.to_owned(), components, values, stored: kind.stored() })
+        let values = kind.read(&bytes, order(set.is_big));
+        Ok(Array { name, components, values, stored: kind.stored() })
     }
 
     /// Reads the array of a path, under that name.
@@ -105,16 +119,12 @@ impl<'a> File<'a> {
 
     /// The numbers of an attribute.
     fn numbers(&self, path: &str, name: &str) -> Option<Vec<f64>> {
-        let Value::Numbers(kind, is_big, bytes) = self.store.attribute(path, name)? else {
-            return None;
-        };
-        let kind = match kind {
-            Type::Float(bytes) => Kind::Float(bytes),
-            Type::Signed(bytes) => Kind::Signed(bytes),
-            Type::Unsigned(bytes) => Kind::Unsigned(bytes),
-            Type::Words | Type::Other => return None,
-        };
-        Some(kind.read(&bytes, if is_big { Order::Big } else { Order::Little }))
+        match self.store.attribute(path, name)? {
+            Value::Words(_) => None,
+            Value::Numbers(numbers, is_big, bytes) => {
+                kind(numbers).map(|it| it.read(&bytes, order(is_big)))
+            }
+        }
     }
 
     /// The times of an array.
@@ -143,6 +153,20 @@ impl<'a> File<'a> {
         }
         Ok(times.iter().map(|time| Snapshot { time: Some(*time), ..whole.clone() }).collect())
     }
+}
+
+/// How numbers of a type stand in bytes; none if they are no numbers.
+fn kind(found: Type) -> Option<Kind> {
+    match found {
+        Type::Float(bytes) => Some(Kind::Float(bytes)),
+        Type::Signed(bytes) => Some(Kind::Signed(bytes)),
+        Type::Unsigned(bytes) => Some(Kind::Unsigned(bytes)),
+        Type::Words | Type::Other => None,
+    }
+}
+
+fn order(is_big: bool) -> Order {
+    if is_big { Order::Big } else { Order::Little }
 }
 
 /// An array that has numbers for each of some times one after the other, as one array for each.

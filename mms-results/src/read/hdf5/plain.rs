@@ -1,10 +1,10 @@
 //! Arrays of any file of HDF5 or netCDF by their paths, and variables of MATLAB.
 
-use mms_hdf5::{Set, Type};
+use mms_hdf5::Set;
 
 use super::super::npy::by_rows;
 use super::super::table::is_time;
-use super::{File, by_time};
+use super::{File, MOST_TIMES, by_time};
 use crate::wanted::Need;
 use crate::{Array, Mistake, Snapshot};
 
@@ -21,35 +21,35 @@ pub fn parse(file: &File<'_>, is_matlab: bool) -> Result<Vec<Snapshot>, Mistake>
              write one with `XDMFFile.write`",
         ));
     }
-    let (clocks, sets): (Vec<_>, Vec<_>) =
-        sets.into_iter().partition(|it| is_time(&it.path) && it.kind.bytes().is_some());
-    let times = match clocks.first() {
-        Some(set) => file.times(set)?,
-        None => Vec::new(),
+    // An array of that name may be another quantity of points.
+    let is_clock = |it: &Set| {
+        let is_list = it.shape.len() < 2 || it.count() == Some(1);
+        is_time(&it.path) && it.kind.bytes().is_some() && is_list && it.count() <= Some(MOST_TIMES)
     };
+    let clock = sets.iter().find(|it| is_clock(it));
+    let times = clock.map(|it| file.times(it)).transpose()?.unwrap_or_default();
+    let layout = Layout::of(&sets, if is_matlab { 0 } else { times.len() });
     let (mut whole, mut by_times) = (Snapshot::default(), Vec::new());
-    for set in &sets {
+    for set in sets.iter().filter(|it| clock.is_none_or(|clock| clock.path != it.path)) {
         let name = name(file, &set.path);
-        let need = file.wanted.need(&name);
-        let is_read = match need {
-            Need::No | Need::Sound => false,
-            Need::Numbers => set.kind.bytes().is_some(),
-            Need::Must => !is_left_out(file, set, is_matlab),
-        };
-        if !is_read || is_matlab && is_left_out(file, set, is_matlab) {
-            whole.unread.push(name);
-            continue;
-        }
-        let array = file.array(set, &name)?;
-        match is_over_times(set, &sets, times.len()) && !is_matlab {
-            true => by_times.push((array, set.shape[2])),
-            false if is_matlab => whole.of_points.push(of_matlab(array, &set.shape)),
-            false => whole.of_points.push(array),
+        let is_hidden = is_matlab && is_hidden(file, set);
+        let found = if is_hidden { None } else { file.wanted(set, &name)? };
+        match (found, layout.components(set)) {
+            (None, _) => whole.unread.push(name),
+            (Some(array), Some(components)) => by_times.push((array, components)),
+            (Some(array), None) if is_matlab => whole.of_points.push(of_matlab(array, &set.shape)),
+            (Some(array), None) => whole.of_points.push(array),
         }
     }
     if by_times.is_empty() {
-        // Of the times of a file without arrays over them, the only one is that of the arrays.
+        // Of more times it is not known which is that of the arrays, or whether they are temperatures.
         let time = times.first().filter(|_| times.len() == 1).copied();
+        if let Some(set) = clock.filter(|_| time.is_none()) {
+            match file.wanted(set, &name(file, &set.path))? {
+                Some(array) => whole.of_points.push(array),
+                None => whole.unread.push(set.path.clone()),
+            }
+        }
         return Ok(vec![Snapshot { time, ..whole }]);
     }
     let mut all = file.repeated(whole, &times)?;
@@ -61,6 +61,44 @@ pub fn parse(file: &File<'_>, is_matlab: bool) -> Result<Vec<Snapshot>, Mistake>
     Ok(all)
 }
 
+/// How many times a file has, and how many points its arrays over times are of.
+struct Layout {
+    times: usize,
+    points: Option<usize>,
+}
+
+impl Layout {
+    /// Finds an array of times, points and components. Another one shows the points, or it is known not to be a tensor of as
+    /// many points as there are times.
+    fn of(sets: &[Set], times: usize) -> Layout {
+        let has_rows = |rows: usize| {
+            sets.iter().any(|it| {
+                it.kind.bytes().is_some() && matches!(it.shape[..], [it, _] if it == rows)
+            })
+        };
+        let points = sets.iter().find_map(|it| match it.shape[..] {
+            [first, points, components] if it.kind.bytes().is_some() => {
+                let is_shown = has_rows(points) || times > 1 && !has_rows(first);
+                let is_small = (1..=MOST_COMPONENTS).contains(&components);
+                (first == times && is_shown && is_small).then_some(points)
+            }
+            _ => None,
+        });
+        Layout { times, points }
+    }
+
+    /// How many numbers each point has at each time; none of what is not over times.
+    fn components(&self, set: &Set) -> Option<usize> {
+        match (&set.shape[..], self.points?) {
+            (&[first, second, last], points) if first == self.times && second == points => {
+                (1..=MOST_COMPONENTS).contains(&last).then_some(last)
+            }
+            (&[first, second], points) if first == self.times && second == points => Some(1),
+            _ => None,
+        }
+    }
+}
+
 /// The name of an array: its path, with the slash before it where a user maps it so.
 fn name(file: &File<'_>, path: &str) -> String {
     let from_root = format!("/{path}");
@@ -68,22 +106,10 @@ fn name(file: &File<'_>, path: &str) -> String {
     if !is_mapped(path) && is_mapped(&from_root) { from_root } else { path.to_owned() }
 }
 
-/// Whether it holds nothing by what MATLAB says of it, or belongs to cells and objects, or to other programs.
-fn is_left_out(file: &File<'_>, set: &Set, is_matlab: bool) -> bool {
+/// Whether a variable of MATLAB has words or nothing, or belongs to a cell array.
+fn is_hidden(file: &File<'_>, set: &Set) -> bool {
     let is_word = || file.word(&set.path, "MATLAB_class").is_some_and(|it| it == "char");
-    let is_empty = || file.numbers(&set.path, "MATLAB_empty").is_some();
-    is_matlab && (set.path.starts_with('#') || set.kind == Type::Other || is_word() || is_empty())
-}
-
-/// Whether an array has values of points at each time: its second axis are the points, which another array may show.
-fn is_over_times(set: &Set, sets: &[Set], times: usize) -> bool {
-    let &[first, points, components] = &set.shape[..] else { return false };
-    let rows = |rows: usize| {
-        sets.iter()
-            .any(|it| it.shape.len() == 2 && it.shape[0] == rows && it.kind.bytes().is_some())
-    };
-    let is_tensor = rows(first) && !rows(points);
-    times > 1 && first == times && (1..=MOST_COMPONENTS).contains(&components) && !is_tensor
+    set.path.starts_with('#') || is_word() || file.numbers(&set.path, "MATLAB_empty").is_some()
 }
 
 /// A variable of MATLAB, whose first axis runs fastest: HDF5 shows its axes in reverse. A row of numbers is a column.

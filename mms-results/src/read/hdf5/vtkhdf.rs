@@ -5,7 +5,6 @@ use mms_hdf5::Set;
 use super::super::tecplot::ordered;
 use super::{File, MOST_TIMES};
 use crate::snapshot::Section;
-use crate::wanted::Need;
 use crate::{Array, Cells, Mistake, Snapshot, Stored, Time};
 
 /// The group of all that a file has.
@@ -106,12 +105,12 @@ fn data(
     let mut all = Vec::new();
     for set in sets {
         let Some(name) = set.path.strip_prefix(&inside) else { continue };
-        match (file.wanted.need(name), set.kind.bytes()) {
-            (Need::No | Need::Sound, _) | (Need::Numbers, None) => unread.push(name.to_owned()),
-            _ => {
+        match file.wanted(set, name)? {
+            None => unread.push(name.to_owned()),
+            Some(array) => {
                 let stride = set.shape.iter().skip(1).product();
                 let offsets = steps.offsets(&format!("{group}Offsets/{name}"))?;
-                all.push(Data { array: file.array(set, name)?, stride, offsets });
+                all.push(Data { array, stride, offsets });
             }
         }
     }
