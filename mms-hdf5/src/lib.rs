@@ -72,6 +72,11 @@ enum Place {
 }
 
 impl Set {
+    /// How many numbers or words one place along its first axis has.
+    pub fn stride(&self) -> usize {
+        self.shape.iter().skip(1).fold(1, |all: usize, &axis| all.saturating_mul(axis))
+    }
+
     /// How many numbers or words it has; none if no file holds as many.
     pub fn count(&self) -> Option<usize> {
         self.shape.iter().try_fold(1, |all: usize, &axis| all.checked_mul(axis))

@@ -120,6 +120,8 @@ fn arrays_are_read_however_they_are_stored() {
             let array = named(arrays, &format!("members/m{member:02}"));
             assert_eq!(array.values, [f64::from(member)]);
         }
+        let none = named(arrays, "v");
+        assert_eq!((none.components, none.rows()), (1, 0), "{name}");
         let mut unread = one.unread.clone();
         unread.sort();
         assert_eq!(unread, ["name", "names", "record"], "{name}");
@@ -261,6 +263,12 @@ fn mistakes_name_the_array_and_what_was_expected() {
         said.starts_with("`HyperTreeGrid` of VTKHDF is not read: expected UnstructuredGrid"),
         "{said}"
     );
+    let extent = |all: [i64; 6]| all.map(i64::to_le_bytes).concat();
+    let own = extent([0, 2, 0, 2, 0, 0]);
+    for other in [[0, 1 << 40, 0, 2, 0, 0], [0, 1 << 40, 0, 1 << 40, 0, -1]] {
+        let said = refused("image.vtkhdf", &own, &extent(other));
+        assert!(said.contains(" points: the file has other numbers of them"), "{said}");
+    }
     let none = |_| false;
     let few = |map: &str| read(&data("zstd.h5"), &open, &wanted(&[map.parse().unwrap()], &none));
     let said = few("u=u").unwrap_err().what;
@@ -306,6 +314,8 @@ fn vtkhdf_has_steps_pieces_and_surfaces() {
     for name in ["vtk_grid.vtkhdf", "vtk_surface.vtkhdf", "image.vtkhdf"] {
         let found = all(name, &[]);
         assert_eq!(found.len(), 1, "{name}");
+        let time = found[0].time.map(|it| it.value);
+        assert_eq!(time, if name == "image.vtkhdf" { None } else { Some(0.0) }, "{name}");
         holds_the_motion(name, &found[0], &["X=points"], 1e-16);
         assert_eq!(found[0].cells.types, [9; 4], "{name}");
         assert_eq!(found[0].cells.iter().nth(3).unwrap().1, [4, 5, 8, 7], "{name}");

@@ -74,7 +74,7 @@ fn grids_are_at_times_or_pieces() {
         found.iter().map(|it| it.time.map_or(f64::NAN, |it| it.value)).collect()
     };
     let single =
-        series(&(grid("<Time Value=\"0.5\"/>", 0.25) + &grid("<Time Value=\"2\"/>", 0.75)));
+        series(&(grid("<Time Value=\"2\"/>", 0.75) + &grid("<Time Value=\"0.5\"/>", 0.25)));
     let list = "<Time TimeType=\"List\"><DataItem Dimensions=\"2\">0.5 2</DataItem></Time>";
     let list = series(&format!("{list}{}{}", grid("", 0.25), grid("", 0.75)));
     let even =
@@ -216,7 +216,7 @@ fn without_the_feature_files_say_how_to_have_it() {
         ("netcdf3_classic.nc", "NetCDF", "`meshio convert results.e results.vtu`"),
         ("moose_netcdf3_64bit_offset.e", "Exodus", "`meshio convert results.e results.vtu`"),
         ("vtk_grid.vtkhdf", "HDF5", "`numpy.savez`"),
-        ("meshio_hdf.xdmf", "XDMF", "`meshio convert results.xdmf results.vtu`"),
+        ("meshio_hdf.xdmf", "XDMF", "`meshio.xdmf.TimeSeriesReader`"),
     ] {
         let said = said(name);
         assert!([format, feature, other].iter().all(|it| said.contains(it)), "{name}: {said}");

@@ -15,7 +15,8 @@ fn refused(bytes: &[u8]) -> Mistake {
     let (name, other) = match bytes {
         [b'C', b'D', b'F', ..] => (
             "NetCDF, as of Exodus,",
-            "`meshio convert results.e results.vtu` of Python's meshio[all] makes VTK of its mesh",
+            "`meshio convert results.e results.vtu` of Python's meshio[all] makes VTK of the first time of Exodus, and \
+             `numpy.savez` writes what `netCDF4.Dataset` reads",
         ),
         [b'M', b'A', b'T', ..] => {
             ("MATLAB 7.3, which is HDF5,", "in Python, `numpy.savez` writes what `h5py.File` reads")
@@ -36,7 +37,7 @@ impl<'a> File<'a> {
         drop(bytes);
         Err(Mistake::new(
             "numbers of XDMF in HDF5 are read with the feature `hdf5`: `cargo install --path . --features hdf5`; or \
-             convert it: `meshio convert results.xdmf results.vtu` of Python's meshio[all]",
+             convert it: `meshio.xdmf.TimeSeriesReader` of Python's meshio[all] reads its steps, and `meshio.write` writes VTK",
         ))
     }
 

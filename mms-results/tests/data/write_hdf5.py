@@ -45,6 +45,7 @@ def with_h5py():
             f["u"] = U
             f["time"] = 0.25
             f["name"] = "words"
+            f.create_dataset("v", shape=(0, 2**40), dtype="f8")
             f["names"] = numpy.array(["one", "two"], dtype=object)
             f["record"] = numpy.array([(1, 2.0)], dtype=[("a", "i4"), ("b", "f8")])
             g = f.create_group("stored")
@@ -305,7 +306,9 @@ def with_vtkhdf():
         write = vtk.vtkHDFWriter()
         write.SetChunkSize(8)
         write.SetFileName(str(HERE / f"vtk_{name}.vtkhdf"))
-        write.SetInputData(make(0.0))
+        grid = make(0.0)
+        grid.GetFieldData().AddArray(array("TimeValue", numpy.array([0.0])))
+        write.SetInputData(grid)
         write.Write()
         write = vtk.vtkHDFWriter()
         source = Source(make, f"vtk{'UnstructuredGrid' if name == 'grid' else 'PolyData'}")

@@ -186,7 +186,7 @@ fn one_of_all(all: &Array, at: usize, nodes: usize, shape: &[usize]) -> Result<A
     if shape[2] != nodes || at >= shape[1] {
         return Err(Mistake::new("`vals_nod_var` does not fit the nodes and the names"));
     }
-    let times = all.values.chunks_exact((shape[1] * nodes).max(1));
+    let times = all.values.chunks_exact(shape[1].saturating_mul(nodes).max(1));
     let own = times.flat_map(|it| &it[at * nodes..][..nodes]).copied().collect();
     Ok(Array { values: own, ..all.clone_without_values() })
 }

@@ -87,8 +87,9 @@ impl<'a> File<'a> {
         let kind = kind(set.kind).ok_or_else(|| wrong("expected numbers".into()));
         let bytes = bytes.map_err(|fault| wrong(fault.what))?;
         let (kind, name) = (kind?, name.to_owned());
-        let components = set.shape.iter().skip(1).product::<usize>().max(1);
         let values = kind.read(&bytes, order(set.is_big));
+        // An array of no rows may declare any number of components.
+        let components = if values.is_empty() { 1 } else { set.stride() };
         Ok(Array { name, components, values, stored: kind.stored() })
     }
 

@@ -50,7 +50,9 @@ struct Steps<'a> {
 
 impl<'a> Steps<'a> {
     fn of(file: &'a File<'a>) -> Result<Self, Mistake> {
-        let set = file.store.set(&format!("{ROOT}/Steps/Values"));
+        let set = |path: &str| file.store.set(&format!("{ROOT}/{path}"));
+        let own = set("FieldData/TimeValue").filter(|it| it.count() == Some(1));
+        let set = set("Steps/Values").or(own);
         let times = set.map(|it| file.times(&it)).transpose()?.unwrap_or_default();
         Ok(Steps { file, times })
     }
@@ -108,7 +110,7 @@ fn data(
         match file.wanted(set, name)? {
             None => unread.push(name.to_owned()),
             Some(array) => {
-                let stride = set.shape.iter().skip(1).product();
+                let stride = set.stride();
                 let offsets = steps.offsets(&format!("{group}Offsets/{name}"))?;
                 all.push(Data { array, stride, offsets });
             }
@@ -303,8 +305,8 @@ fn image(file: &File<'_>, steps: &Steps<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let size = [0, 1, 2].map(|it| (extent[2 * it + 1] - extent[2 * it] + 1.0).max(0.0) as usize);
     let rows = size.iter().fold(1, |all, it| times(all, *it));
     // A few bytes may declare any number of points; a file that has numbers for them is longer.
-    if rows as u64 > file.store.left() / 8 {
-        return Err(Mistake::new(format!("{rows} points: the file cannot hold as many numbers")));
+    if rows == 0 || rows as u64 > file.store.left() / 8 {
+        return Err(Mistake::new(format!("{rows} points: the file has other numbers of them")));
     }
     file.wanted.take("the points of the image", times(rows, 3 + 10))?;
     let at = |axis: usize, index: usize| spacing[axis] * (extent[2 * axis] + index as f64);

@@ -79,6 +79,10 @@ pub fn parse(
     if found.is_empty() {
         return Err(at(root, "expected a `<Grid>` in a `<Domain>`"));
     }
+    if found.iter().all(|(time, _)| time.is_some()) {
+        let value = |it: &Moment| it.0.map_or(0.0, |(value, _)| value);
+        found.sort_by(|a, b| value(a).total_cmp(&value(b)));
+    }
     let own: Vec<_> = found.iter().filter_map(|(time, _)| *time).collect();
     let mut times = times_of(&own);
     let snapshot =
@@ -185,8 +189,9 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         match (kind.as_str(), &array.values[..]) {
             ("list", all) => Ok(all.iter().map(|it| (*it, array.stored)).collect()),
             ("hyperslab", &[start, step, _]) => {
-                let grids = (0..MOST_GRIDS).map(|at| start + step * at as f64);
-                Ok(grids.map(|it| (it, Stored::Double)).collect())
+                let each = (0..MOST_GRIDS).map(|at| start + step * at as f64);
+                let finite = each.take_while(|it| it.is_finite());
+                Ok(finite.map(|it| (it, Stored::Double)).collect())
             }
             _ => Err(at(
                 node,
