@@ -144,6 +144,15 @@ fn paths_are_mapped_with_and_without_the_slash() {
     }
 }
 
+/// Names in groups are not known by themselves: they are listed, as `--map` takes them.
+#[test]
+fn paths_are_listed_where_nothing_is_known() {
+    let found = &all("groups.h5", &[])[0];
+    let meant = recognise(found, &[], &|_| true).unwrap();
+    let said = resolve(found, &meant, 2, &|_| 0.0, None).unwrap_err().what;
+    assert!(said.ends_with("the file has `run/fields/u`, `run/mesh/X`, `T`"), "{said}");
+}
+
 #[test]
 fn the_first_of_three_axes_may_be_times() {
     let found = all("times.h5", &[]);
