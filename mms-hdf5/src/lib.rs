@@ -65,9 +65,10 @@ pub struct Set {
 
 /// Where an array is.
 enum Place {
-    Tree(Box<hdf5_reader::Dataset>),
+    /// In HDF5; and whether it is packed there, and may be longer than the file.
+    Tree(Box<hdf5_reader::Dataset>, bool),
     Classic(usize),
-    /// It is listed, and cannot be opened.
+    /// Listed by its group, and none that can be opened.
     Nowhere,
 }
 
@@ -83,12 +84,12 @@ impl Set {
     }
 }
 
-/// What is wrong with an array.
+/// A fault of an array.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// What is wrong, and what to do.
+    /// The fault, and what to do.
     pub what: String,
-    /// Whether the array may be sound, and is compressed in a way that is not read.
+    /// Whether the array may be sound, and is compressed in a way that is not read, or was never written.
     pub is_foreign: bool,
 }
 
@@ -120,6 +121,8 @@ enum Source {
 /// A file.
 pub struct Store {
     source: Source,
+    /// How many bytes it has.
+    length: u64,
     /// How many bytes may still be decoded: as many as the file can honestly hold.
     left: Cell<u64>,
 }
@@ -130,12 +133,13 @@ impl Store {
     /// # Errors
     /// What is wrong with it.
     pub fn open(bytes: Vec<u8>) -> Result<Store, String> {
-        let left = (bytes.len() as u64).saturating_mul(RATIO).saturating_add(LEAST);
+        let length = bytes.len() as u64;
+        let left = length.saturating_mul(RATIO).saturating_add(LEAST);
         let source = match bytes.starts_with(CLASSIC) {
             true => Source::Classic(Classic::open(bytes)?),
             false => Source::Tree(Tree::open(bytes, left)?),
         };
-        Ok(Store { source, left: Cell::new(left) })
+        Ok(Store { source, length, left: Cell::new(left) })
     }
 
     /// Whether it is HDF5.
@@ -192,9 +196,14 @@ impl Store {
         let size = size.ok_or_else(|| Fault::of("expected floating-point numbers or integers"))?;
         let needed = set.count().and_then(|it| it.checked_mul(size));
         let needed = needed.ok_or_else(|| Fault::of("no file holds as many numbers"))?;
+        if matches!(set.place, Place::Tree(_, false)) && needed as u64 > self.length + LEAST {
+            // None of it may be stored: then all of it is one number that fills it.
+            let what = format!("{needed} bytes, and the file has {}", self.length);
+            return Err(Fault { what, is_foreign: true });
+        }
         self.hold(needed)?;
         let bytes = match (&self.source, &set.place) {
-            (Source::Tree(_), Place::Tree(found)) => tree::bytes(found)?,
+            (Source::Tree(_), Place::Tree(found, _)) => tree::bytes(found)?,
             (Source::Classic(classic), Place::Classic(at)) => classic.bytes(*at, needed)?,
             _ => return Err(Fault::of("it cannot be opened")),
         };
@@ -215,7 +224,7 @@ impl Store {
         let most = set.count().filter(|it| *it <= MOST_WORDS.saturating_mul(64));
         let most = most.ok_or("more words than are read")?;
         match (set.kind, &self.source, &set.place) {
-            (Type::Words, Source::Tree(tree), Place::Tree(found)) => {
+            (Type::Words, Source::Tree(tree), Place::Tree(found, _)) => {
                 self.hold(found.raw_byte_len().map_err(|it| it.to_string())?)?;
                 tree.words(found, set.shape.last().copied())
             }

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use hdf5_reader::error::Error;
+use hdf5_reader::messages::HdfMessage;
 use hdf5_reader::{
     ByteOrder, Dataset, Datatype, FilterRegistry, Hdf5File, OpenOptions, RawAttribute, StringSize,
 };
@@ -83,7 +84,7 @@ impl Tree {
             for name in names {
                 let found = group.dataset(&name).ok();
                 if !found.as_ref().is_some_and(is_dimension) {
-                    sets.push(set(named(&name), found));
+                    sets.push(self.set_of(named(&name), found));
                 }
             }
             for name in inner.into_iter().rev() {
@@ -96,7 +97,33 @@ impl Tree {
     }
 
     pub fn set(&self, path: &str) -> Option<Set> {
-        self.0.dataset(path).ok().map(|found| set(path.to_owned(), Some(found)))
+        self.0.dataset(path).ok().map(|found| self.set_of(path.to_owned(), Some(found)))
+    }
+
+    fn set_of(&self, path: String, found: Option<Dataset>) -> Set {
+        let nowhere = |path| Set {
+            path,
+            shape: Vec::new(),
+            kind: Type::Other,
+            is_big: false,
+            place: Place::Nowhere,
+        };
+        let Some(found) = found else { return nowhere(path) };
+        // Arrays may be the elements of an array.
+        let (inner, dims) = match found.dtype() {
+            Datatype::Array { base, dims } => (&**base, &dims[..]),
+            other => (other, &[][..]),
+        };
+        let (kind, is_big) = kind(inner);
+        let axes = found.shape().iter().chain(dims);
+        let shape = axes.map(|it| usize::try_from(*it)).collect::<Result<Vec<_>, _>>();
+        let Ok(shape) = shape else { return nowhere(path) };
+        // One that is declared to be empty has no axes either.
+        let shape = if matches!(found.num_elements(), Ok(0)) { vec![0] } else { shape };
+        let header = self.0.get_or_parse_header(found.address());
+        let is_filter = |it: &HdfMessage| matches!(it, HdfMessage::FilterPipeline(_));
+        let is_packed = header.is_ok_and(|it| it.messages.iter().any(is_filter));
+        Set { path, shape, kind, is_big, place: Place::Tree(Box::new(found), is_packed) }
     }
 
     pub fn has_group(&self, path: &str) -> bool {
@@ -173,29 +200,6 @@ fn words(
         all.push(word(&found));
     }
     Ok(all)
-}
-
-fn set(path: String, found: Option<Dataset>) -> Set {
-    let nowhere = |path| Set {
-        path,
-        shape: Vec::new(),
-        kind: Type::Other,
-        is_big: false,
-        place: Place::Nowhere,
-    };
-    let Some(found) = found else { return nowhere(path) };
-    // Arrays may be the elements of an array.
-    let (inner, dims) = match found.dtype() {
-        Datatype::Array { base, dims } => (&**base, &dims[..]),
-        other => (other, &[][..]),
-    };
-    let (kind, is_big) = kind(inner);
-    let axes = found.shape().iter().chain(dims);
-    let shape = axes.map(|it| usize::try_from(*it)).collect::<Result<Vec<_>, _>>();
-    let Ok(shape) = shape else { return nowhere(path) };
-    // One that is declared to be empty has no axes either.
-    let shape = if matches!(found.num_elements(), Ok(0)) { vec![0] } else { shape };
-    Set { path, shape, kind, is_big, place: Place::Tree(Box::new(found)) }
 }
 
 /// The type of numbers, and whether the greatest byte comes first.

@@ -37,8 +37,9 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
             return Err(at(node, what));
         }
         let found = self.numbers(node, name);
-        found.map_err(|it| {
-            if it.line.is_none() { at(node, format!("`{name}`: {it}", it = it.what)) } else { it }
+        found.map_err(|mistake| match mistake.line {
+            None => at(node, format!("`{name}`: {}", mistake.what)),
+            Some(_) => mistake,
         })
     }
 

@@ -1,4 +1,4 @@
-//! What paths in XML point to: those that programs write, of "XML Path Language" (W3C).
+//! Paths in XML and the elements to which they point: the paths that programs write, of "XML Path Language" (W3C).
 
 use roxmltree::Node;
 
