@@ -1,7 +1,7 @@
 //! X and u of points: two of X, x and u give the third.
 
 use crate::meaning::here;
-use crate::names::{Meaning, Role, Values};
+use crate::names::{Meaning, Role, Values, all_names};
 use crate::{Mistake, Snapshot, Stored};
 
 /// How many bits of a digest tell it from most others.
@@ -105,9 +105,10 @@ impl<'a> Known<'a> {
                 }
                 None => Ok(()),
             },
-            None => Err(Mistake::new(
-                "no positions: expected X, or x and u; name them with `--map X=..`",
-            )),
+            None => Err(Mistake::new(format!(
+                "no positions: expected X, or x and u; name them with `--map X=..`; the file has {}",
+                all_names(self.snapshot)
+            ))),
         }
     }
 

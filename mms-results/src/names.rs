@@ -62,7 +62,9 @@ impl Names {
         let is_it = |column: &String| {
             let bare = column.strip_prefix("cells:").unwrap_or(column);
             let whole = bare.rsplit_once(':').map_or(bare, |(whole, _)| whole);
-            column == name || [bare, whole].contains(&name) || bare == stem
+            // A path in HDF5 may begin with a slash.
+            let from_root = |it: &str| it.trim_start_matches('/') == name.trim_start_matches('/');
+            column == name || from_root(bare) || from_root(whole) || bare == stem
         };
         self.map.iter().flat_map(|mapping| &mapping.columns).any(is_it)
     }

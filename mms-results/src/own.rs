@@ -206,7 +206,7 @@ mod tests {
             components,
             values: values.to_vec(),
             stored: Stored::Double,
-            component_names: Vec::new(),
+            ..Array::default()
         }
     }
 

@@ -77,6 +77,13 @@ pub struct Array {
     pub component_names: Vec<String>,
 }
 
+impl Default for Array {
+    fn default() -> Self {
+        let (name, values, component_names) = Default::default();
+        Array { name, components: 1, values, stored: Stored::Double, component_names }
+    }
+}
+
 impl Array {
     /// How many points or cells it has numbers for.
     pub fn rows(&self) -> usize {

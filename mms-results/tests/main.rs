@@ -5,6 +5,8 @@ mod dumps;
 mod files;
 mod frd;
 mod gmsh;
+#[cfg(feature = "hdf5")]
+mod hdf5;
 mod mat;
 mod memory;
 mod norms;
@@ -16,6 +18,7 @@ mod tables;
 mod tecplot;
 mod vtk_more;
 mod write;
+mod xdmf;
 
 /// The kind of cells of that number in VTK.
 fn shape(kind: u8) -> &'static mms_results::cell::Shape {

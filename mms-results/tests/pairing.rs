@@ -13,7 +13,7 @@ fn array(name: &str, components: usize, values: &[f64]) -> Array {
         components,
         values: values.to_vec(),
         stored: Stored::Double,
-        component_names: Vec::new(),
+        ..Array::default()
     }
 }
 

@@ -158,9 +158,10 @@ pub const CRATES: &[Crate] = &[
             "scene",
         ],
     },
+    Crate { name: "mms-hdf5", knows: &[], layers: &["classic lzf tree"] },
     Crate {
         name: "mms-results",
-        knows: &[],
+        knows: &["mms-hdf5"],
         layers: &[
             "cell lattice mistake role snapshot",
             "norm own wanted",

@@ -453,13 +453,7 @@ impl Rows {
                     to.iter_mut().zip(&own).for_each(|(to, column)| *to = row[*column]);
                 }
             }
-            Array {
-                name: name.clone(),
-                components: own.len(),
-                values,
-                stored,
-                component_names: Vec::new(),
-            }
+            Array { name: name.clone(), components: own.len(), values, stored, ..Array::default() }
         };
         names.iter().map(array).collect()
     }

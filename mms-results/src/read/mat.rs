@@ -320,7 +320,7 @@ fn of_columns(name: &str, values: Vec<f64>, shape: &[usize], stored: Stored) -> 
     let is_list = shape.iter().filter(|it| **it != 1).count() <= 1;
     let components = if is_list { 1 } else { shape.iter().skip(1).product::<usize>().max(1) };
     let values = if components == 1 { values } else { by_rows(&values, shape) };
-    Array { name: name.to_owned(), components, values, stored, component_names: Vec::new() }
+    Array { name: name.to_owned(), components, values, stored, ..Array::default() }
 }
 
 /// The head of a variable of version 4: five numbers before its name.

@@ -4,7 +4,8 @@
 //! |---|---|
 //! | `\x93NUMPY`, `PK` | an array of NumPy, an archive of them, also at several times |
 //! | `MATLAB 5.0 MAT-file` | variables of MATLAB or Octave; version 4 begins with five numbers of four bytes |
-//! | `# vtk DataFile`, `<` | VTK, legacy and in XML |
+//! | `# vtk DataFile`, `<`, `{` | VTK, legacy, in XML and as a series; XDMF |
+//! | `\x89HDF`, `CDF` | HDF5 and netCDF: Exodus, VTKHDF, MATLAB 7.3, and others by their paths (feature `hdf5`) |
 //! | `1C`, `1U` or `2C` behind four blanks | results of CalculiX (`.frd`) |
 //! | `$MeshFormat` | meshes and views of Gmsh |
 //! | `TITLE`, `VARIABLES`, `FILETYPE` or `ZONE` before `=` | Tecplot |
@@ -15,6 +16,11 @@ mod dump;
 mod frd;
 mod gmsh;
 mod gmsh_mesh;
+#[cfg(feature = "hdf5")]
+mod hdf5;
+#[cfg(not(feature = "hdf5"))]
+#[path = "without_hdf5.rs"]
+mod hdf5;
 mod mat;
 mod npy;
 mod npz;
@@ -25,9 +31,12 @@ mod tags;
 mod tecplot;
 mod text;
 mod vtk;
+mod xdmf;
+mod xml;
 
 pub use table::is_time;
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use crate::wanted::Wanted;
@@ -54,23 +63,52 @@ const MOST_FILES: usize = 50_000;
 
 /// Ways in which files begin that are not read, and what to do.
 const FOREIGN: &[(&[u8], &str)] = &[
-    (
-        b"\x89HDF\r\n\x1a\n",
-        "HDF5 is not read; write VTK, CSV or NumPy, as with h5py and `numpy.savez`",
-    ),
-    (b"CDF", "NetCDF and Exodus are not read; convert it to VTK, as with `meshio convert`"),
     (b"\x1f\x8b", "a file in gzip is not read; unpack it"),
     (
         b"$NOD",
         "version 1 of Gmsh's format is not read; write 4.1, as with `Mesh.MshFileVersion = 4.1`",
     ),
+    (b"ADIOS-BP", "ADIOS2 is not read; write XDMF, as with `dolfinx.io.XDMFFile`, or VTK"),
 ];
+
+/// How a file of HDF5 begins, or what stands behind its user block.
+const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
+
+/// The lengths of user blocks that are looked behind.
+const USER_BLOCKS: [usize; 6] = [0, 512, 1024, 2048, 4096, 8192];
+
+/// Whether bytes are HDF5, or netCDF in its classic format.
+fn is_store(bytes: &[u8]) -> bool {
+    let is_behind = |at: &usize| bytes.get(*at..).is_some_and(|it| it.starts_with(HDF5));
+    bytes.starts_with(b"CDF") || USER_BLOCKS.iter().any(is_behind)
+}
+
+/// Opens a file that another one names.
+type Beside<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, Mistake>;
 
 /// Reads what is wanted of bytes, whatever they are.
 ///
 /// # Errors
 /// What is wrong with them, or what they are that is not read.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
+    let alone = |file: &str| {
+        Err(Mistake::new(format!(
+            "its numbers are in the file `{file}`, which is not given with it"
+        )))
+    };
+    parse_beside(Cow::Borrowed(bytes), wanted, &alone)
+}
+
+/// Reads what is wanted of bytes, and of the files beside them that they name.
+fn parse_beside(
+    bytes: Cow<'_, [u8]>,
+    wanted: &Wanted<'_>,
+    beside: Beside<'_>,
+) -> Result<Contents, Mistake> {
+    if is_store(&bytes) {
+        return hdf5::parse(bytes, wanted).map(Contents::Snapshots);
+    }
+    let bytes = &*bytes;
     if let Some((_, what)) = FOREIGN.iter().find(|(start, _)| bytes.starts_with(start)) {
         return Err(Mistake::new(*what));
     }
@@ -83,7 +121,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
         _ if bytes.starts_with(mat::MAGIC) => mat::parse(bytes, wanted).map(one),
         _ if mat::is_version_4(bytes) => mat::parse_version_4(bytes, wanted).map(one),
         _ if start.starts_with(b"# vtk DataFile") => vtk::legacy::parse(bytes, wanted).map(one),
-        [b'<', ..] => vtk::xml::parse(bytes, wanted),
+        [b'<', ..] => xml::parse(bytes, wanted, beside),
         _ if vtk::lists::is_series(start) => vtk::lists::series(bytes, wanted),
         _ if tecplot::is_tecplot(start) => tecplot::parse(bytes, wanted).map(Contents::Snapshots),
         _ if start.starts_with(dump::MARK) => dump::parse(bytes, wanted).map(Contents::Snapshots),
@@ -120,7 +158,16 @@ fn contents(path: &Path, open: Opened<'_>) -> Result<Contents, Mistake> {
     let name = path.to_string_lossy();
     let (open, wanted) = open;
     let bytes = open(path, wanted.room()).map_err(|what| Mistake::new(what).of(&name))?;
-    let found = wanted.beside(bytes.len(), || parse(&bytes, wanted));
+    let beside = |file: &str| {
+        if Path::new(file).is_absolute() {
+            let what =
+                format!("the file `{file}`: expected a path from the folder of this file on");
+            return Err(Mistake::new(what));
+        }
+        let path = path.with_file_name(file);
+        open(&path, wanted.room()).map_err(|what| Mistake::new(what).of(&path.to_string_lossy()))
+    };
+    let found = wanted.beside(bytes.len(), || parse_beside(Cow::Owned(bytes), wanted, &beside));
     found.map_err(|mistake| mistake.of(&name))
 }
 

@@ -76,7 +76,7 @@ pub fn array(name: &str, bytes: &[u8]) -> Result<Array, Mistake> {
         components,
         values,
         stored: head.kind.stored(),
-        component_names: Vec::new(),
+        ..Array::default()
     })
 }
 

@@ -374,13 +374,7 @@ impl Columns {
         unread.extend(rest.into_iter().map(|it| it.name));
         let array = |Column { name, values, style, .. }| {
             let style: Style = style;
-            Array {
-                name,
-                components: 1,
-                values,
-                stored: style.stored(),
-                component_names: Vec::new(),
-            }
+            Array { name, components: 1, values, stored: style.stored(), ..Array::default() }
         };
         let mut columns: Vec<Array> = read.into_iter().map(array).collect();
         let single = vec![false; columns.len()];

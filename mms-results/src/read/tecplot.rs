@@ -291,7 +291,7 @@ impl Zone {
         settle(&mut snapshot.of_points.iter_mut().collect::<Vec<_>>(), &single);
         snapshot.cells = match self.kind {
             Some(kind) => self.listed(kind, words)?,
-            None => self.ordered(),
+            None => ordered(self.size),
         };
         Ok(snapshot)
     }
@@ -320,28 +320,28 @@ impl Zone {
         }
         Ok(cells)
     }
+}
 
-    /// The cells between ordered points in two and three dimensions; points along one line may be particles.
-    fn ordered(&self) -> Cells {
-        let [i, j, k] = self.size.map(|it| it.max(1));
-        let mut cells = Cells::default();
-        if i < 2 || j < 2 {
-            return cells;
-        }
-        for layer in 0..(k - 1).max(1) {
-            for row in 0..j - 1 {
-                for column in 0..i - 1 {
-                    let at = (layer * j + row) * i + column;
-                    let face = [at, at + 1, at + i + 1, at + i];
-                    cells.points.extend(face);
-                    if k > 1 {
-                        cells.points.extend(face.map(|it| it + i * j));
-                    }
-                    cells.types.push(if k > 1 { 12 } else { 9 });
-                    cells.ends.push(cells.points.len());
+/// The cells between so many ordered points in two and three dimensions; points along one line may be particles.
+pub fn ordered(size: [usize; 3]) -> Cells {
+    let [i, j, k] = size.map(|it| it.max(1));
+    let mut cells = Cells::default();
+    if i < 2 || j < 2 {
+        return cells;
+    }
+    for layer in 0..(k - 1).max(1) {
+        for row in 0..j - 1 {
+            for column in 0..i - 1 {
+                let at = (layer * j + row) * i + column;
+                let face = [at, at + 1, at + i + 1, at + i];
+                cells.points.extend(face);
+                if k > 1 {
+                    cells.points.extend(face.map(|it| it + i * j));
                 }
+                cells.types.push(if k > 1 { 12 } else { 9 });
+                cells.ends.push(cells.points.len());
             }
         }
-        cells
     }
+    cells
 }

@@ -1,7 +1,7 @@
 //! Numbers in text, and how many digits they have.
 
 use crate::wanted::Wanted;
-use crate::{Array, Mistake, Stored};
+use crate::{Array, Mistake, Stored, Time};
 
 /// The name of a column, and the unit in brackets behind it, as in `u_x [mm]`. A component in brackets is no unit.
 pub fn without_unit(text: &str) -> (&str, Option<&str>) {
@@ -111,7 +111,7 @@ impl Numbers {
     /// An array of these numbers; how they were stored is for [`settle`] to say.
     pub fn into_array(self, name: &str, components: usize) -> Array {
         let (name, stored) = (name.to_owned(), self.style.stored());
-        Array { name, components, values: self.values, stored, component_names: Vec::new() }
+        Array { name, components, values: self.values, stored, ..Array::default() }
     }
 }
 
@@ -135,6 +135,16 @@ pub fn settle(arrays: &mut [&mut Array], single: &[bool]) {
             other => other,
         };
     }
+}
+
+/// Times as they are written, each with as many digits as the one that has most.
+pub fn times_of(found: &[(f64, Stored)]) -> impl Iterator<Item = Time> {
+    let digits = |stored| if let Stored::Digits(digits) = stored { digits } else { 0 };
+    let most = found.iter().map(|(_, stored)| digits(*stored)).max().unwrap_or(0);
+    found.iter().map(move |&(value, stored)| {
+        let stored = if let Stored::Digits(_) = stored { Stored::Digits(most) } else { stored };
+        Time { value, rounding: stored.rounding(value) }
+    })
 }
 
 /// A number as programs write it, also in Fortran: `1.0D-3`, and `1.0-103` where three digits leave no room for a letter.
@@ -188,7 +198,7 @@ mod tests {
             components: 1,
             values: Vec::new(),
             stored: stored(texts),
-            component_names: Vec::new(),
+            ..Array::default()
         };
         let zeros = array(&["0.0", "-0.0", "1.0"]);
         let settled = |mut one: Array, mut other: Array| {

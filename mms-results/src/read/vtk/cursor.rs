@@ -91,7 +91,7 @@ impl<'a> Cursor<'a> {
             components: components.max(1),
             values,
             stored,
-            component_names: Vec::new(),
+            ..Array::default()
         })
     }
 

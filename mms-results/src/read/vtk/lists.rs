@@ -3,11 +3,11 @@
 use roxmltree::Node;
 use serde_json::Value;
 
-use super::super::text::{Style, number};
+use super::super::text::{Style, number, times_of};
+use super::super::xml::at;
 use super::super::{Contents, MOST_FILES};
-use super::xml::at;
+use crate::Mistake;
 use crate::wanted::Wanted;
-use crate::{Mistake, Stored, Time};
 
 /// The files of the pieces of a grid.
 pub fn pieces(body: Node<'_, '_>) -> Result<Contents, Mistake> {
@@ -71,18 +71,9 @@ fn timed(times: &[&str], files: Vec<String>) -> Result<Contents, (usize, String)
         Ok((value, style.stored()))
     };
     let found = times.iter().enumerate().map(time).collect::<Result<Vec<_>, _>>()?;
-    let digits = found.iter().map(|(_, stored)| digits(*stored)).max().unwrap_or(0);
-    let times = found.into_iter().map(|(value, stored)| {
-        let stored = if let Stored::Digits(_) = stored { Stored::Digits(digits) } else { stored };
-        Time { value, rounding: stored.rounding(value) }
-    });
-    let mut times: Vec<_> = times.zip(files).collect();
+    let mut times: Vec<_> = times_of(&found).zip(files).collect();
     times.sort_by(|a, b| a.0.value.total_cmp(&b.0.value));
     Ok(Contents::Times(times))
-}
-
-fn digits(stored: Stored) -> u32 {
-    if let Stored::Digits(digits) = stored { digits } else { 0 }
 }
 
 /// How many bytes a byte of JSON takes at most: a value of three bytes is one of eighty, while their list grows.

@@ -119,13 +119,7 @@ impl Extent {
                 (0..x).for_each(|i| values.extend(sum(row, moved(0, i))));
             }
         }
-        Ok(Array {
-            name: "Points".into(),
-            components: 3,
-            values,
-            stored,
-            component_names: Vec::new(),
-        })
+        Ok(Array { name: "Points".into(), components: 3, values, stored, ..Array::default() })
     }
 
     /// The places of the points by coordinates along each axis.

@@ -1,0 +1,262 @@
+//! Arrays, words and attributes of HDF5 and netCDF files, over bytes.
+//!
+//! A [`Store`] is one file, whichever of the two formats it has: HDF5, in which netCDF-4 is written as well, or the classic
+//! format of netCDF. A [`Set`] is one array in it, with its shape and the [`Type`] of its numbers; its bytes are read as
+//! they are, in either order. Nothing here opens a file, starts a thread, or knows what an array means.
+
+mod classic;
+mod lzf;
+mod tree;
+
+use std::cell::Cell;
+
+use classic::Classic;
+use tree::Tree;
+
+/// How a file in the classic format of netCDF begins.
+const CLASSIC: &[u8] = b"CDF";
+
+/// Bytes that deflate makes of one byte at most.
+const RATIO: u64 = 1032;
+
+/// Bytes that any file may have, however short it is.
+const LEAST: u64 = 1 << 20;
+
+/// How many words of one array are read.
+const MOST_WORDS: usize = 100_000;
+
+/// Numbers of an array, or what else it holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Type {
+    /// Floating-point numbers of 4 or 8 bytes.
+    Float(usize),
+    /// Integers with a sign, of 1, 2, 4 or 8 bytes.
+    Signed(usize),
+    /// Integers without a sign.
+    Unsigned(usize),
+    /// Words.
+    Words,
+    /// None of these: records, references, numbers of other sizes.
+    Other,
+}
+
+impl Type {
+    /// The bytes of a number; none where there are no numbers.
+    pub fn bytes(self) -> Option<usize> {
+        match self {
+            Type::Float(bytes) | Type::Signed(bytes) | Type::Unsigned(bytes) => Some(bytes),
+            Type::Words | Type::Other => None,
+        }
+    }
+}
+
+/// An array of a file.
+pub struct Set {
+    /// Its path, from the root on, without a slash before it.
+    pub path: String,
+    /// Its axes, the slowest first; none of a single number.
+    pub shape: Vec<usize>,
+    /// The type of its numbers.
+    pub kind: Type,
+    /// Whether the greatest byte of a number comes first.
+    pub is_big: bool,
+    place: Place,
+}
+
+/// Where an array is.
+enum Place {
+    /// In HDF5; and whether it is packed there, and may be longer than the file.
+    Tree(Box<hdf5_reader::Dataset>, bool),
+    Classic(usize),
+    /// Listed by its group, and none that can be opened.
+    Nowhere,
+}
+
+impl Set {
+    /// How many numbers or words one place along its first axis has.
+    pub fn stride(&self) -> usize {
+        self.shape.iter().skip(1).fold(1, |all: usize, &axis| all.saturating_mul(axis))
+    }
+
+    /// How many numbers or words it has; none if no file holds as many.
+    pub fn count(&self) -> Option<usize> {
+        self.shape.iter().try_fold(1, |all: usize, &axis| all.checked_mul(axis))
+    }
+}
+
+/// A fault of an array.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The fault, and what to do.
+    pub what: String,
+    /// Whether the array may be sound, and is compressed in a way that is not read, or was never written.
+    pub is_foreign: bool,
+}
+
+impl Fault {
+    fn of(what: impl Into<String>) -> Fault {
+        Fault { what: what.into(), is_foreign: false }
+    }
+}
+
+impl From<String> for Fault {
+    fn from(what: String) -> Fault {
+        Fault::of(what)
+    }
+}
+
+/// The value of an attribute.
+pub enum Value {
+    /// Words.
+    Words(Vec<String>),
+    /// Bytes of numbers, and whether the greatest byte of each comes first.
+    Numbers(Type, bool, Vec<u8>),
+}
+
+enum Source {
+    Tree(Tree),
+    Classic(Classic),
+}
+
+/// A file.
+pub struct Store {
+    source: Source,
+    /// How many bytes it has.
+    length: u64,
+    /// How many bytes may still be decoded: as many as the file can honestly hold.
+    left: Cell<u64>,
+}
+
+impl Store {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn open(bytes: Vec<u8>) -> Result<Store, String> {
+        let length = bytes.len() as u64;
+        let left = length.saturating_mul(RATIO).saturating_add(LEAST);
+        let source = match bytes.starts_with(CLASSIC) {
+            true => Source::Classic(Classic::open(bytes)?),
+            false => Source::Tree(Tree::open(bytes, left)?),
+        };
+        Ok(Store { source, length, left: Cell::new(left) })
+    }
+
+    /// Whether it is HDF5.
+    pub fn is_tree(&self) -> bool {
+        matches!(self.source, Source::Tree(_))
+    }
+
+    /// All arrays, also those in groups.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn sets(&self) -> Result<Vec<Set>, String> {
+        match &self.source {
+            Source::Tree(tree) => tree.sets(),
+            Source::Classic(classic) => Ok(classic.sets()),
+        }
+    }
+
+    /// The array of this path, if there is one that can be opened.
+    pub fn set(&self, path: &str) -> Option<Set> {
+        let path = path.trim_matches('/');
+        match &self.source {
+            Source::Tree(tree) => tree.set(path),
+            Source::Classic(classic) => classic.set(path),
+        }
+    }
+
+    /// Whether there is a group of this path.
+    pub fn has_group(&self, path: &str) -> bool {
+        match &self.source {
+            Source::Tree(tree) => tree.has_group(path.trim_matches('/')),
+            Source::Classic(_) => path.trim_matches('/').is_empty(),
+        }
+    }
+
+    /// The value of an attribute of a group or an array; the root has an empty path.
+    pub fn attribute(&self, path: &str, name: &str) -> Option<Value> {
+        let path = path.trim_matches('/');
+        match &self.source {
+            Source::Tree(tree) => tree.attribute(path, name),
+            Source::Classic(classic) => classic.attribute(path, name),
+        }
+    }
+
+    /// The bytes of an array of numbers.
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    pub fn bytes(&self, set: &Set) -> Result<Vec<u8>, Fault> {
+        let size = match set.kind {
+            Type::Words => return Err(Fault::of("expected numbers, found words")),
+            kind => kind.bytes(),
+        };
+        let size = size.ok_or_else(|| Fault::of("expected floating-point numbers or integers"))?;
+        let needed = set.count().and_then(|it| it.checked_mul(size));
+        let needed = needed.ok_or_else(|| Fault::of("no file holds as many numbers"))?;
+        if matches!(set.place, Place::Tree(_, false)) && needed as u64 > self.length + LEAST {
+            // None of it may be stored: then all of it is one number that fills it.
+            let what = format!("{needed} bytes, and the file has {}", self.length);
+            return Err(Fault { what, is_foreign: true });
+        }
+        self.hold(needed)?;
+        let bytes = match (&self.source, &set.place) {
+            (Source::Tree(_), Place::Tree(found, _)) => tree::bytes(found)?,
+            (Source::Classic(classic), Place::Classic(at)) => classic.bytes(*at, needed)?,
+            _ => return Err(Fault::of("it cannot be opened")),
+        };
+        match bytes.len() == needed {
+            true => Ok(bytes),
+            false => Err(Fault::of(format!(
+                "{} bytes of numbers, and its shape needs {needed}",
+                bytes.len()
+            ))),
+        }
+    }
+
+    /// The words of an array. Single letters along the last axis are one word.
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    pub fn words(&self, set: &Set) -> Result<Vec<String>, String> {
+        let most = set.count().filter(|it| *it <= MOST_WORDS.saturating_mul(64));
+        let most = most.ok_or("more words than are read")?;
+        match (set.kind, &self.source, &set.place) {
+            (Type::Words, Source::Tree(tree), Place::Tree(found, _)) => {
+                self.hold(found.raw_byte_len().map_err(|it| it.to_string())?)?;
+                tree.words(found, set.shape.last().copied())
+            }
+            (Type::Words, Source::Classic(classic), Place::Classic(at)) => {
+                self.hold(most)?;
+                let length = set.shape.last().copied().unwrap_or(1);
+                Ok(letters(&classic.bytes(*at, most)?, length))
+            }
+            _ => Err("expected words".into()),
+        }
+    }
+
+    /// How many bytes the file can honestly hold, less those that were read.
+    pub fn left(&self) -> u64 {
+        self.left.get()
+    }
+
+    /// Takes what is decoded from what the file can honestly hold.
+    fn hold(&self, bytes: usize) -> Result<(), String> {
+        let left = self.left.get().checked_sub(bytes as u64);
+        self.left.set(left.ok_or_else(|| format!("{bytes} bytes: the file cannot hold as many"))?);
+        Ok(())
+    }
+}
+
+/// Words of so many bytes each, without what fills them up.
+fn letters(bytes: &[u8], length: usize) -> Vec<String> {
+    bytes.chunks(length.max(1)).take(MOST_WORDS).map(word).collect()
+}
+
+/// A word, without what fills it up.
+fn word(bytes: &[u8]) -> String {
+    let end = bytes.iter().position(|it| *it == 0).unwrap_or(bytes.len());
+    String::from_utf8_lossy(&bytes[..end]).trim_end().to_owned()
+}
