@@ -376,7 +376,7 @@ impl<'a> File<'a> {
         let size = if self.format.version == 41 { self.format.size } else { 4 };
         let kind = element(kind).ok_or_else(|| {
             self.mistake(format!(
-                "elements of Gmsh's type {kind} are not read; write elements of order 1 or 2"
+                "elements of Gmsh's type {kind} are not read; write elements of order 1 to 5, prisms and pyramids of order 1 or 2"
             ))
         })?;
         let each = kind.nodes + others + 1 - usize::from(tag.is_some());

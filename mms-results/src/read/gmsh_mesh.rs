@@ -1,8 +1,11 @@
 //! A mesh of Gmsh with its views: nodes and elements by their tags become points and cells.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 use super::gmsh::{Of, View};
+use super::gmsh_order;
 use super::series::tell_unread;
 use super::tags::Tags;
 use super::text::{Numbers, settle};
@@ -18,51 +21,66 @@ pub struct Element {
     dimension: u8,
     pub nodes: usize,
     /// The nodes of VTK by their places in Gmsh; none, where they are the same.
-    order: &'static [usize],
+    order: Cow<'static, [usize]>,
 }
 
 const fn same(kind: i64, of_vtk: u8, dimension: u8, nodes: usize) -> Element {
-    Element { kind, of_vtk, dimension, nodes, order: &[] }
+    Element { kind, of_vtk, dimension, nodes, order: Cow::Borrowed(&[]) }
 }
 
 const fn other(kind: i64, of_vtk: u8, order: &'static [usize]) -> Element {
-    Element { kind, of_vtk, dimension: 3, nodes: order.len(), order }
+    Element { kind, of_vtk, dimension: 3, nodes: order.len(), order: Cow::Borrowed(order) }
 }
 
-/// Types of order 1 and 2; of higher order, those of lines and triangles.
-const ELEMENTS: [Element; 24] = [
-    same(15, 1, 0, 1),
-    same(1, 3, 1, 2),
-    same(8, 21, 1, 3),
-    same(2, 5, 2, 3),
-    same(9, 22, 2, 6),
-    same(3, 9, 2, 4),
-    same(16, 23, 2, 8),
-    same(10, 28, 2, 9),
-    same(4, 10, 3, 4),
-    same(5, 12, 3, 8),
-    same(6, 13, 3, 6),
-    same(7, 14, 3, 5),
-    other(11, 24, &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),
-    other(17, 25, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15]),
-    other(
-        12,
-        29,
-        &[
-            0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24,
-            20, 25, 26,
-        ],
-    ),
-    other(18, 26, &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11]),
-    other(13, 32, &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16]),
-    other(19, 27, &[0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12]),
-    same(26, 68, 1, 4),
-    same(27, 68, 1, 5),
-    same(28, 68, 1, 6),
-    same(21, 69, 2, 10),
-    same(23, 69, 2, 15),
-    same(25, 69, 2, 21),
-];
+fn higher(kind: i64, of_vtk: u8, dimension: u8, nodes: usize) -> Element {
+    Element { kind, of_vtk, dimension, nodes, order: gmsh_order::order(of_vtk, nodes).into() }
+}
+
+/// Types of order 1 to 5. Gmsh has no prisms and pyramids of higher order than 2.
+static ELEMENTS: LazyLock<Vec<Element>> = LazyLock::new(|| {
+    vec![
+        same(15, 1, 0, 1),
+        same(1, 3, 1, 2),
+        same(8, 21, 1, 3),
+        same(2, 5, 2, 3),
+        same(9, 22, 2, 6),
+        same(3, 9, 2, 4),
+        same(16, 23, 2, 8),
+        same(10, 28, 2, 9),
+        same(4, 10, 3, 4),
+        same(5, 12, 3, 8),
+        same(6, 13, 3, 6),
+        same(7, 14, 3, 5),
+        other(11, 24, &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),
+        other(17, 25, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15]),
+        other(
+            12,
+            29,
+            &[
+                0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21,
+                24, 20, 25, 26,
+            ],
+        ),
+        other(18, 26, &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11]),
+        other(13, 32, &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16]),
+        other(19, 27, &[0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12]),
+        same(26, 68, 1, 4),
+        same(27, 68, 1, 5),
+        same(28, 68, 1, 6),
+        same(21, 69, 2, 10),
+        same(23, 69, 2, 15),
+        same(25, 69, 2, 21),
+        higher(36, 70, 2, 16),
+        higher(37, 70, 2, 25),
+        higher(38, 70, 2, 36),
+        higher(29, 71, 3, 20),
+        higher(30, 71, 3, 35),
+        higher(31, 71, 3, 56),
+        higher(92, 72, 3, 64),
+        higher(93, 72, 3, 125),
+        higher(94, 72, 3, 216),
+    ]
+});
 
 /// The type of elements that Gmsh gives this number.
 pub fn element(kind: i64) -> Option<&'static Element> {
@@ -90,7 +108,7 @@ impl Mesh {
     /// Adds an element.
     pub fn add(&mut self, tag: u64, kind: &Element, nodes: &[u64]) {
         let Cells { types, points, ends } = &mut self.cells;
-        match kind.order {
+        match &*kind.order {
             [] => points.extend(nodes.iter().map(|it| *it as usize)),
             order => points.extend(order.iter().map(|it| nodes[*it] as usize)),
         }

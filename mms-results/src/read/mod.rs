@@ -1,21 +1,10 @@
-//! What a file is, by its content. The reader of each format says where that is described.
-//!
-//! | begins with | format |
-//! |---|---|
-//! | `\x93NUMPY`, `PK` | an array of NumPy, an archive of them, also at several times |
-//! | `MATLAB 5.0 MAT-file` | variables of MATLAB or Octave; version 4 begins with five numbers of four bytes |
-//! | `# vtk DataFile`, `<`, `{` | VTK, legacy, in XML and as a series; XDMF |
-//! | `\x89HDF`, `CDF` | HDF5 and netCDF: Exodus, VTKHDF, MATLAB 7.3, and others by their paths (feature `hdf5`) |
-//! | `1C`, `1U` or `2C` behind four blanks | results of CalculiX (`.frd`) |
-//! | `$MeshFormat` | meshes and views of Gmsh |
-//! | `TITLE`, `VARIABLES`, `FILETYPE` or `ZONE` before `=` | Tecplot |
-//! | `ITEM:` | dumps of LAMMPS and Karamelo |
-//! | anything else | a table |
+//! The formats of files, which are known by their content. The reader of each says where it is described.
 
 mod dump;
 mod frd;
 mod gmsh;
 mod gmsh_mesh;
+mod gmsh_order;
 #[cfg(feature = "hdf5")]
 mod hdf5;
 #[cfg(not(feature = "hdf5"))]
@@ -99,36 +88,129 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
     parse_beside(Cow::Borrowed(bytes), wanted, &alone)
 }
 
+/// Bytes that are looked at.
+struct Source<'a> {
+    /// All of them.
+    bytes: &'a [u8],
+    /// The bytes behind a mark of their order and behind blanks.
+    start: &'a [u8],
+    wanted: &'a Wanted<'a>,
+    beside: Beside<'a>,
+}
+
+/// A format.
+struct Format {
+    /// The name that people have for it.
+    name: &'static str,
+    /// Whether bytes are of this format.
+    is: fn(&Source<'_>) -> bool,
+    /// Its reader.
+    read: fn(&Source<'_>) -> Result<Contents, Mistake>,
+}
+
+/// The formats, in the order in which they are tried; a text that is no other is a table.
+const FORMATS: &[Format] = &[
+    Format {
+        name: "an array of NumPy",
+        is: |it| it.bytes.starts_with(npy::MAGIC),
+        read: |it| npy::parse(it.bytes, it.wanted).map(one),
+    },
+    Format {
+        name: "an archive of NumPy",
+        is: |it| it.bytes.starts_with(b"PK"),
+        read: |it| npz::parse(it.bytes, it.wanted).map(Contents::Snapshots),
+    },
+    Format {
+        name: "MATLAB",
+        is: |it| it.bytes.starts_with(mat::MAGIC),
+        read: |it| mat::parse(it.bytes, it.wanted).map(one),
+    },
+    Format {
+        name: "MATLAB, version 4",
+        is: |it| mat::is_version_4(it.bytes),
+        read: |it| mat::parse_version_4(it.bytes, it.wanted).map(one),
+    },
+    Format {
+        name: "legacy VTK",
+        is: |it| it.start.starts_with(b"# vtk DataFile"),
+        read: |it| vtk::legacy::parse(it.bytes, it.wanted).map(one),
+    },
+    Format {
+        name: "XDMF",
+        is: |it| it.start.starts_with(b"<") && xml::is_xdmf(it.start),
+        read: |it| xml::parse(it.bytes, it.wanted, it.beside),
+    },
+    Format {
+        name: "VTK in XML",
+        is: |it| it.start.starts_with(b"<"),
+        read: |it| xml::parse(it.bytes, it.wanted, it.beside),
+    },
+    Format {
+        name: "a series of ParaView",
+        is: |it| vtk::lists::is_series(it.start),
+        read: |it| vtk::lists::series(it.bytes, it.wanted),
+    },
+    Format {
+        name: "Tecplot",
+        is: |it| tecplot::is_tecplot(it.start),
+        read: |it| tecplot::parse(it.bytes, it.wanted).map(Contents::Snapshots),
+    },
+    Format {
+        name: "a dump of LAMMPS or Karamelo",
+        is: |it| it.start.starts_with(dump::MARK),
+        read: |it| dump::parse(it.bytes, it.wanted).map(Contents::Snapshots),
+    },
+    Format {
+        name: "Gmsh",
+        is: |it| it.start.starts_with(gmsh::MARK),
+        read: |it| gmsh::parse(it.bytes, it.wanted).map(Contents::Snapshots),
+    },
+    Format {
+        name: "CalculiX",
+        is: |it| frd::is_frd(it.bytes),
+        read: |it| frd::parse(it.bytes, it.wanted).map(Contents::Snapshots),
+    },
+    Format {
+        name: "a table",
+        is: |_| true,
+        read: |it| table::parse(it.bytes, it.wanted).map(Contents::Snapshots),
+    },
+];
+
+/// HDF5 and netCDF are taken as they are, for they may be large.
+const STORE: &str = "HDF5 or netCDF";
+
+fn one(snapshot: Snapshot) -> Contents {
+    Contents::Snapshots(vec![snapshot])
+}
+
 /// Reads what is wanted of bytes, and of the files beside them that they name.
 fn parse_beside(
     bytes: Cow<'_, [u8]>,
     wanted: &Wanted<'_>,
     beside: Beside<'_>,
 ) -> Result<Contents, Mistake> {
+    let named = |name: &'static str, mut found: Contents| {
+        if let Contents::Snapshots(all) = &mut found {
+            all.iter_mut().for_each(|it| it.format = name);
+        }
+        found
+    };
     if is_store(&bytes) {
-        return hdf5::parse(bytes, wanted).map(Contents::Snapshots);
+        return Ok(named(STORE, Contents::Snapshots(hdf5::parse(bytes, wanted)?)));
     }
     let bytes = &*bytes;
     if let Some((_, what)) = FOREIGN.iter().find(|(start, _)| bytes.starts_with(start)) {
         return Err(Mistake::new(*what));
     }
-    let one = |snapshot| Contents::Snapshots(vec![snapshot]);
     let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
-    match start {
-        [] => Err(Mistake::new("the file is empty")),
-        _ if bytes.starts_with(npy::MAGIC) => npy::parse(bytes, wanted).map(one),
-        _ if bytes.starts_with(b"PK") => npz::parse(bytes, wanted).map(Contents::Snapshots),
-        _ if bytes.starts_with(mat::MAGIC) => mat::parse(bytes, wanted).map(one),
-        _ if mat::is_version_4(bytes) => mat::parse_version_4(bytes, wanted).map(one),
-        _ if start.starts_with(b"# vtk DataFile") => vtk::legacy::parse(bytes, wanted).map(one),
-        [b'<', ..] => xml::parse(bytes, wanted, beside),
-        _ if vtk::lists::is_series(start) => vtk::lists::series(bytes, wanted),
-        _ if tecplot::is_tecplot(start) => tecplot::parse(bytes, wanted).map(Contents::Snapshots),
-        _ if start.starts_with(dump::MARK) => dump::parse(bytes, wanted).map(Contents::Snapshots),
-        _ if start.starts_with(gmsh::MARK) => gmsh::parse(bytes, wanted).map(Contents::Snapshots),
-        _ if frd::is_frd(bytes) => frd::parse(bytes, wanted).map(Contents::Snapshots),
-        _ => table::parse(bytes, wanted).map(Contents::Snapshots),
+    if start.is_empty() {
+        return Err(Mistake::new("the file is empty"));
     }
+    let source = Source { bytes, start, wanted, beside };
+    let format = FORMATS.iter().find(|it| (it.is)(&source));
+    let format = format.ok_or_else(|| Mistake::new("a format that is not known"))?;
+    Ok(named(format.name, (format.read)(&source)?))
 }
 
 /// Opens a file that takes so many bytes of memory at most, or says why it cannot.

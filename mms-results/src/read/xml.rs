@@ -13,6 +13,14 @@ const MOST_ELEMENTS: u32 = 200_000;
 /// How long a tag may be. The attributes of one are compared with each other.
 const LONGEST_TAG: usize = 4096;
 
+/// How far into a file its first element is looked for.
+const FIRST: usize = 4096;
+
+/// Whether the first element of a file is that of XDMF.
+pub fn is_xdmf(text: &[u8]) -> bool {
+    memchr::memmem::find(&text[..text.len().min(FIRST)], b"<Xdmf").is_some()
+}
+
 /// Reads a file of VTK or XDMF.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>, beside: Beside<'_>) -> Result<Contents, Mistake> {
     let (text, appended) = split(bytes);

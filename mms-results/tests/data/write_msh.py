@@ -13,18 +13,22 @@ import meshio
 import numpy
 
 HERE = pathlib.Path(__file__).parent
+# Orders 3 to 5.
+HIGHER = {1: [26, 27, 28], 2: [21, 23, 25, 36, 37, 38], 3: [29, 30, 31, 92, 93, 94]}
 # By dimension: Gmsh's numbers of types. Those of quadrilaterals, hexahedra and so on reach from -1 to 1.
 TYPES = {1: [1, 8], 2: [2, 3, 9, 10, 16], 3: [4, 5, 6, 7, 11, 12, 13, 17, 18, 19]}
 FROM_MINUS_1 = {1: (0,), 8: (0,), 3: (0, 1), 10: (0, 1), 16: (0, 1), 5: (0, 1, 2), 12: (0, 1, 2), 17: (0, 1, 2),
                 6: (2,), 13: (2,), 18: (2,), 7: (0, 1), 19: (0, 1)}
+for at, kinds in enumerate([[26, 27, 28], [36, 37, 38], [92, 93, 94]], 1):
+    FROM_MINUS_1.update({it: tuple(range(at)) for it in kinds})
 
 
-def model(name):
+def model(name, types=TYPES):
     """The elements, with numbers of nodes that have gaps."""
     gmsh.clear()
     gmsh.model.add(name)
     node, element, count = 11, 101, 0
-    for dimension, kinds in TYPES.items():
+    for dimension, kinds in types.items():
         gmsh.model.addDiscreteEntity(dimension, dimension)
         for kind in kinds:
             _, axes, _, nodes, local, corners = gmsh.model.mesh.getElementProperties(kind)
@@ -120,6 +124,9 @@ def with_gmsh():
             for at, view in enumerate(found):
                 gmsh.option.setNumber("PostProcessing.SaveMesh", int(at == 0))
                 gmsh.view.write(view, str(path), True)
+    model("higher", HIGHER)
+    gmsh.option.setNumber("Mesh.Binary", 1)
+    gmsh.write(str(HERE / "gmsh_higher_41_binary.msh"))
     parametric()
     gmsh.finalize()
 

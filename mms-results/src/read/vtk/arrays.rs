@@ -6,8 +6,8 @@ use roxmltree::Node;
 
 use super::super::numbers::{Kind, Order, count};
 use super::super::text::{Style, number, settle};
-use super::base64::Encoded;
 use super::super::xml::{at, attribute, child};
+use super::base64::Encoded;
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Stored};
 
