@@ -131,7 +131,7 @@ impl Store {
     /// Opens a file.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Bytes that are damaged, or neither HDF5 nor netCDF.
     pub fn open(bytes: Vec<u8>) -> Result<Store, String> {
         let length = bytes.len() as u64;
         let left = length.saturating_mul(RATIO).saturating_add(LEAST);
@@ -150,7 +150,7 @@ impl Store {
     /// All arrays, also those in groups.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// Groups that are damaged, deeper or more than is read.
     pub fn sets(&self) -> Result<Vec<Set>, String> {
         match &self.source {
             Source::Tree(tree) => tree.sets(),
@@ -187,7 +187,7 @@ impl Store {
     /// The bytes of an array of numbers.
     ///
     /// # Errors
-    /// What is wrong with them.
+    /// Damaged data, or data beyond the budget.
     pub fn bytes(&self, set: &Set) -> Result<Vec<u8>, Fault> {
         let size = match set.kind {
             Type::Words => return Err(Fault::of("expected numbers, found words")),
@@ -219,7 +219,7 @@ impl Store {
     /// The words of an array. Single letters along the last axis are one word.
     ///
     /// # Errors
-    /// What is wrong with them.
+    /// Damaged data, or data beyond the budget.
     pub fn words(&self, set: &Set) -> Result<Vec<String>, String> {
         let most = set.count().filter(|it| *it <= MOST_WORDS.saturating_mul(64));
         let most = most.ok_or("more words than are read")?;

@@ -49,8 +49,8 @@ pub struct Judge {
     #[arg(requires = "files", required_unless_present_any = ["errors", "same"])]
     field: Option<String>,
     /// Results, each of one mesh, at one time or more: a file, a list of states (.pvd), a folder, or a quoted pattern such as
-    /// 'out/*.vtu'. Tables, VTK in XML or in the legacy format, NumPy, ASCII of Tecplot, dumps of LAMMPS and Karamelo; each is known
-    /// by its content.
+    /// 'out/*.vtu'. Tables, VTK, XDMF, NumPy, MATLAB, CalculiX, Gmsh, Tecplot, dumps of LAMMPS and Karamelo, and with the feature
+    /// hdf5 HDF5 and netCDF; each is known by its content, and docs/guide/files.md lists them. --explain prints how one is read.
     #[arg(value_name = "FILE")]
     files: Vec<String>,
     /// Judge this table instead: values between commas, semicolons, tabs or blanks; lines that begin with # are comments.

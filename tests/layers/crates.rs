@@ -166,7 +166,7 @@ pub const CRATES: &[Crate] = &[
             "cell lattice mistake role snapshot",
             "norm own wanted",
             "comparison meaning mesh",
-            "parts",
+            "components parts",
             "mapping",
             "profile",
             "names",

@@ -34,7 +34,7 @@ use crate::{Mistake, Snapshot, Time};
 /// How files are opened, and what is read of them.
 type Opened<'a> = (Open<'a>, &'a Wanted<'a>);
 
-/// What was found in a file.
+/// The contents of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Contents {
     /// Results, at one time or more.
@@ -78,7 +78,7 @@ type Beside<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, Mistake>;
 /// Reads what is wanted of bytes, whatever they are.
 ///
 /// # Errors
-/// What is wrong with them, or what they are that is not read.
+/// Damaged bytes, or a format that is not read.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
     let alone = |file: &str| {
         Err(Mistake::new(format!(
@@ -219,7 +219,7 @@ pub type Open<'a> = &'a dyn Fn(&Path, u64) -> Result<Vec<u8>, String>;
 /// Reads what is wanted of a file, and of those that it lists.
 ///
 /// # Errors
-/// What is wrong, with the file and the line.
+/// A mistake with its file and line.
 pub fn read(path: &Path, open: Open<'_>, wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let open = (open, wanted);
     let name = path.to_string_lossy();

@@ -7,7 +7,7 @@ use crate::{Array, Mistake, Snapshot};
 /// How a file begins.
 pub const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// What the header says.
+/// The header of an array.
 pub struct Head {
     /// Its own bytes, with what comes before it.
     bytes: usize,
@@ -104,7 +104,7 @@ fn split(bytes: &[u8]) -> Option<(&str, &[u8])> {
     Some((std::str::from_utf8(header).ok()?, data))
 }
 
-/// What stands behind a key.
+/// The text behind a key.
 fn behind<'a>(text: &'a str, key: &str) -> Result<&'a str, Mistake> {
     let found = text.split_once(&format!("'{key}':"));
     found

@@ -10,7 +10,7 @@ use super::series::{Shaped, are_times, by_time};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
-/// What deflate makes of a byte at most.
+/// The bytes that deflate makes of one at most.
 pub const RATIO: u64 = 1032;
 
 /// More bytes than the header of an array that is read has.

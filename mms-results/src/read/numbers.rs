@@ -142,7 +142,7 @@ const BLOCK: usize = 1024;
 /// Numbers whose first axis runs fastest, as numbers whose last axis does.
 pub fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
     let (rows, axes) = shape.split_first().map_or((1, &[][..]), |(rows, axes)| (*rows, axes));
-    // Of no rows a file may say that each has any number of components.
+    // If there are no rows, a file may declare any number of components.
     if values.is_empty() {
         return Vec::new();
     }

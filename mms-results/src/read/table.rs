@@ -15,7 +15,7 @@ const MOST_COLUMNS: usize = 1_000_000;
 /// How a comment begins.
 const MARKS: [&str; 5] = ["#", "%", "!", "//", "**"];
 
-/// What a column of times may be called.
+/// The names of a column of times.
 const TIMES: [&str; 4] = ["time", "t", "timevalue", "time_value"];
 
 /// Whether a column or an array of this name holds times.

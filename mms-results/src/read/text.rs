@@ -19,7 +19,7 @@ pub fn without_unit(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// What a number of the text is like.
+/// The form of a number in text.
 #[derive(Clone, Copy, Debug, Default)]
 struct Written {
     significant: u32,
@@ -48,7 +48,7 @@ impl Written {
     }
 }
 
-/// What the numbers of an array are like, all together.
+/// The form of all numbers of an array.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Style {
     first: Option<Written>,

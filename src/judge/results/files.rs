@@ -11,8 +11,14 @@ use mms_spec::foreign;
 use crate::read::{self, Kind, cannot_read};
 use crate::session::method::memory;
 
-/// How files of results end, where a folder has others too.
-const ENDS: [&str; 9] = ["pvtu", "pvtp", "vtu", "vtp", "vtk", "npz", "npy", "csv", "tsv"];
+/// The ends of files that list pieces of one mesh; the pieces are no meshes of their own.
+const PIECES: &[&str] = &["vtm", "vtpc", "pvtu", "pvtp", "pvti", "pvtr", "pvts"];
+
+/// The ends of files of results, in groups: a folder with files of one group is not searched for the next.
+const ENDS: [&[&str]; 2] = [
+    &["vtu", "vtp", "vti", "vtr", "vts", "vtk", "npz", "npy", "csv", "tsv"],
+    &["xdmf", "vtkhdf", "e", "exo", "h5", "hdf5", "nc", "mat", "frd", "msh", "dat", "tec", "dump"],
+];
 
 /// The results of one mesh, at one time or more.
 #[derive(Debug)]
@@ -108,23 +114,18 @@ fn folder(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
             |file: &&PathBuf| file.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
         files.iter().filter(fits).cloned().collect()
     };
-    let lists = ending("pvd");
+    let of = |ends: &[&str]| -> Vec<PathBuf> { ends.iter().flat_map(|it| ending(it)).collect() };
+    let lists = of(&["pvd", "series"]);
     if lists.len() > 1 {
         bail!(
-            "`{}`: it holds {} lists of states (.pvd); name one of them",
+            "`{}`: it holds {} lists of states (.pvd, .series); name one of them",
             foreign::path(path),
             lists.len()
         );
     }
-    // The pieces of a list are not meshes of their own.
-    let found = [lists, ending("pvtu")].into_iter().find(|it| !it.is_empty());
-    let found = found.unwrap_or_else(|| ENDS.into_iter().flat_map(ending).collect());
-    if found.is_empty() {
-        bail!(
-            "`{}`: it holds no results: expected {}",
-            foreign::path(path),
-            ENDS.map(|it| format!(".{it}")).join(", ")
-        );
-    }
-    Ok(found)
+    let groups = [lists, of(PIECES)].into_iter().chain(ENDS.map(of));
+    groups.into_iter().find(|it| !it.is_empty()).ok_or_else(|| {
+        let known = ENDS.concat().iter().map(|it| format!(".{it}")).collect::<Vec<_>>().join(", ");
+        anyhow!("`{}`: it holds no results: expected {known}", foreign::path(path))
+    })
 }

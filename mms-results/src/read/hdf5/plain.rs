@@ -41,7 +41,7 @@ pub fn parse(file: &File<'_>, is_matlab: bool) -> Result<Vec<Snapshot>, Mistake>
         }
     }
     if by_times.is_empty() {
-        // Of more times it is not known which is that of the arrays, or whether they are temperatures.
+        // If there are more times, which of them the arrays have is unknown; they may be temperatures.
         let time = times.first().filter(|_| times.len() == 1).copied();
         if let Some(set) = clock.filter(|_| time.is_none()) {
             match file.wanted(set, &set.path)? {

@@ -14,7 +14,7 @@ use crate::{Array, Mistake, Snapshot, Stored};
 /// How the numbers of a file are written.
 pub struct Format<'a> {
     order: Order,
-    /// Of the lengths before arrays.
+    /// The type of the lengths before arrays.
     header: Kind,
     compressor: Option<Compressor>,
     appended: Option<Encoded<'a>>,
@@ -98,7 +98,7 @@ pub fn is_before(version: &str, other: [u32; 2]) -> bool {
     [major, minor].map(|it| it.trim().parse().unwrap_or(0)) < other
 }
 
-/// What is base64 of these bytes.
+/// The part of these bytes that is base64.
 fn letters(bytes: &[u8]) -> &[u8] {
     let end = memchr::memchr(b'<', bytes).unwrap_or(bytes.len());
     bytes[..end].trim_ascii()

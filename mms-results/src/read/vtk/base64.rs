@@ -47,7 +47,7 @@ impl<'a> Encoded<'a> {
     /// The next integer without a sign.
     pub fn integer(&mut self, kind: Kind, order: Order) -> Result<usize, Mistake> {
         let values = kind.read(&self.take(kind.bytes())?, order);
-        // What is rounded here is more than any file holds.
+        // A number that is rounded here is larger than any file.
         Ok(values[0] as usize)
     }
 }

@@ -29,7 +29,7 @@ impl<'a> Cursor<'a> {
         &self.bytes[self.at..]
     }
 
-    /// What is left of the line.
+    /// The rest of the line.
     pub fn line(&mut self) -> &'a [u8] {
         let rest = self.rest();
         let end = memchr::memchr(b'\n', rest);

@@ -15,7 +15,7 @@ use crate::{Array, Mistake, Snapshot, Time};
 struct Found {
     snapshot: Snapshot,
     single: Vec<bool>,
-    /// Of which the arrays that follow are.
+    /// The section of the arrays that follow.
     of: Option<Of>,
     /// Whose the array is that was read last, if it was.
     last: Option<Of>,
