@@ -75,6 +75,9 @@ pub fn fields() -> Vec<FieldSpec> {
 pub fn start(field: &FieldSpec, material: &MaterialSpec) -> Option<&'static str> {
     let mut graph = Graph::default();
     let model = Model::resolve(&mut graph, field, Some(material), &mut Vec::new())?;
+    if field.is_static() {
+        return Some("static");
+    }
     let velocity = differentiate(&mut graph, &model.displacement, Symbol::Time);
     let first = SortedMap::from([(Symbol::Time, model.domain.time[0])]);
     let mut vanishes = |components: &[Expr]| {

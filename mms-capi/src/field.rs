@@ -154,6 +154,8 @@ impl Field {
         mut put: impl FnMut(&[f64]),
     ) -> Result<(), Error> {
         let quantity = find(name)?;
+        let offered = self.compiled.hold_offered(quantity);
+        offered.map_err(|mistake| Error::new(MmsCode::UnknownName, mistake))?;
         let dimension = self.dimension();
         finite("the time", &[time])?;
         let normals = match (quantity, normals) {

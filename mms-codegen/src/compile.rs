@@ -69,6 +69,33 @@ pub struct Compiled {
     pub program: Program,
 }
 
+impl Compiled {
+    /// Whether users are offered a quantity: those per mass need a density, which a static field may not give.
+    pub fn offers(&self, quantity: Quantity) -> bool {
+        self.model.has_density || !matches!(quantity, Quantity::BodyForce | Quantity::MassDensity)
+    }
+
+    /// Whether the field is made for a solver: all quantities are wanted, and there is a density.
+    pub fn is_for_a_solver(&self) -> bool {
+        self.selection.is_for_a_solver() && self.model.has_density
+    }
+
+    /// Refuses a quantity that the field does not offer.
+    ///
+    /// # Errors
+    /// The quantity, and another one to ask for.
+    pub fn hold_offered(&self, quantity: Quantity) -> Result<(), String> {
+        match self.offers(quantity) {
+            true => Ok(()),
+            false => Err(format!(
+                "`{}` gives no density, and {} needs one; body_force_density is the force per reference volume",
+                self.field.name.shown(),
+                quantity.name()
+            )),
+        }
+    }
+}
+
 /// Why a field file does not compile.
 #[derive(Clone, Debug)]
 pub struct Failure {

@@ -248,7 +248,8 @@ impl<'a> Declared<'a> {
                 self.elasticity(&extent);
             }
         }
-        let time = self.bounds(self.field.domain.time.each_ref(), self.model.domain.time);
+        let formulas = self.field.domain.time.as_ref().map(|time| time.each_ref());
+        let time = formulas.and_then(|it| self.bounds(it, self.model.domain.time));
         if let Some([first, last]) = time {
             self.ascending("the time window is empty", "it starts at", &first, &last);
         }

@@ -149,8 +149,13 @@ impl Selection {
         diagnostics: &mut Vec<Diagnostic>,
     ) {
         self.apply_values(sources, field, diagnostics);
-        if let Some(window) = &self.window {
-            field.domain.time = moved(sources, window);
+        if self.window.is_some() && field.is_static() {
+            diagnostics.push(
+                Diagnostic::error(field.material.span, "a static field has no time window")
+                    .label("the field has no time"),
+            );
+        } else if let Some(window) = &self.window {
+            field.domain.time = Some(moved(sources, window));
             field.domain.is_moved = true;
         }
         self.twin.apply(sources, field, diagnostics);

@@ -96,8 +96,8 @@ const FIELD: &str = "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = { 
                      lambda = 1\nmu = 1\ndensity = 1\n[domain]\nshape = \"box\"\n\
                      lower = [0]\nupper = [1]\ntime = [0, 1]\n";
 
-/// What `--set`, `--freeze` and `--rigid` can do wrong: a name that is unknown, one that is given
-/// twice, a stretch of 0, which J is divided by, and a second rigid motion.
+/// The mistakes of `--set`, `--freeze`, `--rigid` and `--window`: a name that is unknown, one that is given twice, a stretch
+/// of 0, which J is divided by, a second rigid motion, and a window or a standard motion of a static field.
 fn wrong_selections() -> Vec<Failure> {
     let set = |value: &str| vec![("a".to_string(), value.to_string())];
     let freeze = |names: &[&str]| Freeze::Only(names.iter().map(|name| name.to_string()).collect());
@@ -114,7 +114,11 @@ fn wrong_selections() -> Vec<Failure> {
         selections.into_iter().map(|selection| compile(FIELD, selection)).collect();
     let moving = format!("{FIELD}[rigid]\ntranslation = [\"t\"]\n");
     let twin = Selection { twin: Twin::Standard, ..Selection::default() };
-    failures.push(compile(&moving, twin));
+    failures.push(compile(&moving, twin.clone()));
+    let at_rest = FIELD.replace("time = [0, 1]\n", "");
+    let window = Some(["0".to_string(), "1".to_string()]);
+    failures.push(compile(&at_rest, Selection { window, ..Selection::default() }));
+    failures.push(compile(&at_rest, twin));
     failures
 }
 

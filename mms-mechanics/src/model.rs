@@ -75,8 +75,10 @@ impl Body {
 pub struct Domain {
     /// The reference body.
     pub body: Body,
-    /// The first and last time.
+    /// The first and last time; 0 and 1 of a static field, in which nothing depends on t.
     pub time: [Expr; 2],
+    /// Whether the field is static: the file gives no time.
+    pub is_static: bool,
 }
 
 /// A closed form that a quantity must agree with.
@@ -101,8 +103,10 @@ pub struct Model {
     pub names: Names,
     /// u, without the rigid motion.
     pub displacement: Vec<Expr>,
-    /// rho0.
+    /// rho0; 1 if the file gives none.
     pub density: Expr,
+    /// Whether the file gives rho0.
+    pub has_density: bool,
     /// The parameters of the material, in the field's terms and in the order of the file.
     pub arguments: Vec<Expr>,
     /// W, as a function of the material's invariants.
@@ -142,12 +146,18 @@ impl Model {
         reader.scope.refuse(&field.refused);
         let mut names = Names::default();
         let parameters = reader.parameters(field, &mut names);
-        reader.coordinates(field.dimension);
+        reader.coordinates(field.dimension, field.is_static());
         reader.definitions(&field.lets, &mut names);
         let displacement = reader.formulas(&field.displacement);
-        let density = reader.formula(&field.material.density);
-        reader.independent_of_time(density, &field.material.density, "density");
-        reader.positive(density, &field.material.density);
+        let density = match &field.material.density {
+            Some(formula) => {
+                let density = reader.formula(formula);
+                reader.independent_of_time(density, formula, "density");
+                reader.positive(density, formula);
+                density
+            }
+            None => Some(reader.graph.number(1)),
+        };
         let mut arguments = reader.arguments(field);
         let poisson = material.and_then(|material| reader.poisson(field, material, &mut arguments));
         let energy = material.and_then(|material| reader.energy(field, material, &arguments));
@@ -167,6 +177,7 @@ impl Model {
             names,
             displacement: displacement?,
             density: density?,
+            has_density: field.material.density.is_some(),
             arguments: arguments.into_iter().collect::<Option<_>>()?,
             energy: energy?,
             kind: kind?,
@@ -305,7 +316,7 @@ impl Reader<'_> {
         parameters.into_iter().collect()
     }
 
-    fn coordinates(&mut self, dimension: usize) {
+    fn coordinates(&mut self, dimension: usize, is_static: bool) {
         for (axis, name) in AXES.iter().enumerate() {
             if axis < dimension {
                 let coordinate = self.graph.symbol(Symbol::Coordinate(axis));
@@ -314,6 +325,10 @@ impl Reader<'_> {
                 let plural = if dimension == 1 { "dimension" } else { "dimensions" };
                 self.scope.withhold(name, format!("the field has {dimension} {plural}"));
             }
+        }
+        if is_static {
+            self.scope.withhold("t", "the field is static: give `time` under [domain] if it moves");
+            return;
         }
         let time = self.graph.symbol(Symbol::Time);
         self.scope.define("t", Some(time));
@@ -358,9 +373,12 @@ impl Reader<'_> {
 
     fn domain(&mut self, domain: &mms_spec::DomainSpec) -> Option<Domain> {
         // Everything is resolved before anything may be missing: each formula reports its mistakes.
-        let [first, last] = domain.time.each_ref().map(|time| self.constant(time));
+        let [first, last] = match &domain.time {
+            Some(time) => time.each_ref().map(|time| self.constant(time)),
+            None => [0, 1].map(|time| Some(self.graph.number(time))),
+        };
         let body = self.body(&domain.body)?;
-        Some(Domain { body, time: [first?, last?] })
+        Some(Domain { body, time: [first?, last?], is_static: domain.time.is_none() })
     }
 
     fn body(&mut self, body: &mms_spec::Body) -> Option<Body> {

@@ -12,9 +12,9 @@ use mms_mechanics::invariant::Kind;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Expr;
 
-/// rho0, by name where it is long.
+/// rho0, by name where it is long; 1 if the field has none.
 pub(super) fn density(reading: &mut Reading, compiled: &Compiled, formulas: &Formulas) -> Expr {
-    let formula = &compiled.field.material.density;
+    let Some(formula) = &compiled.field.material.density else { return reading.graph.number(1) };
     let value = formulas.read(reading, formula, compiled.model.density);
     reading.named(Name::plain("rho0"), value, "material")
 }

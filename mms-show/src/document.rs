@@ -171,7 +171,8 @@ impl Listing {
         let arguments = spec.arguments.iter();
         let arguments =
             arguments.filter_map(|(name, formula)| line(self, &name.value, formula)).collect();
-        let density = line(self, "rho0", &spec.density).into_iter().collect();
+        let density = spec.density.as_ref().and_then(|it| line(self, "rho0", it));
+        let density = density.into_iter().collect();
         Material {
             name: spec.model.value.clone(),
             title: compiled.material.title.clone(),

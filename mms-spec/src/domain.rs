@@ -44,8 +44,8 @@ impl Body {
 pub struct DomainSpec {
     /// The reference body.
     pub body: Body,
-    /// The first and the last time.
-    pub time: [Formula; 2],
+    /// The first and the last time; none of a static field.
+    pub time: Option<[Formula; 2]>,
     /// Whether they are not the file's, but were given in its place: then a number is one in the unit of t.
     pub is_moved: bool,
 }
@@ -177,7 +177,8 @@ pub const BODIES: &[&str] = &["box", "annulus"];
 pub(super) fn reported(dimension: usize, span: Span) -> DomainSpec {
     let corner = vec![Formula::reported(span); dimension];
     let body = Body::Box { lower: corner.clone(), upper: corner };
-    DomainSpec { body, time: [Formula::reported(span), Formula::reported(span)], is_moved: false }
+    let time = Some([Formula::reported(span), Formula::reported(span)]);
+    DomainSpec { body, time, is_moved: false }
 }
 
 /// Reads `[domain]`.
@@ -205,9 +206,12 @@ pub(super) fn domain<'a>(
     } else {
         cuboid(&table, dimension, reader)
     };
-    let time = match reader.required(&table, "time") {
-        Some(time) => reader.pair(&time, "expected the first and the last time"),
-        None => [Formula::reported(table.span), Formula::reported(table.span)],
+    // A key that was lost or misspelt is not missing.
+    let is_lost = reader.is_incomplete() || table.misspelt.contains(&"time");
+    let time = match table.get("time") {
+        Some(time) => Some(reader.pair(&time, "expected the first and the last time")),
+        None if is_lost => Some([Formula::reported(table.span), Formula::reported(table.span)]),
+        None => None,
     };
     DomainSpec { body, time, is_moved: false }
 }

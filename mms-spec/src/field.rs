@@ -59,6 +59,11 @@ pub struct FieldSpec {
 }
 
 impl FieldSpec {
+    /// Whether nothing moves: the file gives no time window.
+    pub fn is_static(&self) -> bool {
+        self.domain.time.is_none()
+    }
+
     /// Every formula of the file.
     pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
         let mut all: Vec<&Formula> = Vec::new();
@@ -68,7 +73,7 @@ impl FieldSpec {
         }
         all.extend(self.lets.iter().map(|definition| &definition.value));
         all.extend(&self.displacement);
-        all.push(&self.material.density);
+        all.extend(&self.material.density);
         all.extend(self.material.arguments.iter().map(|(_, value)| value));
         all.extend(self.material.fibre.iter().flatten());
         match &self.domain.body {
@@ -77,7 +82,7 @@ impl FieldSpec {
                 all.extend([inner, outer].into_iter().chain(theta.iter().flatten()));
             }
         }
-        all.extend(&self.domain.time);
+        all.extend(self.domain.time.iter().flatten());
         for check in &self.checks {
             all.extend(check.lets.iter().map(|definition| &definition.value));
             all.extend(&check.equals);
@@ -129,6 +134,7 @@ pub fn read_field(
     let place = Setup::read(&root, dimension, &mut reader);
     let known: Vec<&str> =
         parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
+    hold_density(&material, &place.domain, &mut reader);
     let evidence = Evidence::read(&root, dimension, &names, &known, &mut reader);
     Some(FieldSpec {
         name: name.into(),
@@ -149,6 +155,18 @@ pub fn read_field(
         stray: reader.stray,
         refused: reader.refused,
     })
+}
+
+/// Refuses a field that moves without a density.
+fn hold_density(material: &MaterialUse, domain: &DomainSpec, reader: &mut Reader<'_>) {
+    if material.density.is_some() || domain.time.is_none() || reader.is_incomplete() {
+        return;
+    }
+    reader.report(
+        Diagnostic::error(material.span, "missing key `density`")
+            .label("[material] needs `density`")
+            .help("only a static field, whose [domain] has no `time`, may leave it out"),
+    );
 }
 
 /// `[field]`.

@@ -179,7 +179,11 @@ pub const MATERIAL: &[Key] = &[
         Holds::Model,
         "A shipped material, or the path of a material file, relative to this file.",
     ),
-    required("density", Holds::Formula, "The reference density; it may depend on X."),
+    optional(
+        "density",
+        Holds::Formula,
+        "The reference density; it may depend on X. A field without a time window may leave it out.",
+    ),
     optional(
         "fibre",
         Holds::Formulas(Length::Exactly(3)),
@@ -207,7 +211,11 @@ pub const DOMAIN: &[Key] = &[
         Holds::Formulas(Length::Exactly(2)),
         "The first and the last angle of a sector of an annulus.",
     ),
-    required("time", Holds::Formulas(Length::Exactly(2)), "The first and the last time."),
+    optional(
+        "time",
+        Holds::Formulas(Length::Exactly(2)),
+        "The first and the last time; none of a static field, whose formulas have no t.",
+    ),
 ];
 
 /// `[[check]]`.

@@ -21,8 +21,8 @@ pub struct MaterialUse {
     /// A shipped material's stem, or the path of a material file; empty where it is missing, which
     /// has been reported.
     pub model: Spanned<Foreign>,
-    /// The reference density rho0.
-    pub density: Formula,
+    /// The reference density rho0; a static field may have none.
+    pub density: Option<Formula>,
     /// A formula for each parameter of the material, in the order of the file.
     pub arguments: Vec<(Spanned<String>, Formula)>,
     /// The reference direction of the fibres: three components.
@@ -97,7 +97,7 @@ impl MaterialUse {
     pub(super) fn reported(span: Span) -> Self {
         MaterialUse {
             model: Spanned { value: Foreign::default(), span },
-            density: Formula::reported(span),
+            density: Some(Formula::reported(span)),
             arguments: Vec::new(),
             fibre: None,
             span,
@@ -127,7 +127,8 @@ pub(super) fn material_use<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Ma
         spec.model = model(&table, reader).unwrap_or(spec.model);
     }
     if !is_misspelt("density") {
-        spec.density = reader.required_formula(&table, "density");
+        let entry = table.get("density");
+        spec.density = entry.map(|entry| reader.formula("density", entry.value));
     }
     spec.fibre = table
         .get("fibre")

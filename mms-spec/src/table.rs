@@ -37,7 +37,7 @@ pub(super) struct Table<'a> {
     /// The entries.
     pub entries: Vec<Entry<'a>>,
     /// Keys that are missing only because they are misspelt: reported as such.
-    misspelt: Vec<&'static str>,
+    pub misspelt: Vec<&'static str>,
 }
 
 impl<'a> Table<'a> {

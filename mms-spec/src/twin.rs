@@ -50,6 +50,14 @@ impl Twin {
         field: &mut FieldSpec,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
+        if *self == Twin::Standard && field.is_static() {
+            diagnostics.push(
+                Diagnostic::error(field.material.span, "a static field has no standard twin")
+                    .label("the field has no time in which it could turn")
+                    .help("give a constant rotation, as in --rigid 'rotation = \"0.5\"'"),
+            );
+            return;
+        }
         let Some(keys) = self.text(field) else { return };
         let source = sources.add("rigid", format!("rigid = {{ {keys} }}"));
         if let Some(rigid) = &field.rigid {
@@ -72,7 +80,7 @@ impl Twin {
 }
 
 fn standard(field: &FieldSpec) -> Option<String> {
-    let [first, last] = field.domain.time.each_ref().map(term);
+    let [first, last] = field.domain.time.as_ref()?.each_ref().map(term);
     let (first, last) = (first?, last?);
     let s = match first.as_str() {
         "0" => format!("t/{last}"),

@@ -93,6 +93,7 @@ impl Accuracy {
         let options = self.motion.options(Selection { set, ..Selection::default() });
         let refused = |failure| anyhow!("the field does not compile as selected\n{failure}");
         let compiled = text.compile(&options).map_err(refused)?;
+        let quantities: Vec<_> = quantities.into_iter().filter(|it| compiled.offers(*it)).collect();
         let request = Request {
             options: options.clone(),
             quantities: quantities.clone(),

@@ -156,7 +156,8 @@ impl Check {
             }
             let mut proofs = proof::text(compiled, &certificate);
             proofs.extend(rest_line(&rest));
-            proofs.extend(stability::text(&stability, &certificate));
+            let is_static = compiled.model.domain.is_static;
+            proofs.extend(stability::text(&stability, &certificate, is_static));
             proofs.extend(solved.map(|solved| format!("  solve  {}", solved.words())));
             print(&text(path, compiled, proofs, &gaps, (&comparisons, &named)))?;
         }

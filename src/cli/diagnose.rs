@@ -22,6 +22,7 @@ use mms_spec::quantity::Quantity;
 use super::naming::Naming;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::diagnose::{Alone, Factors, Reading, falls, find, gradients, read};
+use crate::judge::results::Results;
 use crate::judge::table::{Order, Orders};
 use crate::report::{Diagnosed, Hypotheses, Plan, Step};
 use crate::session::exact::Exact;
@@ -194,9 +195,12 @@ impl Diagnose {
         let names = self.naming.names()?;
         let all = self.files.iter().map(|file| find(file, &names, self.max_memory));
         let mut all = all.collect::<anyhow::Result<Vec<_>>>()?;
+        let is_static = exact.input().is_static();
+        all.iter_mut().filter(|_| is_static).for_each(Results::keep_last);
         all.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
         let right = self.reference.iter().map(|file| find(file, &names, self.max_memory));
         let mut right = right.collect::<anyhow::Result<Vec<_>>>()?;
+        right.iter_mut().filter(|_| is_static).for_each(Results::keep_last);
         right.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
         let reading = Reading {
             right: &right,

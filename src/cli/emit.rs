@@ -75,6 +75,7 @@ impl Emit {
         let options = self.variant.options(self.selection()?);
         let emitted = |field: &str| {
             let input = Input::find_with(field, &options)?;
+            input.offered(&self.quantity, Vec::new())?;
             let subject = Subject::new(&input.compiled);
             let bundle = (target.emit)(&subject);
             if bundle.verify.is_some() && !subject.has_values() {

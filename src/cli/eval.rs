@@ -46,9 +46,9 @@ pub struct Eval {
     points: Option<String>,
     #[command(flatten)]
     naming: Naming,
-    /// The time.
+    /// The time; a static field needs none.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    time: String,
+    time: Option<String>,
     /// Quantities, separated by commas, or `all` but second_piola_kirchhoff, pressure, von_mises and strain, which are derived where
     /// they are named.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
@@ -185,6 +185,7 @@ impl Eval {
             derived.extend(plane::NEEDED);
         }
         let input = Input::find_some(&self.field, &self.variant, &derived)?;
+        let quantities = input.offered(&self.quantity, quantities)?;
         self.hold_normal(&quantities)?;
         match self.precision {
             Precision::F32 => self.evaluate::<f32>(&input, &quantities),
@@ -198,9 +199,10 @@ impl Eval {
         input: &Input,
         quantities: &[Quantity],
     ) -> anyhow::Result<Outcome> {
-        let time = T::read(&self.time).with_context(|| format!("`--time {}`", self.time))?;
+        let given = self.time_text(input)?;
+        let time = T::read(given).with_context(|| format!("`--time {given}`"))?;
         if !time.near().is_finite() {
-            bail!("`--time {}`: expected a finite number", self.time);
+            bail!("`--time {given}`: expected a finite number");
         }
         let dimension = input.compiled.field.dimension;
         let points = self.places::<T>(dimension)?;
@@ -271,6 +273,18 @@ impl Eval {
     }
 
     /// Warns of points outside the body, and of a time outside the window.
+    /// The time as it is given; 0 in a static field.
+    ///
+    /// # Errors
+    /// None is given, and the field moves.
+    fn time_text(&self, input: &Input) -> anyhow::Result<&str> {
+        match &self.time {
+            Some(time) => Ok(time),
+            None if input.is_static() => Ok("0"),
+            None => bail!("`{}` moves: give the time with `--time T`", input.name.shown()),
+        }
+    }
+
     fn outside<T: Digits>(
         &self,
         input: &Input,
@@ -283,12 +297,12 @@ impl Eval {
         let is_outside = |(_, point): &(usize, &Vec<T>)| !body.contains(&near(point));
         let points = points.iter().enumerate().filter(is_outside);
         let outside_body: Vec<_> = points.map(|(index, _)| index).collect();
-        let outside_time = !is_between(first, last, time.near());
+        let outside_time = !input.is_static() && !is_between(first, last, time.near());
         self.warn_of_points(input, &outside_body);
         if outside_time {
             say(format_args!(
                 "warning: `--time {}` is outside the time window, {first:?} to {last:?}: nothing is claimed or proved of `{}` then",
-                self.time,
+                self.time.as_deref().unwrap_or_default(),
                 input.name.shown()
             ));
         }
@@ -377,7 +391,7 @@ impl Eval {
                 quantity.name(),
                 input.name.shown(),
                 self.at.get(index).cloned().unwrap_or_else(|| written(at)),
-                self.time,
+                self.time.as_deref().unwrap_or("0"),
                 self.precision.name()
             ),
         }

@@ -96,6 +96,7 @@ impl Show {
             [] => Quantity::ALL.to_vec(),
             named => quantities(named)?,
         };
+        let quantities = input.offered(&self.quantity, quantities)?;
         let too_large = |TooLarge(what): TooLarge| {
             anyhow!(
                 "the {what} of `{}` has too many terms; ask for one --quantity",

@@ -53,8 +53,8 @@ pub struct State {
     /// interval arithmetic; two are both named.
     #[arg(long)]
     at_present: bool,
-    /// The times.
-    #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, required = true, allow_hyphen_values = true)]
+    /// The times; a static field needs none.
+    #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
     time: Vec<f64>,
     /// The quantities beside X, separated by commas, or `all` but second_piola_kirchhoff, pressure, von_mises and strain, which are
     /// derived where they are named.
@@ -89,7 +89,7 @@ pub struct State {
 }
 
 impl State {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(mut self) -> anyhow::Result<Outcome> {
         let variation = if self.affine { Variation::Affine } else { Variation::Nothing };
         let options = Options { variation, ..self.variant.options(Selection::default()) };
         let input = Input::find_with(&self.field, &options)?;
@@ -100,6 +100,15 @@ impl State {
             [] => USUAL.to_vec(),
             names => evaluated(names)?,
         };
+        let quantities = input.offered(&self.quantity, quantities)?;
+        if self.time.is_empty() {
+            ensure!(
+                input.is_static(),
+                "`{}` moves: give the times with `--time T,..`",
+                input.name.shown()
+            );
+            self.time.push(0.0);
+        }
         let mut exact = Exact::new(input, &self.set)?.in_space_if(self.all_components);
         self.hold_times(&exact)?;
         let domain = Domain::of(&mut exact)?;
@@ -111,7 +120,9 @@ impl State {
 
     fn hold_times(&self, exact: &Exact) -> anyhow::Result<()> {
         let [first, last] = exact.window;
-        match self.time.iter().find(|time| !is_between(first, last, **time)) {
+        let is_outside =
+            |time: &&f64| !exact.input().is_static() && !is_between(first, last, **time);
+        match self.time.iter().find(is_outside) {
             Some(time) => bail!(
                 "`--time {time}`: outside the time window of `{}`, {first:?} to {last:?}: nothing is claimed or proved then",
                 exact.input().name.shown()

@@ -112,7 +112,9 @@ impl Tradeoff {
     }
 
     fn input(&self, field: &str) -> anyhow::Result<Input> {
-        Input::find(field, &Variant::new(self.motion.clone(), Form::Stable))
+        let input = Input::find(field, &Variant::new(self.motion.clone(), Form::Stable))?;
+        input.hold_moving()?;
+        Ok(input)
     }
 
     fn report<'a>(

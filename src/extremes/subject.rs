@@ -81,6 +81,7 @@ impl Subject {
             Err(error) if varied => return Ok(Err(first_line(&error))),
             input => input?,
         };
+        input.hold_moving()?;
         Ok(Ok(Self::of(input, set, settings)))
     }
 

@@ -15,7 +15,7 @@ use crate::gallery;
 /// All of them.
 pub fn of_field() -> Value {
     let dimensions = (1..=3).flat_map(|dimension| [in_dimension(dimension), box_faces(dimension)]);
-    let conditions = dimensions.chain([boxes(), annuli(), rings(), sectors(), rigid()]);
+    let conditions = dimensions.chain([boxes(), annuli(), rings(), sectors(), rigid(), motions()]);
     conditions.chain(materials()).collect()
 }
 
@@ -76,6 +76,11 @@ fn rotation(dimension: usize) -> Value {
         2 => json!({ "type": ["string", "number"] }),
         _ => json!({ "type": "object" }),
     }
+}
+
+/// A field that moves has a density.
+fn motions() -> Value {
+    if_then(has(&[("domain.time", json!({}))]), at("material", json!({ "required": ["density"] })))
 }
 
 /// How many components each quantity has.

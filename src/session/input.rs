@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::{Context as _, Error, anyhow, bail};
+use anyhow::{Context as _, Error, anyhow, bail, ensure};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dashu_ratio::RBig;
@@ -447,6 +447,44 @@ pub fn precision() -> impl TypedValueParser<Value = Precision> {
 /// time.
 pub fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
     named(names, quantity)
+}
+
+impl Input {
+    /// The quantities that the field offers, of those of some names: `all` leaves out what it does not offer.
+    ///
+    /// # Errors
+    /// A quantity by name that the field does not offer.
+    pub fn offered(
+        &self,
+        names: &[String],
+        mut quantities: Vec<Quantity>,
+    ) -> anyhow::Result<Vec<Quantity>> {
+        for name in names {
+            let Some(quantity) = Quantity::from_name(name.trim()) else { continue };
+            self.compiled.hold_offered(quantity).map_err(Error::msg)?;
+        }
+        quantities.retain(|it| self.compiled.offers(*it));
+        Ok(quantities)
+    }
+
+    /// Refuses a static field for a solver that follows a motion.
+    ///
+    /// # Errors
+    /// The field is static.
+    pub fn hold_moving(&self) -> anyhow::Result<()> {
+        ensure!(
+            !self.is_static(),
+            "`{}` is static: the explicit solver of this project follows motions; `mms emit` and `mms state` give your \
+             solver what it needs, and `mms judge` and `mms diagnose` take its results",
+            self.name.shown()
+        );
+        Ok(())
+    }
+
+    /// Whether nothing moves: the field has no time.
+    pub fn is_static(&self) -> bool {
+        self.compiled.model.domain.is_static
+    }
 }
 
 /// The same, those on request as well, which `all` leaves out.

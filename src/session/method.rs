@@ -213,6 +213,7 @@ impl MethodOptions {
 
     /// The method for a field with some parameters set, its time step held to the stable one.
     pub fn method_for(&self, input: &Input, settings: &[String]) -> anyhow::Result<Method> {
+        input.hold_moving()?;
         input.hold(settings)?;
         let mut method = self.method(input.compiled.field.dimension)?;
         self.hold_end(input, settings)?;

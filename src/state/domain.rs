@@ -18,7 +18,8 @@ const TIMES: usize = 65;
 /// The data of a field.
 #[derive(Clone, Debug)]
 pub struct Domain {
-    window: [f64; 2],
+    /// The time window; none of a static field.
+    window: Option<[f64; 2]>,
     body: Extent<f64>,
     /// The least and the greatest coordinates x of samples.
     reach: [Vec<f64>; 2],
@@ -32,15 +33,18 @@ impl Domain {
     /// A motion that cannot be evaluated.
     pub fn of(exact: &mut Exact) -> anyhow::Result<Self> {
         let faces = claims(&exact.input().compiled.field);
-        let (window, body) = (exact.window, exact.body.clone());
+        let window = Some(exact.window).filter(|_| !exact.input().is_static());
+        let body = exact.body.clone();
         Ok(Domain { reach: reach(exact)?, window, body, faces })
     }
 
     /// In lines for a person.
     pub fn text(&self) -> String {
-        let [first, last] = self.window;
         let [lower, upper] = &self.reach;
-        let mut text = format!("time window: {first:?} to {last:?}\n");
+        let mut text = match self.window {
+            Some([first, last]) => format!("time window: {first:?} to {last:?}\n"),
+            None => "static: no time\n".into(),
+        };
         text += &format!("motion: x from {lower:?} to {upper:?}, as far as samples show\n");
         for (face, claim) in &self.faces {
             text += &format!("{}: {}, {}\n", face.name(), claim.name(), claim.meaning());
@@ -52,11 +56,10 @@ impl Domain {
     pub fn facts(&self) -> Vec<Fact> {
         let fact = |name: &str, value| Fact { name: name.to_owned(), value };
         let [lower, upper] = &self.reach;
-        let mut facts = vec![
-            fact("time_window", write::Value::Numbers(self.window.to_vec())),
-            fact("motion_lower", write::Value::Numbers(lower.clone())),
-            fact("motion_upper", write::Value::Numbers(upper.clone())),
-        ];
+        let window = self.window.map(|it| fact("time_window", write::Value::Numbers(it.to_vec())));
+        let mut facts: Vec<Fact> = window.into_iter().collect();
+        facts.push(fact("motion_lower", write::Value::Numbers(lower.clone())));
+        facts.push(fact("motion_upper", write::Value::Numbers(upper.clone())));
         facts.extend(self.faces.iter().map(|(face, claim)| {
             fact(&format!("face_{}", face.name()), write::Value::Word(claim.name().to_owned()))
         }));

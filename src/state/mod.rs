@@ -223,19 +223,19 @@ fn shape(quantity: Quantity, exact: &Exact) -> Shape {
 }
 
 /// Present and reference volume, which are one at small strain, and the mass, where volumes are known: mass = density x
-/// volume.
+/// volume, if the field gives a density.
 fn weights(exact: &mut Exact, points: &Points, time: f64) -> anyhow::Result<Vec<Column>> {
     let Some(reference) = &points.volume else { return Ok(Vec::new()) };
     let stretched = match exact.is_small_strain() {
         true => vec![1.0; reference.len()],
         false => exact.values(Quantity::Jacobian, time, &points.reference)?,
     };
-    let density = exact.densities(&points.reference)?;
     let times = |factor: &[f64]| reference.iter().zip(factor).map(|(a, b)| a * b).collect();
     let column = |name: &str, values| Column { name: name.into(), shape: Shape::Scalar, values };
-    Ok(vec![
-        column("volume", times(&stretched)),
-        column("reference_volume", reference.clone()),
-        column("mass", times(&density)),
-    ])
+    let mut columns =
+        vec![column("volume", times(&stretched)), column("reference_volume", reference.clone())];
+    if exact.input().compiled.model.has_density {
+        columns.push(column("mass", times(&exact.densities(&points.reference)?)));
+    }
+    Ok(columns)
 }

@@ -43,6 +43,7 @@ mod show;
 mod small_strain;
 mod stability;
 mod state;
+mod statics;
 mod study;
 mod study_files;
 mod study_methods;

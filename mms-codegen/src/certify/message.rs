@@ -72,10 +72,11 @@ pub fn not_solid(compiled: &Compiled, part: Part, sign: &Sign) -> Option<Diagnos
         }
         None => match first_range(compiled, part) {
             Some(span) => (span, "narrow the ranges".into()),
-            None => (
-                compiled.field.material.density.span,
-                "shrink the body, or change the formula".into(),
-            ),
+            None => {
+                let material = &compiled.field.material;
+                let span = material.density.as_ref().map_or(material.span, |it| it.span);
+                (span, "shrink the body, or change the formula".into())
+            }
         },
     };
     Some(Diagnostic::error(span, message).label(label).help(advice).help(help))

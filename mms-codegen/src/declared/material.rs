@@ -41,14 +41,16 @@ impl Counterexample {
 impl Declared<'_> {
     /// Reports a density that is not positive.
     pub(super) fn density(&mut self, extent: &Extent<Precise>) {
-        let density = self.model.density;
+        let (density, Some(formula)) = (self.model.density, &self.field.material.density) else {
+            return;
+        };
         // A number is judged where it is read, and so is a density that changes in time.
         if self.is_judged(density) {
             return;
         }
         let zero = Precise::from_f64(0.0);
         if let Some(found) = self.sought(extent, &[density], |values| !values[0].at_most(&zero)) {
-            let span = self.field.material.density.span;
+            let span = formula.span;
             let help = "the body force is per unit mass: b = a - Div P/rho0";
             let diagnostic = Diagnostic::error(span, "the density must be positive");
             self.refute(diagnostic, &found.says("this is"), &found, help);

@@ -101,7 +101,7 @@ impl Emitter<'_> {
         let wide_values = wide.iter().map(|value| self.operand(*value, &place));
         let body = self.statements(kept.iter().chain(&wide).copied(), &place);
         let generic = self.parameters_generic();
-        let solver = self.compiled.selection.is_for_a_solver().then(|| {
+        let solver = self.compiled.is_for_a_solver().then(|| {
             let (bounds, responses) = (self.bounds(), self.responses());
             quote! {
                 impl<T: Real> Field<T> {

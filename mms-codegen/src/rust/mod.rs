@@ -40,7 +40,7 @@ pub fn module(compiled: &Compiled) -> TokenStream {
 
 /// As [`module`], under another name.
 pub fn module_named(compiled: &Compiled, name: &Ident) -> TokenStream {
-    let solver = compiled.selection.is_for_a_solver();
+    let solver = compiled.is_for_a_solver();
     let emitter = Emitter::new(compiled, solver);
     let docs = docs(compiled);
     let kernels = emitter.kernels();
@@ -159,7 +159,7 @@ impl<'a> Emitter<'a> {
         let program = &compiled.program;
         let emitted = |output: &Output| match output {
             Output::Quantity(_) | Output::Response(_) | Output::Face(..) => true,
-            Output::Bound(_) => compiled.selection.is_for_a_solver(),
+            Output::Bound(_) => compiled.is_for_a_solver(),
             Output::Parameter(_) | Output::Expected(_) => false,
         };
         let of_a_point = |output: &Output| matches!(output, Output::Quantity(_));
@@ -191,7 +191,9 @@ impl<'a> Emitter<'a> {
 
     /// The quantities of the module.
     fn quantities(&self) -> impl Iterator<Item = Quantity> {
-        let wanted = |quantity: &Quantity| self.compiled.selection.wants(*quantity);
+        let wanted = |quantity: &Quantity| {
+            self.compiled.selection.wants(*quantity) && self.compiled.offers(*quantity)
+        };
         Quantity::ALL.iter().copied().filter(wanted)
     }
 

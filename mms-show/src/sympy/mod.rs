@@ -110,7 +110,9 @@ fn field(compiled: &Compiled) -> String {
     }
     lines.push("    return (".into());
     lines.push("        u,".into());
-    lines.push(format!("        {},", translated(&field.material.density, &names)));
+    let density = field.material.density.as_ref();
+    let density = density.map_or("Integer(1)".into(), |it| translated(it, &names));
+    lines.push(format!("        {density},"));
     lines.push("        {".into());
     let inner = material_names(compiled);
     lines.extend(field.material.arguments.iter().map(|(name, value)| {

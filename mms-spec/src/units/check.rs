@@ -193,7 +193,7 @@ impl Checker<'_> {
     fn material_use(&mut self, field: &FieldSpec, arguments: &BTreeMap<String, Dimension>) {
         let material = &field.material;
         let message = "the density must be a mass per volume";
-        self.expect([&material.density], Dimension::density(), message, FORCING);
+        self.expect(&material.density, Dimension::density(), message, FORCING);
         for (name, formula) in &material.arguments {
             let Some(dimension) = arguments.get(&name.value) else { continue };
             let message = format!(
@@ -223,9 +223,9 @@ impl Checker<'_> {
         }
         let message = "the ends of the time window must be times";
         match domain.is_moved {
-            false => self.expect(&domain.time, Dimension::time(), message, None),
+            false => self.expect(domain.time.iter().flatten(), Dimension::time(), message, None),
             true => {
-                let time = domain.time.iter();
+                let time = domain.time.iter().flatten();
                 time.for_each(|end| self.value(end, &Dimension::time(), message.into()));
             }
         }

@@ -21,7 +21,11 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
         match &certificate.jacobian {
             Sign::Positive([lower, upper]) => {
                 let (lower, upper) = (down(*lower), up(*upper));
-                format!("  proof  J > 0: {lower} <= J <= {upper} over body, time window and ranges")
+                let over = match compiled.model.domain.is_static {
+                    true => "body and ranges",
+                    false => "body, time window and ranges",
+                };
+                format!("  proof  J > 0: {lower} <= J <= {upper} over {over}")
             }
             Sign::Refuted(_, value) => format!("  proof  J > 0 is REFUTED: it is {value:e}"),
             Sign::Unproved(..) => "  proof  J > 0 is UNPROVED".into(),
@@ -48,7 +52,8 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
     if single.finding != Finding::NotAsked {
         lines.push(finite("  proof  in f32 every quantity is finite, too", single));
     }
-    lines.extend(certificate.rates.iter().flat_map(rates));
+    let is_static = compiled.model.domain.is_static;
+    lines.extend(certificate.rates.iter().flat_map(|it| rates(it, is_static)));
     lines.extend(angles(compiled, double));
     for (claim, finding) in &certificate.claims {
         let (face, word) = (claim.face.value.name(), claim.claim.value);
@@ -127,12 +132,16 @@ fn angles(compiled: &Compiled, computed: &AsComputed) -> Option<String> {
     })
 }
 
-fn rates(rates: &Rates) -> [String; 2] {
+/// The bounds of rates; a static field has none but the stretch.
+fn rates(rates: &Rates, is_static: bool) -> Vec<String> {
     let bound = |what: &str, value: f64| match value.is_finite() {
         true => format!("{what} <= {}", up(value)),
         false => format!("{what} without a bound in double precision"),
     };
     let stretch = bound("principal stretch", rates.principal_stretch);
+    if is_static {
+        return vec![format!("  bound  {stretch}")];
+    }
     let rate = bound("strain rate", rates.strain_rate);
     let waves = bound("waves", rates.wave_speed);
     let step = 1.0 / rates.time_step_per_cell_size();
@@ -140,7 +149,7 @@ fn rates(rates: &Rates) -> [String; 2] {
         true => format!("a stable time step is <= cell size / {}", up(step)),
         false => "no time step is known to be stable".into(),
     };
-    [format!("  bound  {stretch}, {rate}, {waves}"), format!("  bound  {step}")]
+    vec![format!("  bound  {stretch}, {rate}, {waves}"), format!("  bound  {step}")]
 }
 
 /// Four digits of a number, rounded up.

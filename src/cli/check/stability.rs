@@ -17,7 +17,7 @@ use mms_stability::waves::Waves;
 use serde_json::{Value, json};
 
 /// One line for each thing that was looked at.
-pub fn text(stability: &Stability, certificate: &Certificate) -> Vec<String> {
+pub fn text(stability: &Stability, certificate: &Certificate, is_static: bool) -> Vec<String> {
     let mut lines: Vec<_> = stability.material.iter().map(at_rest).collect();
     lines.push(extent(&certificate.reach, stability.shortest_wavelength));
     let modulus = stability.material.as_ref().map_or("", Material::modulus);
@@ -25,7 +25,10 @@ pub fn text(stability: &Stability, certificate: &Certificate) -> Vec<String> {
         .extend(stability.waves.iter().map(|waves| body(waves, &certificate.ellipticity, modulus)));
     lines.extend(stability.surfaces.iter().map(|surface| face(surface, modulus)));
     lines.extend(stability.corners.iter().map(|corner| edge(corner, modulus)));
-    lines.extend(stability.growth.iter().map(|growth| long(growth, stability.is_static)));
+    lines.extend(stability.growth.iter().map(|growth| match is_static {
+        true => equilibrium(growth),
+        false => long(growth, stability.is_static),
+    }));
     lines
 }
 
@@ -111,6 +114,16 @@ fn edge(corner: &Corner, modulus: &str) -> String {
         short(*coercivity),
         list(at),
         short(*time)
+    )
+}
+
+/// The stability of a static field's equilibrium, which is that of a motion that stays there.
+fn equilibrium(growth: &Growth) -> String {
+    let elements: Vec<_> = growth.elements.iter().map(usize::to_string).collect();
+    let is = if growth.factor > 1.0 { "UNSTABLE" } else { "stable" };
+    format!(
+        "  growth the equilibrium is {is} against long waves ({} quadratic elements)",
+        elements.join(" x ")
     )
 }
 

@@ -111,7 +111,7 @@ impl Judge {
 
     /// Prints how each file is read.
     fn explain(&self, exact: &mut Exact) -> anyhow::Result<Outcome> {
-        let (names, wanted) = self.asked()?;
+        let (names, wanted) = self.asked(exact)?;
         let reading = self.reading(&names, &wanted);
         let mut all = Vec::new();
         for file in &self.files {
@@ -125,10 +125,10 @@ impl Judge {
     }
 
     /// The names of arrays, and the quantities that are asked for.
-    fn asked(&self) -> anyhow::Result<(Names, Vec<Quantity>)> {
+    fn asked(&self, exact: &Exact) -> anyhow::Result<(Names, Vec<Quantity>)> {
         let wanted = match self.results.quantity.as_slice() {
             [] => Vec::new(),
-            names => evaluated(names)?,
+            names => exact.input().offered(names, evaluated(names)?)?,
         };
         Ok((self.results.naming.names()?, wanted))
     }
@@ -147,7 +147,7 @@ impl Judge {
 
     fn measured(&self, exact: &mut Exact, orders: &Orders) -> anyhow::Result<Measurement> {
         let options = &self.results;
-        let (names, wanted) = self.asked()?;
+        let (names, wanted) = self.asked(exact)?;
         let reading = self.reading(&names, &wanted);
         let all = self
             .files

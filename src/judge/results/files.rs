@@ -59,6 +59,12 @@ impl Results {
         Ok(Results { name: given.to_owned(), snapshots })
     }
 
+    /// Keeps the last result alone, without its time: in a static field what comes before are steps on the way.
+    pub fn keep_last(&mut self) {
+        self.snapshots.drain(..self.snapshots.len().saturating_sub(1));
+        self.snapshots.iter_mut().for_each(|it| it.time = None);
+    }
+
     /// Leaves out ghosts, and cells that stand there twice; returns how many there are in the first snapshot.
     ///
     /// # Errors

@@ -104,7 +104,7 @@ pub fn measure(
     let meshes = all.len();
     all.extend(tighter);
     let own = all.iter_mut().map(Results::keep_own).collect::<anyhow::Result<Vec<_>>>()?;
-    let common = times::common(&mut all, times, exact.window)?;
+    let common = times::common(&mut all, times, exact)?;
     let (all, tighter) = all.split_at(meshes);
     let mut levels = Vec::new();
     for (results, snapshots) in all.iter().zip(&common.snapshots) {

@@ -15,6 +15,7 @@ use crate::judge::table::Orders;
 /// The times.
 pub fn compared(common: &Common) -> String {
     match common.times.as_slice() {
+        _ if common.is_static => "static: the last result of each file".into(),
         [only] => format!("at t = {only:?}"),
         times => format!(
             "at {} times, from {:?} to {:?}: errors are the largest over them",
@@ -70,11 +71,14 @@ pub fn left_out(common: &Common, levels: &[Level], own: &[LeftOut]) -> String {
         _ => all.push(format!("{count} {several}")),
     };
     let sum = |of: fn(&LeftOut) -> usize| own.iter().map(of).sum();
-    count(
-        common.left_out,
-        "result, at a time that not all have",
-        "results, at times that not all have",
-    );
+    match common.is_static {
+        true => count(common.left_out, "result before the last", "results before the last"),
+        false => count(
+            common.left_out,
+            "result, at a time that not all have",
+            "results, at times that not all have",
+        ),
+    }
     count(sum(|it| it.ghost_cells), "ghost cell", "ghost cells");
     count(sum(|it| it.ghost_points), "ghost point", "ghost points");
     count(sum(|it| it.doubled), "cell that stands there twice", "cells that stand there twice");

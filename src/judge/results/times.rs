@@ -4,9 +4,10 @@ use anyhow::bail;
 use mms_results::{Array, Snapshot, Stored, Time};
 
 use super::files::Results;
-use crate::session::exact::SAME;
+use crate::session::exact::{Exact, SAME};
 
 /// Times at which all meshes have results, or those that are wanted; and how many each has that are left out.
+#[derive(Default)]
 pub struct Common {
     /// The times.
     pub times: Vec<f64>,
@@ -14,13 +15,19 @@ pub struct Common {
     pub snapshots: Vec<Vec<usize>>,
     /// How many times no other mesh has, over all of them.
     pub left_out: usize,
+    /// Whether the field is static, so that the last result of each mesh counts.
+    pub is_static: bool,
 }
 
 /// Gives snapshots without a time those of `--time`, and finds the times that all have.
 ///
 /// # Errors
 /// No time; a time outside the window; two snapshots at one time; no time that all have.
-pub fn common(all: &mut [Results], wanted: &[f64], window: [f64; 2]) -> anyhow::Result<Common> {
+pub fn common(all: &mut [Results], wanted: &[f64], exact: &Exact) -> anyhow::Result<Common> {
+    if exact.input().is_static() {
+        return Ok(at_rest(all));
+    }
+    let window = exact.window;
     for results in all.iter_mut() {
         complete(results, wanted)?;
         say(results, wanted);
@@ -46,7 +53,7 @@ pub fn common(all: &mut [Results], wanted: &[f64], window: [f64; 2]) -> anyhow::
         wanted.is_empty() || wanted.iter().any(|&value| same(*time, Time { value, rounding: 0.0 }))
     };
     let mut common =
-        Common { times: Vec::new(), snapshots: vec![Vec::new(); all.len()], left_out: 0 };
+        Common { times: Vec::new(), snapshots: vec![Vec::new(); all.len()], ..Common::default() };
     for time in first.filter(is_wanted) {
         let positions: Option<Vec<usize>> = all.iter().map(|results| at(results, time)).collect();
         let is_taken = |positions: &Vec<usize>| {
@@ -62,6 +69,19 @@ pub fn common(all: &mut [Results], wanted: &[f64], window: [f64; 2]) -> anyhow::
     let found: usize = all.iter().map(|it| it.snapshots.len()).sum();
     common.left_out = found - all.len() * common.times.len();
     Ok(common)
+}
+
+/// The last result of each mesh, in a static field: what comes before are steps on the way.
+fn at_rest(all: &mut [Results]) -> Common {
+    let time = Time { value: 0.0, rounding: 0.0 };
+    let mut common = Common { times: vec![time.value], is_static: true, ..Common::default() };
+    for results in all {
+        let last = results.snapshots.len().saturating_sub(1);
+        results.snapshots.iter_mut().for_each(|it| it.time = Some(time));
+        common.left_out += last;
+        common.snapshots.push(vec![last]);
+    }
+    common
 }
 
 fn complete(results: &mut Results, wanted: &[f64]) -> anyhow::Result<()> {
