@@ -28,7 +28,9 @@ fuzz_target!(|bytes: &[u8]| {
         if let Ok(meanings) = recognise(snapshot, &KNOWN, &wants) {
             let mut half = |x: &[f64], _: f64| Ok(Some(x.iter().map(|x| x / 2.0).collect()));
             for back in [None, Some(&mut half as _)] {
-                let Ok(motion) = resolve(snapshot, &meanings, 2, &|_| 0.0, back) else { continue };
+                let Ok(motion) = resolve(snapshot, &meanings, 2, &|_: &[f64]| 0.0, back) else {
+                    continue;
+                };
                 let _ = hold_distinct(snapshot, &motion.reference);
                 let places = &motion.reference.numbers;
                 let mesh = Mesh { cells: &snapshot.cells, points: places, dimension: 2 };

@@ -2,7 +2,7 @@
 
 use crate::components::of_columns;
 use crate::meaning::{Column, Meaning, Part, Place, Why};
-use crate::parts::{all_names, arrays, split};
+use crate::parts::{all_names, arrays, part_of};
 use crate::role::Role;
 use crate::{Array, Mistake, Snapshot};
 
@@ -59,8 +59,8 @@ pub(crate) fn components(snapshot: &Snapshot, names: &[String]) -> Option<Vec<(P
         return None;
     }
     let part = |(place, array): (Place, &Array)| {
-        let (base, part) = split(&array.name).filter(|_| array.components == 1)?;
-        (base == name).then_some((part, Column { place, component: 0 }))
+        let part = part_of(&array.name, name).filter(|_| array.components == 1)?;
+        Some((part, Column { place, component: 0 }))
     };
     let found: Vec<_> = arrays(snapshot).filter_map(part).collect();
     (!found.is_empty()).then_some(found)

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::cell::Shape;
 use crate::norm::largest_if_finite;
 use crate::role::{Form, Role};
 use crate::{Array, Mistake, Snapshot, Stored};
@@ -180,20 +181,28 @@ impl Meaning {
         }
         self.hold_flat(snapshot, dimension)?;
         let numbers = gathered(snapshot, &columns, rows);
+        let is_of_cells = matches!(columns[0].place, Place::Cells(_));
+        let largest = match is_of_cells {
+            true => largest_of_cells(snapshot, &numbers, columns.len()),
+            false => largest_if_finite(&numbers),
+        };
+        let largest = largest.map_err(|at| {
+            let (row, value) = (at / columns.len(), numbers[at]);
+            let what = format!("{} is {value}; expected a finite number", self.source);
+            match is_of_cells {
+                true => Mistake::new(format!("cell {row}: {what}")).of(&snapshot.path),
+                false => here(snapshot, row, what),
+            }
+        })?;
         self.hold_rows(snapshot, &numbers, dimension)
             .map_err(|mistake| mistake.of(&snapshot.path))?;
-        let largest = largest_if_finite(&numbers).map_err(|at| {
-            let row = at / columns.len();
-            let what = format!("{} is {}; expected a finite number", self.source, numbers[at]);
-            here(snapshot, row, what)
-        })?;
         let stored = columns.iter().map(|it| of(it).stored).reduce(Stored::coarser);
         let stored = stored.unwrap_or(Stored::Double).at_first(&numbers);
         Ok(Values {
             components: columns.len(),
             rounding: stored.rounding(largest),
             stored,
-            is_of_cells: matches!(columns[0].place, Place::Cells(_)),
+            is_of_cells,
             numbers,
         })
     }
@@ -346,7 +355,15 @@ impl Meaning {
             let listed = self.listed(snapshot, rows.iter().copied());
             format!("; if they are {entries}, say `--map {symbol}={listed}`")
         };
+        let named = self.columns.iter().map(|(_, column)| name(snapshot, column.place));
         let advice = match orders {
+            [] if self.has_names() && found >= expected => {
+                "; they lack an entry: a symmetric tensor has each off its diagonal once, and is no such quantity".into()
+            }
+            [] if found == expected && !self.is_one_array() => format!(
+                "; their names tell other axes: name them in order with `--map {symbol}={}`",
+                named.collect::<Vec<_>>().join(",")
+            ),
             [] => format!("; name {expected} with `--map {symbol}=..`, row by row"),
             _ => format!(
                 "{}; or name the code that wrote it with `--from`",
@@ -395,7 +412,10 @@ impl Meaning {
         Err(Mistake::new(format!(
             "`{source}` has {}: in which order? If they are 11, 22, 33, 12, say `--map {symbol}={}`; if 11, 12, 21, 22, say \
              `--map {symbol}={}`. As 12 and 21, two of them differ by {apart:.1e} at most",
-            array(snapshot, self.columns[0].1.place).described(),
+            match self.is_one_array() {
+                true => array(snapshot, self.columns[0].1.place).described(),
+                false => format!("{} columns", self.columns.len()),
+            },
             self.listed(snapshot, [0, 3, 3, 1]),
             self.listed(snapshot, [0, 1, 2, 3]),
         )))
@@ -420,6 +440,16 @@ impl Meaning {
         for (_, column) in beyond {
             let is_large = |(_, it): &(usize, &f64)| it.is_nan() || it.abs() > least;
             if let Some((row, value)) = numbers(column).enumerate().find(is_large) {
+                let array = array(snapshot, column.place);
+                if array.components > 3 && array.rows() <= 3 {
+                    let what = format!(
+                        "`{}` has {} rows of {} numbers: expected a row for each point; transpose it",
+                        self.source,
+                        array.rows(),
+                        array.components
+                    );
+                    return Err(Mistake::new(what).of(&snapshot.path));
+                }
                 let what = format!(
                     "`{}` has a component of {value} beyond the {dimension} of the field; expected 0",
                     self.source
@@ -430,6 +460,30 @@ impl Meaning {
         Ok(())
     }
 }
+
+/// The largest number of cells of the highest dimension that is there; others are no part of the body. The position of a
+/// number that is not finite is the error.
+fn largest_of_cells(snapshot: &Snapshot, numbers: &[f64], components: usize) -> Result<f64, usize> {
+    let shape = |(kind, points): (u8, &[usize])| {
+        Shape::of(kind, points.len()).map_or(UNKNOWN, |shape| shape.dimension)
+    };
+    let dimensions: Vec<usize> = snapshot.cells.iter().map(shape).collect();
+    let most = dimensions.iter().copied().max().unwrap_or(UNKNOWN);
+    let mut largest = 0.0_f64;
+    for (cell, own) in numbers.chunks_exact(components).enumerate() {
+        let is_of_body = dimensions.get(cell).is_none_or(|it| *it == most);
+        for (at, number) in own.iter().enumerate().filter(|_| is_of_body) {
+            if !number.is_finite() {
+                return Err(cell * components + at);
+            }
+            largest = largest.max(number.abs());
+        }
+    }
+    Ok(largest)
+}
+
+/// The dimension of cells whose shape is unknown, as of polygons.
+const UNKNOWN: usize = 2;
 
 /// Rows and columns of a square matrix, row by row.
 fn pairs_of(rows: Vec<usize>) -> impl Iterator<Item = (usize, usize)> {

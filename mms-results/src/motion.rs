@@ -20,8 +20,22 @@ pub struct Motion<'a> {
     pub is_inverse: bool,
 }
 
-/// How far a point is outside the body; 0 within it.
-pub type Outside<'a> = &'a dyn Fn(&[f64]) -> f64;
+/// The body in the reference configuration.
+pub trait Body {
+    /// The distance of a point from the body; 0 within it.
+    fn distance(&self, point: &[f64]) -> f64;
+
+    /// Whether points, or the cells between them, are known to fill the body.
+    fn is_filled(&self, _points: &[f64]) -> bool {
+        false
+    }
+}
+
+impl<F: Fn(&[f64]) -> f64> Body for F {
+    fn distance(&self, point: &[f64]) -> f64 {
+        self(point)
+    }
+}
 
 /// X of what is at x, each coordinate of which may be off by so much; none if no point of the body is there.
 pub type Back<'a> = &'a mut dyn FnMut(&[f64], f64) -> Result<Option<Vec<f64>>, String>;
@@ -36,7 +50,7 @@ pub fn resolve<'a>(
     snapshot: &'a Snapshot,
     meanings: &[Meaning],
     dimension: usize,
-    outside: Outside<'_>,
+    outside: &dyn Body,
     back: Option<Back<'_>>,
 ) -> Result<Motion<'a>, Mistake> {
     let of = |role: Role| meanings.iter().find(|meaning| meaning.role == role);
@@ -116,7 +130,7 @@ impl<'a> Known<'a> {
     fn motion(
         &self,
         (reference, displacement): (Option<Values<'a>>, Option<Values<'a>>),
-        outside: Outside<'_>,
+        outside: &dyn Body,
         back: Option<Back<'_>>,
     ) -> Result<Motion<'a>, Mistake> {
         match (reference, &self.position, &self.place, displacement) {
@@ -176,7 +190,7 @@ impl<'a> Known<'a> {
     fn alone(
         &self,
         place: &Values<'a>,
-        outside: Outside<'_>,
+        outside: &dyn Body,
         back: Back<'_>,
     ) -> Result<Motion<'a>, Mistake> {
         if stray(place, outside).is_some() {
@@ -229,7 +243,7 @@ impl<'a> Known<'a> {
         &self,
         place: Values<'a>,
         u: Values<'a>,
-        outside: Outside<'_>,
+        outside: &dyn Body,
     ) -> Result<Motion<'a>, Mistake> {
         let back = difference(&place, &u);
         match (stray(&place, outside), stray(&back, outside)) {
@@ -246,18 +260,30 @@ impl<'a> Known<'a> {
             (None, None) if u.numbers.iter().all(|it| *it == 0.0) => {
                 Ok(motion(place, Some(u), "points taken as X: u is 0"))
             }
-            (None, None) => match &self.reading {
-                Some((Role::Reference, name)) => Ok(motion(
-                    place,
-                    Some(u),
-                    &format!("points taken as X, as `--from {name}` says"),
-                )),
-                Some((_, name)) => {
-                    let how = format!("points taken as x, as `--from {name}` says, X = x - u");
-                    Ok(motion(back, Some(u), &how))
+            (None, None) => {
+                match ([&place, &back].map(|it| outside.is_filled(&it.numbers)), &self.reading) {
+                    ([true, false], _) => {
+                        let how = "points taken as X: as x, they would not fill the body";
+                        Ok(motion(place, Some(u), how))
+                    }
+                    ([false, true], _) => {
+                        let how =
+                            "points taken as x, X = x - u: as X, they would not fill the body";
+                        Ok(motion(back, Some(u), how))
+                    }
+                    (_, Some((Role::Reference, name))) => {
+                        let how = format!("points taken as X, as `--from {name}` says");
+                        Ok(motion(place, Some(u), &how))
+                    }
+                    (_, Some((_, name))) => {
+                        let how = format!("points taken as x, as `--from {name}` says, X = x - u");
+                        Ok(motion(back, Some(u), &how))
+                    }
+                    (_, None) => {
+                        Err(self.unclear(&format!("X is {}, or {}", span(&place), span(&back))))
+                    }
                 }
-                None => Err(self.unclear(&format!("X is {}, or {}", span(&place), span(&back)))),
-            },
+            }
             (Some((at, far)), Some((other, away))) => Err(Mistake::new(format!(
                 "points lie outside the body with both readings: point {at} by {far:e} as X, point {other} by {away:e} \
                  as x; is it another field, or another unit?"
@@ -331,17 +357,17 @@ fn is_moved(place: &Values<'_>, reference: &Values<'_>) -> bool {
 }
 
 /// The first point that is outside the body by more than its rounding, and how far.
-fn stray(reference: &Values<'_>, outside: Outside<'_>) -> Option<(usize, f64)> {
+fn stray(reference: &Values<'_>, outside: &dyn Body) -> Option<(usize, f64)> {
     let points = reference.numbers.chunks(reference.components).enumerate();
     // Each coordinate may be off by its rounding, and the exact bound by some of its own.
     let most = 4.0 * reference.rounding;
-    points.map(|(at, point)| (at, outside(point))).find(|(_, distance)| *distance > most)
+    points.map(|(at, point)| (at, outside.distance(point))).find(|(_, distance)| *distance > most)
 }
 
 fn hold_inside(
     snapshot: &Snapshot,
     motion: &Motion<'_>,
-    outside: Outside<'_>,
+    outside: &dyn Body,
 ) -> Result<(), Mistake> {
     let reference = &motion.reference;
     let Some((at, distance)) = stray(reference, outside) else { return Ok(()) };

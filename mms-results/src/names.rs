@@ -3,7 +3,7 @@
 use crate::components::parts;
 use crate::mapping::mapped;
 use crate::meaning::{Column, Part, Place, array};
-use crate::parts::{S, arrays, split, stem, two_meanings};
+use crate::parts::{S, arrays, part_of, split, stem, two_meanings};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot};
 
@@ -58,13 +58,12 @@ pub static KNOWN: Names = Names { map: Vec::new(), columns: Vec::new(), profile:
 impl Names {
     /// Whether a user maps an array of this name, or a component of it.
     fn is_mapped(&self, name: &str) -> bool {
-        let stem = stem(name);
         let is_it = |column: &String| {
             let bare = column.strip_prefix("cells:").unwrap_or(column);
             let whole = bare.rsplit_once(':').map_or(bare, |(whole, _)| whole);
             // A path in HDF5 may begin with a slash.
             let from_root = |it: &str| it.trim_start_matches('/') == name.trim_start_matches('/');
-            column == name || from_root(bare) || from_root(whole) || bare == stem
+            column == name || from_root(bare) || from_root(whole) || part_of(name, bare).is_some()
         };
         self.map.iter().flat_map(|mapping| &mapping.columns).any(is_it)
     }
@@ -74,7 +73,8 @@ impl Names {
         let stem = stem(name);
         let mut roles: Vec<Role> = two_meanings(name).into_iter().flatten().collect();
         let of_profile = self.profile.iter().flat_map(|it| &it.quantities);
-        let is_called = |names: &[String]| names.iter().any(|it| it == name || it == stem);
+        let is_called =
+            |names: &[String]| names.iter().any(|it| it == name || part_of(name, it).is_some());
         roles.extend(of_profile.filter(|(_, names)| is_called(names)).map(|(role, _)| *role));
         roles.extend(Role::called(name));
         roles.extend(Role::called(stem).filter(|role| role.form() != Form::Scalar));
@@ -169,6 +169,11 @@ fn group(place: Place, array: &Array) -> Option<String> {
     }
 }
 
+/// The name by which `--map` takes an array, of points or of cells.
+fn mapped_name(place: Place, name: &str) -> String {
+    if matches!(place, Place::Cells(_)) { format!("cells:{name}") } else { name.to_owned() }
+}
+
 /// Adds an array to what was found, or to the components of what it is one of.
 ///
 /// # Errors
@@ -192,8 +197,10 @@ fn add(
     let (role, symbol) = (role.name(), role.symbol());
     let other = if known.source == source { &array.name } else { &source };
     Err(Mistake::new(format!(
-        "both `{}` and `{other}` may be {role}: say which with `--map {symbol}=NAME`; an array of cells is `cells:NAME`",
-        known.source
+        "both `{}` and `{other}` may be {role}: say which with `--map {symbol}={}` or `--map {symbol}={}`",
+        known.source,
+        known.columns.first().map_or(String::new(), |(_, it)| mapped_name(it.place, &known.source)),
+        columns.first().map_or(String::new(), |(_, it)| mapped_name(it.place, &source))
     )))
 }
 

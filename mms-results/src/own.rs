@@ -15,6 +15,8 @@ pub struct LeftOut {
     pub ghost_points: usize,
     /// Cells that stand there once more.
     pub doubled: usize,
+    /// Points of no cell, where there are cells.
+    pub unused: usize,
 }
 
 /// Bits of `vtkGhostType` (vtkDataSetAttributes.h of VTK) by which a cell does not count: a duplicate, one that finer
@@ -34,7 +36,16 @@ pub fn keep(snapshot: &mut Snapshot) -> Result<LeftOut, Mistake> {
     let [ghost_cells, ghost_points] = without_ghosts(snapshot);
     let doubled = doubled(snapshot).map_err(|mistake| mistake.of(&snapshot.path))?;
     keep_cells(snapshot, &doubled);
-    Ok(LeftOut { ghost_cells, ghost_points, doubled: count(&doubled) })
+    let unused = unused(snapshot);
+    keep_points(snapshot, &unused);
+    Ok(LeftOut { ghost_cells, ghost_points, doubled: count(&doubled), unused: count(&unused) })
+}
+
+/// Marks the points that no cell has, as the centre of an arc; without cells all points count.
+fn unused(snapshot: &Snapshot) -> Vec<bool> {
+    let mut is_unused = vec![!snapshot.cells.is_empty(); snapshot.rows()];
+    snapshot.cells.points.iter().for_each(|&point| is_unused[point] = false);
+    is_unused
 }
 
 fn count(is_out: &[bool]) -> usize {
@@ -232,7 +243,7 @@ mod tests {
         // Another rank owns the point 1, which a cell of this one needs.
         bar.of_points.push(array("vtkGhostType", 1, &[0.0, 1.0, 0.0, 0.0]));
         let left_out = keep(&mut bar).unwrap();
-        assert_eq!(left_out, LeftOut { ghost_cells: 1, ghost_points: 1, doubled: 0 });
+        assert_eq!(left_out, LeftOut { ghost_cells: 1, ghost_points: 1, ..LeftOut::default() });
         assert_eq!(bar.cells.points, [0, 1, 1, 2]);
         assert_eq!(bar.of_points, [array("u", 1, &[0.0, 1.0, 2.0])]);
         assert_eq!(bar.of_cells, [array("J", 1, &[1.0, 1.0])]);
@@ -246,8 +257,10 @@ mod tests {
     fn a_cell_counts_once_and_not_with_two_values() {
         // The second piece has points of its own.
         let mut twice = bar(&[0.0, 1.0, 2.0, 1.0, 2.0, 3.0], &[[0, 1], [1, 2], [4, 3], [4, 5]]);
-        assert_eq!(keep(&mut twice).unwrap().doubled, 1);
-        assert_eq!(twice.cells.points, [0, 1, 1, 2, 4, 5]);
+        let left_out = keep(&mut twice).unwrap();
+        // The point 3 was that of the second copy alone.
+        assert_eq!((left_out.doubled, left_out.unused), (1, 1));
+        assert_eq!(twice.cells.points, [0, 1, 1, 2, 3, 4]);
         let mut other = bar(&[0.0, 1.0, 2.0, 1.0, 2.0], &[[0, 1], [1, 2], [4, 3]]);
         other.of_points[0].values[4] = 2.1;
         let mistake = keep(&mut other.clone()).unwrap_err();

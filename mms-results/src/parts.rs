@@ -55,18 +55,9 @@ pub(crate) fn stem(name: &str) -> &str {
 /// A name without what says which component it is.
 pub(crate) fn split(name: &str) -> Option<(&str, Part)> {
     let name = name.strip_suffix([']', ')']).unwrap_or(name);
-    let axis = |byte: u8| match byte {
-        b'x' | b'X' => Some(0),
-        b'y' | b'Y' => Some(1),
-        b'z' | b'Z' => Some(2),
-        b'0'..=b'9' => Some(usize::from(byte - b'0')),
-        _ => None,
-    };
     let (before, last) = name.split_at_checked(name.len().checked_sub(1)?)?;
     let last = axis(last.bytes().next()?)?;
-    let base = |text: &'_ str| -> usize {
-        text.trim_end_matches(['_', ':', '.', '[', '(', '-', ' ']).len()
-    };
+    let base = |text: &'_ str| -> usize { text.trim_end_matches(SEPARATORS).len() };
     let of_entry =
         before.split_at_checked(before.len().saturating_sub(1)).and_then(|(rest, first)| {
             let first = axis(first.bytes().next()?)?;
@@ -76,6 +67,32 @@ pub(crate) fn split(name: &str) -> Option<(&str, Part)> {
     let found = found.unwrap_or((&before[..base(before)], Part::Nth(last)));
     (!found.0.is_empty()).then_some(found)
 }
+
+/// The component that a name tells behind the name of a quantity, as `pk1_stress_xx` does of `pk1_stress`.
+pub(crate) fn part_of(name: &str, quantity: &str) -> Option<Part> {
+    let rest = name.strip_prefix(quantity)?.trim_end_matches([']', ')']);
+    let rest = rest.trim_start_matches(SEPARATORS);
+    let axes: Option<Vec<usize>> = rest.bytes().map(axis).collect();
+    match axes?[..] {
+        [one] => Some(Part::Nth(one)),
+        [row, column] => Some(Part::Entry(row, column)),
+        _ => None,
+    }
+}
+
+/// The axis of a letter or a digit.
+fn axis(byte: u8) -> Option<usize> {
+    match byte {
+        b'x' | b'X' => Some(0),
+        b'y' | b'Y' => Some(1),
+        b'z' | b'Z' => Some(2),
+        b'0'..=b'9' => Some(usize::from(byte - b'0')),
+        _ => None,
+    }
+}
+
+/// The letters between the name of a quantity and a component.
+const SEPARATORS: [char; 7] = ['_', ':', '.', '[', '(', '-', ' '];
 
 /// Whether this may be the name of a matrix.
 fn has_entries(name: &str) -> bool {

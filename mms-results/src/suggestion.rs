@@ -35,7 +35,10 @@ impl Candidate {
 
     /// The option that names it.
     fn option(&self, role: Role) -> String {
-        format!("`--map {}={}`", role.symbol(), self.names.join(","))
+        let mapping = format!("{}={}", role.symbol(), self.names.join(","));
+        let needs_quotes =
+            mapping.contains(|it: char| it.is_whitespace() || "()[]$&;*?".contains(it));
+        if needs_quotes { format!("`--map '{mapping}'`") } else { format!("`--map {mapping}`") }
     }
 
     /// Whether it is one column that counts rows.

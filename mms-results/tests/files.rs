@@ -174,7 +174,10 @@ fn what_is_not_read_is_named() {
     let hdf = parse(b"\x89HDF\r\n\x1a\n", &everything(&KNOWN)).unwrap_err();
     assert!(hdf.what.contains("HDF5"));
     assert!(
-        parse(b"\xff\xfe\x00", &everything(&KNOWN)).unwrap_err().what.contains("neither text nor")
+        parse(b"\xff\xfe\x00", &everything(&KNOWN))
+            .unwrap_err()
+            .what
+            .contains("neither text in UTF-8 nor")
     );
 }
 

@@ -155,7 +155,7 @@ fn paths_are_mapped_with_and_without_the_slash() {
 fn paths_are_listed_where_nothing_is_known() {
     let found = &all("groups.h5", &[])[0];
     let meant = recognise(found, &KNOWN, &|_| true).unwrap();
-    let said = resolve(found, &meant, 2, &|_| 0.0, None).unwrap_err().what;
+    let said = resolve(found, &meant, 2, &|_: &[f64]| 0.0, None).unwrap_err().what;
     assert!(said.ends_with("the file has `run/fields/u`, `run/mesh/X`, `T`"), "{said}");
 }
 

@@ -105,7 +105,7 @@ fn texts_in_utf_16_are_read() {
             other => panic!("{other:?}"),
         }
         let cut = parse(&bytes[..bytes.len() - 1], &everything(&KNOWN)).unwrap_err();
-        assert!(cut.what.contains("neither text nor"), "{cut}");
+        assert!(cut.what.contains("neither text in UTF-8 nor"), "{cut}");
     }
     assert!(parse(b"\xff\xfe\0\0x\0\0\0", &everything(&KNOWN)).is_err());
 }

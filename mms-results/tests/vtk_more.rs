@@ -36,7 +36,7 @@ fn mapped(map: &[&str]) -> Names {
 
 fn motion<'a>(snapshot: &'a Snapshot, dimension: usize) -> Motion<'a> {
     let found = recognise(snapshot, &mapped(&["X=points"]), &|_| true).unwrap();
-    resolve(snapshot, &found, dimension, &|_| 0.0, None).unwrap()
+    resolve(snapshot, &found, dimension, &|_: &[f64]| 0.0, None).unwrap()
 }
 
 /// X, u and the middles of cells are those that were written.
@@ -237,7 +237,7 @@ fn arrays_of_vertices_are_arrays_of_points() {
     let u = |snapshot: &Snapshot| {
         let names = mapped(&["X=points", "u=MP_DISPLACEMENT"]);
         let found = recognise(snapshot, &names, &|_| true).unwrap();
-        let motion = resolve(snapshot, &found, 2, &|_| 0.0, None).unwrap();
+        let motion = resolve(snapshot, &found, 2, &|_: &[f64]| 0.0, None).unwrap();
         motion.displacement.map(|it| it.numbers.iter().map(|it| *it as f32).collect::<Vec<_>>())
     };
     let in_order = parsed(&file("3 6\n1 0\n1 1\n1 2\n", "3\n1\n1\n1", ""));

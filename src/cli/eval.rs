@@ -6,7 +6,7 @@ use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
 use mms_codegen::Compiled;
 use mms_codegen::compile::constant;
-use mms_mechanics::extent::is_between;
+use mms_mechanics::extent::{Extent, is_between};
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Program};
 use mms_program::interpret::{Interpreter, Number, Point};
@@ -205,8 +205,10 @@ impl Eval {
             bail!("`--time {given}`: expected a finite number");
         }
         let dimension = input.compiled.field.dimension;
-        let points = self.places::<T>(dimension)?;
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
+        let near: Vec<f64> = parameters.iter().map(T::near).collect();
+        let (body, _) = domain(&input.compiled.program, &near);
+        let points = self.places::<T>(dimension, &body)?;
         let outside = self.outside(input, &parameters, &points, &time);
         let normals = self.normals(input, quantities, &parameters, &points)?;
         let programs = programs(input, &self.needed(quantities, &input.compiled))?;
@@ -310,11 +312,19 @@ impl Eval {
     }
 
     /// The points that are asked for.
-    fn places<T: Digits>(&self, dimension: usize) -> anyhow::Result<Vec<Vec<T>>> {
+    fn places<T: Digits>(
+        &self,
+        dimension: usize,
+        body: &Extent<f64>,
+    ) -> anyhow::Result<Vec<Vec<T>>> {
         let Some(path) = &self.points else {
             return self.at.iter().map(|at| coordinates("--at", at, dimension)).collect();
         };
-        let points = Points::of_file(path, &self.naming.names()?, dimension, &|_| 0.0)?;
+        let names = self.naming.names()?;
+        // The body decides between X and x; points outside it are evaluated all the same.
+        let points =
+            Points::of_file(path, &names, dimension, &|point: &[f64]| body.distance(point))
+                .or_else(|_| Points::of_file(path, &names, dimension, &|_: &[f64]| 0.0))?;
         let point = |point: &[f64]| point.iter().map(|it| T::from_f64(*it)).collect();
         Ok(points.reference.chunks(dimension).map(point).collect())
     }

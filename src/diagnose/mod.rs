@@ -22,7 +22,7 @@ pub use self::judged::falls;
 pub use self::parameters::Factors;
 
 use self::nodes::{Nodes, volumes};
-use crate::judge::results::{Results, placed, room};
+use crate::judge::results::{Filled, Results, placed, room};
 use crate::session::exact::Exact;
 
 /// How results are read.
@@ -338,7 +338,7 @@ fn motion<'a>(
     time: f64,
     exact: &Exact,
 ) -> anyhow::Result<Motion<'a>> {
-    let outside = |point: &[f64]| exact.body.distance(point);
+    let outside = Filled { exact, cells: &snapshot.cells, is_part: false };
     let mut back = exact.back(time, snapshot.rows());
     resolve(snapshot, meanings, exact.dimension, &outside, Some(&mut back)).map_err(placed)
 }

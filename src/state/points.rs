@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use anyhow::{bail, ensure};
 use mms_analysis::present::{Inverse, Unplaced};
-use mms_results::motion::resolve;
+use mms_results::motion::{Body, resolve};
 use mms_results::names::{Names, Role, Values, everything, recognise};
 use mms_results::{Array, Cells, Snapshot};
 use mms_runtime::scene::{Layout, Scene};
@@ -98,12 +98,13 @@ impl Points {
         path: &str,
         names: &Names,
         dimension: usize,
-        outside: &dyn Fn(&[f64]) -> f64,
+        outside: &dyn Body,
     ) -> anyhow::Result<Self> {
         let mut snapshot = one(path, names)?;
         let meanings = recognise(&snapshot, names, &is_place).map_err(placed)?;
         if meanings.iter().all(|it| matches!(it.role, Role::Displacement | Role::Volume)) {
-            return Err(without_positions(&snapshot, dimension, outside));
+            let distance = |point: &[f64]| outside.distance(point);
+            return Err(without_positions(&snapshot, dimension, &distance));
         }
         let motion = resolve(&snapshot, &meanings, dimension, outside, None).map_err(placed)?;
         let how = format!("`{}`: {}", shown(path), motion.how);

@@ -270,3 +270,104 @@ fn units_in_a_header_are_checked_against_those_of_the_field() {
     // Words in brackets are no units.
     with("m", "m", "Average").exits(0);
 }
+
+#[test]
+fn components_behind_a_mapped_or_profiled_name_are_its_entries() {
+    let folder = Folder::new();
+    let rows = exact(&folder, "u,P");
+    let named: Vec<String> =
+        ["xx", "xy", "yx", "yy"].iter().map(|it| format!("pk1_stress_{it}")).collect();
+    let place = [("X", "X"), ("Y", "Y"), ("u_x", "disp_x"), ("u_y", "disp_y")];
+    let stress = ["P_xx", "P_xy", "P_yx", "P_yy"];
+    let stress: Vec<_> = stress.into_iter().zip(named.iter().map(String::as_str)).collect();
+    folder.write("p.csv", &table(&rows, &[&place[..], &stress].concat()));
+    let judge = format!("judge {WAVE} p.csv --time 0.01");
+    let left_out = folder.mms(&format!("{judge} --explain")).exits(0);
+    left_out.prints("pk1_stress_xx (not a quantity)");
+    for option in ["--from moose", "--map P=pk1_stress"] {
+        folder.mms(&format!("{judge} {option}")).exits(0).prints("first_piola_kirchhoff");
+    }
+}
+
+/// The cells of a grid of squares in the legacy format, with arrays of points behind them.
+fn vtk(points: &[[f64; 2]], cells: &[&[usize]], kinds: &[u8], data: &str) -> String {
+    let place = |[x, y]: &[f64; 2]| format!("{x:?} {y:?} 0\n");
+    let cell = |points: &&[usize]| {
+        let names: Vec<String> = points.iter().map(usize::to_string).collect();
+        format!("{} {}\n", points.len(), names.join(" "))
+    };
+    let size: usize = cells.iter().map(|it| it.len() + 1).sum();
+    format!(
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {} double\n{}CELLS {} {size}\n{}CELL_TYPES \
+         {}\n{}{data}",
+        points.len(),
+        points.iter().map(place).collect::<String>(),
+        cells.len(),
+        cells.iter().map(cell).collect::<String>(),
+        kinds.len(),
+        kinds.iter().map(|it| format!("{it}\n")).collect::<String>()
+    )
+}
+
+#[test]
+fn points_that_fill_the_body_in_one_reading_are_not_asked_about() {
+    let folder = Folder::new();
+    // A bar that is drawn out: as x, its points lie in the body too, and end before its end.
+    let points: Vec<[f64; 2]> = (0..9).map(|at| [f64::from(at) / 8.0, 0.0]).collect();
+    let cells: Vec<[usize; 2]> = (0..8).map(|at| [at, at + 1]).collect();
+    let cells: Vec<&[usize]> = cells.iter().map(|it| &it[..]).collect();
+    let u: String = points.iter().map(|[x, _]| format!("{:?}\n", 0.1 * x)).collect();
+    let data = format!("POINT_DATA 9\nSCALARS u double 1\nLOOKUP_TABLE default\n{u}");
+    folder.write("bar.vtk", &vtk(&points, &cells, &[3; 8], &data));
+    let judge = "judge bar_1d bar.vtk --time 0.01 --explain";
+    folder.mms(judge).exits(0).prints("points taken as X: as x, they would not fill the body");
+    folder
+        .mms(&format!("{judge} --part"))
+        .exits(2)
+        .complains("`--map X=points` or `--map x=points`");
+}
+
+#[test]
+fn what_is_no_part_of_the_body_stops_nothing() {
+    let folder = Folder::new();
+    let rows = on_grid(&folder, 2, "u");
+    let number = |text: &String| text.parse::<f64>().expect("a number");
+    let mut points: Vec<[f64; 2]> =
+        rows[1..].iter().map(|row| [number(&row[1]), number(&row[2])]).collect();
+    // A point of no cell, far away, and a line on the boundary without a stress.
+    points.push([5.0, 5.0]);
+    let cells: [&[usize]; 5] =
+        [&[0, 1, 4, 3], &[1, 2, 5, 4], &[3, 4, 7, 6], &[4, 5, 8, 7], &[0, 1]];
+    let u: String =
+        rows[1..].iter().map(|row| format!("{} {} 0\n", row[3], row[4])).collect::<String>()
+            + "0 0 0\n";
+    let of_cells = "CELL_DATA 5\nSCALARS J double 1\nLOOKUP_TABLE default\n1\n1\n1\n1\nnan\n";
+    let data = format!("{of_cells}POINT_DATA 10\nVECTORS u double\n{u}");
+    let text = vtk(&points, &cells, &[9, 9, 9, 9, 3], &data);
+    folder.write("arc.vtk", &text);
+    let run = folder.mms(&format!("judge {WAVE} arc.vtk --time 0.01"));
+    run.prints("1 point of no cell").prints("norms of J");
+    folder.write("arc.vtk", &text.replace("1\n1\nnan\n", "1\nnan\n1\n"));
+    let run = folder.mms(&format!("judge {WAVE} arc.vtk --time 0.01")).exits(2);
+    run.complains("cell 3: J is NaN; expected a finite number");
+}
+
+#[test]
+fn a_temperature_is_no_time_and_an_open_order_is_explained() {
+    let folder = Folder::new();
+    let rows = exact(&folder, "u,sigma");
+    let columns = [("X", "X"), ("Y", "Y"), ("u_x", "u_x"), ("u_y", "u_y"), ("X", "T")];
+    let text = table(&rows, &columns);
+    folder.write("hot.csv", &format!("# time = 0.01\n{text}"));
+    folder.mms(&format!("judge {WAVE} hot.csv")).exits(0).prints("at t = 0.01");
+    let place = [("X", "X"), ("Y", "Y"), ("u_x", "u_x"), ("u_y", "u_y")];
+    let voigt = [
+        ("sigma_xx", "sigma:0"),
+        ("sigma_yy", "sigma:1"),
+        ("sigma_xx", "sigma:2"),
+        ("sigma_xy", "sigma:3"),
+    ];
+    folder.write("open.csv", &table(&rows, &[&place[..], &voigt].concat()));
+    let run = folder.mms(&format!("judge {WAVE} open.csv --time 0.01 --explain")).exits(0);
+    run.prints("OPEN").prints("4 columns: in which order?");
+}

@@ -57,6 +57,11 @@ const FOREIGN: &[(&[u8], &str)] = &[
         b"$NOD",
         "version 1 of Gmsh's format is not read; write 4.1, as with `Mesh.MshFileVersion = 4.1`",
     ),
+    (b"*HEADING", "an input file of Abaqus has no results; write these as a table or as VTK"),
+    (b"*Heading", "an input file of Abaqus has no results; write these as a table or as VTK"),
+    (b"OFF\n", "a mesh in OFF has no results; write a table or VTK"),
+    (b"ply\n", "a mesh in PLY has no results; write a table or VTK"),
+    (b"MeshVersionFormatted", "a mesh of Medit has no results; write a table or VTK"),
     (b"ADIOS-BP", "ADIOS2 is not read; write XDMF, as with `dolfinx.io.XDMFFile`, or VTK"),
 ];
 

@@ -53,7 +53,24 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     let numbers = Head::of(bytes).map_or(0, |head| head.numbers());
     wanted.take("`array`", numbers.min(bytes.len()))?;
     let array = array("array", bytes)?;
-    Ok(Snapshot { of_points: vec![array], ..Snapshot::default() })
+    let names = wanted.columns();
+    if names.is_empty() {
+        return Ok(Snapshot { of_points: vec![array], ..Snapshot::default() });
+    }
+    if names.len() != array.components {
+        let (given, found) = (names.len(), array.components);
+        return Err(Mistake::new(format!("`--columns`: {given} names for {found} columns")));
+    }
+    let column = |(at, name): (usize, &String)| Array {
+        name: name.clone(),
+        values: array.values.iter().skip(at).step_by(names.len()).copied().collect(),
+        stored: array.stored,
+        ..Array::default()
+    };
+    Ok(Snapshot {
+        of_points: names.iter().enumerate().map(column).collect(),
+        ..Snapshot::default()
+    })
 }
 
 /// Reads an array. Its first axis are the points; one number is one point.

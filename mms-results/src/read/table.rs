@@ -16,11 +16,12 @@ const MOST_COLUMNS: usize = 1_000_000;
 const MARKS: [&str; 5] = ["#", "%", "!", "//", "**"];
 
 /// The names of a column of times.
-const TIMES: [&str; 4] = ["time", "t", "timevalue", "time_value"];
+const TIMES: [&str; 3] = ["time", "timevalue", "time_value"];
 
 /// Whether a column or an array of this name holds times.
 pub fn is_time(name: &str) -> bool {
-    TIMES.iter().any(|time| name.eq_ignore_ascii_case(time))
+    // T is a temperature.
+    name == "t" || TIMES.iter().any(|time| name.eq_ignore_ascii_case(time))
 }
 
 /// A table as it stands there.
@@ -54,7 +55,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
 
 fn not_text(bytes: &[u8], at: usize) -> Mistake {
     let line = 1 + memchr::memchr_iter(b'\n', &bytes[..at]).count();
-    let what = "neither text nor a format that is known: expected a table with a header, VTK (.vtu, .vtp, .pvd, \
+    let what = "neither text in UTF-8 nor a format that is known: expected a table with a header, VTK (.vtu, .vtp, .pvd, \
                 .vtk), NumPy (.npz, .npy), MATLAB (.mat), CalculiX (.frd) or Gmsh (.msh)";
     Mistake::at(line, what)
 }
@@ -104,6 +105,7 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<Table, Mistake> {
             times.see(line, time)?;
         }
     }
+    // A column counts, and comments beside it may be of something else.
     let has_column = columns.all.iter().any(|it| is_time(&it.name));
     if !has_column && !times.values.is_empty() {
         if times.values.len() < rows.len() {

@@ -11,7 +11,8 @@ use mms_results::own::LeftOut;
 use mms_spec::foreign::shown;
 use serde_json::{Value, json};
 
-use super::level::Reading;
+use super::extent::Filled;
+use super::level::{Reading, values};
 use super::{Results, placed};
 use crate::session::exact::Exact;
 
@@ -51,7 +52,7 @@ impl Explained {
         let snapshot = snapshot.with_context(|| format!("{}: no results", shown(&file)))?;
         let time = snapshot.time.map_or(exact.window[0], |time| time.value);
         let meanings = reading.meanings(snapshot, exact)?;
-        let outside = |point: &[f64]| exact.body.distance(point);
+        let outside = Filled { exact, cells: &snapshot.cells, is_part: reading.is_part };
         let mut back = exact.back(time, snapshot.rows());
         let motion = resolve(snapshot, &meanings, exact.dimension, &outside, Some(&mut back))
             .map_err(placed)?;
@@ -60,18 +61,25 @@ impl Explained {
             let place = matches!(meaning.role, Role::Place | Role::Position | Role::Reference);
             match reading.unlike(meaning, snapshot, &motion, exact.rows()) {
                 Some(why) if !place => left_out.push(why),
-                _ => quantities.push((meaning.role, meaning.explained(snapshot))),
+                _ => {
+                    let mut how = meaning.explained(snapshot);
+                    if let Err(error) = values(meaning, snapshot, exact) {
+                        how += &format!("; OPEN: {error:#}");
+                    }
+                    quantities.push((meaning.role, how));
+                }
             }
         }
         let is_used = |name: &str| meanings.iter().any(|it| it.has_array(snapshot, name));
         let arrays = snapshot.of_points.iter().chain(&snapshot.of_cells);
         let names = arrays.map(|it| &it.name).chain(&snapshot.unread);
         left_out.extend(names.filter(|it| !is_used(it)).map(|it| format!("{it} (not a quantity)")));
-        let LeftOut { ghost_cells, ghost_points, doubled } = ghosts;
+        let LeftOut { ghost_cells, ghost_points, doubled, unused } = ghosts;
         let counts = [
             (ghost_cells, "ghost cells"),
             (ghost_points, "ghost points"),
             (doubled, "cells that are there twice"),
+            (unused, "points of no cell"),
         ];
         let counts = counts.into_iter().filter(|(count, _)| *count > 0);
         left_out.extend(counts.map(|(count, of)| format!("{count} {of}")));

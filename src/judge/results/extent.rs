@@ -4,8 +4,10 @@ use std::f64::consts::TAU;
 
 use anyhow::ensure;
 use mms_mechanics::extent::Extent;
+use mms_results::Cells;
 use mms_results::lattice::Lattice;
 use mms_results::mesh::{Mesh, swept};
+use mms_results::motion::Body;
 use mms_spec::Face;
 
 use super::ALIKE;
@@ -79,6 +81,34 @@ pub fn of_cells(
     let points = mesh.points.len() / dimension;
     Ok(Covered { cells, points, size, is_even: false, part })
 }
+
+/// The body of a field, which points or the cells between them may fill.
+pub struct Filled<'a> {
+    /// The field.
+    pub exact: &'a Exact,
+    /// The cells.
+    pub cells: &'a Cells,
+    /// Whether a part of the body is enough, so that filling it tells nothing.
+    pub is_part: bool,
+}
+
+impl Body for Filled<'_> {
+    fn distance(&self, point: &[f64]) -> f64 {
+        self.exact.body.distance(point)
+    }
+
+    fn is_filled(&self, points: &[f64]) -> bool {
+        let mesh = Mesh { cells: self.cells, points, dimension: self.exact.dimension };
+        match mesh.sizes() {
+            _ if self.is_part => false,
+            Some(_) => of_cells(&mesh, (self.exact, false), SINGLE, "").is_ok(),
+            None => of_points(points, self.exact, SINGLE).part.is_none(),
+        }
+    }
+}
+
+/// The rounding of coordinates that were written in single precision, for a body as large as 1.
+const SINGLE: f64 = 1e-7;
 
 /// A share with three digits, of nearly all with what is missing.
 fn of(share: f64) -> String {

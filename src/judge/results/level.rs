@@ -9,7 +9,7 @@ use mms_results::names::{
 use mms_results::{Snapshot, Stored, suggestion};
 use mms_spec::quantity::Quantity;
 
-use super::extent::{self, Covered};
+use super::extent::{self, Covered, Filled};
 use super::files::{Results, placed, room};
 use super::taken::Taken;
 use super::units;
@@ -195,7 +195,7 @@ fn quantity(role: Role) -> Option<Quantity> {
 }
 
 /// The numbers of a meaning, in the dimension of the field; of tensors in space where that was asked for.
-fn values<'a>(
+pub fn values<'a>(
     meaning: &Meaning,
     snapshot: &'a Snapshot,
     exact: &Exact,
@@ -247,8 +247,8 @@ impl Reading<'_> {
     ) -> anyhow::Result<Found> {
         let dimension = exact.dimension;
         let meanings = self.meanings(snapshot, exact)?;
-        let outside = |point: &[f64]| exact.body.distance(point);
         let motion = {
+            let outside = Filled { exact, cells: &snapshot.cells, is_part: self.is_part };
             let mut back = exact.back(time, snapshot.rows());
             resolve(snapshot, &meanings, dimension, &outside, Some(&mut back)).map_err(placed)?
         };
@@ -343,7 +343,7 @@ impl Reading<'_> {
         exact: &Exact,
     ) -> anyhow::Result<Vec<(Quantity, Values<'b>)>> {
         let meanings = self.meanings(snapshot, exact)?;
-        let outside = |point: &[f64]| exact.body.distance(point);
+        let outside = Filled { exact, cells: &snapshot.cells, is_part: self.is_part };
         let time = snapshot.time.map_or(exact.window[0], |time| time.value);
         let mut back = exact.back(time, snapshot.rows());
         let motion = resolve(snapshot, &meanings, exact.dimension, &outside, Some(&mut back))

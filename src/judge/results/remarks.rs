@@ -82,6 +82,7 @@ pub fn left_out(common: &Common, levels: &[Level], own: &[LeftOut]) -> String {
     count(sum(|it| it.ghost_cells), "ghost cell", "ghost cells");
     count(sum(|it| it.ghost_points), "ghost point", "ghost points");
     count(sum(|it| it.doubled), "cell that stands there twice", "cells that stand there twice");
+    count(sum(|it| it.unused), "point of no cell", "points of no cell");
     let found = &levels[0].found;
     if !found.passed_over.is_empty() {
         all.push(format!("found and not judged: {}", found.passed_over.join(", ")));
