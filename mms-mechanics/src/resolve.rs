@@ -3,7 +3,7 @@
 mod sign;
 
 use mms_spec::diagnostic::{Diagnostic, MAX_RENDERED};
-use mms_spec::names::FUNCTIONS;
+use mms_spec::names::{FUNCTIONS, elsewhere};
 use mms_spec::source::{Span, Spanned};
 use mms_spec::suggest::advice;
 use mms_spec::syntax::{Ast, Kind, Operator};
@@ -239,12 +239,13 @@ impl Resolver<'_> {
             return self.report(diagnostic);
         }
         let candidates = self.scope.names.keys().map(String::as_str);
-        let diagnostic =
-            diagnostic.help(advice(name, candidates, |_| match self.scope.names.is_empty() {
+        let among = || {
+            advice(name, candidates, |_| match self.scope.names.is_empty() {
                 true => "expected a number".into(),
                 false => format!("names in scope: {}", self.known_names()),
-            }));
-        self.report(diagnostic)
+            })
+        };
+        self.report(diagnostic.help(elsewhere(name).map_or_else(among, str::to_owned)))
     }
 
     fn known_names(&self) -> String {
@@ -393,7 +394,8 @@ impl Resolver<'_> {
         let diagnostic = Diagnostic::error(name.span, format!("unknown function `{shown}`"))
             .label("not a function");
         let functions = FUNCTIONS.iter().copied();
-        diagnostic.help(advice(shown, functions, |all| format!("the functions are {all}")))
+        let among = || advice(shown, functions, |all| format!("the functions are {all}"));
+        diagnostic.help(elsewhere(shown).map_or_else(among, str::to_owned))
     }
 
     /// A sufficient condition for a base to be positive: read off, not proved by bounds.

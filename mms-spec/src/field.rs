@@ -12,7 +12,7 @@ use crate::formula::Formula;
 use crate::material::{MaterialUse, material_use};
 use crate::names::{Keeper, Names};
 use crate::rigid::{RigidSpec, rigid};
-use crate::source::{SourceId, Sources};
+use crate::source::{SourceId, Sources, Span};
 use crate::study::{StudySpec, studies};
 use crate::symbols::{LetSpec, ParameterSpec, lets, parameters};
 use crate::table::{Entry, Reader, Table};
@@ -104,6 +104,16 @@ pub fn read_field(
 ) -> Option<FieldSpec> {
     let document = Document::parse(sources, id, diagnostics)?;
     let mut reader = Reader::new(sources, id, &document, diagnostics);
+    if let Some(span) = material_file(&document, sources, id) {
+        reader.report(
+            Diagnostic::error(span, "this is a material file, not a field file")
+                .label("only materials have this key")
+                .help(
+                    "check a field that names it under [material], as in `model = \"./mine.toml\"`",
+                ),
+        );
+        return None;
+    }
     let root = reader.root("a field file", &document.root, FIELD_FILE);
     let header = header(&root, &mut reader);
     let mut names = Names::new(Keeper::Field);
@@ -155,6 +165,16 @@ pub fn read_field(
         stray: reader.stray,
         refused: reader.refused,
     })
+}
+
+/// The place of a strain energy in a file without [field], which is that of a material.
+fn material_file(document: &Document<'_>, sources: &Sources, id: SourceId) -> Option<Span> {
+    if document.root.get("field").is_some() {
+        return None;
+    }
+    let material = document.root.get("material")?.get_ref().as_table()?;
+    let place = material.get("strain_energy")?.span();
+    Some(sources.span(id, place.start, place.end))
 }
 
 /// Refuses a field that moves without a density.

@@ -10,6 +10,7 @@ use crate::diagnostic::{Diagnostic, quoted};
 use crate::document::Document;
 use crate::format::{self, Key};
 use crate::formula::Formula;
+use crate::names::elsewhere;
 use crate::source::{SourceId, Sources, Span, Spanned};
 use crate::suggest::{advice, did_you_mean};
 
@@ -201,7 +202,7 @@ impl<'a> Reader<'a> {
             self.report(
                 Diagnostic::error(entry.key.span, format!("unknown key {}", quoted(key)))
                     .label(format!("not a key of {}", table.name))
-                    .help(advice(key, absent, all)),
+                    .help(elsewhere(key).map_or_else(|| advice(key, absent, all), str::to_owned)),
             );
         }
     }

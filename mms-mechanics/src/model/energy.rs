@@ -6,6 +6,7 @@ use crate::resolve::Scope;
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::foreign::Foreign;
 use mms_spec::moduli::ENGINEERING;
+use mms_spec::names::elsewhere;
 use mms_spec::source::Spanned;
 use mms_spec::suggest::advice;
 use mms_spec::syntax;
@@ -99,11 +100,14 @@ impl Reader<'_> {
         let model = field.material.model.value.shown();
         let message = format!("`{}` is not a parameter of `{model}`", name.value);
         let diagnostic = Diagnostic::error(name.span, message).label("unknown parameter");
-        let advice = advice(&name.value, known.iter().copied(), |all| match all {
-            "" => "it has none: a material file lists them in [parameters]".into(),
-            _ => format!("its parameters are {all}"),
-        });
-        self.diagnostics.push(diagnostic.help(advice));
+        let among = || {
+            advice(&name.value, known.iter().copied(), |all| match all {
+                "" => "it has none: a material file lists them in [parameters]".into(),
+                _ => format!("its parameters are {all}"),
+            })
+        };
+        let help = elsewhere(&name.value).map_or_else(among, str::to_owned);
+        self.diagnostics.push(diagnostic.help(help));
     }
 
     /// The invariants in terms of their departures from the undeformed state.

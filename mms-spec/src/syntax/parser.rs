@@ -12,6 +12,7 @@ use super::ast::{Ast, Kind, Node, Operator};
 use super::lexer::{Token, TokenKind, tokens};
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::formula::Formula;
+use crate::names::power_of_function;
 use crate::source::{Span, Spanned};
 
 /// The most parentheses, calls and operators that may wait for their end at once.
@@ -283,10 +284,14 @@ impl Parser<'_> {
 
     fn expected_operator(&self, token: &Token) -> Box<Diagnostic> {
         let found = self.found(token);
+        let before = self.formula.text.get(..token.range.start);
+        let help = before.and_then(power_of_function);
+        let help =
+            help.unwrap_or_else(|| "a product needs its sign: `2*X`, not `2 X` or `2X`".into());
         Box::new(
             self.error(token.range.clone(), format!("expected an operator before {found}"))
                 .label("not connected to what is before it")
-                .help("a product needs its sign: `2*X`, not `2 X` or `2X`"),
+                .help(help),
         )
     }
 

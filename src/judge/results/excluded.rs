@@ -44,7 +44,8 @@ impl Exclusions {
     }
 }
 
-/// What results with these errors at some times exclude, whose finest has this time step; nothing without errors of the motion.
+/// The mistakes that results with these errors at some times exclude, whose finest has this time step; none without errors of the
+/// motion. Of a static field they are not known, for they are found by motions.
 ///
 /// # Errors
 /// The field cannot be run.
@@ -54,6 +55,9 @@ pub fn exclusions(
     times: Vec<f64>,
     time_step: Option<f64>,
 ) -> anyhow::Result<Option<Exclusions>> {
+    if exact.input().is_static() {
+        return Ok(None);
+    }
     let finest = measured.runs.iter().map(|run| run.cell_size).fold(f64::INFINITY, f64::min);
     let error = |name: &str| error(measured, name, finest);
     Ok(Exclusions::new(&exact.scene()?, error, (finest, time_step), times))

@@ -25,7 +25,7 @@ pub struct Common {
 /// No time; a time outside the window; two snapshots at one time; no time that all have.
 pub fn common(all: &mut [Results], wanted: &[f64], exact: &Exact) -> anyhow::Result<Common> {
     if exact.input().is_static() {
-        return Ok(at_rest(all));
+        return Ok(at_rest(all, exact.window[1]));
     }
     let window = exact.window;
     for results in all.iter_mut() {
@@ -72,8 +72,8 @@ pub fn common(all: &mut [Results], wanted: &[f64], exact: &Exact) -> anyhow::Res
 }
 
 /// The last result of each mesh, in a static field: what comes before are steps on the way.
-fn at_rest(all: &mut [Results]) -> Common {
-    let time = Time { value: 0.0, rounding: 0.0 };
+fn at_rest(all: &mut [Results], value: f64) -> Common {
+    let time = Time { value, rounding: 0.0 };
     let mut common = Common { times: vec![time.value], is_static: true, ..Common::default() };
     for results in all {
         let last = results.snapshots.len().saturating_sub(1);
