@@ -1,4 +1,4 @@
-//! Which part of a quantity the components of an array are, where the file has names for them.
+//! The parts of a quantity that the components of an array are, by their names in the file.
 
 use crate::meaning::{Column, Part, Place, array};
 use crate::{Array, Snapshot};

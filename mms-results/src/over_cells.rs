@@ -47,8 +47,8 @@ pub struct OverCells {
 /// How many points of quadrature are taken at once.
 const BATCH: usize = 8192;
 
-/// How many parts of an axis have two points of Gauss each for l1, by the dimension; several times as many of cells of a degree
-/// above 2, whose errors have more waves.
+/// The number of parts of an axis with two points of Gauss each for l1, by the dimension. Cells of a degree above 2 have several
+/// times as many, for their errors have more waves.
 const PARTS: [usize; 3] = [64, 8, 6];
 /// How many parts have ends where the maximum is looked for.
 const STEPS: [usize; 3] = [64, 12, 6];

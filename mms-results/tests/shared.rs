@@ -1,4 +1,4 @@
-//! What the tests of readers share: the mesh that most files hold, and how broken files are tried.
+//! Helpers for the tests of readers: the mesh that most files hold, and how broken files are tried.
 
 use std::path::Path;
 

@@ -21,7 +21,7 @@ use mms_spec::quantity::Quantity;
 
 use super::naming::Naming;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::diagnose::{Alone, Factors, Reading, falls, find, gradients, read};
+use crate::diagnose::{Alone, Factors, Reading, falls, find, gradients, left_out, read};
 use crate::judge::results::Results;
 use crate::judge::table::{Order, Orders};
 use crate::report::{Diagnosed, Hypotheses, Plan, Step};
@@ -214,6 +214,10 @@ impl Diagnose {
             residual_sign: self.residual_sign,
             is_nodal: self.residual == Residual::Nodal,
         };
+        let left_out = left_out(&all, &reading, exact.dimension)?;
+        if !left_out.is_empty() {
+            say(format_args!("left out: {}", left_out.join(", ")));
+        }
         let evidence = read(&all, &reading, &mut exact)?;
         say(format_args!("looking at {}", evidence.says()));
         let is_out = |term: Term| self.without.contains(&term);

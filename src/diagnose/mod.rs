@@ -172,13 +172,33 @@ fn meanings(
     let symbols = Names { profile, ..reading.names.clone() };
     let (names, wants): (_, &dyn Fn(Role) -> bool) = match reading.law {
         Some(_) => (&symbols, &|_| true),
-        None => (reading.names, &|role| !MEASURES.iter().any(|(it, _)| *it == role)),
+        None => (reading.names, &|role| !is_stress(role)),
     };
     let mut found = recognise(snapshot, names, wants).map_err(placed)?;
     if reading.law.is_none() {
         found.retain(|meaning| meaning.unlike(snapshot, dimension, None).is_none());
     }
     Ok(found)
+}
+
+/// The arrays of known names that are left out for their shape, of the first result.
+///
+/// # Errors
+/// A name that may mean two quantities.
+pub fn left_out(
+    all: &[Results],
+    reading: &Reading<'_>,
+    dimension: usize,
+) -> anyhow::Result<Vec<String>> {
+    let first = all.first().and_then(|it| it.snapshots.first());
+    let Some(snapshot) = first.filter(|_| reading.law.is_none()) else { return Ok(Vec::new()) };
+    let found = recognise(snapshot, reading.names, &|role| !is_stress(role)).map_err(placed)?;
+    Ok(found.iter().filter_map(|it| it.unlike(snapshot, dimension, None)).collect())
+}
+
+/// Whether it is a stress, which results are not diagnosed by.
+fn is_stress(role: Role) -> bool {
+    MEASURES.iter().any(|(it, _)| *it == role)
 }
 
 fn values<'a>(

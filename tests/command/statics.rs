@@ -151,9 +151,7 @@ fn results_are_judged_without_a_time_and_by_their_last_step() {
         rows.lines().map(line).collect()
     };
     folder.write("steps.csv", &format!("{header}\n{}{}", at_time("1", true), at_time("2", false)));
-    judged("steps.csv")
-        .prints("exact to round-off")
-        .prints("left out: 1 result before the last");
+    judged("steps.csv").prints("exact to round-off").prints("left out: 1 result before the last");
     folder.mms("diagnose static.toml steps.csv").exits(0).prints("nothing");
     // Without a time in the file.
     let bare: String = text

@@ -125,7 +125,9 @@ pub fn callables(compiled: &Compiled) -> Vec<Callable> {
         Output::Bound(_) if !compiled.selection.is_for_a_solver() => false,
         Output::Bound(Bound::Time) if compiled.field.is_static() => false,
         Output::Quantity(quantity) if !compiled.offers(quantity) => false,
-        Output::Response(Response::Density | Response::WaveSpeed) if !compiled.model.has_density => {
+        Output::Response(Response::Density | Response::WaveSpeed)
+            if !compiled.model.has_density =>
+        {
             false
         }
         output => compiled.program.outputs.contains_key(&output),

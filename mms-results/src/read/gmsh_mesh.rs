@@ -323,7 +323,7 @@ fn united(
     Ok(found.into_values().collect())
 }
 
-/// Which views have numbers for all nodes or elements that need them.
+/// The views that have numbers for all nodes or elements that need them.
 struct Held<'a> {
     wanted: &'a Wanted<'a>,
     unread: Vec<(f64, String)>,

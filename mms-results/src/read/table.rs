@@ -20,8 +20,9 @@ const TIMES: [&str; 3] = ["time", "timevalue", "time_value"];
 
 /// Whether a column or an array of this name holds times.
 pub fn is_time(name: &str) -> bool {
-    // T is a temperature.
-    name == "t" || TIMES.iter().any(|time| name.eq_ignore_ascii_case(time))
+    // In a structure the last part of a name counts. T is a temperature.
+    let last = name.rsplit(['.', '/']).next().unwrap_or(name);
+    name == "t" || TIMES.iter().any(|time| last.eq_ignore_ascii_case(time))
 }
 
 /// A table as it stands there.

@@ -60,8 +60,8 @@ impl<'a> File<'a> {
         self.made(set, name, self.store.bytes(set))
     }
 
-    /// Reads an array if its name is wanted; none if it is not, or if the file may do without it and it has no numbers or is
-    /// compressed in a way that is not read.
+    /// Reads an array if its name is wanted. None is read if it is not wanted. An array without numbers, or one compressed in a way
+    /// that is not read, is left out unless it must be there.
     fn wanted(&self, set: &Set, name: &str) -> Result<Option<Array>, Mistake> {
         let need = self.wanted.need(name);
         let is_plain = need == Need::Must || need == Need::Numbers && kind(set.kind).is_some();
