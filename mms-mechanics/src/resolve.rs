@@ -295,13 +295,15 @@ impl Resolver<'_> {
 
     fn power(&mut self, base: Expr, exponent: Expr, left: Span, right: Span) -> Option<Expr> {
         let Some(number) = self.graph.as_number(exponent).cloned() else {
-            if !self.is_positive(base) {
+            let number = self.graph.as_number(base);
+            if number.is_some_and(|number| *number <= Rational::ZERO) {
                 return self.report(
                     Diagnostic::error(left, "a variable exponent needs a positive base")
-                        .label("not proved positive")
+                        .label("this is not positive")
                         .help("write the exponent as a number, or the base as exp(..) of its logarithm"),
                 );
             }
+            // Whether another base is positive over the body is proved with the branches of all functions.
             return Some(self.graph.call(Function::Powf, &[base, exponent]));
         };
         match self.graph.as_number(base) {
@@ -396,11 +398,6 @@ impl Resolver<'_> {
         let functions = FUNCTIONS.iter().copied();
         let among = || advice(shown, functions, |all| format!("the functions are {all}"));
         diagnostic.help(elsewhere(shown).map_or_else(among, str::to_owned))
-    }
-
-    /// A sufficient condition for a base to be positive: read off, not proved by bounds.
-    fn is_positive(&self, root: Expr) -> bool {
-        self.scope.is_positive(self.graph, root)
     }
 }
 

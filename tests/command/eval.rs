@@ -302,7 +302,7 @@ fn a_missing_file_is_refused() {
 #[test]
 fn incomplete_command_lines_are_refused() {
     refused("bar_1d --time 0", "--at <X,Y>");
-    refused("bar_1d --at 1", "--time <T>");
+    refused("bar_1d --at 1", "give the time with `--time T`");
     refused("--at 1 --time 0", "<FIELD>");
     refused("bar_1d --at 1 --time 0 --precision f16", "[possible values: f32, f64, wide]");
 }
@@ -369,4 +369,49 @@ fn points_outside_body_and_window_are_evaluated_with_a_warning() {
     let sector = "eval conformal_sector_2d --time 0.01 --quantity u";
     assert_eq!(folder.mms(&format!("{sector} --at 0.5,0.5")).exits(0).stderr, "");
     folder.mms(&format!("{sector} --at -0.5,0.5")).exits(0).complains("is outside the body");
+}
+
+/// Moduli that follow a power law of the radius with a parameter as its exponent. b was derived with SymPy and mpmath.
+#[test]
+fn a_power_of_the_radius_may_have_a_parameter_as_exponent() {
+    let folder = Folder::new();
+    let text = r#"[field]
+title     = "Power-law graded ring"
+dimension = 2
+[parameters]
+E0   = { value = 1e6 }
+beta = { value = 1.7, range = [1, 2] }
+nu   = { value = 0.3 }
+rho0 = { value = 1000 }
+ri   = { value = 1 }
+ro   = { value = 2 }
+amp  = { value = 0.02 }
+[let]
+R = "sqrt(X^2 + Y^2)"
+[displacement]
+u = ["amp*X*sin(30*t)", "amp*Y*sin(30*t)"]
+[material]
+model = "linear_elastic"
+young = "E0*(R/ri)^beta"
+nu = "nu"
+density = "rho0"
+[domain]
+shape = "annulus"
+inner = "ri"
+outer = "ro"
+time  = [0, 0.1]
+[boundary]
+inner = "prescribed"
+outer = "prescribed"
+"#;
+    folder.write("ring.toml", text);
+    let run = folder.mms("eval ring.toml --at 1.3,0.4 --time 0.02 --quantity b --json").exits(0);
+    let b = numbers(&run.json()["points"][0]["body_force"]);
+    let right = [-56.976603699064517, -17.531262676635236];
+    assert!(b.iter().zip(right).all(|(a, b)| (a - b).abs() < 1e-14 * b.abs()), "{b:?}");
+    folder.mms("check ring.toml").exits(0).prints("every quantity is finite everywhere");
+    // The base vanishes on the inner side.
+    folder.write("ring.toml", &text.replace("(R/ri)^beta", "(R - ri)^beta"));
+    let run = folder.mms("check ring.toml");
+    assert_ne!(run.code, 0, "{run}");
 }
