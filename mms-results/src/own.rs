@@ -41,9 +41,14 @@ pub fn keep(snapshot: &mut Snapshot) -> Result<LeftOut, Mistake> {
     Ok(LeftOut { ghost_cells, ghost_points, doubled: count(&doubled), unused: count(&unused) })
 }
 
-/// Marks the points that no cell has, as the centre of an arc; without cells all points count.
+/// Marks the points that no cell has, as the centre of an arc. All points count without cells, and with vertices and lines
+/// alone, which may stand beside particles.
 fn unused(snapshot: &Snapshot) -> Vec<bool> {
-    let mut is_unused = vec![!snapshot.cells.is_empty(); snapshot.rows()];
+    let is_of_body = |(kind, points): (u8, &[usize])| match Shape::of(kind, points.len()) {
+        Some(shape) => shape.dimension > 1,
+        None => !matches!(kind, 1 | 2 | 4),
+    };
+    let mut is_unused = vec![snapshot.cells.iter().any(is_of_body); snapshot.rows()];
     snapshot.cells.points.iter().for_each(|&point| is_unused[point] = false);
     is_unused
 }
@@ -258,9 +263,8 @@ mod tests {
         // The second piece has points of its own.
         let mut twice = bar(&[0.0, 1.0, 2.0, 1.0, 2.0, 3.0], &[[0, 1], [1, 2], [4, 3], [4, 5]]);
         let left_out = keep(&mut twice).unwrap();
-        // The point 3 was that of the second copy alone.
-        assert_eq!((left_out.doubled, left_out.unused), (1, 1));
-        assert_eq!(twice.cells.points, [0, 1, 1, 2, 3, 4]);
+        assert_eq!((left_out.doubled, left_out.unused), (1, 0));
+        assert_eq!(twice.cells.points, [0, 1, 1, 2, 4, 5]);
         let mut other = bar(&[0.0, 1.0, 2.0, 1.0, 2.0], &[[0, 1], [1, 2], [4, 3]]);
         other.of_points[0].values[4] = 2.1;
         let mistake = keep(&mut other.clone()).unwrap_err();

@@ -1,4 +1,4 @@
-//! What can be read off about the sign of an expression: enough for the base of a variable exponent.
+//! The sign of an expression as far as it can be read off, for defaults of parameters.
 
 use super::Scope;
 use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational};
