@@ -4,7 +4,8 @@
 use mms_codegen::compile;
 use mms_codegen::compile::Failure;
 use mms_runtime::{IntegratorName, ShapeName};
-use mms_spec::names::{FUNCTIONS, MAX_NAME};
+use mms_spec::language::FUNCTIONS;
+use mms_spec::names::MAX_NAME;
 use mms_spec::{INTEGRATORS, SHAPES};
 
 /// What means something in a target language or in what is generated for it: one line per target. A

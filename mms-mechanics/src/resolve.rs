@@ -3,7 +3,7 @@
 mod sign;
 
 use mms_spec::diagnostic::{Diagnostic, MAX_RENDERED};
-use mms_spec::names::{FUNCTIONS, elsewhere};
+use mms_spec::language::{FUNCTIONS, elsewhere};
 use mms_spec::source::{Span, Spanned};
 use mms_spec::suggest::advice;
 use mms_spec::syntax::{Ast, Kind, Operator};

@@ -22,6 +22,7 @@ pub mod foreign;
 mod form;
 pub mod format;
 mod formula;
+pub mod language;
 mod material;
 pub mod moduli;
 pub mod names;

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use crate::diagnostic::{Diagnostic, quoted};
+use crate::language::FUNCTIONS;
 use crate::source::{Span, Spanned};
 use crate::table::Reader;
 
@@ -21,12 +22,6 @@ pub const COORDINATES: &[(&str, &str)] = &[
     ("pi", "the circle's number"),
 ];
 
-/// The functions of the language.
-pub const FUNCTIONS: &[&str] = &[
-    "sqrt", "exp", "ln", "sin", "cos", "tan", "sinh", "cosh", "tanh", "asin", "acos", "atan",
-    "atan2", "hypot", "cbrt",
-];
-
 /// The names that a strain-energy density is written in.
 pub const INVARIANTS: &[(&str, &str)] = &[
     ("I1", "the first invariant, tr C"),
@@ -37,39 +32,6 @@ pub const INVARIANTS: &[(&str, &str)] = &[
     ("eps_trace", "the trace of the small strain"),
     ("eps_squared", "the small strain contracted with itself"),
 ];
-
-/// The advice on a word that other languages and books have, and this one not.
-pub fn elsewhere(word: &str) -> Option<&'static str> {
-    Some(match word {
-        "log" => "the natural logarithm is `ln(x)`",
-        "log10" => "write `ln(x)/ln(10)`",
-        "log2" => "write `ln(x)/ln(2)`",
-        "pow" | "power" => "a power is `a^b`",
-        "M_PI" | "np.pi" => "the circle's number is `pi`",
-        "e" | "E" => "powers of Euler's number are `exp(x)`",
-        "sec" | "csc" | "cot" => "write it with `sin(x)` and `cos(x)`",
-        "arcsin" | "arccos" | "arctan" => "it is `asin(x)`, `acos(x)` or `atan(x)` here",
-        "lambda1" | "lambda2" | "lambda3" | "lambda_1" | "lambda_2" | "lambda_3" => {
-            "a material is a function of the invariants I1, I2, J, and principal stretches are not known"
-        }
-        "coordinates" => "fields are Cartesian; an axisymmetric one is written in three dimensions",
-        "plane" => {
-            "a field in a plane is in plane strain; plane stress takes the moduli that it reduces to"
-        }
-        _ => return None,
-    })
-}
-
-/// The advice on a power between a function and its argument, as in `sin^2(X)`, if a text ends so.
-pub fn power_of_function(text: &str) -> Option<String> {
-    let (before, exponent) = text.trim_end().rsplit_once('^')?;
-    let is_word = |it: char| it.is_ascii_alphanumeric() || it == '_';
-    let name = before.rsplit(|it| !is_word(it)).next()?;
-    let exponent: u32 = exponent.trim().parse().ok()?;
-    FUNCTIONS
-        .contains(&name)
-        .then(|| format!("the power of a function stands behind its call: `{name}(..)^{exponent}`"))
-}
 
 /// Which names are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

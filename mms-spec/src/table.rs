@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, quoted};
 use crate::document::Document;
 use crate::format::{self, Key};
 use crate::formula::Formula;
-use crate::names::elsewhere;
+use crate::language::elsewhere;
 use crate::source::{SourceId, Sources, Span, Spanned};
 use crate::suggest::{advice, did_you_mean};
 

@@ -3,7 +3,8 @@
 use mms_codegen::materials::MATERIALS;
 use mms_spec::format;
 use mms_spec::format::{Holds, Key, Length};
-use mms_spec::names::{COORDINATES, FUNCTIONS, INVARIANTS, Keeper, MAX_NAME};
+use mms_spec::language::FUNCTIONS;
+use mms_spec::names::{COORDINATES, INVARIANTS, Keeper, MAX_NAME};
 use mms_spec::{Claim, Face, MAX_COUNT};
 use serde_json::{Map, Value, json};
 

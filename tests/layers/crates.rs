@@ -28,7 +28,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-spec",
         knows: &[],
         layers: &[
-            "brackets foreign quantity suggest",
+            "brackets foreign language quantity suggest",
             "source",
             "diagnostic formula",
             "document form syntax",

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use mms_codegen::{Compiled, Options, compile_with};
 use mms_emit::{Subject, TARGETS};
-use mms_spec::names::{COORDINATES, FUNCTIONS};
+use mms_spec::language::FUNCTIONS;
+use mms_spec::names::COORDINATES;
 use mms_spec::quantity::Quantity;
 
 use super::build::{can_prove, in_turn, ports, prove, quick};

@@ -12,7 +12,7 @@ use super::ast::{Ast, Kind, Node, Operator};
 use super::lexer::{Token, TokenKind, tokens};
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::formula::Formula;
-use crate::names::power_of_function;
+use crate::language::power_of_function;
 use crate::source::{Span, Spanned};
 
 /// The most parentheses, calls and operators that may wait for their end at once.

@@ -277,7 +277,7 @@ impl Inference<'_> {
     }
 
     fn pure_argument(&mut self, name: &str, value: &Measure, place: usize) -> Option<Measure> {
-        if !crate::names::FUNCTIONS.contains(&name) {
+        if !crate::language::FUNCTIONS.contains(&name) {
             // Not a function: reported where names are looked up.
             return None;
         }

@@ -8,7 +8,7 @@
 use anyhow::bail;
 use mms_codegen::materials::MATERIALS;
 use mms_spec::foreign::Foreign;
-use mms_spec::names::FUNCTIONS;
+use mms_spec::language::FUNCTIONS;
 use mms_spec::suggest::advice;
 use mms_spec::{
     FILLS, FORMS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS,

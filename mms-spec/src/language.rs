@@ -1,0 +1,40 @@
+//! The functions of the language of formulas, and the words of other languages that it lacks.
+
+/// The functions of the language.
+pub const FUNCTIONS: &[&str] = &[
+    "sqrt", "exp", "ln", "sin", "cos", "tan", "sinh", "cosh", "tanh", "asin", "acos", "atan",
+    "atan2", "hypot", "cbrt",
+];
+
+/// The advice on a word that other languages and books have, and this one not.
+pub fn elsewhere(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "log" => "the natural logarithm is `ln(x)`",
+        "log10" => "write `ln(x)/ln(10)`",
+        "log2" => "write `ln(x)/ln(2)`",
+        "pow" | "power" => "a power is `a^b`",
+        "M_PI" | "np.pi" => "the circle's number is `pi`",
+        "e" | "E" => "powers of Euler's number are `exp(x)`",
+        "sec" | "csc" | "cot" => "write it with `sin(x)` and `cos(x)`",
+        "arcsin" | "arccos" | "arctan" => "it is `asin(x)`, `acos(x)` or `atan(x)` here",
+        "lambda1" | "lambda2" | "lambda3" | "lambda_1" | "lambda_2" | "lambda_3" => {
+            "a material is a function of the invariants I1, I2, J, and principal stretches are not known"
+        }
+        "coordinates" => "fields are Cartesian; an axisymmetric one is written in three dimensions",
+        "plane" => {
+            "a field in a plane is in plane strain; plane stress takes the moduli that it reduces to"
+        }
+        _ => return None,
+    })
+}
+
+/// The advice on a power between a function and its argument, as in `sin^2(X)`, if a text ends so.
+pub fn power_of_function(text: &str) -> Option<String> {
+    let (before, exponent) = text.trim_end().rsplit_once('^')?;
+    let is_word = |it: char| it.is_ascii_alphanumeric() || it == '_';
+    let name = before.rsplit(|it| !is_word(it)).next()?;
+    let exponent: u32 = exponent.trim().parse().ok()?;
+    FUNCTIONS
+        .contains(&name)
+        .then(|| format!("the power of a function stands behind its call: `{name}(..)^{exponent}`"))
+}
