@@ -295,11 +295,12 @@ impl Resolver<'_> {
 
     fn power(&mut self, base: Expr, exponent: Expr, left: Span, right: Span) -> Option<Expr> {
         let Some(number) = self.graph.as_number(exponent).cloned() else {
-            let number = self.graph.as_number(base);
-            if number.is_some_and(|number| *number <= Rational::ZERO) {
+            let symbols = self.graph.symbols(base);
+            let is_of_parameters = symbols.iter().all(|it| matches!(it, Symbol::Parameter(_)));
+            if is_of_parameters && !self.scope.is_positive(self.graph, base) {
                 return self.report(
                     Diagnostic::error(left, "a variable exponent needs a positive base")
-                        .label("this is not positive")
+                        .label("not proved positive")
                         .help("write the exponent as a number, or the base as exp(..) of its logarithm"),
                 );
             }
