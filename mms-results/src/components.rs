@@ -1,6 +1,7 @@
 //! The parts of a quantity that the components of an array are, by their names in the file.
 
 use crate::meaning::{Column, Part, Place, array};
+use crate::parts::axis;
 use crate::{Array, Snapshot};
 
 /// The part that each component is: by their names if these tell axes, as XX, YY, XY or x, y, z, else by their order.
@@ -32,7 +33,8 @@ fn by_name(names: &[String]) -> Option<Vec<Part>> {
         let stem = first.get(..first.len().checked_sub(count)?)?;
         let axes = |name: &String| -> Option<Vec<usize>> {
             let (base, axes) = name.split_at_checked(name.len().checked_sub(count)?)?;
-            (base == stem).then(|| axes.bytes().map(axis).collect())?
+            let of_space = |byte| axis(byte).filter(|it| *it <= 3);
+            (base == stem).then(|| axes.bytes().map(of_space).collect())?
         };
         let all = names.iter().map(axes).collect::<Option<Vec<_>>>()?;
         let is_other = |(at, own): (usize, &Vec<usize>)| !all[..at].contains(own);
@@ -48,14 +50,6 @@ fn by_name(names: &[String]) -> Option<Vec<Part>> {
         };
         is_sound.then(|| all.iter().map(part).collect())
     })
-}
-
-fn axis(byte: u8) -> Option<usize> {
-    match byte.to_ascii_lowercase() {
-        letter @ b'x'..=b'z' => Some(usize::from(letter - b'x')),
-        digit @ b'0'..=b'3' => Some(usize::from(digit - b'0')),
-        _ => None,
-    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use crate::meaning::here;
 use crate::names::{Meaning, Role, Values, all_names};
+use crate::norm::{largest, range};
 use crate::{Mistake, Snapshot, Stored};
 
 /// How many bits of a digest tell it from most others.
@@ -332,15 +333,10 @@ fn motion<'a>(reference: Values<'a>, displacement: Option<Values<'a>>, how: &str
 fn span(places: &Values<'_>) -> String {
     let range = |axis: usize| {
         let own = places.numbers.iter().skip(axis).step_by(places.components);
-        let [least, most] =
-            own.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], it| [a.min(*it), b.max(*it)]);
+        let [least, most] = range(own);
         format!("{least:.4} to {most:.4}")
     };
     (0..places.components).map(range).collect::<Vec<_>>().join(" by ")
-}
-
-fn largest(numbers: &[f64]) -> f64 {
-    numbers.iter().fold(0.0, |most: f64, it| most.max(it.abs()))
 }
 
 /// One position less another, with the roundings of both.

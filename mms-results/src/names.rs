@@ -229,8 +229,8 @@ fn hold_clear(
     if !(wants(a) || wants(b)) {
         return Ok(());
     }
-    let prefix = if matches!(place, Place::Cells(_)) { "cells:" } else { "" };
-    let said = |role: Role| format!("`--map {}={prefix}{stem}`", role.symbol());
+    let mapped = mapped_name(place, stem);
+    let said = |role: Role| format!("`--map {}={mapped}`", role.symbol());
     let what = format!(
         "`{}` ({}) may be {} or {}: say which with {} or {}, or the code that wrote it with `--from`",
         array.name,

@@ -108,7 +108,13 @@ pub fn largest(of: &[f64]) -> f64 {
     of.iter().fold(0.0, |most: f64, it| most.max(it.abs()))
 }
 
-/// The same of finite numbers, in one pass.
+/// The least and the largest number; infinity and minus infinity if there is none.
+pub fn range<'a>(of: impl IntoIterator<Item = &'a f64>) -> [f64; 2] {
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    of.into_iter().fold(none, |[least, most], it| [least.min(*it), most.max(*it)])
+}
+
+/// The largest absolute value of finite numbers, in one pass; 0 where there is none.
 ///
 /// # Errors
 /// The first number that is not finite.

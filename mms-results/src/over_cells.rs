@@ -12,6 +12,10 @@ use crate::cell::{Local, Shape, gauss};
 use crate::mesh::Mesh;
 use crate::norm::{Norms, lengths};
 
+mod interpolation;
+
+use interpolation::Interpolation;
+
 /// The part of the exact solution that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
@@ -85,66 +89,6 @@ struct Table {
     ends: Interpolation,
     /// Into how many parts an axis is divided where the maximum is looked for.
     steps: usize,
-}
-
-/// Values of Lagrange's polynomials at places along an axis.
-struct Interpolation {
-    places: Vec<(f64, f64)>,
-    /// By the places.
-    rows: Vec<Vec<f64>>,
-}
-
-impl Interpolation {
-    /// From some knots to places with weights.
-    fn new(knots: &[f64], places: Vec<(f64, f64)>) -> Self {
-        let rows = places.iter().map(|(x, _)| lagrange(knots, *x)).collect();
-        Interpolation { places, rows }
-    }
-
-    /// Numbers on the grid of these places, from those on a grid of knots; so many at a point, the last axis first.
-    fn apply(&self, numbers: &[f64], dimension: usize, size: usize, room: &mut [Vec<f64>; 2]) {
-        let (from, to) = (self.rows[0].len(), self.rows.len());
-        let [result, other] = room;
-        result.clear();
-        result.extend(numbers);
-        for axis in 0..dimension {
-            std::mem::swap(result, other);
-            let (before, behind) =
-                (to.pow(axis as u32), from.pow((dimension - 1 - axis) as u32) * size);
-            result.clear();
-            result.resize(before * to * behind, 0.0);
-            let blocks =
-                other.chunks_exact(from * behind).zip(result.chunks_exact_mut(to * behind));
-            for (own, results) in blocks {
-                for (row, result) in self.rows.iter().zip(results.chunks_exact_mut(behind)) {
-                    for (factor, own) in row.iter().zip(own.chunks_exact(behind)) {
-                        result.iter_mut().zip(own).for_each(|(to, it)| *to += factor * it);
-                    }
-                }
-            }
-        }
-    }
-
-    /// The place and the weight of a point of the grid.
-    fn point(&self, mut index: usize, dimension: usize) -> (Local, f64) {
-        let (mut at, mut weight) = ([0.0; 3], 1.0);
-        for axis in (0..dimension).rev() {
-            let (x, own) = self.places[index % self.places.len()];
-            index /= self.places.len();
-            (at[axis], weight) = (x, weight * own);
-        }
-        (at, weight)
-    }
-}
-
-/// The polynomials that are 1 at one knot and 0 at the others, at a place.
-fn lagrange(knots: &[f64], x: f64) -> Vec<f64> {
-    let factor = |at: usize, other: usize| match at == other {
-        true => 1.0,
-        false => (x - knots[other]) / (knots[at] - knots[other]),
-    };
-    let all = 0..knots.len();
-    all.clone().map(|at| all.clone().map(|other| factor(at, other)).product()).collect()
 }
 
 impl Table {

@@ -81,7 +81,7 @@ pub(crate) fn part_of(name: &str, quantity: &str) -> Option<Part> {
 }
 
 /// The axis of a letter or a digit.
-fn axis(byte: u8) -> Option<usize> {
+pub(crate) fn axis(byte: u8) -> Option<usize> {
     match byte {
         b'x' | b'X' => Some(0),
         b'y' | b'Y' => Some(1),

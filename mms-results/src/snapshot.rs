@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::Mistake;
 use crate::cell::{dimension, last_edges, refused};
+use crate::norm::{largest, range};
 
 /// How numbers were stored, and so how far each may be from what the solver had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,8 +106,7 @@ impl Array {
     pub fn described(&self) -> String {
         let range = |component: usize| {
             let numbers = self.values.iter().skip(component).step_by(self.components);
-            let [least, most] = numbers
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], it| [a.min(*it), b.max(*it)]);
+            let [least, most] = range(numbers);
             format!("{least:.3e} to {most:.3e}")
         };
         let ranges: Vec<_> = (0..self.components).map(range).collect();
@@ -121,8 +121,7 @@ impl Array {
 
     /// How far its numbers may be from those that were stored, at the largest of them.
     pub fn rounding(&self) -> f64 {
-        let largest = self.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-        self.stored.rounding(largest)
+        self.stored.rounding(largest(&self.values))
     }
 }
 

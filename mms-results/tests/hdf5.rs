@@ -145,7 +145,7 @@ fn paths_are_mapped_with_and_without_the_slash() {
         let read = read(&data("groups.h5"), &open, &wanted(&mapped(&texts[1..]), &is_none));
         let read = read.unwrap();
         assert_eq!((read[0].of_points.len(), read[0].unread.len()), (1, 2));
-        // An array of this name may be times or temperatures.
+        // T is a temperature.
         assert_eq!(named(&all("groups.h5", &texts)[0].of_points, "T").values[1], 300.5);
     }
 }
@@ -156,7 +156,7 @@ fn paths_are_listed_where_nothing_is_known() {
     let found = &all("groups.h5", &[])[0];
     let meant = recognise(found, &KNOWN, &|_| true).unwrap();
     let said = resolve(found, &meant, 2, &|_: &[f64]| 0.0, None).unwrap_err().what;
-    assert!(said.ends_with("the file has `run/fields/u`, `run/mesh/X`, `T`"), "{said}");
+    assert!(said.ends_with("the file has `T`, `run/fields/u`, `run/mesh/X`"), "{said}");
 }
 
 #[test]

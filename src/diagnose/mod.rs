@@ -13,7 +13,6 @@ use mms_diagnosis::scene::{Evidence, LawOf, TangentOf};
 use mms_diagnosis::state::{Computed, Response};
 use mms_diagnosis::table::Measure;
 use mms_results::mesh::Mesh;
-use mms_results::motion::{Motion, resolve};
 use mms_results::names::{Meaning, Names, Profile, Role, Values, recognise, wanted};
 use mms_results::{Snapshot, Stored};
 use mms_spec::quantity;
@@ -22,7 +21,7 @@ pub use self::judged::falls;
 pub use self::parameters::Factors;
 
 use self::nodes::{Nodes, volumes};
-use crate::judge::results::{Filled, Results, placed, room};
+use crate::judge::results::{Results, motion, placed, room};
 use crate::session::exact::Exact;
 
 /// How results are read.
@@ -162,23 +161,33 @@ pub fn gradients(
     Ok(named.into_iter().filter(|(role, _)| is_there(*role)).map(|(_, it)| it).collect())
 }
 
+/// The quantities that diagnosis looks for; without a law alone, these are arrays of the right shape.
+///
+/// # Errors
+/// A name that may mean two quantities.
 fn meanings(
     snapshot: &Snapshot,
     reading: &Reading<'_>,
     dimension: usize,
 ) -> anyhow::Result<Vec<Meaning>> {
-    // A law alone has the symbols of this project; results of other codes may call another stress S.
-    let profile = reading.names.profile.clone().or_else(|| Some(Profile::symbols()));
-    let symbols = Names { profile, ..reading.names.clone() };
-    let (names, wants): (_, &dyn Fn(Role) -> bool) = match reading.law {
-        Some(_) => (&symbols, &|_| true),
-        None => (reading.names, &|role| !is_stress(role)),
-    };
-    let mut found = recognise(snapshot, names, wants).map_err(placed)?;
+    let mut found = recognised(snapshot, reading)?;
     if reading.law.is_none() {
         found.retain(|meaning| meaning.unlike(snapshot, dimension, None).is_none());
     }
     Ok(found)
+}
+
+/// The quantities that diagnosis looks for, whatever the shape of their arrays.
+///
+/// # Errors
+/// A name that may mean two quantities.
+fn recognised(snapshot: &Snapshot, reading: &Reading<'_>) -> anyhow::Result<Vec<Meaning>> {
+    if reading.law.is_none() {
+        return recognise(snapshot, reading.names, &|role| !is_stress(role)).map_err(placed);
+    }
+    // A law alone has the symbols of this project; results of other codes may call another stress S.
+    let profile = reading.names.profile.clone().or_else(|| Some(Profile::symbols()));
+    recognise(snapshot, &Names { profile, ..reading.names.clone() }, &|_| true).map_err(placed)
 }
 
 /// The arrays of known names that are left out for their shape, of the first result.
@@ -192,7 +201,7 @@ pub fn left_out(
 ) -> anyhow::Result<Vec<String>> {
     let first = all.first().and_then(|it| it.snapshots.first());
     let Some(snapshot) = first.filter(|_| reading.law.is_none()) else { return Ok(Vec::new()) };
-    let found = recognise(snapshot, reading.names, &|role| !is_stress(role)).map_err(placed)?;
+    let found = recognised(snapshot, reading)?;
     Ok(found.iter().filter_map(|it| it.unlike(snapshot, dimension, None)).collect())
 }
 
@@ -315,7 +324,7 @@ fn state(
             found.numbers.to_mut().iter_mut().for_each(|it| *it *= reading.residual_sign);
         }
         let time = time(snapshot, reading, 0)?;
-        let motion = motion(snapshot, &meanings, time, exact)?;
+        let motion = motion(snapshot, &meanings, time, (exact, false))?;
         let rounding = motion.reference.rounding;
         let reference = motion.reference.numbers.into_owned();
         let u = motion.displacement.map(|it| it.numbers);
@@ -351,18 +360,6 @@ fn state(
     Ok(None)
 }
 
-/// X and u of a snapshot at a time.
-fn motion<'a>(
-    snapshot: &'a Snapshot,
-    meanings: &[Meaning],
-    time: f64,
-    exact: &Exact,
-) -> anyhow::Result<Motion<'a>> {
-    let outside = Filled { exact, cells: &snapshot.cells, is_part: false };
-    let mut back = exact.back(time, snapshot.rows());
-    resolve(snapshot, meanings, exact.dimension, &outside, Some(&mut back)).map_err(placed)
-}
-
 /// A state is the exact one within this part of it: rounding of a file, and no error of a method.
 const EXACT: f64 = 1e-6;
 
@@ -396,7 +393,7 @@ fn level(
         let (dimension, meanings) =
             (exact.dimension, meanings(snapshot, reading, exact.dimension)?);
         let time = time(snapshot, reading, at)?;
-        let motion = motion(snapshot, &meanings, time, exact)?;
+        let motion = motion(snapshot, &meanings, time, (exact, false))?;
         let rounding = motion.reference.rounding;
         let reference = motion.reference.numbers.into_owned();
         let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };

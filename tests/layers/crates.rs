@@ -163,8 +163,8 @@ pub const CRATES: &[Crate] = &[
         name: "mms-results",
         knows: &["mms-hdf5"],
         layers: &[
-            "cell lattice mistake role snapshot",
-            "norm own wanted",
+            "cell lattice mistake norm role snapshot",
+            "own wanted",
             "comparison meaning mesh",
             "components parts",
             "mapping",

@@ -183,6 +183,17 @@ impl<'a> File<'a> {
         self.held(count, integers, numbers)
     }
 
+    /// The number of blocks of a section of format 4, from its first numbers.
+    fn blocks(&mut self) -> Result<usize, Mistake> {
+        let Format { version, size, .. } = self.format;
+        let blocks = self.size(3, 0)?;
+        let _all = self.whole(size)?;
+        if version == 41 {
+            let _least_and_most = [self.whole(size)?, self.whole(size)?];
+        }
+        Ok(blocks)
+    }
+
     fn held(&self, count: i64, integers: usize, numbers: usize) -> Result<usize, Mistake> {
         let each = if self.format.is_binary {
             4 * integers + 8 * numbers
@@ -281,11 +292,7 @@ impl<'a> File<'a> {
             }
             return mesh.unite_nodes(had).map_err(|what| self.mistake(what));
         }
-        let blocks = self.size(3, 0)?;
-        let _all = self.whole(size)?;
-        if version == 41 {
-            let _least_and_most = [self.whole(size)?, self.whole(size)?];
-        }
+        let blocks = self.blocks()?;
         for _ in 0..blocks {
             let [first, second, is_parametric] = [self.whole(4)?, self.whole(4)?, self.whole(4)?];
             let dimension = if version == 41 { first } else { second };
@@ -328,7 +335,7 @@ impl<'a> File<'a> {
     }
 
     fn elements(&mut self, mesh: &mut Mesh) -> Result<(), Mistake> {
-        let Format { version, is_binary, size, .. } = self.format;
+        let Format { version, is_binary, .. } = self.format;
         let had = mesh.len();
         if version == 20 {
             let mut left = self.size(3, 0)?;
@@ -350,11 +357,7 @@ impl<'a> File<'a> {
                 self.block(mesh, kind, count, tag, tags)?;
             }
         } else {
-            let blocks = self.size(3, 0)?;
-            let _all = self.whole(size)?;
-            if version == 41 {
-                let _least_and_most = [self.whole(size)?, self.whole(size)?];
-            }
+            let blocks = self.blocks()?;
             for _ in 0..blocks {
                 let [_, _, kind] = [self.whole(4)?, self.whole(4)?, self.whole(4)?];
                 let count = self.size(2, 0)?;

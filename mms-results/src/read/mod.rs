@@ -113,7 +113,7 @@ struct Format {
     read: fn(&Source<'_>) -> Result<Contents, Mistake>,
 }
 
-/// The formats, in the order in which they are tried; a text that is no other is a table.
+/// The formats, in the order in which they are tried.
 const FORMATS: &[Format] = &[
     Format {
         name: "an array of NumPy",
@@ -175,12 +175,14 @@ const FORMATS: &[Format] = &[
         is: |it| frd::is_frd(it.bytes),
         read: |it| frd::parse(it.bytes, it.wanted).map(Contents::Snapshots),
     },
-    Format {
-        name: "a table",
-        is: |_| true,
-        read: |it| table::parse(it.bytes, it.wanted).map(Contents::Snapshots),
-    },
 ];
+
+/// The format of a text that is no other.
+const TABLE: Format = Format {
+    name: "a table",
+    is: |_| true,
+    read: |it| table::parse(it.bytes, it.wanted).map(Contents::Snapshots),
+};
 
 /// HDF5 and netCDF are taken as they are, for they may be large.
 const STORE: &str = "HDF5 or netCDF";
@@ -213,8 +215,7 @@ fn parse_beside(
         return Err(Mistake::new("the file is empty"));
     }
     let source = Source { bytes, start, wanted, beside };
-    let format = FORMATS.iter().find(|it| (it.is)(&source));
-    let format = format.ok_or_else(|| Mistake::new("a format that is not known"))?;
+    let format = FORMATS.iter().find(|it| (it.is)(&source)).unwrap_or(&TABLE);
     Ok(named(format.name, (format.read)(&source)?))
 }
 

@@ -45,7 +45,7 @@ impl Exclusions {
 }
 
 /// The mistakes that results with these errors at some times exclude, whose finest has this time step; none without errors of the
-/// motion. Of a static field they are not known, for they are found by motions.
+/// motion. Only motions find them, so none of a static field is known.
 ///
 /// # Errors
 /// The field cannot be run.

@@ -5,15 +5,14 @@ use std::collections::BTreeMap;
 use anyhow::Context as _;
 use mms_results::Snapshot;
 use mms_results::cell::Shape;
-use mms_results::motion::resolve;
 use mms_results::names::Role;
 use mms_results::own::LeftOut;
 use mms_spec::foreign::shown;
 use serde_json::{Value, json};
 
-use super::extent::Filled;
+use super::Results;
+use super::extent::motion;
 use super::level::{Reading, values};
-use super::{Results, placed};
 use crate::session::exact::Exact;
 
 /// How one file is read.
@@ -37,7 +36,7 @@ pub struct Explained {
 }
 
 impl Explained {
-    /// How results are read; of several times the first.
+    /// How results are read, as their first time shows it.
     ///
     /// # Errors
     /// Positions or names that cannot be read, or no results.
@@ -52,10 +51,7 @@ impl Explained {
         let snapshot = snapshot.with_context(|| format!("{}: no results", shown(&file)))?;
         let time = snapshot.time.map_or(exact.window[0], |time| time.value);
         let meanings = reading.meanings(snapshot, exact)?;
-        let outside = Filled { exact, cells: &snapshot.cells, is_part: reading.is_part };
-        let mut back = exact.back(time, snapshot.rows());
-        let motion = resolve(snapshot, &meanings, exact.dimension, &outside, Some(&mut back))
-            .map_err(placed)?;
+        let motion = motion(snapshot, &meanings, time, (exact, reading.is_part))?;
         let (mut quantities, mut left_out) = (Vec::new(), Vec::new());
         for meaning in &meanings {
             let place = matches!(meaning.role, Role::Place | Role::Position | Role::Reference);
@@ -95,7 +91,7 @@ impl Explained {
         })
     }
 
-    /// All of it as text.
+    /// The explanation as text, a row for each thing that is known.
     pub fn text(&self) -> String {
         let times = match self.times.as_slice() {
             [] => "none in the file: give them with `--time`".into(),
@@ -118,7 +114,7 @@ impl Explained {
         format!("{}{}", shown(&self.file), rows.iter().map(row).collect::<String>())
     }
 
-    /// All of it as a document.
+    /// The explanation as a document.
     pub fn document(&self) -> Value {
         let quantity =
             |(role, how): &(Role, String)| json!({ "quantity": role.name(), "how": how });

@@ -4,10 +4,11 @@ use std::f64::consts::TAU;
 
 use anyhow::ensure;
 use mms_mechanics::extent::Extent;
-use mms_results::Cells;
 use mms_results::lattice::Lattice;
 use mms_results::mesh::{Mesh, swept};
-use mms_results::motion::Body;
+use mms_results::motion::{Body, Motion, resolve};
+use mms_results::names::Meaning;
+use mms_results::{Cells, Snapshot};
 use mms_spec::Face;
 
 use super::ALIKE;
@@ -82,14 +83,27 @@ pub fn of_cells(
     Ok(Covered { cells, points, size, is_even: false, part })
 }
 
+/// X and u of a snapshot at a time.
+///
+/// # Errors
+/// Positions that cannot be read, or that lie outside the body.
+pub fn motion<'a>(
+    snapshot: &'a Snapshot,
+    meanings: &[Meaning],
+    time: f64,
+    (exact, is_part): (&Exact, bool),
+) -> anyhow::Result<Motion<'a>> {
+    let outside = Filled { exact, cells: &snapshot.cells, is_part };
+    let mut back = exact.back(time, snapshot.rows());
+    resolve(snapshot, meanings, exact.dimension, &outside, Some(&mut back)).map_err(placed)
+}
+
 /// The body of a field, which points or the cells between them may fill.
-pub struct Filled<'a> {
-    /// The field.
-    pub exact: &'a Exact,
-    /// The cells.
-    pub cells: &'a Cells,
+struct Filled<'a> {
+    exact: &'a Exact,
+    cells: &'a Cells,
     /// Whether a part of the body is enough, so that filling it tells nothing.
-    pub is_part: bool,
+    is_part: bool,
 }
 
 impl Body for Filled<'_> {

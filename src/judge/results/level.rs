@@ -2,14 +2,14 @@
 
 use anyhow::{anyhow, bail};
 use mms_results::mesh::Mesh;
-use mms_results::motion::{Motion, hold_distinct, resolve};
+use mms_results::motion::{Motion, hold_distinct};
 use mms_results::names::{
     Form, Meaning, Names, Role, Values, all_names, everything, recognise, wanted,
 };
 use mms_results::{Snapshot, Stored, suggestion};
 use mms_spec::quantity::Quantity;
 
-use super::extent::{self, Covered, Filled};
+use super::extent::{self, Covered};
 use super::files::{Results, placed, room};
 use super::taken::Taken;
 use super::units;
@@ -247,11 +247,7 @@ impl Reading<'_> {
     ) -> anyhow::Result<Found> {
         let dimension = exact.dimension;
         let meanings = self.meanings(snapshot, exact)?;
-        let motion = {
-            let outside = Filled { exact, cells: &snapshot.cells, is_part: self.is_part };
-            let mut back = exact.back(time, snapshot.rows());
-            resolve(snapshot, &meanings, dimension, &outside, Some(&mut back)).map_err(placed)?
-        };
+        let motion = extent::motion(snapshot, &meanings, time, (exact, self.is_part))?;
         let cells = &snapshot.cells;
         let mesh = Mesh { cells, points: &motion.reference.numbers, dimension };
         let sizes = mesh.sizes();
@@ -343,11 +339,8 @@ impl Reading<'_> {
         exact: &Exact,
     ) -> anyhow::Result<Vec<(Quantity, Values<'b>)>> {
         let meanings = self.meanings(snapshot, exact)?;
-        let outside = Filled { exact, cells: &snapshot.cells, is_part: self.is_part };
         let time = snapshot.time.map_or(exact.window[0], |time| time.value);
-        let mut back = exact.back(time, snapshot.rows());
-        let motion = resolve(snapshot, &meanings, exact.dimension, &outside, Some(&mut back))
-            .map_err(placed)?;
+        let motion = extent::motion(snapshot, &meanings, time, (exact, self.is_part))?;
         let judged = meanings.iter().filter(|it| {
             self.is_judged(it, &motion)
                 && self.unlike(it, snapshot, &motion, exact.rows()).is_none()

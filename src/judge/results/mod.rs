@@ -29,7 +29,7 @@ use mms_spec::quantity::Quantity;
 pub use baseline::{Baseline, Compared};
 pub use excluded::{Exclusions, exclusions};
 pub use explained::Explained;
-pub use extent::{Filled, distances};
+pub use extent::{distances, motion};
 pub use files::{Results, placed, room};
 pub use level::{Over, Reading, Sampling, weight, without_positions};
 pub use same::{Same, same};

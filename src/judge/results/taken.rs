@@ -5,7 +5,7 @@ use mms_results::comparison::Comparison;
 use mms_results::mesh::Mesh;
 use mms_results::motion::Motion;
 use mms_results::names::{Meaning, Role, Values, Why};
-use mms_results::norm::{largest, lengths};
+use mms_results::norm::{largest, lengths, range};
 use mms_results::over_cells::{Asked, Carried};
 use mms_results::{Mistake, Snapshot, Stored};
 use mms_spec::quantity::Quantity;
@@ -125,7 +125,7 @@ impl Taken<'_> {
     /// reference density and the present one is another.
     ///
     /// # Errors
-    /// Such a density; an exact one that is not finite.
+    /// A density that may be either; an exact density that is not finite.
     pub fn hold_density(&mut self, meaning: &Meaning, values: &Values<'_>) -> anyhow::Result<()> {
         let is_open = meaning.role == Role::MassDensity && meaning.why == Why::Name;
         let name = &meaning.source;
@@ -142,9 +142,7 @@ impl Taken<'_> {
         if !near(&values.numbers, &reference) || near(&present, &reference) {
             return Ok(());
         }
-        let [least, most] = present
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], it| [a.min(*it), b.max(*it)]);
+        let [least, most] = range(&present);
         bail!(
             "{}: `{name}` is the reference density of the field at all points, and the present one is {least:.6e} to \
              {most:.6e}: say which it is with `--map rho0={name}`, which is given and not judged, or `--map rho={name}`",
