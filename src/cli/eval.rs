@@ -274,7 +274,6 @@ impl Eval {
         needed
     }
 
-    /// Warns of points outside the body, and of a time outside the window.
     /// The time as it is given; 0 in a static field.
     ///
     /// # Errors
@@ -287,6 +286,7 @@ impl Eval {
         }
     }
 
+    /// Warns of points outside the body, and of a time outside the window.
     fn outside<T: Digits>(
         &self,
         input: &Input,

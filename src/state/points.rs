@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use anyhow::{bail, ensure};
 use mms_analysis::present::{Inverse, Unplaced};
 use mms_results::motion::{Body, resolve};
-use mms_results::names::{Names, Role, Values, everything, recognise};
+use mms_results::names::{Names, Role, Values, all_names, everything, recognise};
 use mms_results::{Array, Cells, Snapshot};
 use mms_runtime::scene::{Layout, Scene};
 use mms_runtime::{Division, Setup};
@@ -132,7 +132,11 @@ impl Places {
         let named = |role| meanings.iter().find(move |it| it.role == role);
         let roles = [Role::Position, Role::Place, Role::Reference];
         let Some(found) = roles.into_iter().find_map(named) else {
-            return Err(without_positions(&snapshot, dimension, &|_| 0.0));
+            bail!(
+                "`{}`: no positions found: expected x; the file has {}; name them with `--map x=..`",
+                shown(path),
+                all_names(&snapshot)
+            )
         };
         let present = found.values(&snapshot, dimension).map_err(placed)?;
         ensure!(

@@ -59,7 +59,7 @@ impl Results {
         Ok(Results { name: given.to_owned(), snapshots })
     }
 
-    /// Keeps the last result alone, without its time: in a static field what comes before are steps on the way.
+    /// Keeps the last result alone, without its time: the results before it are steps on the way to a static field.
     pub fn keep_last(&mut self) {
         self.snapshots.drain(..self.snapshots.len().saturating_sub(1));
         self.snapshots.iter_mut().for_each(|it| it.time = None);

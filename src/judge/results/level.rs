@@ -172,7 +172,7 @@ pub fn weight(text: &str) -> Result<Role, &'static str> {
     role.ok_or("expected volume or mass; `--map volume=NAME` says which column that is")
 }
 
-/// The mistake of a file without positions: all its arrays, and the option that names the columns that may be X.
+/// The mistake of a file in which neither X nor x and u is found: all its arrays, and the option that names the columns that may be X.
 pub fn without_positions(
     whole: &Snapshot,
     dimension: usize,

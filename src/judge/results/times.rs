@@ -71,15 +71,15 @@ pub fn common(all: &mut [Results], wanted: &[f64], exact: &Exact) -> anyhow::Res
     Ok(common)
 }
 
-/// The last result of each mesh, in a static field: what comes before are steps on the way.
+/// Keeps the last result of each mesh, at the given time, for a static field.
 fn at_rest(all: &mut [Results], value: f64) -> Common {
     let time = Time { value, rounding: 0.0 };
     let mut common = Common { times: vec![time.value], is_static: true, ..Common::default() };
     for results in all {
-        let last = results.snapshots.len().saturating_sub(1);
+        common.left_out += results.snapshots.len().saturating_sub(1);
+        results.keep_last();
         results.snapshots.iter_mut().for_each(|it| it.time = Some(time));
-        common.left_out += last;
-        common.snapshots.push(vec![last]);
+        common.snapshots.push(vec![0]);
     }
     common
 }
