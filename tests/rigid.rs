@@ -279,7 +279,8 @@ fn composed(inner: &Field, quantity: Quantity, at: &Sample<Precise>) -> Vec<Prec
         | Quantity::SecondPiolaKirchhoff
         | Quantity::Pressure
         | Quantity::VonMises
-        | Quantity::SmallStrain => value,
+        | Quantity::SmallStrain
+        | Quantity::Own(_) => value,
     }
 }
 

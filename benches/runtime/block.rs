@@ -89,20 +89,22 @@ impl<T: Real, const D: usize> Material<T, D> for Block<T, D> {
 
     fn kirchhoff_stress(
         &self,
+        time: T,
         reference: &[Vector<T, D>],
         displacement_gradient: &[Matrix<T, D>],
         stress: &mut [Matrix<T, D>],
     ) {
-        self.field.kirchhoff_stress(reference, displacement_gradient, stress);
+        self.field.kirchhoff_stress(time, reference, displacement_gradient, stress);
     }
 
     fn kirchhoff_stress_of_bunches(
         &self,
+        time: T,
         reference: &[[Vector<T, D>; BUNCH]],
         displacement_gradient: &[Matrices<T, D>],
         stress: &mut [Matrices<T, D>],
     ) {
-        self.field.kirchhoff_stress_of_bunches(reference, displacement_gradient, stress);
+        self.field.kirchhoff_stress_of_bunches(time, reference, displacement_gradient, stress);
     }
 }
 

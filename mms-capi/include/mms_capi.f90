@@ -24,6 +24,7 @@ module mms_capi
     public :: mms_field_name, mms_field_title, mms_field_dimension
     public :: mms_field_parameter_count, mms_field_parameter_name
     public :: mms_field_face_count, mms_field_face_name
+    public :: mms_field_own_quantity_count, mms_field_own_quantity_name
     public :: mms_field_get_parameter, mms_field_set_parameter, mms_field_set_parameters
     public :: mms_field_components, mms_field_evaluate, mms_field_normals
     public :: mms_field_bound_components, mms_field_get_bound, mms_field_bound
@@ -141,6 +142,19 @@ module mms_capi
         end function
 
         function mms_field_parameter_name(field, index) result(text) bind(c)
+            import :: c_ptr, c_size_t
+            type(c_ptr), value :: field
+            integer(c_size_t), value :: index
+            type(c_ptr) :: text
+        end function
+
+        function mms_field_own_quantity_count(field) result(count) bind(c)
+            import :: c_ptr, c_size_t
+            type(c_ptr), value :: field
+            integer(c_size_t) :: count
+        end function
+
+        function mms_field_own_quantity_name(field, index) result(text) bind(c)
             import :: c_ptr, c_size_t
             type(c_ptr), value :: field
             integer(c_size_t), value :: index

@@ -45,7 +45,7 @@ pub extern "C" fn mms_gallery_name(index: usize) -> *const c_char {
     gallery::FIELDS.get(index).map_or(null(), |(name, ..)| name.as_ptr())
 }
 
-/// How many quantities there are. Every field has all of them.
+/// How many quantities every field has.
 #[unsafe(no_mangle)]
 pub extern "C" fn mms_quantity_count() -> usize {
     Quantity::ALL.len()
@@ -212,6 +212,24 @@ pub unsafe extern "C" fn mms_field_face_count(field: *const Field) -> usize {
 pub unsafe extern "C" fn mms_field_face_name(field: *const Field, index: usize) -> *const c_char {
     // SAFETY: the caller passes a field or NULL.
     let name = unsafe { reference(field) }.and_then(|field| field.faces.get(index));
+    name.map_or(null(), |name| name.as_ptr())
+}
+
+/// How many quantities the file of a field defines beside those of every field: of given fields and of balances; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mms_field_own_quantity_count(field: *const Field) -> usize {
+    // SAFETY: the caller passes a field or NULL.
+    unsafe { reference(field) }.map_or(0, |field| field.own.len())
+}
+
+/// The name of a quantity that the file of a field defines, such as "p_gradient"; NULL beyond the last.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mms_field_own_quantity_name(
+    field: *const Field,
+    index: usize,
+) -> *const c_char {
+    // SAFETY: the caller passes a field or NULL.
+    let name = unsafe { reference(field) }.and_then(|field| field.own.get(index));
     name.map_or(null(), |name| name.as_ptr())
 }
 

@@ -11,7 +11,7 @@ pub const BLOCK: usize = <f64 as Blockwise>::BLOCK;
 
 /// What the evaluation of each quantity needs, kept from call to call.
 #[derive(Debug)]
-pub struct Evaluator(Vec<Asked>);
+pub struct Evaluator(Vec<(Quantity, Asked)>);
 
 /// What one quantity takes.
 #[derive(Debug, Default)]
@@ -32,13 +32,12 @@ pub struct Ready {
     values: Vec<f64>,
 }
 
-impl Default for Evaluator {
-    fn default() -> Self {
-        Evaluator(Quantity::ALL.iter().map(|_| Asked::default()).collect())
-    }
-}
-
 impl Evaluator {
+    /// Nothing yet, for these quantities.
+    pub fn new(quantities: impl Iterator<Item = Quantity>) -> Self {
+        Evaluator(quantities.map(|quantity| (quantity, Asked::default())).collect())
+    }
+
     /// Lends what a call needs that evaluates a quantity with these parameters. Other parameters than those of the call
     /// before run the stage Parameter, and nothing else.
     pub fn with<R>(
@@ -48,8 +47,8 @@ impl Evaluator {
         parameters: &[f64],
         work: impl FnOnce(&mut Ready) -> R,
     ) -> R {
-        let place = Quantity::ALL.iter().position(|it| *it == quantity);
-        let asked = &self.0[place.expect("all quantities are listed")];
+        let asked = self.0.iter().find(|(known, _)| *known == quantity);
+        let (_, asked) = asked.expect("all quantities are listed");
         let idle = || asked.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let known = idle().pop();
         let mut ready = known.unwrap_or_else(|| {

@@ -42,6 +42,8 @@ pub struct Field {
     pub parameters: Vec<CString>,
     /// The names of its faces.
     pub faces: Vec<CString>,
+    /// The names of the quantities that its file defines.
+    pub own: Vec<CString>,
 }
 
 impl Field {
@@ -81,13 +83,15 @@ impl Field {
         };
         let faces = Face::of(&compiled.field.domain.body, compiled.field.dimension);
         let parameters = compiled.model.parameters.iter();
+        let own = compiled.model.own.keys();
         Ok(Field {
             name: shown(name)?,
             title: shown(compiled.field.title.raw())?,
             parameters: parameters.map(|it| shown(&it.name)).collect::<Result<_, _>>()?,
             faces: faces.iter().map(|face| shown(face.name())).collect::<Result<_, _>>()?,
+            own: own.map(|own| shown(&own.name)).collect::<Result<_, _>>()?,
             settings: Settings::new(compiled.parameters(&SortedMap::new())),
-            evaluator: Evaluator::default(),
+            evaluator: Evaluator::new(compiled.quantities()),
             quick: OnceLock::new(),
             compiled,
         })
@@ -98,9 +102,15 @@ impl Field {
         self.compiled.field.dimension
     }
 
+    /// The quantity of a name.
+    fn find(&self, name: &str) -> Result<Quantity, Error> {
+        let own: Vec<_> = self.compiled.model.own.keys().copied().collect();
+        quantity(&own, name).map_err(|mistake| Error::new(MmsCode::UnknownName, mistake))
+    }
+
     /// The number of components of a quantity.
     pub fn components(&self, name: &str) -> Result<usize, Error> {
-        Ok(find(name)?.shape().components(self.dimension()))
+        Ok(self.find(name)?.shape().components(self.dimension()))
     }
 
     /// The value of a parameter.
@@ -153,15 +163,16 @@ impl Field {
         stop: Option<&Stop>,
         mut put: impl FnMut(&[f64]),
     ) -> Result<(), Error> {
-        let quantity = find(name)?;
+        let quantity = self.find(name)?;
         let offered = self.compiled.hold_offered(quantity);
         offered.map_err(|mistake| Error::new(MmsCode::UnknownName, mistake))?;
         let dimension = self.dimension();
         finite("the time", &[time])?;
-        let normals = match (quantity, normals) {
-            (Quantity::Traction, Some(normals)) => normals,
-            (Quantity::Traction, None) => {
-                let message = "`traction` needs the reference unit normal at each point";
+        let normals = match (quantity.takes_normal(), normals) {
+            (true, Some(normals)) => normals,
+            (true, None) => {
+                let name = quantity.name();
+                let message = format!("`{name}` needs the reference unit normal at each point");
                 return Err(Error::new(MmsCode::InvalidArgument, message));
             }
             _ => &[],
@@ -291,10 +302,6 @@ impl Field {
             Error::new(MmsCode::UnknownName, format!("no parameter `{name}`; {advice}"))
         })
     }
-}
-
-fn find(name: &str) -> Result<Quantity, Error> {
-    quantity(name).map_err(|mistake| Error::new(MmsCode::UnknownName, mistake))
 }
 
 /// Whether all are finite, without a branch for each.

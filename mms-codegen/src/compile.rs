@@ -12,7 +12,7 @@ pub mod quick;
 use self::phases::Phases;
 use crate::declared;
 use crate::materials::shipped;
-use crate::selection::Selection;
+use crate::selection::{self, Selection};
 use crate::variation::Variation;
 use mms_mechanics::boundary::Datum;
 use mms_mechanics::face;
@@ -26,6 +26,7 @@ use mms_program::schedule::schedule;
 use mms_spec::Form;
 use mms_spec::diagnostic;
 use mms_spec::diagnostic::Diagnostic;
+use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Sources;
 use mms_spec::suggest::advice;
@@ -70,6 +71,21 @@ pub struct Compiled {
 }
 
 impl Compiled {
+    /// Every quantity that the field is compiled with: those of every field, then those of its own.
+    pub fn quantities(&self) -> impl Iterator<Item = Quantity> + Clone {
+        let own = self.model.own.keys().map(|own| Quantity::Own(*own));
+        Quantity::ALL.iter().copied().chain(own)
+    }
+
+    /// The quantity of a name or alias, one on request as well.
+    ///
+    /// # Errors
+    /// The mistake, in one line, if no quantity has the name.
+    pub fn quantity(&self, name: &str) -> Result<Quantity, String> {
+        let own: Vec<Own> = self.model.own.keys().copied().collect();
+        selection::evaluated(&own, name)
+    }
+
     /// Whether users are offered a quantity: those per mass need a density, which a static field may not give.
     pub fn offers(&self, quantity: Quantity) -> bool {
         self.model.has_density || !matches!(quantity, Quantity::BodyForce | Quantity::MassDensity)
@@ -171,6 +187,11 @@ pub fn compile_unproved(
         Some(compiled) if phases.diagnostics.is_empty() => Ok(compiled),
         _ => Err(Failure { sources: phases.sources, diagnostics: phases.diagnostics }),
     }
+}
+
+/// The quantities that the text of a field file defines, read without deriving anything: mistakes are left to compilation.
+pub fn own_quantities(name: &str, path: &str, text: &str, load: Loader<'_>) -> Vec<Own> {
+    Phases::new(&Options::default(), load).own_quantities(name, path, text)
 }
 
 /// The exact value of an expression without names, such as `1e6` or `2/3`.

@@ -18,6 +18,7 @@ use mms_program::precise::Precise;
 use mms_program::{Op, Value};
 use mms_spec::Form;
 use mms_spec::diagnostic::{Diagnostic, quoted};
+use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 use mms_spec::source::{Sources, Span};
 use mms_spec::suggest::advice;
@@ -67,9 +68,12 @@ pub enum Entry {
     Frozen,
 }
 
-/// The quantity of a name or alias that fields are compiled with; otherwise what is wrong with it, in one line.
-pub fn quantity(name: &str) -> Result<Quantity, String> {
-    match evaluated(name)? {
+/// The quantity of a name or alias that a field with these quantities of its own is compiled with.
+///
+/// # Errors
+/// The mistake, in one line.
+pub fn quantity(own: &[Own], name: &str) -> Result<Quantity, String> {
+    match evaluated(own, name)? {
         found if found.is_on_request() => Err(format!(
             "the quantity {} is not compiled; `mms eval`, `mms state` and `mms judge` derive it from cauchy_stress, \
              first_piola_kirchhoff or displacement_gradient",
@@ -79,10 +83,14 @@ pub fn quantity(name: &str) -> Result<Quantity, String> {
     }
 }
 
-/// The quantity of a name or alias, one on request as well; otherwise what is wrong with it, in one line.
-pub fn evaluated(name: &str) -> Result<Quantity, String> {
-    Quantity::from_name(name).ok_or_else(|| {
+/// The quantity of a name or alias, one on request as well.
+///
+/// # Errors
+/// The mistake, in one line.
+pub fn evaluated(own: &[Own], name: &str) -> Result<Quantity, String> {
+    Quantity::among(own, name).ok_or_else(|| {
         let known = Quantity::evaluated().map(|quantity| quantity.name());
+        let known = known.chain(own.iter().map(|own| own.described().name.as_str()));
         let advice = advice(name, known, |all| format!("the quantities are {all}"));
         format!("unknown quantity {}; {advice}", quoted(name))
     })

@@ -1,6 +1,5 @@
 //! A field with a mistake, as a solver is given it.
 
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use mms_runtime::{Body, Domain, Face, ManufacturedField, Material, Matrix, Vector};
 
@@ -23,15 +22,12 @@ pub struct Changed<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     mistake: Option<(&'a Hypothesis<D>, &'a [f64])>,
     without: Without,
-    /// That of the last b: a material is not told the time.
-    time: AtomicU64,
 }
 
 impl<'a, const D: usize> Changed<'a, D> {
     /// The field as it is, but for terms that are left out.
     pub fn right(exact: &'a Exact<'a, D>, without: Without) -> Self {
-        let time = AtomicU64::new(exact.domain.time[0].to_bits());
-        Changed { exact, mistake: None, without, time }
+        Changed { exact, mistake: None, without }
     }
 
     /// The same with a mistake.
@@ -42,11 +38,6 @@ impl<'a, const D: usize> Changed<'a, D> {
         size: &'a [f64],
     ) -> Self {
         Changed { mistake: Some((hypothesis, size)), ..Self::right(exact, without) }
-    }
-
-    /// Sets the time at which the material is evaluated.
-    pub fn at_time(&self, time: f64) {
-        self.time.store(time.to_bits(), Relaxed);
     }
 
     fn given<'b>(
@@ -91,8 +82,13 @@ impl<const D: usize> Material<f64, D> for Changed<'_, D> {
         self.exact.field.is_small_strain()
     }
 
+    fn changes_with_time(&self) -> bool {
+        self.exact.field.changes_with_time()
+    }
+
     fn kirchhoff_stress(
         &self,
+        time: f64,
         reference: &[Vector<f64, D>],
         displacement_gradient: &[Matrix<f64, D>],
         stress: &mut [Matrix<f64, D>],
@@ -100,9 +96,8 @@ impl<const D: usize> Material<f64, D> for Changed<'_, D> {
         if self.without.stress {
             return stress.fill(Matrix::zeros());
         }
-        self.exact.field.kirchhoff_stress(reference, displacement_gradient, stress);
+        self.exact.field.kirchhoff_stress(time, reference, displacement_gradient, stress);
         if let Some((Hypothesis { change: Change::Stress(_, change), .. }, size)) = self.mistake {
-            let time = f64::from_bits(self.time.load(Relaxed));
             change(&self.given(size, time, reference, displacement_gradient), stress);
         }
     }
@@ -137,7 +132,6 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
     }
 
     fn body_force(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
-        self.at_time(time);
         if self.without.body_force {
             return out.fill(Vector::zeros());
         }

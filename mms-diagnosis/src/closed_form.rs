@@ -128,7 +128,7 @@ impl<const D: usize> Sampled<'_, D> {
                     let mut points = self.points.clone();
                     points.iter_mut().for_each(|x| x[axis] += steps * self.step);
                     let gradient = self.exact.gradient(time, &points);
-                    let stress = self.exact.stress(&points, &gradient);
+                    let stress = self.exact.stress(time, &points, &gradient);
                     let weight = weight / self.step;
                     all.push(Beside { time, axis, weight, points, gradient, stress });
                 }

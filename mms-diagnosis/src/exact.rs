@@ -170,7 +170,7 @@ impl<'a, const D: usize> Exact<'a, D> {
         x: &Vector<f64, D>,
         gradients: &[Matrix<f64, D>],
     ) -> Vec<(Matrix<f64, D>, Matrix<f64, D>)> {
-        let stress = self.stress(&vec![*x; gradients.len()], gradients);
+        let stress = self.stress(self.domain.time[0], &vec![*x; gradients.len()], gradients);
         gradients.iter().copied().zip(stress).collect()
     }
 
@@ -198,10 +198,10 @@ impl<'a, const D: usize> Exact<'a, D> {
         if let Moduli::Uniform(moduli) = self.moduli { Some(moduli) } else { None }
     }
 
-    /// P F^T of H at X, which is tau but for the small strain.
-    pub fn stress(&self, x: &[Vector<f64, D>], h: &[Matrix<f64, D>]) -> Vec<Matrix<f64, D>> {
+    /// P F^T of H at X and a time, which is tau but for the small strain.
+    pub fn stress(&self, time: f64, x: &[Vector<f64, D>], h: &[Matrix<f64, D>]) -> Vec<Matrix<f64, D>> {
         let mut stress = vec![Matrix::zeros(); h.len()];
-        self.field.kirchhoff_stress(x, h, &mut stress);
+        self.field.kirchhoff_stress(time, x, h, &mut stress);
         stress
     }
 

@@ -68,7 +68,7 @@ impl<'a, const D: usize> System<'a, D> {
         let weak = Weak::with(exact, time, domain, DEGREE, POINTS[D - 1]).ok()?;
         let x = &weak.quadrature.points;
         let gradient = exact.gradient(time, x);
-        let stress = exact.stress(x, &gradient);
+        let stress = exact.stress(time, x, &gradient);
         let stress: Vec<_> = stress.iter().zip(&gradient).map(|(tau, h)| first(tau, h)).collect();
         let force = weak.per_volume(x, exact.body_force(time, x));
         let is_free = |it: &Condition| matches!(it, Condition::Traction | Condition::Free);
@@ -80,7 +80,7 @@ impl<'a, const D: usize> System<'a, D> {
         let faces = own.map(|piece| {
             let x = piece.position;
             let h = exact.gradient(time, &[x])[0];
-            let tau = exact.stress(&[x], &[h])[0];
+            let tau = exact.stress(time, &[x], &[h])[0];
             OnFace {
                 is_loaded: domain.condition(piece.face) == Condition::Traction,
                 position: x,
@@ -222,7 +222,7 @@ fn tangent<const D: usize>(
     let stress = |entry: (usize, usize), step: f64| -> Vec<Matrix<f64, D>> {
         let mut moved = at.to_vec();
         moved.iter_mut().for_each(|h| h[entry] += step);
-        let tau = exact.stress(x, &moved);
+        let tau = exact.stress(weak.time, x, &moved);
         tau.iter().zip(&moved).map(|(tau, h)| first(tau, h)).collect()
     };
     let (all, count) = (weak.count(), weak.count() / D);

@@ -87,7 +87,7 @@ pub fn diagnose<const D: usize>(
             pairs.flat_map(|(f, tau)| measure.of(f, tau).as_slice().to_vec()).collect();
         all
     };
-    let tau = exact.stress(&table.reference, &table.gradient);
+    let tau = exact.stress(exact.domain.time[0], &table.reference, &table.gradient);
     let right = flat(&deformation, &tau, measure);
     let scale = size(&right).max(f64::MIN_POSITIVE);
     let given = table.stress.iter().flat_map(|it| it.as_slice().to_vec());
@@ -102,7 +102,7 @@ pub fn diagnose<const D: usize>(
         let mut moved = table.gradient.clone();
         moved.iter_mut().for_each(|h| h[entry] += table.rounding_of_gradient);
         let deformation: Vec<_> = moved.iter().map(|h| h + Matrix::identity()).collect();
-        let tau = exact.stress(&table.reference, &moved);
+        let tau = exact.stress(exact.domain.time[0], &table.reference, &moved);
         size(&less(&flat(&deformation, &tau, measure), 1.0, &right))
     };
     let of_gradient = match table.rounding_of_gradient > 0.0 {

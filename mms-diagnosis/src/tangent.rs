@@ -69,7 +69,7 @@ fn slopes_of<const D: usize>(
     change: impl Fn(&[Matrix<f64, D>], &mut [Matrix<f64, D>]),
 ) -> Vec<Slopes<D>> {
     let tau = |gradient: &[Matrix<f64, D>]| {
-        let mut tau = exact.stress(&table.reference, gradient);
+        let mut tau = exact.stress(exact.domain.time[0], &table.reference, gradient);
         change(gradient, &mut tau);
         tau
     };

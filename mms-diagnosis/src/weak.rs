@@ -276,8 +276,7 @@ impl<'a, const D: usize> Weak<'a, D> {
     /// P of a field at these H of the points of the quadrature.
     pub fn stress(&self, field: &Changed<'_, D>, h: &[Matrix<f64, D>]) -> Vec<Matrix<f64, D>> {
         let mut tau = vec![Matrix::zeros(); h.len()];
-        field.at_time(self.time);
-        field.kirchhoff_stress(&self.quadrature.points, h, &mut tau);
+        field.kirchhoff_stress(self.time, &self.quadrature.points, h, &mut tau);
         tau.iter().zip(h).map(|(tau, h)| first(tau, h)).collect()
     }
 

@@ -15,6 +15,7 @@ use mms_mechanics::Response;
 use mms_mechanics::invariant::Kind;
 use mms_mechanics::{Bound, Output};
 use mms_program::block::{Blockwise, Component, Inputs, Outputs, Plan, Prepared, Rooms, Way};
+use mms_program::Op;
 use mms_program::interpret::Interpreter;
 use mms_runtime::column::BUNCH;
 use mms_runtime::column::Matrices;
@@ -201,17 +202,26 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
         self.compiled.model.kind == Kind::SmallStrain
     }
 
+    fn changes_with_time(&self) -> bool {
+        let energy = Output::Response(Response::StrainEnergy);
+        let needed = self.compiled.program.needed(&[energy]);
+        let mut instrs = self.compiled.program.instrs.iter().zip(needed);
+        instrs.any(|(instr, needed)| needed && matches!(instr.op, Op::Input(Symbol::Time)))
+    }
+
     fn kirchhoff_stress(
         &self,
+        time: T,
         reference: &[Vector<T, D>],
         displacement_gradient: &[Matrix<T, D>],
         stress: &mut [Matrix<T, D>],
     ) {
-        by_bunches(self, reference, displacement_gradient, stress);
+        by_bunches(self, time, reference, displacement_gradient, stress);
     }
 
     fn kirchhoff_stress_of_bunches(
         &self,
+        time: T,
         reference: &[[Vector<T, D>; BUNCH]],
         displacement_gradient: &[Matrices<T, D>],
         stress: &mut [Matrices<T, D>],
@@ -219,7 +229,7 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
         let points = reference.as_flattened();
         self.evaluate(
             Output::Response(Response::KirchhoffStress),
-            T::of(0.0),
+            time,
             BUNCH * stress.len(),
             &mut |start, inputs| {
                 for (symbol, column) in inputs.columns() {
@@ -255,13 +265,14 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
 
     fn strain_energy(
         &self,
+        time: T,
         reference: &[Vector<T, D>],
         displacement_gradient: &[Matrix<T, D>],
         energy: &mut [T],
     ) -> bool {
         self.evaluate(
             Output::Response(Response::StrainEnergy),
-            T::of(0.0),
+            time,
             energy.len(),
             &mut |start, inputs| {
                 for (symbol, column) in inputs.columns() {

@@ -11,7 +11,7 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use mms_codegen::compile::Failure;
+use mms_codegen::compile::{Failure, own_quantities};
 use mms_codegen::rust::{module, module_named};
 use mms_codegen::{Options, compile_with};
 use mms_spec::MAX_FILE;
@@ -100,7 +100,8 @@ fn expand(request: &Request) -> Result<proc_macro2::TokenStream> {
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     let folder = file.parent().unwrap_or(&root);
     let load = |material: &str| read(&folder.join(material));
-    let options = Options { form: request.form, ..Options::from(request.selection.clone()) };
+    let selection = request.selection(&own_quantities(&name, &path, &text, &load))?;
+    let options = Options { form: request.form, ..Options::from(selection) };
     let compiled = compile_with(&name, &path, &text, &load, &options)
         .map_err(|failure| refused(request, failure))?;
     let module = match &request.name {
@@ -122,14 +123,14 @@ fn refused(request: &Request, failure: Failure) -> Error {
     let Failure { sources, diagnostics } = failure;
     let (of_the_call, of_the_file): (Vec<_>, Vec<_>) = diagnostics
         .into_iter()
-        .partition(|diagnostic| request.selection.entry(diagnostic.span).is_some());
+        .partition(|diagnostic| request.entry(diagnostic.span).is_some());
     let mut errors = Vec::new();
     if !of_the_file.is_empty() {
         let text = Failure { sources: sources.clone(), diagnostics: of_the_file }.to_string();
         errors.push(Error::new(request.path.span(), message(&text)));
     }
     for diagnostic in of_the_call {
-        let entry = request.selection.entry(diagnostic.span);
+        let entry = request.entry(diagnostic.span);
         let span = entry.map_or(request.path.span(), |entry| request.span(entry));
         let text = Failure { sources: sources.clone(), diagnostics: vec![diagnostic] }.to_string();
         errors.push(Error::new(span, message(&text)));

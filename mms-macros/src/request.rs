@@ -2,6 +2,8 @@
 
 use mms_codegen::selection::{Entry, Freeze, Selection, quantity};
 use mms_spec::Form;
+use mms_spec::own::Own;
+use mms_spec::source;
 use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
 use proc_macro2::{Ident, Span};
@@ -19,8 +21,10 @@ pub struct Request {
     pub path: LitStr,
     /// The name of the module, where it is not the file's.
     pub name: Option<Ident>,
-    /// What of the field is wanted.
-    pub selection: Selection,
+    /// What of the field is wanted, but for the quantities.
+    selection: Selection,
+    /// The names of the quantities that are wanted; `None` stands for all.
+    quantities: Option<Vec<Ident>>,
     /// Which ways to compute are open.
     pub form: Form,
     /// Where the entries of `set` and `freeze` stand.
@@ -40,6 +44,7 @@ impl Parse for Request {
             path: input.parse()?,
             name: None,
             selection: Selection::default(),
+            quantities: None,
             form: Form::default(),
             places: Places::default(),
         };
@@ -62,6 +67,11 @@ impl Parse for Request {
 }
 
 impl Request {
+    /// The part of the selection that a message of the compiler is about.
+    pub fn entry(&self, span: source::Span) -> Option<Entry> {
+        self.selection.entry(span)
+    }
+
     /// Where a part of the selection stands in the call.
     pub fn span(&self, entry: Entry) -> Span {
         let span = match entry {
@@ -97,17 +107,27 @@ impl Request {
     /// `= [body_force, velocity]`
     fn quantities(&mut self, input: ParseStream) -> Result<()> {
         input.parse::<Token![=]>()?;
-        let names = names(input, "quantity")?;
-        let wanted = self.selection.quantities.get_or_insert_default();
+        self.quantities = Some(names(input, "quantity")?);
+        Ok(())
+    }
+
+    /// The selection, for a field that defines these quantities of its own.
+    ///
+    /// # Errors
+    /// A name of no quantity, or one that is given twice, where it stands.
+    pub fn selection(&self, own: &[Own]) -> Result<Selection> {
+        let mut selection = self.selection.clone();
+        let Some(names) = &self.quantities else { return Ok(selection) };
+        let wanted = selection.quantities.get_or_insert_default();
         for name in names {
             let found =
-                quantity(&text(&name)).map_err(|message| Error::new(name.span(), message))?;
+                quantity(own, &text(name)).map_err(|message| Error::new(name.span(), message))?;
             if !wanted.insert(found) {
                 let message = format!("`{}` is asked for twice", found.name());
                 return Err(Error::new(name.span(), message));
             }
         }
-        Ok(())
+        Ok(selection)
     }
 
     /// `= { lambda = 0, mu = "young/3" }`

@@ -20,7 +20,7 @@ use mms_symbolic::sorted::SortedMap;
 pub enum Response {
     /// Reference density rho0(X).
     Density,
-    /// The fastest wave speed at F = I, m/s.
+    /// The fastest wave speed at F = I with each given field at rest, m/s.
     WaveSpeed,
     /// W(H).
     StrainEnergy,
@@ -68,6 +68,8 @@ pub fn derive(
     let divergence = law.divergence(graph, &motion);
     within_bound(graph, "divergence of the stress")?;
     quantities.extend(balance_quantities(graph, model.density, &motion, &present, divergence));
+    let own = model.own.iter();
+    quantities.extend(own.map(|(own, components)| (Quantity::Own(*own), components.clone())));
     let responses = responses(graph, &law, model);
     within_bound(graph, "body force")?;
     Ok(Derivation { quantities, responses })
@@ -255,7 +257,12 @@ fn supplied(graph: &mut Graph, model: &Model) -> Strain {
 
 fn responses(graph: &mut Graph, law: &Law, model: &Model) -> SortedMap<Response, Vec<Expr>> {
     let strain = supplied(graph, model);
-    let modulus = law.fastest_modulus(graph, &model.kind);
+    let modulus = match model.rest_energy == model.energy {
+        true => law.fastest_modulus(graph, &model.kind),
+        false => {
+            Law::new(graph, model.rest_energy, &model.kind).fastest_modulus(graph, &model.kind)
+        }
+    };
     let squared_speed = graph.div(modulus, model.density);
     let speed = graph.power(squared_speed, HALF);
     SortedMap::from([

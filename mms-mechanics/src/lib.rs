@@ -55,4 +55,4 @@ pub use derivation::{Derivation, Response, TooLarge, derive, tangent};
 pub use model::{Domain, Model};
 pub use output::{Bound, Output, Program};
 pub use requested::requested;
-pub use rest::{at_rest, moduli};
+pub use rest::{at_rest, is_spherical, moduli, pressures};

@@ -92,6 +92,6 @@ pub fn moduli(
     } else {
         return None;
     }
-    let energy = super::model::energy_with(graph, field, material, &arguments)?;
+    let energy = super::model::energy_with(graph, field, material, &arguments, &model.givens)?;
     Some(super::Model { energy, ..model.clone() })
 }

@@ -1,6 +1,7 @@
 //! A field file with its names resolved: expressions instead of text.
 
 pub mod energy;
+pub mod given;
 mod superposed;
 mod written;
 
@@ -21,6 +22,8 @@ use mms_symbolic::pass::substitute::substitute;
 
 use mms_symbolic::expr::print::AXES;
 use mms_symbolic::sorted::SortedMap;
+use energy::Givens;
+pub use given::OwnQuantities;
 use written::Read;
 pub use written::{Part, Written};
 
@@ -119,6 +122,12 @@ pub struct Model {
     pub poisson: Option<Expr>,
     /// The reference body and the time window.
     pub domain: Domain,
+    /// The given fields of the material, in the order of its file.
+    pub givens: Vec<Expr>,
+    /// W with each given field at its value in the state of rest.
+    pub rest_energy: Expr,
+    /// The quantities of given fields and of balances.
+    pub own: OwnQuantities,
     /// Closed forms from paper.
     pub checks: Vec<Check>,
     /// The values of each extreme by position of the parameter, in terms of the parameters before it.
@@ -160,7 +169,20 @@ impl Model {
         };
         let mut arguments = reader.arguments(field);
         let poisson = material.and_then(|material| reader.poisson(field, material, &mut arguments));
-        let energy = material.and_then(|material| reader.energy(field, material, &arguments));
+        reader.own_givens(field);
+        let givens = material.map(|material| reader.givens(field, material)).unwrap_or_default();
+        let energy = material.and_then(|material| {
+            reader.energy(field, material, &arguments, Givens::Values(&givens))
+        });
+        let rest_energy = match material {
+            Some(material) if !material.givens.is_empty() && energy.is_some() => {
+                let of_energy = std::mem::take(&mut reader.of_energy);
+                let rest = reader.energy(field, material, &arguments, Givens::Rest);
+                reader.of_energy = of_energy;
+                rest
+            }
+            _ => energy,
+        };
         let fibre = reader.fibre(field, material);
         let kind = material.and_then(|material| reader.kind(field, material, fibre.as_deref()));
         let of_the_field = reader.read.len();
@@ -168,6 +190,16 @@ impl Model {
         let checks = field.checks.iter().map(|check| reader.check(check)).collect::<Vec<_>>();
         reader.read.truncate(of_the_field);
         let rigid = field.rigid.as_ref().map(|rigid| reader.rigid(rigid, field.dimension));
+        let rigid = match rigid {
+            Some(rigid) => rigid.map(Some),
+            None => Some(None),
+        };
+        let own = match (&displacement, &rigid) {
+            (Some(displacement), Some(rigid)) => {
+                reader.own(field, material, displacement, rigid.as_ref())
+            }
+            _ => None,
+        };
         let written = reader.written();
         let extremes = reader.extremes(field);
         reader.strays(field);
@@ -186,10 +218,10 @@ impl Model {
             domain: domain?,
             checks: checks.into_iter().collect::<Option<_>>()?,
             extremes,
-            rigid: match rigid {
-                Some(rigid) => Some(rigid?),
-                None => None,
-            },
+            rigid: rigid?,
+            givens: givens.into_iter().collect::<Option<_>>()?,
+            rest_energy: rest_energy?,
+            own: own?,
             written,
         })
     }
@@ -204,17 +236,22 @@ impl Model {
             Kind::Isotropic | Kind::SmallStrain => &[],
         };
         let others = self.arguments.iter().chain(fibre).chain(direction).chain(&self.poisson);
-        let [density, energy] = [&self.density, &self.energy];
-        self.displacement.iter().chain([density, energy]).chain(others).copied().collect()
+        let own = self.givens.iter().chain(self.own.values().flatten());
+        let scalars = [&self.density, &self.energy, &self.rest_energy];
+        self.displacement.iter().chain(scalars).chain(others).chain(own).copied().collect()
     }
 
     /// Replaces the formulas that may depend on X, the closed forms and the named definitions.
     pub fn map_in_space(&mut self, mut made: impl FnMut(&[Expr]) -> Vec<Expr>) {
-        for exprs in [&mut self.displacement, &mut self.arguments] {
+        for exprs in [&mut self.displacement, &mut self.arguments, &mut self.givens] {
             *exprs = made(exprs);
         }
-        self.density = made(&[self.density])[0];
-        self.energy = made(&[self.energy])[0];
+        for expr in [&mut self.density, &mut self.energy, &mut self.rest_energy] {
+            *expr = made(&[*expr])[0];
+        }
+        for components in self.own.values_mut() {
+            *components = made(components);
+        }
         self.fibre = self.fibre.as_deref().map(&mut made);
         self.poisson = self.poisson.map(|poisson| made(&[poisson])[0]);
         if let Kind::Fibrous(direction) = &mut self.kind {
@@ -229,17 +266,19 @@ impl Model {
     }
 }
 
-/// W of a field that has been resolved, for other values of the material's parameters.
+/// W of a field that has been resolved, for other values of the material's parameters and given fields.
 pub fn energy_with(
     graph: &mut Graph,
     field: &FieldSpec,
     material: &MaterialSpec,
     arguments: &[Expr],
+    givens: &[Expr],
 ) -> Option<Expr> {
     let mut diagnostics = Vec::new();
     let mut reader = Reader::new(graph, &mut diagnostics);
-    let arguments: Vec<_> = arguments.iter().copied().map(Some).collect();
-    reader.energy(field, material, &arguments)
+    let [arguments, givens] =
+        [arguments, givens].map(|exprs| exprs.iter().copied().map(Some).collect::<Vec<_>>());
+    reader.energy(field, material, &arguments, Givens::Values(&givens))
 }
 
 struct Reader<'a> {

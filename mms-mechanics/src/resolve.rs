@@ -63,6 +63,16 @@ impl Scope {
         }
     }
 
+    /// The value of a name that is known.
+    pub fn known(&self, name: &str) -> Option<Expr> {
+        self.names.get(name).copied()
+    }
+
+    /// Whether the file defines a name, rightly or wrongly.
+    pub fn has(&self, name: &str) -> bool {
+        self.names.contains_key(name) || self.failed.contains(name) || self.later.contains_key(name)
+    }
+
     /// Makes names of the language that a file would define mean nothing.
     pub fn refuse(&mut self, names: &[String]) {
         self.failed.extend(names.iter().cloned());

@@ -1,11 +1,13 @@
-//! The material at F = I, in space whatever the dimension of the field is.
+//! The material at F = I, in space whatever the dimension of the field is, with each given field in its state of rest.
 
 use crate::invariant::Kind;
 use crate::kinematics::Strain;
 use crate::material::{self, Law};
-use crate::model::Model;
+use crate::model::{Model, energy_with};
 use crate::tensor::Tensor;
-use mms_symbolic::expr::{Expr, Graph, HALF, Rational};
+use mms_spec::{FieldSpec, MaterialSpec};
+use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
+use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::relations::Relations;
 
 /// The stress and the stiffness at F = I: 9 components of P and 81 of dP/dF, the last index fastest.
@@ -15,9 +17,42 @@ pub fn at_rest(graph: &mut Graph, model: &Model) -> [Vec<Expr>; 2] {
         (kind, _) => kind.clone(),
     };
     let strain = undeformed(graph, &kind);
-    let stress = Law::new(graph, model.energy, &kind).first_piola_kirchhoff(graph, &strain);
-    let tangent = material::tangent(graph, model.energy, &kind, &strain);
+    let stress = Law::new(graph, model.rest_energy, &kind).first_piola_kirchhoff(graph, &strain);
+    let tangent = material::tangent(graph, model.rest_energy, &kind, &strain);
     [stress.components().to_vec(), tangent]
+}
+
+/// The places, among the given fields of the material, of those that set a spherical stress at F = I, as a pressure does: W is
+/// a function of them whose slope there is a multiple of I.
+pub fn pressures(
+    graph: &mut Graph,
+    field: &FieldSpec,
+    material: &MaterialSpec,
+    model: &Model,
+) -> Vec<usize> {
+    let symbols: Vec<Symbol> = (0..model.givens.len()).map(Symbol::Local).collect();
+    let leaves: Vec<Expr> = symbols.iter().map(|symbol| graph.symbol(*symbol)).collect();
+    let energy = energy_with(graph, field, material, &model.arguments, &leaves);
+    let Some(energy) = energy else { return Vec::new() };
+    let [stress, _] = at_rest(graph, &Model { rest_energy: energy, ..model.clone() });
+    let mut places = Vec::new();
+    for (place, symbol) in symbols.into_iter().enumerate() {
+        let slope = differentiate(graph, &stress, symbol);
+        if !graph.is_zero(slope[0]) && is_spherical(graph, &slope) {
+            places.push(place);
+        }
+    }
+    places
+}
+
+/// Whether 9 components are a multiple of I.
+pub fn is_spherical(graph: &Graph, components: &[Expr]) -> bool {
+    let on_diagonal = |place: usize| place.is_multiple_of(4);
+    let mut all = components.iter().enumerate();
+    all.all(|(place, it)| match on_diagonal(place) {
+        true => *it == components[0],
+        false => graph.is_zero(*it),
+    })
 }
 
 /// The moduli at F = I with their names: dP/dF is positive definite for strains where all of them are positive, and only there.
@@ -31,7 +66,7 @@ pub fn moduli(graph: &mut Graph, model: &Model) -> Vec<(&'static str, Expr)> {
         kind => kind.clone(),
     };
     let strain = undeformed(graph, &kind);
-    let tangent = material::tangent(graph, model.energy, &kind, &strain);
+    let tangent = material::tangent(graph, model.rest_energy, &kind, &strain);
     let entry = |[i, j, k, l]: [usize; 4]| tangent[((i * 3 + j) * 3 + k) * 3 + l];
     let quarter = Rational::from_parts(1.into(), 4u8.into());
     let shear = [[0, 1, 0, 1], [0, 1, 1, 0], [1, 0, 0, 1], [1, 0, 1, 0]];

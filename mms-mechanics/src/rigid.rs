@@ -77,6 +77,16 @@ impl RigidMotion {
         Tensor::identity(graph, excess.dimension()).add(graph, &excess)
     }
 
+    /// The displacement of the twin, Q u + (Q - I) X + d.
+    pub fn displacement(&self, graph: &mut Graph, inner: &[Expr]) -> Vec<Expr> {
+        let (excess, rotation) = (self.excess(graph), self.turn(graph));
+        let axes = 0..inner.len();
+        let reference: Vec<Expr> =
+            axes.map(|axis| graph.symbol(Symbol::Coordinate(axis))).collect();
+        let (swung, turned) = (excess.apply(graph, &reference), rotation.apply(graph, inner));
+        sum(graph, [&turned, &swung, &self.translation])
+    }
+
     /// Every quantity of the twin, from those of the field. What the material answers to a
     /// displacement gradient stays as it is.
     pub fn compose(&self, graph: &mut Graph, inner: &Derivation) -> Derivation {
@@ -144,7 +154,9 @@ impl<'a> Twin<'a> {
             | Quantity::SecondPiolaKirchhoff
             | Quantity::Pressure
             | Quantity::VonMises
-            | Quantity::SmallStrain => inner.clone(),
+            | Quantity::SmallStrain
+            // The names of a balance are about the motion of the twin.
+            | Quantity::Own(_) => inner.clone(),
             Quantity::DivP | Quantity::DivSigma | Quantity::Traction => {
                 self.rotation.apply(graph, inner)
             }

@@ -256,10 +256,10 @@ fn repair(
     quantities.extend(cheapest_of(graph, &[of_second_order], unexpanded, exact));
 }
 
-/// Whether moduli or the direction of fibres depend on X.
+/// Whether moduli, given fields or the direction of fibres depend on X.
 fn is_graded(graph: &Graph, model: &Model) -> bool {
     let fibre = model.fibre.iter().flatten();
-    let arguments = model.arguments.iter();
+    let arguments = model.arguments.iter().chain(&model.givens);
     arguments
         .chain(fibre)
         .flat_map(|argument| graph.symbols(*argument))
@@ -296,7 +296,8 @@ fn vanishes_with_the_strain(quantity: Quantity) -> bool {
         | Quantity::DivSigma
         | Quantity::BodyForce
         | Quantity::BodyForceDensity
-        | Quantity::CurrentBodyForceDensity => false,
+        | Quantity::CurrentBodyForceDensity
+        | Quantity::Own(_) => false,
     }
 }
 

@@ -149,6 +149,13 @@ impl Tensor {
     }
 
     /// The adjugate: A^-1 = adj A / det A.
+    pub fn inverse(&self, graph: &mut Graph) -> Self {
+        let determinant = self.determinant(graph);
+        let per_determinant = graph.power(determinant, -1);
+        self.adjugate(graph).scale(graph, per_determinant)
+    }
+
+    /// The adjugate, the inverse times the determinant.
     pub fn adjugate(&self, graph: &mut Graph) -> Self {
         let others = |skip: usize| -> Vec<usize> {
             (0..self.dimension).filter(|index| *index != skip).collect()

@@ -32,12 +32,12 @@ pub trait ManufacturedField<T: Real, const D: usize>: Material<T, D> {
     /// of the material.
     fn surface_stress(
         &self,
-        _time: T,
+        time: T,
         reference: &[Vector<T, D>],
         displacement_gradient: &[Matrix<T, D>],
         stress: &mut [Matrix<T, D>],
     ) {
-        self.kirchhoff_stress(reference, displacement_gradient, stress);
+        self.kirchhoff_stress(time, reference, displacement_gradient, stress);
     }
 }
 

@@ -16,16 +16,22 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     /// Fastest wave speed at F = I at each reference position (length per time).
     fn wave_speed(&self, reference: &[Vector<T, D>], speed: &mut [T]);
 
+    /// Whether W at a fixed H changes with time, through given fields such as a temperature.
+    fn changes_with_time(&self) -> bool {
+        false
+    }
+
     /// Whether W is a function of the small strain, which has one stress: P, whatever the measure.
     fn is_small_strain(&self) -> bool {
         false
     }
 
     /// Kirchhoff stress tau = P F^T (force per reference area) of the displacement gradient
-    /// H = F - I. It takes H, not F, so that nothing cancels at small strain. It is P F^T for a W of the small strain too:
+    /// H = F - I, at a time. It takes H, not F, so that nothing cancels at small strain. It is P F^T for a W of the small strain too:
     /// the updated formulation takes the divergence in the present configuration.
     fn kirchhoff_stress(
         &self,
+        time: T,
         reference: &[Vector<T, D>],
         displacement_gradient: &[Matrix<T, D>],
         stress: &mut [Matrix<T, D>],
@@ -36,6 +42,7 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     /// otherwise matrices are turned twice.
     fn kirchhoff_stress_of_bunches(
         &self,
+        time: T,
         reference: &[[Vector<T, D>; BUNCH]],
         displacement_gradient: &[Matrices<T, D>],
         stress: &mut [Matrices<T, D>],
@@ -48,17 +55,18 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
                 *gradient = h[k / BUNCH].get(k % BUNCH);
             }
             let found = &mut stresses[..count];
-            self.kirchhoff_stress(reference.as_flattened(), &gradients[..count], found);
+            self.kirchhoff_stress(time, reference.as_flattened(), &gradients[..count], found);
             for (k, found) in found.iter().enumerate() {
                 stress[k / BUNCH].set(k % BUNCH, found);
             }
         }
     }
 
-    /// Strain energy W (per reference volume) of the displacement gradient H, and whether the material offers
+    /// Strain energy W (per reference volume) of the displacement gradient H at a time, and whether the material offers
     /// it. Nothing but the balance of energy asks for it; without it `energy` stays as it is.
     fn strain_energy(
         &self,
+        _time: T,
         _reference: &[Vector<T, D>],
         _displacement_gradient: &[Matrix<T, D>],
         _energy: &mut [T],
@@ -76,6 +84,7 @@ const TOGETHER: usize = 32;
 /// If the slices have different lengths.
 pub fn by_bunches<T: Real, M: Material<T, D> + ?Sized, const D: usize>(
     material: &M,
+    time: T,
     reference: &[Vector<T, D>],
     displacement_gradient: &[Matrix<T, D>],
     stress: &mut [Matrix<T, D>],
@@ -94,6 +103,7 @@ pub fn by_bunches<T: Real, M: Material<T, D> + ?Sized, const D: usize>(
         let mut stresses = [Matrices::zeros(); TOGETHER];
         let bunches = x.len().div_ceil(BUNCH);
         material.kirchhoff_stress_of_bunches(
+            time,
             &points[..bunches],
             &gradients[..bunches],
             &mut stresses[..bunches],
@@ -124,6 +134,7 @@ mod tests {
         fn wave_speed(&self, _: &[Vector<f64, 2>], _: &mut [f64]) {}
         fn kirchhoff_stress(
             &self,
+            _: f64,
             reference: &[Vector<f64, 2>],
             displacement_gradient: &[Matrix<f64, 2>],
             out: &mut [Matrix<f64, 2>],
@@ -142,14 +153,16 @@ mod tests {
         fn wave_speed(&self, _: &[Vector<f64, 2>], _: &mut [f64]) {}
         fn kirchhoff_stress(
             &self,
+            time: f64,
             reference: &[Vector<f64, 2>],
             displacement_gradient: &[Matrix<f64, 2>],
             out: &mut [Matrix<f64, 2>],
         ) {
-            by_bunches(self, reference, displacement_gradient, out);
+            by_bunches(self, time, reference, displacement_gradient, out);
         }
         fn kirchhoff_stress_of_bunches(
             &self,
+            _: f64,
             reference: &[[Vector<f64, 2>; BUNCH]],
             displacement_gradient: &[Matrices<f64, 2>],
             out: &mut [Matrices<f64, 2>],
@@ -171,14 +184,14 @@ mod tests {
                 (0..count).map(|p| Matrix::from_fn(|i, j| number(5 * p + 2 * i + j))).collect();
             let expected: Vec<_> = x.iter().zip(&h).map(|(x, h)| stress(x, h)).collect();
             let mut found = vec![Matrix::zeros(); count];
-            OfBunches.kirchhoff_stress(&x, &h, &mut found);
+            OfBunches.kirchhoff_stress(0.0, &x, &h, &mut found);
             assert_eq!(found, expected);
 
             let whole = count / BUNCH;
             let gradients: Bunches<Matrices<f64, 2>> = h.iter().copied().collect();
             let mut found = vec![Matrices::zeros(); whole];
             let gradients = &gradients.bunches()[..whole];
-            ByPoints.kirchhoff_stress_of_bunches(&x.as_chunks().0[..whole], gradients, &mut found);
+            ByPoints.kirchhoff_stress_of_bunches(0.0, &x.as_chunks().0[..whole], gradients, &mut found);
             for (p, expected) in expected[..BUNCH * whole].iter().enumerate() {
                 assert_eq!(found[p / BUNCH].get(p % BUNCH), *expected, "{p} of {count}");
             }

@@ -4,11 +4,12 @@
 use super::abbreviate::LINE;
 use super::matrix::transpose;
 use super::matrix::{dot, matrix_product};
-use super::motion::{Formulas, Quantities};
-use super::name::Name;
+use super::motion::{Formulas, Quantities, derivatives};
+use super::name::{Along, Name};
 use super::reading::{Reading, Role};
 use mms_codegen::compile::Compiled;
 use mms_mechanics::invariant::Kind;
+use mms_spec::own::Part;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Expr;
 
@@ -17,6 +18,48 @@ pub(super) fn density(reading: &mut Reading, compiled: &Compiled, formulas: &For
     let Some(formula) = &compiled.field.material.density else { return reading.graph.number(1) };
     let value = formulas.read(reading, formula, compiled.model.density);
     reading.named(Name::plain("rho0"), value, "material")
+}
+
+/// The given fields with their gradients and rates.
+pub(super) fn givens(
+    reading: &mut Reading,
+    compiled: &Compiled,
+    formulas: &Formulas,
+    quantities: &mut Quantities,
+) {
+    let spec = &compiled.field;
+    let of_material = spec.material.givens.iter().map(|(name, formula)| (&name.value, formula));
+    let own = spec.givens.iter().map(|given| (&given.name.value, &given.value));
+    let typed: Vec<_> = of_material.chain(own).collect();
+    let mut value = reading.graph.number(0);
+    for (own, derived) in &compiled.model.own {
+        let values = match own.part {
+            Part::Value => {
+                let formula = typed.iter().find(|(name, _)| **name == own.of);
+                value = formula
+                    .map_or(derived[0], |(_, formula)| formulas.read(reading, formula, derived[0]));
+                vec![value]
+            }
+            Part::Gradient => {
+                let along = (0..quantities.dimension).map(Along::Coordinate);
+                along.flat_map(|along| derivatives(reading, &[value], along)).collect()
+            }
+            Part::Rate => derivatives(reading, &[value], Along::Time),
+            _ => continue,
+        };
+        quantities.add(reading, compiled, Quantity::Own(*own), &values);
+    }
+}
+
+/// The sources and fluxes of further balances, and the residuals of constraints.
+pub(super) fn balances(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities) {
+    for (own, derived) in &compiled.model.own {
+        if Part::OF_GIVEN.contains(&own.part) {
+            continue;
+        }
+        let values: Vec<_> = derived.iter().map(|component| reading.tidy(*component)).collect();
+        quantities.add(reading, compiled, Quantity::Own(*own), &values);
+    }
 }
 
 /// sigma, tau and P^T. They come after P and before Div P, as everywhere. At small strain all are P.

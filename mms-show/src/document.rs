@@ -57,7 +57,7 @@ pub struct Material {
     pub energy: Vec<Line>,
     /// What the arguments and the density use that is no definition of the field.
     pub whereby: Vec<Line>,
-    /// What the field sets the parameters of the material to.
+    /// What the field sets the parameters and the given fields of the material to.
     pub arguments: Vec<Line>,
     /// The density `rho0`.
     pub density: Vec<Line>,
@@ -107,7 +107,7 @@ impl Document {
             definitions.extend(listing.up_to([id].into()));
         }
         let material = listing.material(compiled, &formulas);
-        let asked = Quantity::ALL.iter().copied().filter(|quantity| asked.contains(quantity));
+        let asked = compiled.quantities().filter(|quantity| asked.contains(quantity));
         let sections =
             asked.map(|quantity| listing.section(compiled, &quantities, quantity)).collect();
         let reading = listing.reading;
@@ -168,7 +168,7 @@ impl Listing {
             whereby.extend(lines);
             last
         };
-        let arguments = spec.arguments.iter();
+        let arguments = spec.arguments.iter().chain(&spec.givens);
         let arguments =
             arguments.filter_map(|(name, formula)| line(self, &name.value, formula)).collect();
         let density = spec.density.as_ref().and_then(|it| line(self, "rho0", it));

@@ -1,11 +1,13 @@
 //! W as it is typed, with the invariants as leaves.
 
-use super::motion::{Formulas, resolved};
+use super::motion::{Formulas, Quantities, resolved};
 use super::name::Name;
 use super::reading::{Reading, Role};
 use mms_codegen::compile::Compiled;
 use mms_mechanics::invariant::{INVARIANTS, VOLUME};
 use mms_mechanics::resolve::Scope;
+use mms_spec::own::Part;
+use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::substitute;
@@ -26,9 +28,14 @@ pub(super) struct Energy {
 
 impl Energy {
     /// The W of a field's material.
-    pub fn read(reading: &mut Reading, compiled: &Compiled, formulas: &Formulas) -> Self {
+    pub fn read(
+        reading: &mut Reading,
+        compiled: &Compiled,
+        formulas: &Formulas,
+        quantities: &Quantities,
+    ) -> Self {
         let leaves = Leaves::new(reading);
-        let typed = leaves.typed(reading, compiled, formulas);
+        let typed = leaves.typed(reading, compiled, formulas, quantities);
         let value = typed.unwrap_or_else(|| leaves.of_model(reading, compiled.model.energy));
         Energy { value, symbols: leaves.symbols }
     }
@@ -75,6 +82,7 @@ impl Leaves {
         reading: &mut Reading,
         compiled: &Compiled,
         formulas: &Formulas,
+        quantities: &Quantities,
     ) -> Option<Expr> {
         let mut scope = scope(reading, &self.leaves, &self.symbols);
         let departures = INVARIANTS.map(|invariant| invariant.value(&mut reading.graph));
@@ -84,6 +92,14 @@ impl Leaves {
             expanded.define(&name.value, Some(formulas.expand(reading, value)));
             let argument = reading.named(Name::plain(name.value.as_str()), value, "material");
             scope.define(&name.value, Some(argument));
+        }
+        for (own, derived) in &compiled.model.own {
+            let name = &own.of;
+            if own.part == Part::Value && compiled.material.given(name).is_some() {
+                let given = quantities.component(reading, Quantity::Own(*own), 0);
+                expanded.define(name, Some(derived[0]));
+                scope.define(name, Some(given));
+            }
         }
         let same = energy_in(reading, expanded, compiled)? == compiled.model.energy;
         energy_in(reading, scope, compiled).filter(|_| same)
@@ -121,10 +137,9 @@ pub(super) fn energy_of_file(reading: &mut Reading, compiled: &Compiled) -> Opti
     let leaves = Leaves::new(reading);
     let mut scope = scope(reading, &leaves.leaves, &leaves.symbols);
     // These names live in the material file: they may be those of the field as well.
-    for parameter in &compiled.material.parameters {
-        let name = &parameter.name.value;
+    for name in compiled.material.names() {
         let nothing = reading.graph.number(0);
-        let id = reading.push(Name::plain(name.as_str()), nothing, Role::Given);
+        let id = reading.push(Name::plain(name), nothing, Role::Given);
         let leaf = reading.leaf(id);
         scope.define(name, Some(leaf));
         scope.assume_positive(reading.symbol(id));

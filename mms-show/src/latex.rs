@@ -33,7 +33,7 @@ pub fn page(document: &Document) -> String {
                     text.push_str(&format!("\\noindent {}\n", escape(&note)));
                 }
                 if let Some(parts) = relation {
-                    text.push_str(&format!("\\[{}\\]\n", Latex.relation(parts)));
+                    text.push_str(&format!("\\[{}\\]\n", Latex.relation(&parts)));
                 }
             }
             Block::Where => text.push_str("\\noindent where\n"),

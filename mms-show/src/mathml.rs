@@ -35,7 +35,7 @@ pub fn part(document: &Document, level: u8) -> String {
                     text.push_str(&format!("<p>{}</p>\n", escape(&note)));
                 }
                 if let Some(parts) = relation {
-                    text.push_str(&display(&MathMl.relation(parts)));
+                    text.push_str(&display(&MathMl.relation(&parts)));
                 }
             }
             Block::Where => text.push_str("<p>where</p>\n"),

@@ -45,6 +45,11 @@ impl Formulas {
         for definition in &compiled.field.lets {
             formulas.definition(reading, definition);
         }
+        for given in &compiled.field.givens {
+            if let Some(value) = resolved(reading, &formulas.expanded, &given.value) {
+                formulas.define(&given.name.value, value);
+            }
+        }
         formulas
     }
 
@@ -241,7 +246,7 @@ impl Quantities {
     }
 }
 
-fn derivatives(reading: &mut Reading, values: &[Expr], along: Along) -> Vec<Expr> {
+pub(super) fn derivatives(reading: &mut Reading, values: &[Expr], along: Along) -> Vec<Expr> {
     let derivative = |value: &Expr| {
         let slope = reading.derivative(*value, along);
         reading.tidy(slope)

@@ -19,7 +19,7 @@ pub(super) enum Block<'a> {
         /// A word.
         name: &'a str,
         /// What a quantity is.
-        relation: Option<&'static [Part]>,
+        relation: Option<Vec<Part>>,
         /// More about it.
         note: Option<String>,
         /// What it costs to compute, which belongs on a screen and not on paper.

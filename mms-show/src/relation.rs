@@ -1,6 +1,8 @@
 //! What each quantity is, as a person writes it: declared once, set by every notation.
 
 use mms_mechanics::invariant::Kind;
+use mms_spec::own::Described;
+use mms_spec::own::Part::{Flux, Gradient, NormalFlux, Rate, Residual, Source, Value};
 use mms_spec::quantity::Quantity;
 
 /// A part of a relation between vectors and tensors.
@@ -37,17 +39,38 @@ const INVARIANTS: &[Part] = &[Scalar("I1"), COMMA, Scalar("I2"), COMMA, Scalar("
 const OF_FIBRES: &[Part] =
     &[Scalar("I1"), COMMA, Scalar("I2"), COMMA, Scalar("J"), COMMA, Scalar("I4")];
 const SMALL: &[Part] = &[Tensor("epsilon")];
+const ARGUMENTS: &[Part] = &[Tensor("X"), COMMA, Scalar("t")];
 
 /// The definition of a quantity, for a density of that kind.
-pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
+pub fn relation(quantity: Quantity, kind: &Kind) -> Vec<Part> {
+    match quantity {
+        Quantity::Own(own) => of_own(own.described()),
+        quantity => of_every_field(quantity, kind).to_vec(),
+    }
+}
+
+/// The definition of a quantity that the field file defines.
+fn of_own(own: &'static Described) -> Vec<Part> {
+    let left = Scalar(&own.symbol);
+    match own.part {
+        Value => vec![left, EQUALS, Function(&own.symbol, ARGUMENTS)],
+        Gradient => vec![Word("Grad"), Scalar(&own.of)],
+        Rate => vec![left, EQUALS, Word("d"), Scalar(&own.of), Sign("/"), Word("d"), Scalar("t")],
+        Source => {
+            vec![left, EQUALS, Word("d(storage)/dt"), Sign("+"), Word("Div"), Tensor("Q")]
+        }
+        Flux => vec![left, EQUALS, Tensor("Q")],
+        NormalFlux => vec![left, EQUALS, Tensor("Q"), Tensor("N")],
+        Residual => vec![left],
+    }
+}
+
+fn of_every_field(quantity: Quantity, kind: &Kind) -> &'static [Part] {
     if let (Kind::SmallStrain, Some(relation)) = (kind, of_small_strain(quantity)) {
         return relation;
     }
     match quantity {
-        Quantity::Displacement => {
-            const ARGUMENTS: &[Part] = &[Tensor("X"), Sign(","), Scalar("t")];
-            &[Tensor("u"), EQUALS, Function("u", ARGUMENTS)]
-        }
+        Quantity::Displacement => &[Tensor("u"), EQUALS, Function("u", ARGUMENTS)],
         Quantity::Position => &[Tensor("x"), EQUALS, Tensor("X"), Sign("+"), Tensor("u")],
         Quantity::Velocity => &[Tensor("v"), EQUALS, Partial(&Tensor("u"), &Scalar("t"))],
         Quantity::Acceleration => &[Tensor("a"), EQUALS, Partial(&Tensor("v"), &Scalar("t"))],
@@ -109,6 +132,7 @@ pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
             &[Scalar("2"), Tensor("epsilon"), EQUALS, Tensor("H"), Sign("+"), Raised("H", "T")]
         }
         Quantity::VonMises => &[Word("von Mises"), EQUALS, Function("f", &[Tensor("sigma")])],
+        Quantity::Own(_) => &[],
     }
 }
 

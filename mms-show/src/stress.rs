@@ -10,7 +10,7 @@
 //! See Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6. In
 //! one dimension W is a function of F alone, and P its derivative.
 
-use super::balance::{balance, current, density, measures, traction};
+use super::balance::{balance, balances, current, density, givens, measures, traction};
 use super::energy::Energy;
 use super::fibres::Fibres;
 use super::matrix::{dot, matrix_product};
@@ -37,7 +37,8 @@ pub(super) fn derive(
     quantities: &mut Quantities,
 ) {
     let density = density(reading, compiled, formulas);
-    let energy = Energy::read(reading, compiled, formulas);
+    givens(reading, compiled, formulas, quantities);
+    let energy = Energy::read(reading, compiled, formulas, quantities);
     let fibres = Fibres::read(reading, compiled, formulas, quantities);
     let solid = match (&compiled.model.kind, quantities.dimension) {
         (Kind::SmallStrain, _) => small_strain::derive(reading, compiled, quantities, &energy),
@@ -49,6 +50,7 @@ pub(super) fn derive(
     balance(reading, compiled, quantities, density);
     current(reading, compiled, quantities, density);
     traction(reading, compiled, quantities);
+    balances(reading, compiled, quantities);
 }
 
 /// One dimension: W(F), P = dW/dF, Div P = dP/dX. Returns Div P.

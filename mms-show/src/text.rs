@@ -19,7 +19,7 @@ pub fn page(document: &Document) -> String {
             Block::Note(note) => lines.extend(wrapped(&note)),
             Block::Heading { name, relation, note, operations } => {
                 lines.push(String::new());
-                let relation = relation.map(|parts| format!("  {}", Text.relation(parts)));
+                let relation = relation.map(|parts| format!("  {}", Text.relation(&parts)));
                 let note = note.or(operations).map(|note| format!("  ({note})"));
                 let [relation, note] = [relation, note].map(Option::unwrap_or_default);
                 lines.push(format!("{name}{relation}{note}"));

@@ -4,6 +4,7 @@ use crate::diagnostic::{Diagnostic, quoted};
 use crate::foreign::Foreign;
 use crate::formula::Formula;
 use crate::names::Names;
+use crate::own::Own;
 use crate::quantity::Quantity;
 use crate::source::{Span, Spanned};
 use crate::suggest::advice;
@@ -62,7 +63,7 @@ pub struct ExtremeSpec {
 /// Reads one `[[check]]`; `field` are the names that the field defines.
 pub(super) fn check<'a>(
     table: &Table<'a>,
-    dimension: usize,
+    (dimension, own): (usize, &[Own]),
     field: &Names,
     reader: &mut Reader<'a>,
 ) -> Option<CheckSpec> {
@@ -73,7 +74,7 @@ pub(super) fn check<'a>(
         None => None,
     };
     let lets = lets.unwrap_or_default();
-    let quantity = quantity(table, reader);
+    let quantity = quantity(table, own, reader);
     let source = reader.optional_foreign(table, "source");
     let equals = reader.required(table, "equals");
     let Some(quantity) = quantity else {
@@ -93,21 +94,34 @@ pub(super) fn check<'a>(
     Some(CheckSpec { quantity, equals, lets, source })
 }
 
-fn quantity<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Option<Spanned<Quantity>> {
+fn quantity<'a>(
+    table: &Table<'a>,
+    own: &[Own],
+    reader: &mut Reader<'a>,
+) -> Option<Spanned<Quantity>> {
     let found = reader.required_string(table, "quantity")?;
     let span = found.span;
-    match Quantity::from_name(&found.value) {
-        Some(Quantity::Traction) => {
+    let value = Quantity::among(own, &found.value);
+    match value {
+        Some(value) if value.takes_normal() => {
+            let help = match value {
+                Quantity::Traction => {
+                    "check `first_piola_kirchhoff`, or claim the traction in [boundary]"
+                }
+                _ => "check the flux",
+            };
+            let message = format!("a check cannot be about `{}`", value.name());
             reader.report(
-                Diagnostic::error(span, "a check cannot be about `traction`")
+                Diagnostic::error(span, message)
                     .label("needs the normal of a boundary")
-                    .help("check `first_piola_kirchhoff`, or claim the traction in [boundary]"),
+                    .help(help),
             );
             None
         }
         Some(value) if !value.is_on_request() => Some(Spanned { value, span }),
         _ => {
-            let names: Vec<_> = Quantity::pointwise().map(Quantity::name).collect();
+            let names = Quantity::pointwise().map(Quantity::name);
+            let names: Vec<_> = names.chain(own.iter().map(|own| own.described().name.as_str())).collect();
             reader.report(unknown_word(&found, "quantity", &names));
             None
         }

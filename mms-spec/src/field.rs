@@ -1,5 +1,6 @@
 //! The field file as a whole.
 
+use crate::balance::{BalanceSpec, balances};
 use crate::check::{CheckSpec, ExtremeSpec, check, extremes};
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
@@ -7,10 +8,12 @@ use crate::domain::{
     Body, BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported,
 };
 use crate::foreign::Foreign;
-use crate::format::{CHECK, DISPLACEMENT, EXTREME, FIELD, FIELD_FILE, Key, STUDY};
+use crate::format::{BALANCE, CHECK, DISPLACEMENT, EXTREME, FIELD, FIELD_FILE, Key, STUDY};
 use crate::formula::Formula;
+use crate::given::{GivenSpec, givens};
 use crate::material::{MaterialUse, material_use};
 use crate::names::{Keeper, Names};
+use crate::own::possible_quantities;
 use crate::rigid::{RigidSpec, rigid};
 use crate::source::{SourceId, Sources, Span};
 use crate::study::{StudySpec, studies};
@@ -33,6 +36,8 @@ pub struct FieldSpec {
     pub parameters: Vec<ParameterSpec>,
     /// The definitions, in order.
     pub lets: Vec<LetSpec>,
+    /// The given fields of the file's own, in order.
+    pub givens: Vec<GivenSpec>,
     /// The displacement u(X, t).
     pub displacement: Vec<Formula>,
     /// The material and its parameters.
@@ -41,6 +46,8 @@ pub struct FieldSpec {
     pub domain: DomainSpec,
     /// The claims about faces.
     pub boundary: Vec<BoundarySpec>,
+    /// The further balances.
+    pub balances: Vec<BalanceSpec>,
     /// The closed forms.
     pub checks: Vec<CheckSpec>,
     /// The expected orders.
@@ -72,9 +79,11 @@ impl FieldSpec {
             all.extend(parameter.range.iter().flatten());
         }
         all.extend(self.lets.iter().map(|definition| &definition.value));
+        all.extend(self.givens.iter().map(|given| &given.value));
         all.extend(&self.displacement);
         all.extend(&self.material.density);
         all.extend(self.material.arguments.iter().map(|(_, value)| value));
+        all.extend(self.material.givens.iter().map(|(_, value)| value));
         all.extend(self.material.fibre.iter().flatten());
         match &self.domain.body {
             Body::Box { lower, upper } => all.extend(lower.iter().chain(upper)),
@@ -83,6 +92,7 @@ impl FieldSpec {
             }
         }
         all.extend(self.domain.time.iter().flatten());
+        all.extend(self.balances.iter().flat_map(BalanceSpec::formulas));
         for check in &self.checks {
             all.extend(check.lets.iter().map(|definition| &definition.value));
             all.extend(&check.equals);
@@ -125,6 +135,10 @@ pub fn read_field(
         .names(&root, "let")
         .map(|table| lets(&table, &mut names, &mut reader))
         .unwrap_or_default();
+    let givens = reader
+        .names(&root, "given")
+        .map(|table| givens(&table, &mut names, &mut reader))
+        .unwrap_or_default();
     let entry = displacement_entry(&root, &mut reader);
     // A wrong dimension leaves the number of components to tell what was meant.
     let dimension = header.dimension.or_else(|| entry.as_ref().and_then(components));
@@ -142,29 +156,41 @@ pub fn read_field(
         None => vec![Formula::reported(root.span); dimension],
     };
     let place = Setup::read(&root, dimension, &mut reader);
-    let known: Vec<&str> =
-        parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
     hold_density(&material, &place.domain, &mut reader);
-    let evidence = Evidence::read(&root, dimension, &names, &known, &mut reader);
-    Some(FieldSpec {
+    let balances = match root.get("balance") {
+        Some(entry) => {
+            let tables = reader.tables(&entry, BALANCE);
+            balances(&tables, dimension, &mut names, &mut reader)
+        }
+        None => Vec::new(),
+    };
+    let mut spec = FieldSpec {
         name: name.into(),
         title: header.title,
         dimension,
         reference: header.reference,
         parameters,
         lets,
+        givens,
         displacement,
         material,
         domain: place.domain,
         boundary: place.boundary,
-        checks: evidence.checks,
-        studies: evidence.studies,
-        extremes: evidence.extremes,
+        balances,
+        checks: Vec::new(),
+        studies: Vec::new(),
+        extremes: Vec::new(),
         rigid: place.rigid,
-        incomplete: reader.lost_names,
-        stray: reader.stray,
-        refused: reader.refused,
-    })
+        incomplete: false,
+        stray: Vec::new(),
+        refused: Vec::new(),
+    };
+    let evidence = Evidence::read(&root, &spec, &names, &mut reader);
+    (spec.checks, spec.studies, spec.extremes) =
+        (evidence.checks, evidence.studies, evidence.extremes);
+    (spec.stray, spec.refused) = (reader.stray, reader.refused);
+    spec.incomplete = reader.lost_names;
+    Some(spec)
 }
 
 /// The place of a strain energy in a file without [field], which is that of a material.
@@ -274,11 +300,13 @@ struct Evidence {
 impl Evidence {
     fn read<'a>(
         root: &Table<'a>,
-        dimension: usize,
+        field: &FieldSpec,
         names: &Names,
-        parameters: &[&str],
         reader: &mut Reader<'a>,
     ) -> Self {
+        let (dimension, own) = (field.dimension, possible_quantities(field));
+        let parameters = field.parameters.iter().map(|parameter| parameter.name.value.as_str());
+        let parameters: Vec<&str> = parameters.collect();
         let mut tables = |key: &str, keys: &[Key]| match root.get(key) {
             Some(entry) => reader.tables(&entry, keys),
             None => Vec::new(),
@@ -288,10 +316,10 @@ impl Evidence {
         Evidence {
             checks: checks
                 .iter()
-                .filter_map(|table| check(table, dimension, names, reader))
+                .filter_map(|table| check(table, (dimension, &own), names, reader))
                 .collect(),
             studies: studies(&study, reader),
-            extremes: extremes(&extreme, parameters, reader),
+            extremes: extremes(&extreme, &parameters, reader),
         }
     }
 }

@@ -116,6 +116,11 @@ pub const FIELD_FILE: &[Key] = &[
         Holds::Names(Keeper::Field, &Holds::Formula),
         "Names for formulas, in order: each may use those above it.",
     ),
+    optional(
+        "given",
+        Holds::Names(Keeper::Field, &Holds::Table(GIVEN)),
+        "Given fields of the file's own, such as a temperature: functions of X and t.",
+    ),
     required("displacement", Holds::Table(DISPLACEMENT), "What is chosen; all else follows."),
     required(
         "material",
@@ -131,6 +136,11 @@ pub const FIELD_FILE: &[Key] = &[
         "boundary",
         Holds::Faces,
         "What holds on each face. A face that is left out claims nothing.",
+    ),
+    optional(
+        "balance",
+        Holds::Tables(BALANCE),
+        "Further balances of a coupled code, such as that of heat; their sources follow.",
     ),
     optional("check", Holds::Tables(CHECK), "Closed forms that were derived on paper."),
     optional("study", Holds::Tables(STUDY), "The orders that the solver must show on the field."),
@@ -163,6 +173,25 @@ pub const PARAMETER: &[Key] = &[
         Holds::Formulas(Length::Exactly(2)),
         "The least and the greatest value that it may take.",
     ),
+];
+
+/// One of `[given]`.
+pub const GIVEN: &[Key] = &[
+    required("value", Holds::Formula, "The function of X and t; it may use the names above it."),
+    optional("unit", Holds::Text, "The unit, such as K."),
+    optional("doc", Holds::Text, "What it is, in a few words."),
+];
+
+/// `[[balance]]`.
+pub const BALANCE: &[Key] = &[
+    required("name", Holds::Text, "The name, after which its quantities are called."),
+    optional("storage", Holds::Formula, "The amount that is stored per reference volume."),
+    optional(
+        "flux",
+        Holds::Formulas(Length::Dimension),
+        "The flux through reference area: one formula per dimension.",
+    ),
+    optional("residual", Holds::Formula, "The left side of a constraint, in place of the others."),
 ];
 
 /// `[displacement]`.
@@ -318,6 +347,11 @@ pub const MATERIAL_FILE: &[Key] = &[
         "The parameters; each field gives a formula for them.",
     ),
     optional(
+        "given",
+        Holds::Names(Keeper::Material, &Holds::Table(MATERIAL_GIVEN)),
+        "The given fields that W uses, such as a pressure: each field gives a formula of X and t.",
+    ),
+    optional(
         "let",
         Holds::Names(Keeper::Material, &Holds::Formula),
         "Names for formulas, in order: each may use those above it.",
@@ -344,4 +378,15 @@ pub const MATERIAL_HEADER: &[Key] = &[
 pub const MATERIAL_PARAMETER: &[Key] = &[
     optional("unit", Holds::Text, "The unit, such as Pa."),
     optional("doc", Holds::Text, "What it is, in a few words."),
+];
+
+/// One of the `[given]` of a material.
+pub const MATERIAL_GIVEN: &[Key] = &[
+    optional("unit", Holds::Text, "The unit, such as Pa."),
+    optional("doc", Holds::Text, "What it is, in a few words."),
+    optional(
+        "rest",
+        Holds::Formula,
+        "The value in the state of rest, at which the material is judged; 0 if left out.",
+    ),
 ];

@@ -10,6 +10,7 @@
 //! ([`Formula::reported`]), so that the counts are right and later phases can go on without reporting
 //! consequences.
 
+mod balance;
 mod brackets;
 mod check;
 pub mod diagnostic;
@@ -22,10 +23,12 @@ pub mod foreign;
 mod form;
 pub mod format;
 mod formula;
+mod given;
 pub mod language;
 mod material;
 pub mod moduli;
 pub mod names;
+pub mod own;
 pub mod quantity;
 mod rigid;
 pub mod source;
@@ -38,6 +41,7 @@ pub mod twin;
 pub mod units;
 mod value;
 
+pub use balance::{BalanceLaw, BalanceSpec};
 pub use check::{CheckSpec, ExtremeSpec, REGIMES};
 pub use document::MAX_FILE;
 pub use domain::{BODIES, Body, BoundarySpec, Claim, DomainSpec, Face};
@@ -45,6 +49,7 @@ pub use field::{FieldSpec, read_field};
 pub use folder::{FieldFile, field_files};
 pub use form::Form;
 pub use formula::Formula;
+pub use given::{GivenSpec, MaterialGiven};
 pub use material::{MaterialSpec, MaterialUse, read_material};
 pub use rigid::{RigidSpec, Rotation, read_rigid};
 pub use study::{

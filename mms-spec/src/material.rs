@@ -7,6 +7,7 @@ use crate::document::Document;
 use crate::foreign::Foreign;
 use crate::format::{self, MATERIAL, MATERIAL_FILE, MATERIAL_HEADER};
 use crate::formula::Formula;
+use crate::given::{MaterialGiven, material_givens};
 use crate::moduli::Pair;
 use crate::names::{Keeper, Names};
 use crate::source::{SourceId, Sources, Span, Spanned};
@@ -23,8 +24,10 @@ pub struct MaterialUse {
     pub model: Spanned<Foreign>,
     /// The reference density rho0; a static field may have none.
     pub density: Option<Formula>,
-    /// A formula for each parameter of the material, in the order of the file.
+    /// A formula for each parameter and given field of the material, in the order of the file.
     pub arguments: Vec<(Spanned<String>, Formula)>,
+    /// A formula for each given field of the material; [`MaterialUse::tell_givens`] moves them here.
+    pub givens: Vec<(Spanned<String>, Formula)>,
     /// The reference direction of the fibres: three components.
     pub fibre: Option<Vec<Formula>>,
     /// The `[material]` header.
@@ -49,6 +52,8 @@ pub struct MaterialSpec {
     pub claims_indifference: Option<Span>,
     /// The parameters.
     pub parameters: Vec<MaterialParameter>,
+    /// The given fields.
+    pub givens: Vec<MaterialGiven>,
     /// The definitions, in order.
     pub lets: Vec<LetSpec>,
     /// The pair of moduli that the field gives in place of the file's own.
@@ -65,7 +70,19 @@ impl MaterialSpec {
     /// Every formula of the file.
     pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
         let lets = self.lets.iter().map(|definition| &definition.value);
-        lets.chain([&self.strain_energy]).chain(&self.stray)
+        let rest = self.givens.iter().filter_map(|given| given.rest.as_ref());
+        rest.chain(lets).chain([&self.strain_energy]).chain(&self.stray)
+    }
+
+    /// The names that a field sets: of the parameters, then of the given fields.
+    pub fn names(&self) -> impl Iterator<Item = &str> + Clone {
+        let parameters = self.parameters.iter().map(|parameter| parameter.name.value.as_str());
+        parameters.chain(self.givens.iter().map(|given| given.name.value.as_str()))
+    }
+
+    /// The given field of that name.
+    pub fn given(&self, name: &str) -> Option<&MaterialGiven> {
+        self.givens.iter().find(|given| given.name.value == name)
     }
 
     /// Where the file uses one of some names first.
@@ -93,12 +110,21 @@ impl MaterialSpec {
 }
 
 impl MaterialUse {
+    /// Tells the given fields from the parameters, which look alike until the material is known.
+    pub fn tell_givens(&mut self, material: &MaterialSpec) {
+        let (givens, arguments) = std::mem::take(&mut self.arguments)
+            .into_iter()
+            .partition(|(name, _)| material.given(&name.value).is_some());
+        (self.givens, self.arguments) = (givens, arguments);
+    }
+
     /// A material without content, in place of one whose absence has been reported.
     pub(super) fn reported(span: Span) -> Self {
         MaterialUse {
             model: Spanned { value: Foreign::default(), span },
             density: Some(Formula::reported(span)),
             arguments: Vec::new(),
+            givens: Vec::new(),
             fibre: None,
             span,
         }
@@ -199,6 +225,9 @@ pub fn read_material(
     let parameters = reader
         .names(&root, "parameters")
         .map(|table| material_parameters(&table, &mut names, &mut reader));
+    let givens = reader
+        .names(&root, "given")
+        .map(|table| material_givens(&table, &mut names, &mut reader));
     let definitions = reader.names(&root, "let").map(|table| lets(&table, &mut names, &mut reader));
     let mut spec = MaterialSpec {
         name: name.into(),
@@ -208,6 +237,7 @@ pub fn read_material(
         frame_indifferent: true,
         claims_indifference: None,
         parameters: parameters.unwrap_or_default(),
+        givens: givens.unwrap_or_default(),
         lets: definitions.unwrap_or_default(),
         moduli: None,
         stray: Vec::new(),

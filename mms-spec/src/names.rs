@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::language::FUNCTIONS;
+use crate::own::Part;
+use crate::quantity::Quantity;
 use crate::source::{Span, Spanned};
 use crate::table::Reader;
 
@@ -66,12 +68,41 @@ pub fn reserved(name: &str, keeper: Keeper) -> Option<&'static str> {
 pub(super) struct Names {
     keeper: Keeper,
     defined: BTreeMap<String, Span>,
+    /// The names of the quantities that the file defines.
+    own: BTreeMap<String, Span>,
 }
 
 impl Names {
     /// No names yet.
     pub fn new(keeper: Keeper) -> Self {
-        Names { keeper, defined: BTreeMap::new() }
+        Names { keeper, defined: BTreeMap::new(), own: BTreeMap::new() }
+    }
+
+    /// Names the quantities of a given field or a balance. Returns whether they may be called so: otherwise the reason has
+    /// been reported.
+    pub fn define_own(
+        &mut self,
+        name: &Spanned<String>,
+        parts: &[Part],
+        reader: &mut Reader<'_>,
+    ) -> bool {
+        let parts: Vec<_> = parts.iter().map(|part| part.name(&name.value)).collect();
+        let taken = parts.iter().find_map(|part| {
+            if Quantity::reserves(part) {
+                let message = format!("the name {} is reserved", quoted(&name.value));
+                let label = format!("`{part}` is a quantity of every field");
+                return Some(Diagnostic::error(name.span, message).label(label));
+            }
+            let (line, _) = reader.sources.location(*self.own.get(part)?);
+            let message = format!("the quantity `{part}` is defined twice");
+            Some(Diagnostic::error(name.span, message).label(format!("first by line {line}")))
+        });
+        if let Some(diagnostic) = taken {
+            reader.report(diagnostic.help("choose another name"));
+            return false;
+        }
+        self.own.extend(parts.into_iter().map(|part| (part, name.span)));
+        true
     }
 
     /// Defines a name. Returns whether it may be: otherwise the reason has been reported.
@@ -114,7 +145,8 @@ impl Names {
     }
 }
 
-fn malformed(name: &Spanned<String>) -> Option<Diagnostic> {
+/// The mistake of a text that is no name, or too long a name.
+pub(super) fn malformed(name: &Spanned<String>) -> Option<Diagnostic> {
     let shown = quoted(&name.value);
     if !is_identifier(&name.value) {
         return Some(

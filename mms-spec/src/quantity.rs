@@ -1,5 +1,7 @@
 //! The glossary of quantities: one identifier, one symbol, one shape each, in every target.
 
+use crate::own::{Own, Part};
+
 /// How many components a quantity has, for a field of dimension `D`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -32,6 +34,8 @@ macro_rules! quantities {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Quantity {
             $(#[doc = $doc] $variant,)*
+            /// A quantity that the field file defines: of a given field, or of a balance.
+            Own(Own),
         }
 
         impl Quantity {
@@ -44,27 +48,42 @@ macro_rules! quantities {
 
             /// The glossary's identifier, used in every target, in JSON and on the command line.
             pub fn name(self) -> &'static str {
-                match self { $(Quantity::$variant => $name,)* }
+                match self {
+                    $(Quantity::$variant => $name,)*
+                    Quantity::Own(own) => &own.described().name,
+                }
             }
 
             /// The mathematical symbol.
             pub fn symbol(self) -> &'static str {
-                match self { $(Quantity::$variant => $symbol,)* }
+                match self {
+                    $(Quantity::$variant => $symbol,)*
+                    Quantity::Own(own) => &own.described().symbol,
+                }
             }
 
             /// Scalar, vector or tensor.
             pub fn shape(self) -> Shape {
-                match self { $(Quantity::$variant => Shape::$shape,)* }
+                match self {
+                    $(Quantity::$variant => Shape::$shape,)*
+                    Quantity::Own(own) => own.part.shape(),
+                }
             }
 
             /// The SI unit, where the field's own units are SI.
             pub fn unit(self) -> &'static str {
-                match self { $(Quantity::$variant => $unit,)* }
+                match self {
+                    $(Quantity::$variant => $unit,)*
+                    Quantity::Own(own) => &own.described().unit,
+                }
             }
 
             /// One sentence on what it is.
             pub fn doc(self) -> &'static str {
-                match self { $(Quantity::$variant => $doc,)* }
+                match self {
+                    $(Quantity::$variant => $doc,)*
+                    Quantity::Own(own) => &own.described().doc,
+                }
             }
         }
     };
@@ -135,6 +154,15 @@ impl Quantity {
         }
     }
 
+    /// Whether a field of the quantity takes a unit normal N beside X and t.
+    pub fn takes_normal(self) -> bool {
+        match self {
+            Quantity::Traction => true,
+            Quantity::Own(own) => own.part == Part::NormalFlux,
+            _ => false,
+        }
+    }
+
     /// Whether it is derived where it is asked for.
     pub fn is_on_request(self) -> bool {
         Self::ON_REQUEST.contains(&self)
@@ -143,10 +171,6 @@ impl Quantity {
     /// The quantity of that identifier, or of one of the accepted aliases
     /// `u x v a H F J C B E rho P PK1 S PK2 p sigma b W` (`div_p` and `div_sigma` are both).
     pub fn from_name(name: &str) -> Option<Quantity> {
-        const ALIASED: &[&str] = &[
-            "u", "x", "v", "a", "H", "F", "J", "C", "B", "E", "rho", "P", "S", "p", "sigma", "b",
-            "W",
-        ];
         let name = match name {
             "PK1" => "P",
             "PK2" => "S",
@@ -156,4 +180,21 @@ impl Quantity {
             quantity.name() == name || (ALIASED.contains(&name) && quantity.symbol() == name)
         })
     }
+
+    /// The quantity of a name or alias in a field that defines quantities of its own: a given field `p` is what `p` means.
+    pub fn among(own: &[Own], name: &str) -> Option<Quantity> {
+        let own = own.iter().find(|own| own.name == name);
+        own.map(|own| Quantity::Own(*own)).or_else(|| Self::from_name(name))
+    }
+
+    /// Whether the name means a quantity in every field, so that no file may give it to one of its own. `p` does not: a
+    /// given field may be called so.
+    pub fn reserves(name: &str) -> bool {
+        name != "p" && Self::from_name(name).is_some()
+    }
 }
+
+/// The symbols that are accepted in place of identifiers.
+const ALIASED: &[&str] = &[
+    "u", "x", "v", "a", "H", "F", "J", "C", "B", "E", "rho", "P", "S", "p", "sigma", "b", "W",
+];

@@ -76,8 +76,16 @@ impl Moduli {
 }
 
 impl Resting {
+    /// The shear modulus of a material whose volume a given field rules, as a pressure does: it has no other modulus.
+    pub fn shear_alone(&self) -> Option<f64> {
+        self.is_pressed.then(|| average(&self.stiffness()).mu)
+    }
+
     /// Of a material that is isotropic at rest, its moduli.
     pub fn moduli(&self) -> Option<Moduli> {
+        if self.is_pressed {
+            return None;
+        }
         let stiffness = self.stiffness();
         let (moduli, size) = (average(&stiffness), stiffness.norm());
         let rest = moduli.tangent();
@@ -92,9 +100,15 @@ impl Resting {
         if mu.abs() > ISOTROPIC * lambda.abs() { mu } else { lambda }
     }
 
-    /// dP/dF less what a stress at rest adds to it, P_JL d_ik.
+    /// dP/dF less what a stress at rest adds to it, P_JL d_ik. A spherical stress s that a given field balances leaves the
+    /// coefficients of stress and strain, to which s adds d_ik d_jl + d_il d_jk - d_ij d_kl (Birch 1947).
     pub(crate) fn stiffness(&self) -> Elasticity<3> {
+        let delta = |a: usize, b: usize| f64::from(u8::from(a == b));
         Elasticity::from_fn(|[i, j, k, l]| {
+            if self.is_pressed {
+                let adds = delta(i, l) * delta(j, k) - delta(i, j) * delta(k, l);
+                return self.tangent.at([i, j, k, l]) + self.stress[0] * adds;
+            }
             let adds = self.is_frame_indifferent && i == k;
             let stress = if adds { self.stress[j * 3 + l] } else { 0.0 };
             self.tangent.at([i, j, k, l]) - stress

@@ -182,12 +182,12 @@ impl<'a, const D: usize> Problem<'a, D> {
         state: &DVector<f64>,
         part: f64,
     ) -> Option<(DVector<f64>, Pencil)> {
-        let mut residual = DVector::zeros(self.modes.free());
+        let (mut residual, time) = (DVector::zeros(self.modes.free()), subject.window[0]);
         let mut pencil = self.modes.empty();
         for (index, point) in self.mesh.points.iter().enumerate() {
             let gradient = self.gradient(index, state);
             let rows = gradient.transpose();
-            let (stress, elasticity) = subject.response(&point.place, rows.as_slice());
+            let (stress, elasticity) = subject.response(&point.place, time, rows.as_slice());
             if !elasticity.is_finite() || (SMatrix::identity() + gradient).try_inverse().is_none() {
                 return None;
             }

@@ -2,7 +2,7 @@
 
 use mms_codegen::compile::Compiled;
 use mms_mechanics::sample::domain;
-use mms_mechanics::{Response, at_rest};
+use mms_mechanics::{Response, at_rest, is_spherical, pressures};
 use mms_program::Program;
 use mms_program::dual::Dual;
 use mms_program::interpret::{Interpreter, Number, Point};
@@ -43,6 +43,8 @@ pub struct Formulas {
     /// Whether u does not depend on t.
     is_static: bool,
     is_frame_indifferent: bool,
+    /// Whether given fields balance a spherical stress at rest.
+    is_pressed: bool,
 }
 
 impl Formulas {
@@ -55,6 +57,10 @@ impl Formulas {
         let quantity = |quantity| derived.quantities[&quantity].clone();
         let response = |response| derived.responses[&response].clone();
         let [stress, tangent] = at_rest(&mut graph, &compiled.model);
+        let (field, material, model) = (&compiled.field, &compiled.material, &compiled.model);
+        let is_pressed = !model.givens.is_empty()
+            && is_spherical(&graph, &stress)
+            && !pressures(&mut graph, field, material, model).is_empty();
         let position = quantity(Quantity::Position);
         let is_static = is_static(&mut graph, &position);
         let outputs = SortedMap::from([
@@ -69,7 +75,7 @@ impl Formulas {
         let work = graph.work().share();
         let is_frame_indifferent = compiled.material.frame_indifferent;
         let parameters = compiled.parameters(&SortedMap::new());
-        Formulas { program, parameters, work, is_static, is_frame_indifferent }
+        Formulas { program, parameters, work, is_static, is_frame_indifferent, is_pressed }
     }
 
     /// Whether evaluating more takes too long: then no state has a value.
@@ -107,6 +113,8 @@ pub struct Resting {
     pub tangent: Elasticity<3>,
     /// Whether rotations cost no energy: a stress at rest then adds to dP/dF.
     pub is_frame_indifferent: bool,
+    /// Whether given fields balance a spherical stress at rest.
+    pub is_pressed: bool,
 }
 
 /// A compiled field, evaluated.
@@ -118,6 +126,7 @@ pub struct Subject<'a, const D: usize> {
     /// Whether u does not depend on t.
     pub is_static: bool,
     is_frame_indifferent: bool,
+    is_pressed: bool,
     work: &'a Work,
     field: Evaluated<'a, f64>,
     material: Evaluated<'a, Dual<f64>>,
@@ -154,6 +163,7 @@ impl<'a, const D: usize> Subject<'a, D> {
             window,
             is_static: formulas.is_static,
             is_frame_indifferent: formulas.is_frame_indifferent,
+            is_pressed: formulas.is_pressed,
             work: &formulas.work,
             field: Evaluated::new(formulas, &formulas.parameters),
             material: Evaluated::new(formulas, &duals),
@@ -176,7 +186,7 @@ impl<'a, const D: usize> Subject<'a, D> {
             return None;
         }
         let gradient = self.value(Output::Gradient, place, time);
-        let (stress, elasticity) = self.response(place, &gradient);
+        let (stress, elasticity) = self.response(place, time, &gradient);
         let density = self.value(Output::Density, place, time)[0];
         let modulus = self.resting(place)?.modulus();
         let is_finite = elasticity.is_finite() && density.is_finite() && modulus > 0.0;
@@ -194,8 +204,9 @@ impl<'a, const D: usize> Subject<'a, D> {
         let stress = self.value(Output::RestStress, place, self.window[0]);
         let tangent = self.value(Output::RestTangent, place, self.window[0]);
         let at = |[i, j, k, l]: [usize; 4]| tangent[((i * 3 + j) * 3 + k) * 3 + l];
-        let is_frame_indifferent = self.is_frame_indifferent;
-        let resting = Resting { stress, tangent: Elasticity::from_fn(at), is_frame_indifferent };
+        let (is_frame_indifferent, is_pressed) = (self.is_frame_indifferent, self.is_pressed);
+        let tangent = Elasticity::from_fn(at);
+        let resting = Resting { stress, tangent, is_frame_indifferent, is_pressed };
         let is_finite =
             resting.tangent.is_finite() && resting.stress.iter().all(|it| it.is_finite());
         is_finite.then_some(resting)
@@ -205,9 +216,11 @@ impl<'a, const D: usize> Subject<'a, D> {
     pub fn response(
         &mut self,
         place: &SVector<f64, D>,
+        time: f64,
         gradient: &[f64],
     ) -> (SMatrix<f64, D, D>, Elasticity<D>) {
         let coordinates: Vec<_> = place.iter().copied().map(Dual::constant).collect();
+        self.material.interpreter.set_time(&Dual::constant(time));
         let mut stress = SMatrix::zeros();
         let mut columns = Vec::with_capacity(D * D);
         for entry in 0..D * D {

@@ -11,6 +11,7 @@ use mms_mechanics::sample::domain;
 use mms_results::names::{Mapping, Names, Role};
 use mms_runtime::Division;
 use mms_spec::foreign;
+use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Spanned;
 use mms_spec::suggest::advice;
@@ -304,7 +305,7 @@ impl Setting<'_> {
         let (window, per_cell) = ([first, end], self.per_cell(study, &input)?);
         let place = Place { setting: self, study, input: &input, window, per_cell, speed };
         let jobs = levels.iter().map(|&level| place.job(level)).collect::<Result<_, _>>()?;
-        let options = self.judging(study)?;
+        let options = self.judging(study, &input.own_quantities())?;
         Ok(Planned { study: study.clone(), window, options, per_cell, jobs, input })
     }
 
@@ -321,8 +322,9 @@ impl Setting<'_> {
         self.option(word, "particles_per_cell", held)
     }
 
-    fn judging(&self, study: &Study) -> anyhow::Result<Judging> {
-        let text = |word: &str| quantities(&[word.to_owned()]).map_err(|error| error.to_string());
+    fn judging(&self, study: &Study, own: &[Own]) -> anyhow::Result<Judging> {
+        let text =
+            |word: &str| quantities(own, &[word.to_owned()]).map_err(|error| error.to_string());
         let quantities = self.options(&study.quantity, "quantity", text)?.concat();
         let map = self.options(&study.map, "map", |word| word.parse::<Mapping>())?;
         let columns = study.columns.iter().map(|word| word.value.clone()).collect();

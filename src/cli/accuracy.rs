@@ -87,12 +87,12 @@ fn listed() -> String {
 impl Accuracy {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let text = Text::find(&self.field)?;
-        let quantities = self.quantities()?;
         self.output.as_deref().map_or(Ok(()), hold_output)?;
         let set = settings(&self.set)?;
         let options = self.motion.options(Selection { set, ..Selection::default() });
         let refused = |failure| anyhow!("the field does not compile as selected\n{failure}");
         let compiled = text.compile(&options).map_err(refused)?;
+        let quantities = self.quantities(&compiled)?;
         let quantities: Vec<_> = quantities.into_iter().filter(|it| compiled.offers(*it)).collect();
         let request = Request {
             options: options.clone(),
@@ -133,11 +133,12 @@ impl Accuracy {
         Ok(if held { Outcome::AsExpected } else { Outcome::Refuted })
     }
 
-    fn quantities(&self) -> anyhow::Result<Vec<Quantity>> {
+    fn quantities(&self, compiled: &Compiled) -> anyhow::Result<Vec<Quantity>> {
         if self.quantity.iter().any(|name| name.trim() == "all") {
-            return Ok(Quantity::ALL.to_vec());
+            return Ok(compiled.quantities().collect());
         }
-        quantities(&self.quantity)
+        let own: Vec<_> = compiled.model.own.keys().copied().collect();
+        quantities(&own, &self.quantity)
     }
 
     fn regimes(&self, compiled: &Compiled) -> anyhow::Result<Option<Vec<String>>> {

@@ -210,6 +210,14 @@ fn unseen(compiled: &Compiled, rest: &Rest) -> Vec<String> {
 
 /// What is said of P at F = I, if it is not 0.
 fn rest_line(rest: &Rest) -> Option<String> {
+    if let Rest::Pressed(stress, names) = rest {
+        let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+        return Some(format!(
+            "  rest   P is {:e} I at F = I, a pressure that the given {} balances",
+            stress[0],
+            names.join(", ")
+        ));
+    }
     let components: Vec<_> = rest.stress()?.iter().map(|it| format!("{it:e}")).collect();
     Some(format!("  rest   stress at rest: P is [{}] at F = I, not 0", components.join(", ")))
 }

@@ -17,6 +17,7 @@ use mms_diagnosis::scene::{self, Evidence};
 use mms_diagnosis::solver::Solver;
 use mms_runtime::Method;
 use mms_runtime::scene::Scene;
+use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 
 use super::naming::Naming;
@@ -191,7 +192,7 @@ impl Diagnose {
         }
         let provenance = this_command("diagnose", input.provenance(&self.set));
         let mut exact = Exact::new(input, &self.set)?;
-        let (law, wanted) = self.quantities()?;
+        let (law, wanted) = self.quantities(&exact.input().own_quantities())?;
         let names = self.naming.names()?;
         let all = self.files.iter().map(|file| find(file, &names, self.max_memory));
         let mut all = all.collect::<anyhow::Result<Vec<_>>>()?;
@@ -267,11 +268,11 @@ impl Diagnose {
     }
 
     /// The law alone, or the quantities of results that are looked at.
-    fn quantities(&self) -> anyhow::Result<(Option<Alone>, Vec<Quantity>)> {
+    fn quantities(&self, own: &[Own]) -> anyhow::Result<(Option<Alone>, Vec<Quantity>)> {
         Ok(match self.quantity.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
             ["stress"] => (Some(Alone::Stress), Vec::new()),
             ["tangent"] => (Some(Alone::Tangent), Vec::new()),
-            _ => (None, evaluated(&self.quantity)?),
+            _ => (None, evaluated(own, &self.quantity)?),
         })
     }
 

@@ -10,13 +10,14 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use mms_codegen::selection::{Freeze, Selection};
 use mms_emit::{Bundle, Subject, TARGETS, Target};
 use mms_spec::foreign::{self, Foreign};
+use mms_spec::own::Own;
 use serde_json::{Value, json};
 
 use self::folder::{State, compare, write};
 use super::{Outcome, print, print_json, say};
 use crate::gallery::FIELDS;
 use crate::report::file::refuse_link;
-use crate::session::input::{Input, Variant, quantities, settings};
+use crate::session::input::{Input, Text, Variant, quantities, settings};
 use crate::shell::{command, quoted, words};
 
 /// Write the source of a field for another solver: all of it, or only what is needed.
@@ -72,7 +73,11 @@ impl Emit {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let target =
             Target::find(&self.target).with_context(|| format!("no target `{}`", self.target))?;
-        let options = self.variant.options(self.selection()?);
+        let own = match &self.field {
+            Some(field) => Text::find(field)?.own_quantities(),
+            None => Vec::new(),
+        };
+        let options = self.variant.options(self.selection(&own)?);
         let emitted = |field: &str| {
             let input = Input::find_with(field, &options)?;
             input.offered(&self.quantity, Vec::new())?;
@@ -146,9 +151,9 @@ impl Emit {
         Ok(Delivered { texts: Some(texts.collect()), ..Delivered::default() })
     }
 
-    fn selection(&self) -> anyhow::Result<Selection> {
+    fn selection(&self, own: &[Own]) -> anyhow::Result<Selection> {
         let everything = self.quantity.iter().all(|name| name.trim() == "all");
-        let wanted = if everything { None } else { Some(quantities(&self.quantity)?) };
+        let wanted = if everything { None } else { Some(quantities(own, &self.quantity)?) };
         let set = settings(&self.set)?;
         let freeze = match &self.freeze {
             None => Freeze::Nothing,

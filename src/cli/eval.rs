@@ -20,7 +20,7 @@ use serde_json::value::RawValue;
 
 use super::naming::Naming;
 use super::{Outcome, print, print_json, say};
-use crate::session::input::{Input, Variant, evaluated, precision};
+use crate::session::input::{Input, Text, Variant, evaluated, precision};
 use crate::session::plane::{self, Beyond, SPACE, nine};
 use crate::state::points::Points;
 
@@ -179,7 +179,8 @@ struct Outside {
 
 impl Eval {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let quantities = evaluated(&self.quantity)?;
+        let own = Text::find(&self.field)?.own_quantities();
+        let quantities = evaluated(&own, &self.quantity)?;
         let mut derived = quantities.clone();
         if self.all_components {
             derived.extend(plane::NEEDED);

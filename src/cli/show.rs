@@ -93,8 +93,8 @@ impl Show {
             return Ok(Outcome::AsExpected);
         }
         let quantities = match self.quantity.as_slice() {
-            [] => Quantity::ALL.to_vec(),
-            named => quantities(named)?,
+            [] => input.compiled.quantities().collect(),
+            named => quantities(&input.own_quantities(), named)?,
         };
         let quantities = input.offered(&self.quantity, quantities)?;
         let too_large = |TooLarge(what): TooLarge| {

@@ -98,7 +98,7 @@ impl State {
         spare("--output", self.output.path(), &read)?;
         let quantities = match self.quantity.as_slice() {
             [] => USUAL.to_vec(),
-            names => evaluated(names)?,
+            names => evaluated(&input.own_quantities(), names)?,
         };
         let quantities = input.offered(&self.quantity, quantities)?;
         if self.time.is_empty() {

@@ -62,7 +62,7 @@ fn stiffness<const D: usize>(field: &dyn ManufacturedField<f64, D>, point: &[f64
     field.wave_speed(&point, &mut c0);
     let stress = |gradient: Matrix<f64, D>| {
         let mut stress = [Matrix::<f64, D>::zeros()];
-        field.kirchhoff_stress(&point, &[gradient], &mut stress);
+        field.kirchhoff_stress(field.domain().time[0], &point, &[gradient], &mut stress);
         stress[0]
     };
     let mut all = vec![0.0; D * D * D * D];

@@ -62,7 +62,7 @@ fn agree<T: Real, const D: usize>(
     let [first, second] = both(&|field, out| field.displacement_gradient(time, points, out));
     same(&what("H"), &first, &second);
     let gradients: Vec<_> = points.iter().map(gradient).collect();
-    let [first, second] = both(&|field, out| field.kirchhoff_stress(points, &gradients, out));
+    let [first, second] = both(&|field, out| field.kirchhoff_stress(time, points, &gradients, out));
     same(&what("tau"), &first, &second);
     let scalars = |evaluate: &dyn Fn(&Field<T, D>, &mut [T])| {
         [compiled, interpreted].map(|field| {
@@ -76,14 +76,15 @@ fn agree<T: Real, const D: usize>(
     let [first, second] = scalars(&|field, out| field.wave_speed(points, out));
     same(&what("c0"), &first, &second);
     let [first, second] =
-        scalars(&|field, out| assert!(field.strain_energy(points, &gradients, out)));
+        scalars(&|field, out| assert!(field.strain_energy(time, points, &gradients, out)));
     same(&what("W"), &first, &second);
-    stress_of_bunches(&what("tau of bunches"), [compiled, interpreted], points);
+    stress_of_bunches(&what("tau of bunches"), [compiled, interpreted], time, points);
 }
 
 fn stress_of_bunches<T: Real, const D: usize>(
     what: &str,
     fields: [&Field<T, D>; 2],
+    time: T,
     points: &[Vector<T, D>],
 ) {
     let bunches = points.as_chunks::<BUNCH>().0;
@@ -95,7 +96,7 @@ fn stress_of_bunches<T: Real, const D: usize>(
     let gradients: Vec<_> = bunches.iter().map(of_bunch).collect();
     let [first, second] = fields.map(|field| {
         let mut stress = vec![Matrices::zeros(); bunches.len()];
-        field.kirchhoff_stress_of_bunches(bunches, &gradients, &mut stress);
+        field.kirchhoff_stress_of_bunches(time, bunches, &gradients, &mut stress);
         stress
     });
     same(what, &first, &second);

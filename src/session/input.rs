@@ -7,7 +7,7 @@ use anyhow::{Context as _, Error, anyhow, bail, ensure};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dashu_ratio::RBig;
-use mms_codegen::compile::{Failure, Loader, compile_unproved};
+use mms_codegen::compile::{Failure, Loader, compile_unproved, own_quantities};
 use mms_codegen::selection::{self, quantity};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options, Selection, compile_with};
@@ -17,6 +17,7 @@ use mms_program::precision::Precision;
 use mms_runtime::scene::{Code, Scene};
 use mms_spec::Form;
 use mms_spec::foreign::{Foreign, shown};
+use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
@@ -406,14 +407,25 @@ impl Text {
     }
 
     fn compile_as(&self, compile: Compile, options: &Options) -> Result<Compiled, Failure> {
-        let load = |material: &str| match &self.origin {
+        let load = |material: &str| self.load(material);
+        compile(self.name.raw(), self.path.raw(), &self.text, &load, options)
+    }
+
+    /// The quantities that the field defines.
+    pub fn own_quantities(&self) -> Vec<Own> {
+        let load = |material: &str| self.load(material);
+        own_quantities(self.name.raw(), self.path.raw(), &self.text, &load)
+    }
+
+    /// The text of the material of the field's own.
+    fn load(&self, material: &str) -> Result<String, String> {
+        match &self.origin {
             Origin::Gallery(entry) => entry.own_material(),
             Origin::Folder(folder) => {
                 let read = read::text(&folder.join(material), Kind::Field);
                 read.map_err(|error| error.root_cause().to_string())
             }
-        };
-        compile(self.name.raw(), self.path.raw(), &self.text, &load, options)
+        }
     }
 
     /// What is to blame: all of the field, or what was selected of it.
@@ -443,10 +455,10 @@ pub fn precision() -> impl TypedValueParser<Value = Precision> {
     names.try_map(|name| Precision::from_name(&name).ok_or("no precision"))
 }
 
-/// The quantities of some names or aliases that fields are compiled with, each once; `all` stands for those of a point and a
+/// The quantities of some names or aliases that a field with these of its own is compiled with, each once; `all` stands for those of a point and a
 /// time.
-pub fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
-    named(names, quantity)
+pub fn quantities(own: &[Own], names: &[String]) -> anyhow::Result<Vec<Quantity>> {
+    named(own, names, quantity)
 }
 
 impl Input {
@@ -460,7 +472,7 @@ impl Input {
         mut quantities: Vec<Quantity>,
     ) -> anyhow::Result<Vec<Quantity>> {
         for name in names {
-            let Some(quantity) = Quantity::from_name(name.trim()) else { continue };
+            let Ok(quantity) = self.compiled.quantity(name.trim()) else { continue };
             self.compiled.hold_offered(quantity).map_err(Error::msg)?;
         }
         quantities.retain(|it| self.compiled.offers(*it));
@@ -481,6 +493,11 @@ impl Input {
         Ok(())
     }
 
+    /// The quantities that the field defines.
+    pub fn own_quantities(&self) -> Vec<Own> {
+        self.compiled.model.own.keys().copied().collect()
+    }
+
     /// Whether nothing moves: the field has no time.
     pub fn is_static(&self) -> bool {
         self.compiled.model.domain.is_static
@@ -488,21 +505,23 @@ impl Input {
 }
 
 /// The same, those on request as well, which `all` leaves out.
-pub fn evaluated(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
-    named(names, selection::evaluated)
+pub fn evaluated(own: &[Own], names: &[String]) -> anyhow::Result<Vec<Quantity>> {
+    named(own, names, selection::evaluated)
 }
 
 fn named(
+    own: &[Own],
     names: &[String],
-    known: fn(&str) -> Result<Quantity, String>,
+    known: fn(&[Own], &str) -> Result<Quantity, String>,
 ) -> anyhow::Result<Vec<Quantity>> {
     let mut quantities = Vec::new();
     for name in names.iter().map(|name| name.trim()) {
         if name == "all" {
-            quantities.extend(Quantity::pointwise());
+            let own = own.iter().map(|own| Quantity::Own(*own));
+            quantities.extend(Quantity::pointwise().chain(own.filter(|it| !it.takes_normal())));
             continue;
         }
-        quantities.push(known(name).map_err(Error::msg)?);
+        quantities.push(known(own, name).map_err(Error::msg)?);
     }
     let mut seen = Vec::new();
     quantities.retain(|quantity| {

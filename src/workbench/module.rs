@@ -30,7 +30,7 @@ impl Module<'_> {
     fn quantities(&self) -> impl Iterator<Item = Quantity> {
         let outputs = &self.compiled.program.outputs;
         let known = |quantity: &Quantity| outputs.contains_key(&Output::Quantity(*quantity));
-        Quantity::ALL.iter().copied().filter(known)
+        self.compiled.quantities().filter(known)
     }
 }
 
@@ -90,7 +90,7 @@ impl<'a> Call<'a> {
 
     /// Whether it takes normals beside positions.
     pub fn takes_normals(&self) -> bool {
-        self.quantity == Quantity::Traction
+        self.quantity.takes_normal()
     }
 }
 

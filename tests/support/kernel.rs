@@ -76,8 +76,9 @@ macro_rules! kernel {
                     Quantity::SecondPiolaKirchhoff
                     | Quantity::Pressure
                     | Quantity::VonMises
-                    | Quantity::SmallStrain => {
-                        panic!("no field is compiled with {}", quantity.name())
+                    | Quantity::SmallStrain
+                    | Quantity::Own(_) => {
+                        panic!("not every field is compiled with {}", quantity.name())
                     }
                 }
             }

@@ -212,12 +212,13 @@ fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> 
         let leaf = graph.symbol(Symbol::Local(k));
         let factor = graph.call(Function::Exp, &[leaf]);
         varied[k] = graph.mul(*value, factor);
-        is_varied.push(energy_with(graph, field, material, &varied).is_some());
+        is_varied.push(energy_with(graph, field, material, &varied, &model.givens).is_some());
         if !is_varied[k] {
             varied[k] = *value;
         }
     }
-    let energy = energy_with(graph, field, material, &varied).unwrap_or(model.energy);
+    let energy =
+        energy_with(graph, field, material, &varied, &model.givens).unwrap_or(model.energy);
     let divergence = divergence(graph, &Model { energy, ..model.clone() });
     let (zero, count) = (graph.number(0), model.arguments.len());
     let at_rest: SortedMap<Symbol, Expr> = (0..count).map(|k| (Symbol::Local(k), zero)).collect();

@@ -296,10 +296,12 @@ impl<'a> QuantityProgram<'a> {
     }
 
     fn first_quantity(&self, well: impl Fn(Quantity, usize) -> bool) -> Option<Quantity> {
-        let components = |quantity: Quantity| self.program.outputs.get(&Output::Quantity(quantity));
-        Quantity::ALL.iter().copied().find(|quantity| {
-            components(*quantity)
-                .is_some_and(|values| !values.iter().all(|value| well(*quantity, value.index())))
+        self.program.outputs.iter().find_map(|(output, values)| match output {
+            Output::Quantity(quantity) => {
+                let is_well = values.iter().all(|value| well(*quantity, value.index()));
+                (!is_well).then_some(*quantity)
+            }
+            _ => None,
         })
     }
 

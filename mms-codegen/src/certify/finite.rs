@@ -12,6 +12,7 @@ use mms_program::interpret::{Interpreter, Number};
 use mms_program::interval::Interval;
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule_plainly;
+use mms_spec::own::Part;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Graph, Symbol};
 use mms_symbolic::pass::substitute::replace;
@@ -132,6 +133,8 @@ pub(super) fn corners(cell: &Cell) -> Vec<Vec<f64>> {
 /// positive where it is small.
 struct Quantities<'a> {
     work: &'a Work,
+    /// In the order of derivation.
+    quantities: Vec<Quantity>,
     program: Program,
     /// The same with J in place.
     whole: Program,
@@ -142,9 +145,14 @@ impl<'a> Quantities<'a> {
         let mut outputs = SortedMap::new();
         for (quantity, components) in &compiled.derived.quantities {
             let mut components = components.clone();
-            if *quantity == Quantity::Traction {
-                // As finite as P, whatever N is.
-                components = compiled.derived.quantities[&Quantity::FirstPiolaKirchhoff].clone();
+            // As finite as the tensor or the vector, whatever N is.
+            match quantity {
+                Quantity::Traction => {
+                    let stress = &compiled.derived.quantities[&Quantity::FirstPiolaKirchhoff];
+                    components = stress.clone();
+                }
+                Quantity::Own(own) if own.part == Part::NormalFlux => continue,
+                _ => {}
             }
             outputs.insert(Output::Quantity(*quantity), components);
         }
@@ -156,7 +164,9 @@ impl<'a> Quantities<'a> {
                 *components = replace(graph, components, &values);
             }
         }
-        Quantities { work, program: schedule_plainly(graph, &outputs), whole }
+        let has = |quantity: &Quantity| outputs.contains_key(&Output::Quantity(*quantity));
+        let quantities = compiled.quantities().filter(has).collect();
+        Quantities { work, quantities, program: schedule_plainly(graph, &outputs), whole }
     }
 
     /// A quantity that is not proved to be bounded in a cell. With J in place of what it is made of
@@ -186,6 +196,6 @@ impl<'a> Quantities<'a> {
         let lacks = |quantity: &Quantity| {
             !interpreter.output(Output::Quantity(*quantity)).iter().all(&well)
         };
-        Quantity::ALL.iter().copied().find(lacks)
+        self.quantities.iter().copied().find(lacks)
     }
 }

@@ -1,7 +1,7 @@
 //! The stress of the undeformed body, P at F = I: whether it is 0, symbolically, or at 16 points for the defaults
 //! and 16 within the ranges.
 //!
-//! A material without a stress at rest has none. A file that forgot a term of W has one, which no proof and no
+//! Given fields of the material are at their values at rest. A material without a stress at rest has none. A file that forgot a term of W has one, which no proof and no
 //! study of its own sees. It may be meant, so it is a warning.
 
 use mms_math::Scalar as _;
@@ -12,7 +12,7 @@ use crate::bounds::chart::Chart;
 use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
 use mms_mechanics::extent::spread;
-use mms_mechanics::{Response, at_rest};
+use mms_mechanics::{Response, at_rest, is_spherical, pressures};
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule_plainly;
 use mms_spec::diagnostic::Diagnostic;
@@ -36,6 +36,9 @@ pub enum Rest {
     Free,
     /// Its components, row-major, where the greatest of them is greatest; in space where those of the field's dimensions are 0.
     Stressed(Vec<f64>, Witness),
+    /// Its components likewise, a multiple of I that these given fields of the material set: they stand for the pressure that
+    /// balances it.
+    Pressed(Vec<f64>, Vec<String>),
     /// To evaluate it takes too long.
     Unknown,
 }
@@ -44,7 +47,7 @@ impl Rest {
     /// The components that are not 0.
     pub fn stress(&self) -> Option<&[f64]> {
         match self {
-            Rest::Stressed(stress, _) => Some(stress),
+            Rest::Stressed(stress, _) | Rest::Pressed(stress, _) => Some(stress),
             Rest::Free | Rest::Unknown => None,
         }
     }
@@ -55,7 +58,7 @@ impl Rest {
             Rest::Stressed(stress, witness) => {
                 Some(message::stressed_at_rest(compiled, stress, witness))
             }
-            Rest::Free | Rest::Unknown => None,
+            Rest::Free | Rest::Pressed(..) | Rest::Unknown => None,
         }
     }
 }
@@ -73,6 +76,19 @@ pub fn stress(compiled: &Compiled) -> Rest {
     let mut stress =
         substitute(&mut graph, &responses[&Response::FirstPiolaKirchhoff], &undeformed);
     let is_free = |graph: &Graph, stress: &[Expr]| stress.iter().all(|it| graph.is_zero(*it));
+    let mut pressed = Vec::new();
+    if !compiled.model.givens.is_empty() {
+        // Given fields are at rest here, and what they do elsewhere is no stress at rest.
+        let [space, _] = at_rest(&mut graph, &compiled.model);
+        let (field, material, model) = (&compiled.field, &compiled.material, &compiled.model);
+        if is_spherical(&graph, &space) {
+            let places = pressures(&mut graph, field, material, model);
+            let name = |place: usize| material.givens[place].name.value.clone();
+            pressed = places.into_iter().map(name).collect();
+        }
+        let in_plane = |place: &usize| (place / 3).max(place % 3) < dimension;
+        stress = (0..9).filter(in_plane).map(|place| space[place]).collect();
+    }
     if is_free(&graph, &stress) {
         // Fibres across a plane body may pull at what holds it flat.
         [stress, _] = at_rest(&mut graph, &compiled.model);
@@ -88,6 +104,7 @@ pub fn stress(compiled: &Compiled) -> Rest {
     let found =
         [of_defaults, of_ranges].iter().find_map(|chart| greatest(&mut graph, chart, &formulas));
     match found {
+        Some((stress, _)) if !pressed.is_empty() => Rest::Pressed(stress, pressed),
         Some((stress, witness)) => Rest::Stressed(stress, witness),
         None if graph.work().is_over() => Rest::Unknown,
         None => Rest::Free,

@@ -21,6 +21,7 @@ use mms_mechanics::{Derivation, Model, TooLarge, derive};
 use mms_program::Op;
 use mms_program::schedule::schedule;
 use mms_spec::diagnostic::Diagnostic;
+use mms_spec::own::{Own, own_quantities, settle_checks};
 use mms_spec::source::{SourceId, Sources, Span};
 use mms_spec::suggest::advice;
 use mms_spec::syntax;
@@ -90,6 +91,15 @@ impl<'a> Phases<'a> {
         })
     }
 
+    /// The quantities that a text defines.
+    pub fn own_quantities(&mut self, name: &str, path: &str, text: &str) -> Vec<Own> {
+        let source = self.sources.add(path, text);
+        let field = mms_spec::read_field(&self.sources, source, name, &mut self.diagnostics);
+        let Some(field) = field else { return Vec::new() };
+        let material = self.read_material(&field);
+        own_quantities(&field, material.as_ref())
+    }
+
     /// What is said where somebody asked to stop, in place of what came of that.
     pub fn stopped(&mut self) {
         let Some(source) = self.sources.nth(0) else { return };
@@ -114,7 +124,12 @@ impl<'a> Phases<'a> {
         let mut material = self.read_material(&field);
         let Self { sources, diagnostics, .. } = self;
         if let Some(material) = &mut material {
+            field.material.tell_givens(material);
             moduli::convert(sources, &field, material, diagnostics);
+        }
+        let own = own_quantities(&field, material.as_ref());
+        if material.is_some() {
+            settle_checks(&mut field, &own, diagnostics);
         }
         diagnostics.extend(units::check(sources, &field, material.as_ref()));
         let reported = diagnostics.len();

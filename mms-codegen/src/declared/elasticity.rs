@@ -138,12 +138,12 @@ impl Declared<'_> {
     }
 }
 
-/// W, its slopes and its curvatures by the invariants at F = I, with their names.
+/// W, its slopes and its curvatures by the invariants at F = I, with their names; given fields are at rest.
 pub fn curvatures(graph: &mut Graph, model: &Model) -> (Vec<String>, Vec<Expr>) {
     let symbols = model.kind.symbols();
-    let (mut names, mut exprs) = (vec!["W".to_string()], vec![model.energy]);
+    let (mut names, mut exprs) = (vec!["W".to_string()], vec![model.rest_energy]);
     for (place, a) in symbols.iter().enumerate() {
-        let slope = differentiate(graph, &[model.energy], *a)[0];
+        let slope = differentiate(graph, &[model.rest_energy], *a)[0];
         names.push(format!("dW/d{}", name(*a)));
         exprs.push(slope);
         for b in &symbols[place..] {
@@ -156,12 +156,12 @@ pub fn curvatures(graph: &mut Graph, model: &Model) -> (Vec<String>, Vec<Expr>) 
     (names, substitute(graph, &exprs, &undeformed))
 }
 
-/// dP/dF at F = I.
+/// dP/dF at F = I, with each given field at rest.
 pub fn stiffness(graph: &mut Graph, model: &Model) -> Vec<Expr> {
     let zero = graph.number(0);
     let gradient = Tensor::from_fn(model.displacement.len(), |_, _| zero);
     let strain = Strain::new(graph, gradient, &model.kind, &Relations::default());
-    tangent(graph, model.energy, &model.kind, &strain)
+    tangent(graph, model.rest_energy, &model.kind, &strain)
 }
 
 /// The name of an invariant in a density.

@@ -8,7 +8,6 @@ use mms_mechanics::Output;
 use mms_mechanics::Response;
 use mms_mechanics::invariant::Kind;
 use mms_mechanics::model::Body;
-use mms_program::Op;
 use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Face};
 use mms_symbolic::expr::Symbol;
@@ -32,6 +31,16 @@ impl Emitter<'_> {
         let small_strain = is_small.then(|| {
             quote! {
                 fn is_small_strain(&self) -> bool {
+                    true
+                }
+            }
+        });
+        let [stress_owner, energy_owner] =
+            [Response::KirchhoffStress, Response::StrainEnergy].map(|it| self.owner(it));
+        let is_timed = self.is_timed(Output::Response(Response::StrainEnergy));
+        let changes = is_timed.then(|| {
+            quote! {
+                fn changes_with_time(&self) -> bool {
                     true
                 }
             }
@@ -89,19 +98,23 @@ impl Emitter<'_> {
 
                 #small_strain
 
+                #changes
+
                 fn kirchhoff_stress(
                     &self,
+                    time: T,
                     reference: &[Vector<T>],
                     displacement_gradient: &[Matrix<T>],
                     stress: &mut [Matrix<T>],
                 ) {
                     ::#runtime::material::by_bunches(
-                        self, reference, displacement_gradient, stress,
+                        self, time, reference, displacement_gradient, stress,
                     );
                 }
 
                 fn kirchhoff_stress_of_bunches(
                     &self,
+                    time: T,
                     #reference: &[[Vector<T>; ::#runtime::column::BUNCH]],
                     displacement_gradient: &[::#runtime::column::Matrices<T, #dimension>],
                     stress: &mut [::#runtime::column::Matrices<T, #dimension>],
@@ -109,20 +122,22 @@ impl Emitter<'_> {
                     use ::#runtime::math::bunched::Bunched;
                     let gradients = Bunched::<_, #components>(displacement_gradient);
                     let mut stress = Bunched::<_, #components>(stress);
-                    batch::run(&Response(self), #source, &mut stress);
+                    batch::run(&Response(&#stress_owner), #source, &mut stress);
                 }
 
                 fn strain_energy(
                     &self,
+                    time: T,
                     reference: &[Vector<T>],
                     displacement_gradient: &[Matrix<T>],
                     energy: &mut [T],
                 ) -> bool {
+                    let material = #energy_owner;
                     let states = reference.iter().zip(displacement_gradient);
                     for (energy, (point, gradient)) in energy.iter_mut().zip(states) {
                         // Matrices are stored by columns.
                         let rows = gradient.transpose().into();
-                        *energy = self.material_strain_energy((*point).into(), rows);
+                        *energy = material.material_strain_energy((*point).into(), rows);
                     }
                     true
                 }
@@ -151,10 +166,16 @@ impl Emitter<'_> {
 
     /// Whether the Kirchhoff stress of a displacement gradient is another one elsewhere in the body.
     fn stress_depends_on_position(&self) -> bool {
-        let roots = self.values(Output::Response(Response::KirchhoffStress));
-        let needed = self.program.needed_for(roots.iter().copied());
-        let mut needed = self.program.instrs.iter().zip(needed).filter(|(_, needed)| *needed);
-        needed.any(|(instr, _)| matches!(instr.op, Op::Input(Symbol::Coordinate(_))))
+        let stress = Output::Response(Response::KirchhoffStress);
+        self.needs(stress, |symbol| matches!(symbol, Symbol::Coordinate(_)))
+    }
+
+    /// The owner of a function of the material: the field, or the field at one time where given fields change it.
+    fn owner(&self, response: Response) -> TokenStream {
+        match self.is_timed(Output::Response(response)) {
+            true => quote!(self.at_time(time)),
+            false => quote!(self),
+        }
     }
 
     /// The Kirchhoff stress of a displacement gradient, as a kernel. Matrices go by columns here.
@@ -183,8 +204,19 @@ impl Emitter<'_> {
         }
         let inputs = Literal::usize_unsuffixed(point.len() + gradients.len());
         let results = Literal::usize_unsuffixed(gradients.len());
+        let stress = Output::Response(Response::KirchhoffStress);
+        let (owner, standing) = match self.is_timed(stress) {
+            true => (
+                quote!(AtTime<'a, T>),
+                quote! {
+                    let field = self.0.field.standing();
+                    points.each(&Response(&self.0.standing(&field)));
+                },
+            ),
+            false => (quote!(Field<T>), quote!(points.each(&Response(&self.0.standing()));)),
+        };
         quote! {
-            struct Response<'a, T: Real>(&'a Field<T>);
+            struct Response<'a, T: Real>(&'a #owner);
 
             impl<T: Real> batch::Function<T, #inputs, #results> for Response<'_, T> {
                 #[inline(always)]
@@ -201,7 +233,7 @@ impl Emitter<'_> {
                     &self,
                     points: &mut impl batch::Points<S, #inputs, #results>,
                 ) {
-                    points.each(&Response(&self.0.standing()));
+                    #standing
                 }
             }
         }

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens as _, format_ident, quote};
 
-use super::quantity::at;
+use super::quantity::{at, function};
 use super::{Context, Emitter, MATH, RUNTIME, input};
 use mms_mechanics::Output;
 use mms_program::loops::{Columns, Cut, is_worth_two};
@@ -157,18 +157,18 @@ impl Emitter<'_> {
     ) -> TokenStream {
         let math = self.math();
         let dimension = self.axes().len();
-        let is_traction = quantity == Quantity::Traction;
-        let normals = if is_traction { dimension } else { 0 };
+        let takes_normal = quantity.takes_normal();
+        let normals = if takes_normal { dimension } else { 0 };
         let (axes, results) = (count(dimension), count(quantity.shape().components(dimension)));
         let name = quantity.name();
+        let function = function(quantity);
         let [batch, batch_aos, batch_at] =
-            ["batch", "batch_aos", "batch_at"].map(|suffix| format_ident!("{name}_{suffix}"));
+            ["batch", "batch_aos", "batch_at"].map(|suffix| format_ident!("{function}_{suffix}"));
         let (whole, cached) = (kernel(quantity, ""), kernel(quantity, "At"));
-        let function = format_ident!("{name}");
         let position = self.position();
         let normal = normal(normals);
         let inputs = count(dimension + normals);
-        let with_normals = is_traction.then(|| quote!(normals,));
+        let with_normals = takes_normal.then(|| quote!(normals,));
         let Columns { axes: own_axes, values } = &own.columns;
         let column = |value| dimension + all.binary_search(value).expect("what is read is kept");
         let indices = own_axes.iter().copied().chain(values.iter().map(column));
@@ -176,7 +176,7 @@ impl Emitter<'_> {
         let from_position = if is_worth_two(self.program, self.values(Output::Quantity(quantity))) {
             self.two_loops(quantity, columns)
         } else {
-            let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
+            let normal_argument = takes_normal.then(|| quote!(, [#(#normal),*]));
             let result =
                 self.flat(quantity, quote!(at.#function([#(#position),*] #normal_argument)));
             quote! {
@@ -207,9 +207,9 @@ impl Emitter<'_> {
     ) -> TokenStream {
         let math = self.math();
         let dimension = self.axes().len();
-        let is_traction = quantity == Quantity::Traction;
-        let normal = normal(if is_traction { dimension } else { 0 });
-        let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
+        let takes_normal = quantity.takes_normal();
+        let normal = normal(if takes_normal { dimension } else { 0 });
+        let normal_argument = takes_normal.then(|| quote!(, [#(#normal),*]));
         let results = count(quantity.shape().components(dimension));
         let (function, point) = (at(quantity), self.point_of(columns));
         let result = self.flat(quantity, quote!(at.#function(&#point #normal_argument)));
@@ -301,6 +301,9 @@ pub(super) fn count(number: usize) -> Literal {
 
 /// The name of the kernel of a quantity.
 pub(super) fn kernel(quantity: Quantity, suffix: &str) -> Ident {
+    if let Quantity::Own(own) = quantity {
+        return format_ident!("Own{}{suffix}Kernel", own.place);
+    }
     let words = quantity.name().split('_').map(|word| {
         let (first, rest) = word.split_at(1);
         first.to_uppercase() + rest

@@ -10,6 +10,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::batch::{count, kernel, normal};
+use super::quantity::function;
 use super::{Context, Emitter};
 use mms_program::Stage;
 use mms_program::loops::{Columns, Cut, WORTH_IN_CACHE, WORTH_IN_MEMORY};
@@ -20,9 +21,9 @@ impl Emitter<'_> {
     pub(super) fn two_loops(&self, quantity: Quantity, columns: &Columns) -> TokenStream {
         let math = self.math();
         let dimension = self.axes().len();
-        let normals = if quantity == Quantity::Traction { dimension } else { 0 };
+        let normals = if quantity.takes_normal() { dimension } else { 0 };
         let [whole, first, then] = ["", "Of", "Then"].map(|suffix| kernel(quantity, suffix));
-        let found = format_ident!("{}_of", quantity.name());
+        let found = format_ident!("{}_of", function(quantity));
         let cut = Cut::new(self.program, columns, WORTH_IN_CACHE);
         let handed = &cut.columns.values;
         let body = self

@@ -102,7 +102,7 @@ impl Emitter<'_> {
         let body = self.statements(kept.iter().chain(&wide).copied(), &place);
         let generic = self.parameters_generic();
         let solver = self.compiled.is_for_a_solver().then(|| {
-            let (bounds, responses) = (self.bounds(), self.responses());
+            let (bounds, responses) = (self.bounds(), self.responses(false));
             quote! {
                 impl<T: Real> Field<T> {
                     #bounds
@@ -172,62 +172,62 @@ impl Emitter<'_> {
         quote!(#(#body)* #time)
     }
 
-    fn responses(&self) -> TokenStream {
-        let point = self.point();
-        let gradient = self.gradient();
-        let place = Context::at_points(quote!(self), &[Stage::Point, Stage::PointTime]);
-        let function = |response: Response, name: &str, doc: &str, shape: Shape, strained: bool| {
-            let name = format_ident!("{name}");
-            let gradient = strained.then(|| quote!(, #gradient));
-            let output = Output::Response(response);
-            let (kind, value) = (self.shape_type(shape), self.shaped(output, shape, &place));
-            let body = self.body(&[output], &place);
-            quote! {
-                #[doc = #doc]
-                #[inline(always)]
-                pub fn #name(&self, #point #gradient) -> #kind { #body #value }
+    /// The functions of the material that change with time, or those that do not.
+    pub(super) fn responses(&self, timed: bool) -> TokenStream {
+        let (point, gradient) = (self.point(), self.gradient());
+        let own: &[Stage] = &[Stage::Point, Stage::PointTime];
+        let place = Context::at_points(if timed { quote!(self.field) } else { quote!(self) }, own);
+        let kirchhoff = match self.compiled.model.kind {
+            Kind::SmallStrain => {
+                " P F^T at X of the displacement gradient H, Pa, for an updated formulation: no stress at small strain."
             }
+            _ => " Kirchhoff stress tau = P F^T at X of the displacement gradient H, Pa.",
         };
-        let density = function(
-            Response::Density,
-            "density",
-            " Reference density rho0 at X, kg/m^3.",
-            Shape::Scalar,
-            false,
-        );
-        let speed = function(
-            Response::WaveSpeed,
-            "wave_speed",
-            " The fastest wave speed at X in the undeformed state, m/s.",
-            Shape::Scalar,
-            false,
-        );
-        let energy = function(
-            Response::StrainEnergy,
-            "material_strain_energy",
-            " Strain-energy density W at X of the displacement gradient H, Pa.",
-            Shape::Scalar,
-            true,
-        );
-        let first = function(
-            Response::FirstPiolaKirchhoff,
-            "material_first_piola_kirchhoff",
-            " First Piola-Kirchhoff stress P = dW/dF at X of the displacement gradient H, Pa.",
-            Shape::Tensor,
-            true,
-        );
-        let kirchhoff = function(
-            Response::KirchhoffStress,
-            "material_kirchhoff_stress",
-            match self.compiled.model.kind {
-                Kind::SmallStrain => {
-                    " P F^T at X of the displacement gradient H, Pa, for an updated formulation: no stress at small strain."
+        let functions = [
+            (Response::Density, "density", " Reference density rho0 at X, kg/m^3.", Shape::Scalar),
+            (
+                Response::WaveSpeed,
+                "wave_speed",
+                " The fastest wave speed at X in the undeformed state, m/s.",
+                Shape::Scalar,
+            ),
+            (
+                Response::StrainEnergy,
+                "material_strain_energy",
+                " Strain-energy density W at X of the displacement gradient H, Pa.",
+                Shape::Scalar,
+            ),
+            (
+                Response::FirstPiolaKirchhoff,
+                "material_first_piola_kirchhoff",
+                " First Piola-Kirchhoff stress P = dW/dF at X of the displacement gradient H, Pa.",
+                Shape::Tensor,
+            ),
+            (
+                Response::KirchhoffStress,
+                "material_kirchhoff_stress",
+                kirchhoff,
+                Shape::Tensor,
+            ),
+        ];
+        let wanted = functions
+            .into_iter()
+            .filter(|(response, ..)| self.is_timed(Output::Response(*response)) == timed);
+        wanted
+            .map(|(response, name, doc, shape)| {
+                let name = format_ident!("{name}");
+                let strained = !matches!(response, Response::Density | Response::WaveSpeed);
+                let gradient = strained.then(|| quote!(, #gradient));
+                let output = Output::Response(response);
+                let (kind, value) =
+                    (self.shape_type(shape), self.shaped(output, shape, &place));
+                let body = self.body(&[output], &place);
+                quote! {
+                    #[doc = #doc]
+                    #[inline(always)]
+                    pub fn #name(&self, #point #gradient) -> #kind { #body #value }
                 }
-                _ => " Kirchhoff stress tau = P F^T at X of the displacement gradient H, Pa.",
-            },
-            Shape::Tensor,
-            true,
-        );
-        quote!(#density #speed #energy #first #kirchhoff)
+            })
+            .collect()
     }
 }

@@ -194,7 +194,19 @@ impl<'a> Emitter<'a> {
         let wanted = |quantity: &Quantity| {
             self.compiled.selection.wants(*quantity) && self.compiled.offers(*quantity)
         };
-        Quantity::ALL.iter().copied().filter(wanted)
+        self.compiled.quantities().filter(wanted)
+    }
+
+    /// Whether an output changes with time.
+    fn is_timed(&self, output: Output) -> bool {
+        self.needs(output, |symbol| symbol == Symbol::Time)
+    }
+
+    /// Whether an output is made of a leaf of some kind.
+    fn needs(&self, output: Output, is: impl Fn(Symbol) -> bool) -> bool {
+        let needed = self.program.needed_for(self.values(output).iter().copied());
+        let mut needed = self.program.instrs.iter().zip(needed).filter(|(_, needed)| *needed);
+        needed.any(|(instr, _)| matches!(instr.op, Op::Input(symbol) if is(symbol)))
     }
 
     fn dimension(&self) -> Literal {

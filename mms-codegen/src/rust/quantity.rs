@@ -3,15 +3,29 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Context, Emitter, input};
+use super::{Context, Emitter, identifier, input};
 use mms_mechanics::Output;
 use mms_program::Stage;
 use mms_spec::quantity::{Quantity, Shape};
 use mms_symbolic::expr::Symbol;
 
+/// The endings of the functions that are made beside that of each quantity, and on faces.
+const ENDINGS: [&str; 7] =
+    ["_at", "_of", "_batch", "_batch_aos", "_normal", "_displacement", "_traction"];
+
+/// The function of a quantity: its name; a name of the file's own that Rust or another function may have gets an underscore.
+pub(super) fn function(quantity: Quantity) -> Ident {
+    let name = identifier(quantity.name());
+    let is_own = matches!(quantity, Quantity::Own(_));
+    match is_own && ENDINGS.iter().any(|ending| quantity.name().ends_with(ending)) {
+        true => format_ident!("{name}_"),
+        false => name,
+    }
+}
+
 /// The function that gives a quantity from what was kept of a point.
 pub(super) fn at(quantity: Quantity) -> Ident {
-    format_ident!("{}_at", quantity.name())
+    format_ident!("{}_at", function(quantity))
 }
 
 impl Emitter<'_> {
@@ -26,6 +40,7 @@ impl Emitter<'_> {
         let widened = (!kept.is_empty()).then(|| quote!(let t = t.widen();));
         let quantities = self.quantities().map(|quantity| self.quantity(quantity));
         let faces = self.on_faces();
+        let material = self.compiled.is_for_a_solver().then(|| self.responses(true));
         quote! {
             /// The field at one time: everything that needs no X.
             #[derive(Clone, Copy, Debug)]
@@ -44,25 +59,39 @@ impl Emitter<'_> {
                 }
             }
 
+            /// What needs no time, beside what does.
+            impl<T: Real> ::core::ops::Deref for AtTime<'_, T> {
+                type Target = Field<T>;
+
+                #[inline(always)]
+                fn deref(&self) -> &Field<T> {
+                    self.field
+                }
+            }
+
             impl<T: Real> AtTime<'_, T> {
                 #(#quantities)*
                 #(#faces)*
+                #material
             }
         }
     }
 
     /// A quantity from a point, and from what was kept of it.
     fn quantity(&self, quantity: Quantity) -> TokenStream {
-        let (name, at) = (format_ident!("{}", quantity.name()), at(quantity));
+        let (name, at) = (function(quantity), at(quantity));
         let doc = self.compiled.doc(quantity);
-        let doc = format!(" {doc} Unit: {}.", quantity.unit());
+        let doc = match quantity.unit() {
+            "" => format!(" {doc}"),
+            unit => format!(" {doc} Unit: {unit}."),
+        };
         let cached = format!(" As `{}`, from what was kept of the point.", quantity.name());
         let own: &[Stage] = &[Stage::Point, Stage::PointTime];
         let place = |own| Context::at_points(quote!(self.field), own);
         let (whole, rest) = (place(own), place(&own[1..]));
         let output = Output::Quantity(quantity);
         let point = self.point();
-        let normal = (quantity == Quantity::Traction).then(|| {
+        let normal = quantity.takes_normal().then(|| {
             let components = self.axes().map(|axis| input(Symbol::Normal(axis)));
             let dimension = self.dimension();
             quote!(, [#(#components),*]: [T; #dimension])

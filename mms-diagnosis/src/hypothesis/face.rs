@@ -98,7 +98,7 @@ fn of_load<const D: usize>(exact: &Exact<'_, D>, face: Face) -> Vec<Hypothesis<D
 /// Tractions of an earlier time, by the size.
 fn earlier<const D: usize>(at: &Given<'_, D>, _: Face, tau: &mut [Matrix<f64, D>]) {
     let before = at.exact.gradient(at.time - at.size[0], at.reference);
-    let stress = at.exact.stress(at.reference, &before);
+    let stress = at.exact.stress(at.time - at.size[0], at.reference, &before);
     for (((tau, h), before), stress) in tau.iter_mut().zip(at.gradient).zip(before).zip(stress) {
         let f: Matrix<f64, D> = before + Matrix::identity();
         let p = stress * inverse(&f.transpose());

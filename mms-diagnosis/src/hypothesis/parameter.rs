@@ -61,7 +61,7 @@ impl<const D: usize> Times<D> {
 
 fn times<const D: usize, const AT: usize>(at: &Given<'_, D>, tau: &mut [Matrix<f64, D>]) {
     match at.exact.parameters.and_then(|it| it.times(AT, at.size[0])) {
-        Some(field) => field.kirchhoff_stress(at.reference, at.gradient, tau),
+        Some(field) => field.kirchhoff_stress(at.time, at.reference, at.gradient, tau),
         None => tau.fill(Matrix::repeat(f64::NAN)),
     }
 }

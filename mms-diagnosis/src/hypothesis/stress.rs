@@ -39,7 +39,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         ),
         stress(Of::Law, "deformation_transposed", "F^T in place of F in the law", |at, tau| {
             let transposed: Vec<_> = at.gradient.iter().map(Matrix::transpose).collect();
-            tau.copy_from_slice(&at.exact.stress(at.reference, &transposed));
+            tau.copy_from_slice(&at.exact.stress(at.time, at.reference, &transposed));
         }),
         stress(
             Of::Stress,
@@ -47,7 +47,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             "F F^T in place of F^T F: S of the wrong strain",
             |at, tau| {
                 let transposed: Vec<_> = at.gradient.iter().map(Matrix::transpose).collect();
-                let other = at.exact.stress(at.reference, &transposed);
+                let other = at.exact.stress(at.time, at.reference, &transposed);
                 for ((tau, other), h) in tau.iter_mut().zip(other).zip(at.gradient) {
                     let f = h + Matrix::identity();
                     // tau(F^T) = F^T S F.
@@ -88,7 +88,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             |at, tau| {
                 let u = at.exact.displacement(at.time, at.reference);
                 let places: Vec<_> = at.reference.iter().zip(&u).map(|(x, u)| x + u).collect();
-                tau.copy_from_slice(&at.exact.stress(&places, at.gradient));
+                tau.copy_from_slice(&at.exact.stress(at.time, &places, at.gradient));
             },
         ),
         Hypothesis::amount(

@@ -82,7 +82,7 @@ fn prepared(port: &Port<'_>) -> String {
         "  subroutine prepare_all()\n    type(parameters_type) :: parameters\n    integer :: set\n"
             .to_string();
     if port.points() > 0 {
-        text += "    integer :: p\n";
+        text += "    integer :: point\n";
     }
     for (set, values) in port.subject.vectors().sets.iter().enumerate() {
         if !values.is_empty() {
@@ -102,8 +102,8 @@ fn prepared(port: &Port<'_>) -> String {
     }
     text += "      fields(set) = prepare(parameters)\n";
     if port.points() > 0 {
-        text += "      do p = 1, points_count\n        \
-                 now(p, set) = at_time(fields(set), real(at(1, p, set), wp))\n      end do\n";
+        text += "      do point = 1, points_count\n        \
+                 now(point, set) = at_time(fields(set), real(at(1, point, set), wp))\n      end do\n";
     }
     text + "    end do\n  end subroutine prepare_all\n\n"
 }
@@ -136,7 +136,7 @@ fn checked(port: &Port<'_>, check: &Check<'_>) -> String {
         "  subroutine check_{}()\n    real(real64) :: expected({count}, {rows}, sets_count), of_c({count}, {rows})\n    \
          real(wp) :: found({count}, {rows})\n    integer :: set{}\n",
         short(name),
-        if callable.time { ", p" } else { "" }
+        if callable.time { ", point" } else { "" }
     );
     for (set, rows) in check.expected.iter().enumerate() {
         for (row, values) in rows.iter().enumerate() {
@@ -170,11 +170,11 @@ fn checked(port: &Port<'_>, check: &Check<'_>) -> String {
 /// The call of the procedure for C: of all points; or where they have times of each and all before it, so that what is
 /// compared is the last of them.
 fn through_c(port: &Port<'_>, callable: &Callable) -> String {
-    let (indent, which) = if callable.time { ("        ", ":p") } else { ("      ", ":") };
+    let (indent, which) = if callable.time { ("        ", ":point") } else { ("      ", ":") };
     let mut arguments = Vec::new();
     if callable.is_of_points() {
         arguments.push(
-            if callable.time { "int(p, c_size_t)" } else { "int(points_count, c_size_t)" }
+            if callable.time { "int(point, c_size_t)" } else { "int(points_count, c_size_t)" }
                 .to_string(),
         );
     }
@@ -182,7 +182,7 @@ fn through_c(port: &Port<'_>, callable: &Callable) -> String {
         arguments.push("given(:, set)".into());
     }
     if callable.time {
-        arguments.push("at(1, p, set)".into());
+        arguments.push("at(1, point, set)".into());
     }
     let mut columns = callable.columns(port.dimension()).into_iter().map(|it| it + 1);
     for (_, count) in callable.arrays() {
@@ -192,7 +192,7 @@ fn through_c(port: &Port<'_>, callable: &Callable) -> String {
     arguments.push(format!("of_c(:, {which})"));
     let call = continued(&format!("{indent}call {}_c", callable.name), &arguments, "");
     match callable.time {
-        true => format!("      do p = points_count, 1, -1\n{call}      end do\n"),
+        true => format!("      do point = points_count, 1, -1\n{call}      end do\n"),
         false => call,
     }
 }

@@ -4,7 +4,8 @@ use mms_codegen::compile::Compiled;
 use mms_mechanics::Response;
 use mms_mechanics::boundary::Datum;
 use mms_mechanics::invariant::Kind;
-use mms_mechanics::{Bound, Output};
+use mms_mechanics::{Bound, Output, Program};
+use mms_program::Op;
 use mms_spec::quantity::{Quantity, Shape};
 use mms_symbolic::expr::Symbol;
 use mms_symbolic::expr::print::AXES;
@@ -31,6 +32,11 @@ pub struct Callable {
 }
 
 impl Callable {
+    /// Whether it is a quantity that the field file defines.
+    pub fn is_own(&self) -> bool {
+        matches!(self.output, Output::Quantity(Quantity::Own(_)))
+    }
+
     /// Whether it is evaluated at points.
     pub fn is_of_points(&self) -> bool {
         !self.inputs.is_empty()
@@ -50,7 +56,10 @@ impl Callable {
             (None, 1) => "1 number".into(),
             (None, count) => format!("{count} numbers"),
         };
-        format!("{} {shape}. Unit: {}.", self.doc, self.unit)
+        match self.unit {
+            "" => format!("{} {shape}.", self.doc),
+            unit => format!("{} {shape}. Unit: {unit}.", self.doc),
+        }
     }
 
     /// What it takes at a point as arrays: X, N or H, and how many numbers each holds.
@@ -135,7 +144,7 @@ pub fn callables(compiled: &Compiled) -> Vec<Callable> {
     let dimension = compiled.field.dimension;
     let mut all: Vec<Callable> = BOUNDS.iter().map(|it| bound(*it, compiled)).collect();
     all.extend(RESPONSES.iter().map(|it| response(*it, compiled)));
-    all.extend(Quantity::ALL.iter().map(|it| quantity(*it, compiled)));
+    all.extend(compiled.quantities().map(|it| quantity(it, compiled)));
     all.extend(compiled.program.outputs.keys().filter_map(|output| match *output {
         Output::Face(face, datum) => Some(on_face(face.name(), datum, *output, dimension)),
         _ => None,
@@ -231,14 +240,15 @@ fn response(response: Response, compiled: &Compiled) -> Callable {
         let rows = (0..dimension).flat_map(|i| (0..dimension).map(move |j| Symbol::Gradient(i, j)));
         inputs.extend(rows);
     }
+    let output = Output::Response(response);
     Callable {
         name: name.into(),
-        output: Output::Response(response),
+        output,
         doc: doc.into(),
         unit,
         shape: Some(shape),
         components: components(symbol, shape, dimension),
-        time: false,
+        time: changes_with_time(&compiled.program, output),
         inputs,
     }
 }
@@ -246,19 +256,30 @@ fn response(response: Response, compiled: &Compiled) -> Callable {
 fn quantity(quantity: Quantity, compiled: &Compiled) -> Callable {
     let dimension = compiled.field.dimension;
     let mut inputs = coordinates(dimension);
-    if quantity == Quantity::Traction {
+    if quantity.takes_normal() {
         inputs.extend((0..dimension).map(Symbol::Normal));
     }
+    // A symbol of the user's may be a word of the language.
+    let symbol = match quantity {
+        Quantity::Own(_) => "value",
+        _ => quantity.symbol(),
+    };
     Callable {
         name: quantity.name().into(),
         output: Output::Quantity(quantity),
         doc: compiled.doc(quantity).into(),
         unit: quantity.unit(),
         shape: Some(quantity.shape()),
-        components: components(quantity.symbol(), quantity.shape(), dimension),
+        components: components(symbol, quantity.shape(), dimension),
         time: true,
         inputs,
     }
+}
+
+/// Whether an output of a program is made of the time.
+fn changes_with_time(program: &Program, output: Output) -> bool {
+    let mut needed = program.instrs.iter().zip(program.needed(&[output]));
+    needed.any(|(instr, needed)| needed && matches!(instr.op, Op::Input(Symbol::Time)))
 }
 
 fn on_face(face: &str, datum: Datum, output: Output, dimension: usize) -> Callable {

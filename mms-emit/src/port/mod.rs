@@ -36,7 +36,7 @@ pub mod vectors;
 use std::borrow::Cow;
 
 use self::callable::{Callable, callables};
-use self::names::{Rules, of_holder, unique};
+use self::names::{Rules, of_holder, of_own, unique};
 use crate::target::Subject;
 use mms_codegen::compile::Compiled;
 use mms_codegen::liveness::Later;
@@ -89,7 +89,7 @@ impl<'a> Port<'a> {
 
     fn of(subject: &'a Subject<'a>, rules: &Rules, program: Cow<'a, Program>) -> Self {
         let compiled = subject.compiled;
-        let callables = callables(compiled);
+        let callables = named(callables(compiled), rules);
         let emitted = |output: &Output| callables.iter().any(|it| it.output == *output);
         let timed = |output: &Output| callables.iter().any(|it| it.output == *output && it.time);
         let mut read = Later::new(&program, emitted);
@@ -131,4 +131,18 @@ impl<'a> Port<'a> {
     pub fn values(&self, output: Output) -> &[Value] {
         self.program().outputs.get(&output).map_or(&[], Vec::as_slice)
     }
+}
+
+/// The functions, those of the file's own quantities under names that the language takes and no other function has.
+fn named(mut callables: Vec<Callable>, rules: &Rules) -> Vec<Callable> {
+    for place in 0..callables.len() {
+        if callables[place].is_own() {
+            let own = of_own(&callables[place].name, rules, &{
+                let others = callables.iter().enumerate().filter(|(other, _)| *other != place);
+                others.map(|(_, callable)| callable.name.as_str()).collect::<Vec<_>>()
+            });
+            callables[place].name = own;
+        }
+    }
+    callables
 }

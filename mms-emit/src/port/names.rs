@@ -60,6 +60,28 @@ pub fn of_holder(name: &str, rules: &Rules, functions: &[&str]) -> String {
     own
 }
 
+/// Names that emitted code and its check programs use inside functions, in some language.
+const INNER: &str = "\
+    default_parameters prepare at_time now field fields parameters out t x y z set point found expected of_c \
+    rows given at worst failures points_count sets_count compare check_defaults prepare_all defaults value self \
+    wp dp count index result";
+
+/// The name of a function of a file's own quantity, beside the functions of these names.
+pub fn of_own(name: &str, rules: &Rules, functions: &[&str]) -> String {
+    let mut own = sanitised(name, rules, rules.words);
+    let is_inner = |own: &str| {
+        let letters = own.trim_end_matches(|it: char| it.is_ascii_digit());
+        let is_numbered = letters.len() < own.len()
+            && ["q", "w", "n", "h"].iter().any(|it| it.eq_ignore_ascii_case(letters));
+        let mut inner = INNER.split_whitespace();
+        is_numbered || inner.any(|word| word.eq_ignore_ascii_case(own))
+    };
+    while is_inner(&own) || functions.iter().any(|function| rules.same(function, &own)) {
+        own = suffixed(&own, "_", rules.longest);
+    }
+    own
+}
+
 /// Distinct names as distinct names of the language: one that had to be changed makes way for the
 /// others, and the later for the earlier.
 pub fn unique(names: &[&str], rules: &Rules) -> Vec<String> {

@@ -19,6 +19,15 @@ pub const POISSON: &str = "Poisson's ratio must lie between -1 and 1/2";
 /// What to write in place of 1/2.
 pub const INCOMPRESSIBLE: &str = "a solid that is nearly incompressible has a ratio such as 0.4999";
 
+/// The given fields that a density is read with.
+#[derive(Clone, Copy)]
+pub(super) enum Givens<'a> {
+    /// These values, in the order of the material's file.
+    Values(&'a [Option<Expr>]),
+    /// Their values in the state of rest.
+    Rest,
+}
+
 impl Reader<'_> {
     /// The arguments of the material, in the field's terms.
     pub(super) fn arguments(&mut self, field: &FieldSpec) -> Vec<Option<Expr>> {
@@ -39,6 +48,7 @@ impl Reader<'_> {
         field: &FieldSpec,
         material: &MaterialSpec,
         arguments: &[Option<Expr>],
+        givens: Givens<'_>,
     ) -> Option<Expr> {
         let mut inner = Scope::default();
         if material.incomplete {
@@ -47,8 +57,7 @@ impl Reader<'_> {
         let pi = self.graph.pi();
         inner.define("pi", Some(pi));
         self.invariants(&mut inner);
-        let known: Vec<&str> =
-            material.parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
+        let known: Vec<&str> = material.names().collect();
         let mut complete = true;
         for ((name, _), value) in field.material.arguments.iter().zip(arguments) {
             complete &= value.is_some();
@@ -66,23 +75,21 @@ impl Reader<'_> {
             }
             complete = false;
             inner.define(name, None);
-            if field.incomplete || material.incomplete {
-                continue;
+            if !field.incomplete && !material.incomplete {
+                self.missing(field, "material parameter", name, parameter.doc.as_ref());
             }
-            let model = &field.material.model;
-            let what = parameter.doc.as_ref().map(Foreign::shown);
-            let what = what.as_deref().unwrap_or("no description");
-            let message =
-                format!("material parameter `{name}` of `{}` is missing", model.value.shown());
-            self.diagnostics.push(
-                Diagnostic::error(model.span, message)
-                    .label(format!("needs `{name}`: {what}"))
-                    .help(format!("add `{name} = \"...\"` under [material]")),
-            );
         }
         inner.refuse(&material.refused);
         let outer = std::mem::replace(&mut self.scope, inner);
         let of_the_field = std::mem::take(&mut self.read);
+        let values = match givens {
+            Givens::Values(values) => values.to_vec(),
+            Givens::Rest => self.rest(material),
+        };
+        for (given, value) in material.givens.iter().zip(values) {
+            complete &= value.is_some();
+            self.scope.define(&given.name.value, value);
+        }
         for definition in &material.lets {
             self.scope.announce(&definition.name);
         }
@@ -94,6 +101,37 @@ impl Reader<'_> {
         self.scope = outer;
         self.of_energy = std::mem::replace(&mut self.read, of_the_field);
         energy.filter(|_| complete)
+    }
+
+    /// The given fields in the state of rest, in terms of the arguments.
+    fn rest(&mut self, material: &MaterialSpec) -> Vec<Option<Expr>> {
+        let mut values = Vec::new();
+        for given in &material.givens {
+            values.push(match &given.rest {
+                Some(formula) => self.formula(formula),
+                None => Some(self.graph.number(0)),
+            });
+        }
+        values
+    }
+
+    /// Reports a parameter or a given field of the material that the field does not set.
+    pub(super) fn missing(
+        &mut self,
+        field: &FieldSpec,
+        kind: &str,
+        name: &str,
+        doc: Option<&Foreign>,
+    ) {
+        let model = &field.material.model;
+        let what = doc.map(Foreign::shown);
+        let what = what.as_deref().unwrap_or("no description");
+        let message = format!("{kind} `{name}` of `{}` is missing", model.value.shown());
+        self.diagnostics.push(
+            Diagnostic::error(model.span, message)
+                .label(format!("needs `{name}`: {what}"))
+                .help(format!("add `{name} = \"...\"` under [material]")),
+        );
     }
 
     fn unknown_argument(&mut self, field: &FieldSpec, name: &Spanned<String>, known: &[&str]) {

@@ -130,7 +130,7 @@ where
         let reference = &all.reference_position.bunches()[part.clone()];
         let displacement = &all.displacement.bunches()[part.clone()];
         let points = material_points(reference, displacement, on(Defect::ModuliAtPresent));
-        self.field.kirchhoff_stress_of_bunches(&points, gradients, stress);
+        self.field.kirchhoff_stress_of_bunches(self.time, &points, gradients, stress);
         let singular = |k| (BUNCH * part.start + k, Cause::Inverted { jacobian: 0.0 });
         Ok((self.formulation.stress)(gradients, stress).map_err(singular)?)
     }

@@ -17,8 +17,12 @@ pub struct Balance {
     pub strain_energy: Option<f64>,
     /// The work of b until then.
     pub body_work: f64,
-    /// Kinetic and strain energy then, less what they were at the start, less the work of b: what the faces
-    /// did, and what the method gained or lost. Faces that rest, are free or joined by a period do nothing.
+    /// The work of given fields until then, that is the change of W with time at fixed F; only of a material that changes
+    /// with time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub given_work: Option<f64>,
+    /// Kinetic and strain energy then, less what they were at the start, less the work of b and of given fields: what the
+    /// faces did, and what the method gained or lost. Faces that rest, are free or joined by a period do nothing.
     pub energy_residual: Option<f64>,
     /// The force of the faces on the body in the last step, reactions and tractions together: the rate of
     /// momentum less sum m b. `D` components.
@@ -36,7 +40,46 @@ pub(super) struct Account<T, const D: usize> {
     /// H and W of each particle.
     displacement_gradient: Vec<Matrix<T, D>>,
     energy: Vec<T>,
+    /// The particles after the last step, of a material that changes with time.
+    earlier: Option<Strained<T, D>>,
     tally: Tally,
+}
+
+/// What W is a function of: X and H, with the volume and the time.
+struct Strained<T, const D: usize> {
+    time: f64,
+    reference: Vec<Vector<T, D>>,
+    gradient: Vec<Matrix<T, D>>,
+    volume: Vec<T>,
+}
+
+impl<T: Real, const D: usize> Strained<T, D> {
+    /// The particles of a state, if its material changes with time.
+    fn of<F>(present: &Present<'_, T, D, F>) -> Option<Self>
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        let particles = present.particles;
+        present.field.changes_with_time().then(|| Strained {
+            time: present.time,
+            reference: particles.reference_position.to_vec(),
+            gradient: particles.displacement_gradient.iter().collect(),
+            volume: particles.reference_volume.to_vec(),
+        })
+    }
+
+    /// By how much sum V0 W changes between two times at these H.
+    fn change<F>(&self, field: &F, times: [f64; 2], energy: &mut [T]) -> f64
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        let [before, after] = times.map(|time| {
+            field.strain_energy(T::of(time), &self.reference, &self.gradient, energy);
+            let shares = energy.iter().zip(&self.volume);
+            shares.map(|(w, volume)| w.to_f64() * volume.to_f64()).sum::<f64>()
+        });
+        after - before
+    }
 }
 
 /// What does not follow from the state.
@@ -44,6 +87,9 @@ pub(super) struct Account<T, const D: usize> {
 pub(super) struct Tally {
     /// The work of b until the time of the velocities.
     work: f64,
+    /// The work of given fields until the last step.
+    #[serde(default)]
+    given: f64,
     /// Kinetic and strain energy at the start.
     start: Option<f64>,
     balance: Balance,
@@ -63,13 +109,16 @@ impl<T: Real, const D: usize> Account<T, D> {
             body_force: vec![Vector::zeros(); count],
             displacement_gradient: Vec::with_capacity(count),
             energy: vec![T::zero(); count],
+            earlier: Strained::of(present),
             tally: Tally::default(),
         };
         account.remember(present);
         account.tally = before.unwrap_or_else(|| {
             let strain_energy = account.strain_energy(present);
             let start = strain_energy.map(|strain| strain + account.kinetic_energy);
-            Tally { work: 0.0, start, balance: Balance { strain_energy, ..Balance::default() } }
+            let given_work = account.earlier.is_some().then_some(0.0);
+            let balance = Balance { strain_energy, given_work, ..Balance::default() };
+            Tally { work: 0.0, given: 0.0, start, balance }
         });
         account
     }
@@ -98,7 +147,8 @@ impl<T: Real, const D: usize> Account<T, D> {
         }
         let before = self.kinetic_energy;
         self.remember(present);
-        let Tally { work: until_now, balance, .. } = &mut self.tally;
+        let given = self.work_of_given(present);
+        let Tally { work: until_now, given: given_until_now, balance, .. } = &mut self.tally;
         balance.surface_force = force.as_slice().to_vec();
         let is_behind = present.time > self.time_of_velocity;
         // The positions of the step's start lie between the velocities before and after it.
@@ -107,7 +157,24 @@ impl<T: Real, const D: usize> Account<T, D> {
             false => (self.kinetic_energy, *until_now + work),
         };
         *until_now += work;
+        // The energies of a step whose velocities are behind are of its start.
+        let start = *given_until_now;
+        *given_until_now += given.unwrap_or(0.0);
+        balance.given_work = given.map(|_| if is_behind { start } else { *given_until_now });
         balance.time = present.time - if is_behind { present.time_step } else { 0.0 };
+    }
+
+    /// The change of W with time at fixed F in a step: the mean of those at the H of its ends.
+    fn work_of_given<F>(&mut self, present: &Present<'_, T, D, F>) -> Option<f64>
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        let (earlier, now) = (self.earlier.take()?, Strained::of(present)?);
+        let times = [earlier.time, now.time];
+        let mut change = |at: &Strained<T, D>| at.change(present.field, times, &mut self.energy);
+        let work = (change(&earlier) + change(&now)) / 2.0;
+        self.earlier = Some(now);
+        Some(work)
     }
 
     /// Before a step, if velocities are behind, or after it: the strain energy.
@@ -123,7 +190,8 @@ impl<T: Real, const D: usize> Account<T, D> {
         let Tally { start, balance, .. } = &self.tally;
         let known = balance.strain_energy.zip(*start);
         let energy_residual = known
-            .map(|(strain, start)| strain + balance.kinetic_energy - start - balance.body_work);
+            .map(|(strain, start)| strain + balance.kinetic_energy - start - balance.body_work)
+            .map(|residual| residual - balance.given_work.unwrap_or(0.0));
         Balance { energy_residual, ..balance.clone() }
     }
 
@@ -147,7 +215,7 @@ impl<T: Real, const D: usize> Account<T, D> {
         let (x, h) = (&particles.reference_position, &mut self.displacement_gradient);
         h.clear();
         h.extend(particles.displacement_gradient.iter());
-        let offered = present.field.strain_energy(x, h, &mut self.energy);
+        let offered = present.field.strain_energy(T::of(present.time), x, h, &mut self.energy);
         let shares = self.energy.iter().zip(&particles.reference_volume);
         offered.then(|| shares.map(|(w, volume)| w.to_f64() * volume.to_f64()).sum())
     }

@@ -121,7 +121,7 @@ impl<T: Real, const D: usize> Watcher<T, D> {
         field.displacement_gradient(now, reference, exact);
         let deformation_gradient = Errors::of_tensors(computed, exact).map_err(odd("F's error"))?;
         for (stress, gradient) in self.stress.iter_mut().zip(&self.gradients) {
-            field.kirchhoff_stress(reference, gradient, stress);
+            field.kirchhoff_stress(now, reference, gradient, stress);
             for (stress, gradient) in stress.iter_mut().zip(gradient) {
                 // J > 0 has been checked; where the exact F is singular, the error is not finite.
                 let inverse = inverse_deformation_gradient(gradient)

@@ -126,9 +126,10 @@ impl Frame {
         let (x, h) = (&particles.reference_position, particles.displacement_gradient.iter());
         let h: Vec<_> = h.collect();
         let mut exact = vec![Vector::zeros(); particles.len()];
-        field.displacement(T::of(present.time), x, &mut exact);
+        let now = T::of(present.time);
+        field.displacement(now, x, &mut exact);
         let mut stress = vec![Matrix::zeros(); particles.len()];
-        field.kirchhoff_stress(x, &h, &mut stress);
+        field.kirchhoff_stress(now, x, &h, &mut stress);
         let d = &particles.displacement;
         let is_small = field.is_small_strain();
         let cauchy = |p: usize| {

@@ -54,7 +54,7 @@ fn sizes<T: Real, const D: usize>(
     let mut gradients = vec![Matrix::<T, D>::zeros(); particles.len()];
     field.displacement_gradient(now, reference, &mut gradients);
     let mut stresses = vec![Matrix::<T, D>::zeros(); particles.len()];
-    field.kirchhoff_stress(reference, &gradients, &mut stresses);
+    field.kirchhoff_stress(now, reference, &gradients, &mut stresses);
     let stress = largest(stresses.iter().flat_map(Matrix::iter));
     let [mass, volume] =
         [&particles.mass, &particles.reference_volume].map(|it| largest(it.iter()));

@@ -5,12 +5,19 @@ def number(expression, arguments):
 
 def motion(X, t):
     """u, v, a, H and the second derivatives u_i,JK as functions of X and t."""
-    u, density, arguments, fibre = field(*X, t)
+    u, density, arguments, fibre, own = field(*X, t)
     v = [diff(component, t) for component in u]
     a = [diff(component, t) for component in v]
     H = [[diff(component, x) for x in X] for component in u]
     second = [[[diff(slope, x) for x in X] for slope in row] for row in H]
-    return number([u, v, a, H, second, density], [*X, t]), arguments, fibre
+    numbers = number([u, v, a, H, second, density, list(own.values())], [*X, t])
+    return numbers, arguments, fibre, list(own)
+
+
+def in_space(X, u):
+    """F in three dimensions: 1 on the diagonal that the field lacks."""
+    D = len(X)
+    return Matrix(3, 3, lambda i, j: (diff(u[i], X[j]) if max(i, j) < D else 0) + int(i == j))
 
 
 def determinant(F):
@@ -22,8 +29,8 @@ def determinant(F):
     return sum(F[0, j] * cofactor(j) for j in range(3))
 
 
-def response(X, arguments, fibre):
-    """J, W, P = dW/dF, dP/dF and the explicit dP_iJ/dX_K as functions of X and F.
+def response(X, t, arguments, fibre):
+    """J, W, P = dW/dF, dP/dF and the explicit dP_iJ/dX_K as functions of X, t and F.
 
     W is that of a body in space. The diagonal entries of F that the field lacks are 1.
     """
@@ -43,22 +50,22 @@ def response(X, arguments, fibre):
     tangent = [[[[diff(P[i][j], entry) for entry in row] for row in F] for j in range(D)]
                for i in range(D)]
     explicit = [[[diff(entry, x) for x in X] for entry in row] for row in P]
-    return number([J, W, P, tangent, explicit], [*X, *sum(F, [])])
+    return number([J, W, P, tangent, explicit], [*X, t, *sum(F, [])])
 
 
 def derived(dimension):
     """A function from X and t to every quantity, a list of components each, rows first."""
     X = [Symbol(name, real=True) for name in "XYZ"[:dimension]]
     t = Symbol("t", real=True)
-    motion_at, arguments, fibre = motion(X, t)
-    response_at = response(X, arguments, fibre)
+    motion_at, arguments, fibre, names = motion(X, t)
+    response_at = response(X, t, arguments, fibre)
 
     def at(X, t, N):
         D = range(len(X))
-        u, v, a, H, second, density = motion_at(*X, t)
+        u, v, a, H, second, density, values = motion_at(*X, t)
         F = [[H[i][j] + (i == j) for j in D] for i in D]
         C = [[sum(F[k][i] * F[k][j] for k in D) for j in D] for i in D]
-        J, W, P, tangent, explicit = response_at(*X, *sum(F, []))
+        J, W, P, tangent, explicit = response_at(*X, t, *sum(F, []))
         # What carries stresses and densities to the present configuration: at small strain there is one stress.
         carrier, volume, bent = (eye(len(X)).tolist(), 1, [[[0] * 3] * 3] * 3) if SMALL_STRAIN else (F, J, second)
         tau = [[sum(P[i][k] * carrier[j][k] for k in D) for j in D] for i in D]
@@ -72,7 +79,10 @@ def derived(dimension):
         div_sigma = [sum((sum(slope[i][m][k] * carrier[j][m] + P[i][m] * bent[j][m][k] for m in D)
                           - tau[i][j] * log_slope[k]) / volume * inverse[k, j]
                          for j in D for k in D) for i in D]
-        return {
+        own = dict(zip(names, values))
+        for name in NORMAL_FLUXES:
+            own[name] = [sum(own[name][j] * N[j] for j in D)]
+        return own | {
             "displacement": u,
             "position": [X[i] + u[i] for i in D],
             "velocity": v,

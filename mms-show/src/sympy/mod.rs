@@ -4,6 +4,7 @@
 //! It is made from the trees of the typed formulas. It shares the parser with the rest, and nothing after it: no
 //! graph, no derivative, no material law. Its fixed parts are Python files beside the code.
 
+mod own;
 mod python;
 
 use mms_codegen::compile::Compiled;
@@ -12,11 +13,12 @@ use mms_mechanics::invariant::Kind;
 use mms_mechanics::sample::{Sample, samples};
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::foreign::{Foreign, blanked};
-use mms_spec::quantity::Quantity;
+use mms_spec::own::Part;
 use mms_spec::syntax;
 use mms_spec::{Formula, RigidSpec, Rotation};
 
 use mms_symbolic::expr::print::AXES;
+use mms_symbolic::sorted::SortedSet;
 use python::{Renamed, python};
 
 /// At how many points the values are compared.
@@ -46,7 +48,10 @@ pub fn script(compiled: &Compiled) -> Result<String, Undefined> {
         text.push_str("\n\n");
     }
     let is_small = if compiled.model.kind == Kind::SmallStrain { "True" } else { "False" };
-    text.push_str(&format!("SMALL_STRAIN = {is_small}\n\n\n"));
+    text.push_str(&format!("SMALL_STRAIN = {is_small}\n"));
+    let fluxes = compiled.model.own.keys().filter(|own| own.part == Part::NormalFlux);
+    let fluxes: Vec<_> = fluxes.map(|own| format!("\"{}\"", own.name)).collect();
+    text.push_str(&format!("NORMAL_FLUXES = [{}]\n\n\n", fluxes.join(", ")));
     text.push_str(include_str!("derive.py"));
     text.push_str("\n\n");
     text.push_str(&values);
@@ -82,11 +87,16 @@ fn field(compiled: &Compiled) -> String {
     let field = &compiled.field;
     let parameters = field.parameters.iter().map(|parameter| parameter.name.value.as_str());
     let lets = field.lets.iter().map(|definition| definition.name.value.as_str());
-    let names = Renamed::new(parameters.chain(lets));
+    let givens = field.givens.iter().map(|given| given.name.value.as_str());
+    let of_material = compiled.material.givens.iter().map(|given| given.name.value.as_str());
+    let used = own::used(compiled);
+    let all = parameters.chain(lets).chain(givens).chain(of_material);
+    let all: SortedSet<&str> = all.chain(used.iter().map(String::as_str)).collect();
+    let names = Renamed::new(all.into_iter());
     let axes = AXES[..field.dimension].join(", ");
     let mut lines = vec![format!("def field({axes}, t):")];
     lines.push(
-        "    \"\"\"The field file: u, rho0, the parameters of the material, the fibres.\"\"\""
+        "    \"\"\"The field file: u, rho0, the arguments of the material, the fibres, quantities of its own.\"\"\""
             .into(),
     );
     for parameter in &field.parameters {
@@ -102,12 +112,19 @@ fn field(compiled: &Compiled) -> String {
         let value = translated(&definition.value, &names);
         lines.push(format!("    {} = {value}", names.name(&definition.name.value)));
     }
+    let own = field.givens.iter().map(|given| (&given.name.value, &given.value));
+    let of_material = field.material.givens.iter().map(|(name, value)| (&name.value, value));
+    for (name, value) in own.chain(of_material) {
+        lines.push(format!("    {} = {}", names.name(name), translated(value, &names)));
+    }
     lines.push("    u = [".into());
     lines.extend(field.displacement.iter().map(|u| format!("        {},", translated(u, &names))));
     lines.push("    ]".into());
     if let Some(rigid) = &field.rigid {
         lines.push(format!("    u = {}", moved(rigid, &axes, &names)));
     }
+    lines.extend(own::definitions(compiled, &names));
+    lines.extend(own::quantities(compiled, &names));
     lines.push("    return (".into());
     lines.push("        u,".into());
     let density = field.material.density.as_ref();
@@ -118,6 +135,9 @@ fn field(compiled: &Compiled) -> String {
     lines.extend(field.material.arguments.iter().map(|(name, value)| {
         format!("            \"{}\": {},", inner.name(&name.value), translated(value, &names))
     }));
+    lines.extend(field.material.givens.iter().map(|(name, _)| {
+        format!("            \"{}\": {},", inner.name(&name.value), names.name(&name.value))
+    }));
     lines.push("        },".into());
     // A material without fibres does not look at their direction.
     let fibre = match &field.material.fibre {
@@ -125,6 +145,7 @@ fn field(compiled: &Compiled) -> String {
         None => vec!["Integer(0)".to_string(); 3],
     };
     lines.push(format!("        [{}],", fibre.join(", ")));
+    lines.push("        own,".into());
     lines.push("    )\n".into());
     lines.join("\n")
 }
@@ -150,18 +171,16 @@ fn moved(rigid: &RigidSpec, axes: &str, names: &Renamed) -> String {
 
 fn material_names(compiled: &Compiled) -> Renamed {
     let material = &compiled.material;
-    let parameters = material.parameters.iter().map(|parameter| parameter.name.value.as_str());
     let lets = material.lets.iter().map(|definition| definition.name.value.as_str());
-    Renamed::new(parameters.chain(lets))
+    Renamed::new(material.names().chain(lets))
 }
 
 /// The formulas of the material file.
 fn strain_energy(compiled: &Compiled) -> String {
     let material = &compiled.material;
     let names = material_names(compiled);
-    let parameters = material.parameters.iter();
     let parameters: String =
-        parameters.map(|parameter| format!(", {}", names.name(&parameter.name.value))).collect();
+        material.names().map(|name| format!(", {}", names.name(name))).collect();
     let invariants = "I1, I2, I3, J, I4, eps_trace, eps_squared";
     let mut lines = vec![format!("def strain_energy({invariants}{parameters}):")];
     lines.push(format!(
@@ -189,8 +208,7 @@ fn normal(dimension: usize) -> &'static [f64] {
 /// The values that the program has at some points, in double precision.
 fn values(compiled: &Compiled) -> Result<String, Undefined> {
     let parameters = compiled.parameters::<f64>(&Default::default());
-    let outputs: Vec<_> =
-        Quantity::ALL.iter().map(|quantity| Output::Quantity(*quantity)).collect();
+    let outputs: Vec<_> = compiled.quantities().map(Output::Quantity).collect();
     let mut interpreter = Interpreter::new(&compiled.program, &parameters);
     let plan = interpreter.plan(&outputs);
     let normal = normal(compiled.field.dimension);
@@ -203,7 +221,7 @@ fn values(compiled: &Compiled) -> Result<String, Undefined> {
         let values: Vec<Vec<f64>> =
             outputs.iter().map(|output| interpreter.output(*output)).collect();
         if values.iter().flatten().all(|value| value.is_finite()) && points.len() < POINTS {
-            points.push(point(coordinates, *time, &values));
+            points.push(point(compiled, coordinates, *time, &values));
         }
     }
     if points.len() < POINTS {
@@ -216,8 +234,8 @@ fn values(compiled: &Compiled) -> Result<String, Undefined> {
     ))
 }
 
-fn point(coordinates: &[f64], time: f64, values: &[Vec<f64>]) -> String {
-    let values = Quantity::ALL.iter().zip(values).map(|(quantity, components)| {
+fn point(compiled: &Compiled, coordinates: &[f64], time: f64, values: &[Vec<f64>]) -> String {
+    let values = compiled.quantities().zip(values).map(|(quantity, components)| {
         format!("            \"{}\": {components:?},\n", quantity.name())
     });
     let values: String = values.collect();

@@ -6,6 +6,7 @@ use super::dimension::Dimension;
 use super::infer::{Expected, Formulas, Measure};
 use super::parse::Unit;
 use super::system;
+use crate::balance::{BalanceLaw, BalanceSpec};
 use crate::check::CheckSpec;
 use crate::diagnostic::Diagnostic;
 use crate::domain::{Body, DomainSpec};
@@ -74,11 +75,11 @@ impl Checker<'_> {
 
     /// Checks a material file. Returns the dimensions of its parameters, where they are known.
     fn material(&mut self, material: &MaterialSpec) -> BTreeMap<String, Dimension> {
-        let texts = material.parameters.iter().map(|parameter| parameter.unit.as_ref());
-        let Units { units, complete } = self.units(texts, material.incomplete);
-        let named = material.parameters.iter().zip(units);
-        let known: BTreeMap<_, _> = named
-            .filter_map(|(parameter, unit)| Some((parameter.name.value.clone(), unit?.dimension)))
+        let parameters = material.parameters.iter().map(|parameter| parameter.unit.as_ref());
+        let givens = material.givens.iter().map(|given| given.unit.as_ref());
+        let Units { units, complete } = self.units(parameters.chain(givens), material.incomplete);
+        let known: BTreeMap<_, _> = (material.names().zip(units))
+            .filter_map(|(name, unit)| Some((name.to_owned(), unit?.dimension)))
             .collect();
         if complete {
             self.formulas = Formulas::default();
@@ -90,6 +91,12 @@ impl Checker<'_> {
                 self.formulas.define(name, Some(Measure::of(dimension.clone())));
             }
             self.refuse(&material.refused);
+            for given in &material.givens {
+                let (name, rest) = (&given.name.value, given.rest.as_ref());
+                let Some((dimension, rest)) = known.get(name).zip(rest) else { continue };
+                let message = format!("the rest value of `{name}` does not have its unit");
+                self.value(rest, dimension, message);
+            }
             self.definitions(&material.lets);
             let energy = [&material.strain_energy];
             let message = "the strain-energy density must be an energy per volume";
@@ -112,9 +119,13 @@ impl Checker<'_> {
         self.coordinates(field.dimension);
         self.refuse(&field.refused);
         self.definitions(&field.lets);
+        self.givens(field);
         let message = "the displacement must be a length";
         self.expect(&field.displacement, Dimension::length(), message, None);
         self.material_use(field, arguments);
+        for balance in &field.balances {
+            self.balance(balance);
+        }
         self.domain(&field.domain);
         for check in &field.checks {
             self.closed_form(check);
@@ -194,7 +205,7 @@ impl Checker<'_> {
         let material = &field.material;
         let message = "the density must be a mass per volume";
         self.expect(&material.density, Dimension::density(), message, FORCING);
-        for (name, formula) in &material.arguments {
+        for (name, formula) in material.arguments.iter().chain(&material.givens) {
             let Some(dimension) = arguments.get(&name.value) else { continue };
             let message = format!(
                 "`{}` of `{}` must be in {dimension}",
@@ -203,9 +214,93 @@ impl Checker<'_> {
             );
             self.expect([formula], dimension.clone(), message, FORCING);
         }
+        for (name, _) in &material.givens {
+            let measure = arguments.get(&name.value).cloned().map(Measure::of);
+            self.formulas.define(&name.value, measure);
+        }
         let direction = material.fibre.iter().flatten();
         let message = "the direction of the fibres must be numbers without unit";
         self.expect(direction, Dimension::NONE, message, None);
+    }
+
+    /// The given fields of the file's own: formulas that measure what their units say.
+    fn givens(&mut self, field: &FieldSpec) {
+        for given in &field.givens {
+            let name = &given.name.value;
+            let unit = given.unit.as_ref();
+            let unit =
+                unit.and_then(|unit| Unit::parse(self.sources, unit, &mut self.diagnostics));
+            let measure = match unit {
+                Some(unit) => {
+                    let message = format!("the given field `{name}` does not have its unit");
+                    self.expect([&given.value], unit.dimension.clone(), message, None);
+                    Some(Measure::of(unit.dimension))
+                }
+                None => {
+                    let ast = self.parsed(&given.value);
+                    ast.and_then(|ast| self.formulas.infer(&ast, &mut self.diagnostics))
+                }
+            };
+            self.formulas.define(name, measure);
+        }
+    }
+
+    /// The flux of a balance, which measures its storage times a velocity.
+    fn balance(&mut self, balance: &BalanceSpec) {
+        let outer = self.formulas.clone();
+        for formula in balance.formulas() {
+            self.names_of_balances(formula);
+        }
+        match &balance.law {
+            BalanceLaw::Flow { storage: Some(storage), flux: Some(flux) } => {
+                if let Some(expected) = self.inferred(storage).and_then(|it| it.times(&velocity())) {
+                    let name = &balance.name.value;
+                    let message =
+                        format!("the flux of `{name}` must be its storage times a velocity");
+                    let consequence = "d(storage)/dt + Div(flux) would add what does not agree";
+                    self.expect(flux, expected, message, Some(consequence));
+                }
+            }
+            _ => {
+                for formula in balance.formulas() {
+                    self.inferred(formula);
+                }
+            }
+        }
+        self.formulas = outer;
+    }
+
+    /// The dimension of a formula; none of a number 0 or a formula with a mistake.
+    fn inferred(&mut self, formula: &Formula) -> Option<Dimension> {
+        let ast = self.parsed(formula)?;
+        self.formulas.infer(&ast, &mut self.diagnostics)?.dimension
+    }
+
+    /// Defines the names of the language of balances that a formula uses and the file does not define.
+    fn names_of_balances(&mut self, formula: &Formula) {
+        let Some(ast) = self.parsed(formula) else { return };
+        for node in &ast.nodes {
+            let Kind::Name(name) = &node.kind else { continue };
+            if self.formulas.get(name).is_some() {
+                continue;
+            }
+            let measure = match name.rsplit_once('_') {
+                Some(("u", "x" | "y" | "z")) => Some(Measure::of(Dimension::length())),
+                Some(("v", "x" | "y" | "z")) => Some(Measure::of(velocity())),
+                Some((of, by)) => self.formulas.get(of).and_then(|measure| {
+                    let by = match by {
+                        "t" => Dimension::time(),
+                        _ => Dimension::length(),
+                    };
+                    measure.dimension.as_ref()?.over(&by).map(Measure::of)
+                }),
+                None => Some(Measure::of(Dimension::NONE)),
+            };
+            let is_built_in = name == "J" || name.ends_with(|it: char| it.is_ascii_digit());
+            if is_built_in || name.contains('_') {
+                self.formulas.define(name, measure);
+            }
+        }
     }
 
     fn domain(&mut self, domain: &DomainSpec) {
@@ -258,6 +353,10 @@ impl Checker<'_> {
         let message = "the translation must be a length";
         self.expect(rigid.translation.iter().flatten(), Dimension::length(), message, None);
     }
+}
+
+fn velocity() -> Dimension {
+    Dimension::mechanical([0, 1, -1])
 }
 
 /// Whether a formula has no names but pi: a number, however it is written.

@@ -35,6 +35,12 @@ pub fn text(stability: &Stability, certificate: &Certificate, is_static: bool) -
 /// What another code should call its moduli.
 pub fn at_rest(material: &Material) -> String {
     let middle = if material.is_graded { ", in the middle of the body" } else { "" };
+    if let Some(mu) = material.middle.shear_alone() {
+        return format!(
+            "  rest   mu = {} at F = I{middle}; a given field rules the volume",
+            short(mu)
+        );
+    }
     if let Some(moduli) = material.middle.moduli() {
         let [young, nu] = [moduli.young(), moduli.nu()].map(short);
         let [lambda, mu] = [moduli.lambda, moduli.mu].map(short);

@@ -128,7 +128,10 @@ impl Judge {
     fn asked(&self, exact: &Exact) -> anyhow::Result<(Names, Vec<Quantity>)> {
         let wanted = match self.results.quantity.as_slice() {
             [] => Vec::new(),
-            names => exact.input().offered(names, evaluated(names)?)?,
+            names => {
+                let input = exact.input();
+                input.offered(names, evaluated(&input.own_quantities(), names)?)?
+            },
         };
         Ok((self.results.naming.names()?, wanted))
     }

@@ -1,0 +1,113 @@
+//! The given fields and the further balances of a field, in Python: the names of the language of balances are derived by SymPy.
+
+use super::python::Renamed;
+use super::translated;
+use mms_codegen::compile::Compiled;
+use mms_spec::own::Part;
+use mms_spec::syntax::{self, Kind};
+use mms_spec::{BalanceLaw, BalanceSpec, Formula};
+use mms_symbolic::expr::print::AXES;
+use mms_symbolic::sorted::SortedSet;
+
+/// The names that the formulas of balances use and the file does not define.
+pub(super) fn used(compiled: &Compiled) -> Vec<String> {
+    let formulas = compiled.field.balances.iter().flat_map(BalanceSpec::formulas);
+    let asts = formulas.filter_map(|formula| syntax::parse(formula, &mut Vec::new()));
+    let names = asts.flat_map(|ast| ast.nodes).filter_map(|node| match node.kind {
+        Kind::Name(name) => Some(name),
+        _ => None,
+    });
+    let known = ["X", "Y", "Z", "t", "pi"];
+    let names: SortedSet<String> = names
+        .filter(|name| !known.contains(&name.as_str()) && !is_defined(compiled, name))
+        .collect();
+    names.into_iter().collect()
+}
+
+fn is_defined(compiled: &Compiled, name: &str) -> bool {
+    let field = &compiled.field;
+    field.parameters.iter().any(|it| it.name.value == name)
+        || field.lets.iter().any(|it| it.name.value == name)
+        || field.givens.iter().any(|it| it.name.value == name)
+        || compiled.material.given(name).is_some()
+}
+
+/// The lines of `field` that define those names.
+pub(super) fn definitions(compiled: &Compiled, names: &Renamed) -> Vec<String> {
+    let used = used(compiled);
+    if used.is_empty() {
+        return Vec::new();
+    }
+    let axes = AXES[..compiled.field.dimension].join(", ");
+    let mut lines = vec![format!("    deformed = in_space([{axes}], u)")];
+    for name in &used {
+        lines.push(format!("    {} = {}", names.name(name), meaning(name, names)));
+    }
+    lines
+}
+
+fn meaning(name: &str, names: &Renamed) -> String {
+    let axis = |text: &str| ["x", "y", "z"].iter().position(|axis| *axis == text);
+    if name == "J" {
+        return "determinant(deformed)".into();
+    }
+    match name.rsplit_once('_') {
+        Some(("u", by)) if axis(by).is_some() => {
+            return format!("u[{}]", axis(by).unwrap_or_default());
+        }
+        Some(("v", by)) if axis(by).is_some() => {
+            return format!("diff(u[{}], t)", axis(by).unwrap_or_default());
+        }
+        Some((of, by)) => return format!("diff({}, {by})", names.name(of)),
+        None => {}
+    }
+    let letters = name.trim_end_matches(|it: char| it.is_ascii_digit());
+    let places = name[letters.len()..].bytes().map(|digit| (digit - b'1').to_string());
+    let place = places.collect::<Vec<_>>().join(", ");
+    match letters {
+        "H" => format!("(deformed - eye(3))[{place}]"),
+        "F" => format!("deformed[{place}]"),
+        "Finv" => format!("(deformed.adjugate() / determinant(deformed))[{place}]"),
+        "C" => format!("(deformed.T * deformed)[{place}]"),
+        _ => format!(
+            "((deformed.T * deformed).adjugate() / determinant(deformed) ** 2)[{place}]"
+        ),
+    }
+}
+
+/// The lines of `field` that collect the quantities of the file's own: a dictionary of lists.
+pub(super) fn quantities(compiled: &Compiled, names: &Renamed) -> Vec<String> {
+    let axes = &AXES[..compiled.field.dimension];
+    let mut lines = vec!["    own = {}".to_string()];
+    for own in compiled.model.own.keys() {
+        let given = names.name(&own.of);
+        let balance = compiled.field.balances.iter().find(|it| it.name.value == own.of);
+        let components = match (own.part, balance.map(|balance| &balance.law)) {
+            (Part::Value, _) => given.to_owned(),
+            (Part::Gradient, _) => {
+                let slopes: Vec<_> =
+                    axes.iter().map(|axis| format!("diff({given}, {axis})")).collect();
+                slopes.join(", ")
+            }
+            (Part::Rate, _) => format!("diff({given}, t)"),
+            (Part::Residual, Some(BalanceLaw::Constraint { residual })) => {
+                translated(residual, names)
+            }
+            (Part::Source, Some(BalanceLaw::Flow { storage, flux })) => {
+                let storage = storage.iter().map(|it| format!("diff({}, t)", translated(it, names)));
+                let flux = flux.iter().flatten().zip(axes);
+                let flux =
+                    flux.map(|(it, axis)| format!("diff({}, {axis})", translated(it, names)));
+                storage.chain(flux).collect::<Vec<_>>().join(" + ")
+            }
+            (_, Some(BalanceLaw::Flow { flux, .. })) => list(flux.iter().flatten(), names),
+            _ => continue,
+        };
+        lines.push(format!("    own[\"{}\"] = [{components}]", own.name));
+    }
+    lines
+}
+
+fn list<'a>(formulas: impl Iterator<Item = &'a Formula>, names: &Renamed) -> String {
+    formulas.map(|formula| translated(formula, names)).collect::<Vec<_>>().join(", ")
+}
