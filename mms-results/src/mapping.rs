@@ -3,7 +3,7 @@
 use crate::components::of_columns;
 use crate::meaning::{Column, Meaning, Part, Place, Why};
 use crate::parts::{all_names, arrays, part_of};
-use crate::role::Role;
+use crate::role::{OwnRole, Role};
 use crate::{Array, Mistake, Snapshot};
 
 /// A quantity and the columns that a user says it is: names, or `name:k` for the component k, counted from 0; `points`
@@ -20,10 +20,24 @@ impl std::str::FromStr for Mapping {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        Mapping::read(text, &[])
+    }
+}
+
+impl Mapping {
+    /// Reads `QUANTITY=COLUMN,..`, for a field with these quantities of its own.
+    ///
+    /// # Errors
+    /// An unknown quantity, or no columns, in one line.
+    pub fn read(text: &str, own: &[OwnRole]) -> Result<Self, String> {
         let wrong = || format!("`{text}`: expected QUANTITY=COLUMN,.., as in X=x0,y0");
         let (role, columns) = text.split_once('=').ok_or_else(wrong)?;
-        let symbols = || Role::ALL.iter().map(|role| role.symbol()).collect::<Vec<_>>().join(", ");
-        let known = Role::from_name(role.trim());
+        let symbols = || {
+            let all = Role::ALL.iter().map(|role| role.symbol());
+            all.chain(own.iter().map(|own| own.name)).collect::<Vec<_>>().join(", ")
+        };
+        let own_role = own.iter().find(|own| own.name == role.trim());
+        let known = own_role.map(|own| Role::Own(*own)).or_else(|| Role::from_name(role.trim()));
         let role = known.ok_or_else(|| format!("`{role}`: expected one of {}", symbols()))?;
         let columns: Vec<_> = columns.split(',').map(|it| it.trim().to_owned()).collect();
         if columns.iter().any(String::is_empty) {

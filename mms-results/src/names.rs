@@ -5,13 +5,17 @@ use crate::mapping::mapped;
 use crate::meaning::{Column, Part, Place, array};
 use crate::parts::{S, arrays, part_of, split, stem, two_meanings};
 use crate::wanted::{Need, Wanted};
+use crate::role::plain;
 use crate::{Array, Mistake, Snapshot};
 
 pub use crate::mapping::Mapping;
 pub use crate::meaning::{Meaning, Values, Why};
 pub use crate::parts::all_names;
 pub use crate::profile::Profile;
-pub use crate::role::{Form, Role};
+pub use crate::role::{Form, OwnRole, Role};
+
+/// The name of a given pressure.
+const GIVEN_PRESSURE: &str = "p";
 
 /// Faces that the name of a traction may end with.
 const FACES: [&str; 10] = [
@@ -50,10 +54,12 @@ pub struct Names {
     pub columns: Vec<String>,
     /// The profile of the code that wrote the files.
     pub profile: Option<Profile>,
+    /// The quantities of the field's own, whose names win over those that codes use.
+    pub own: Vec<OwnRole>,
 }
 
 /// The names that codes use, without anything that a user says.
-pub static KNOWN: Names = Names { map: Vec::new(), columns: Vec::new(), profile: None };
+pub static KNOWN: Names = Names { map: Vec::new(), columns: Vec::new(), profile: None, own: Vec::new() };
 
 impl Names {
     /// Whether a user maps an array of this name, or a component of it.
@@ -68,16 +74,31 @@ impl Names {
         self.map.iter().flat_map(|mapping| &mapping.columns).any(is_it)
     }
 
+    /// The role of a name: a quantity of the field's own, or what codes call so.
+    fn called(&self, name: &str) -> Option<Role> {
+        let own = self.own.iter().find(|own| own.name == name);
+        own.map(|own| Role::Own(*own)).or_else(|| Role::called(name))
+    }
+
+    /// The two quantities that a name may mean, if it may mean two. A pressure may be that of the stress, or a given `p`.
+    fn two_meanings(&self, name: &str) -> Option<[Role; 2]> {
+        let given = self.own.iter().find(|own| own.name == GIVEN_PRESSURE);
+        match given.filter(|_| plain(name) == "pressure") {
+            Some(given) => Some([Role::Pressure, Role::Own(*given)]),
+            None => two_meanings(name).filter(|_| self.own.iter().all(|own| own.name != name)),
+        }
+    }
+
     /// The roles that an array of this name may have.
     fn roles(&self, name: &str) -> Vec<Role> {
         let stem = stem(name);
-        let mut roles: Vec<Role> = two_meanings(name).into_iter().flatten().collect();
+        let mut roles: Vec<Role> = self.two_meanings(name).into_iter().flatten().collect();
         let of_profile = self.profile.iter().flat_map(|it| &it.quantities);
         let is_called =
             |names: &[String]| names.iter().any(|it| it == name || part_of(name, it).is_some());
         roles.extend(of_profile.filter(|(_, names)| is_called(names)).map(|(role, _)| *role));
-        roles.extend(Role::called(name));
-        roles.extend(Role::called(stem).filter(|role| role.form() != Form::Scalar));
+        roles.extend(self.called(name));
+        roles.extend(self.called(stem).filter(|role| role.form() != Form::Scalar));
         match name {
             "X" | "Y" | "Z" => roles.push(Role::Reference),
             "x" | "y" | "z" => roles.push(Role::Place),
@@ -133,15 +154,15 @@ pub fn recognise(
     let taken: Vec<Place> =
         found.iter().flat_map(|it| it.columns.iter().map(|(_, column)| column.place)).collect();
     let settled: Vec<String> =
-        taken.iter().filter_map(|it| group(*it, array(snapshot, *it))).collect();
+        taken.iter().filter_map(|it| group(names, *it, array(snapshot, *it))).collect();
     for (place, array) in arrays(snapshot).filter(|(place, _)| !taken.contains(place)) {
-        if group(place, array).is_some_and(|it| settled.contains(&it)) {
+        if group(names, place, array).is_some_and(|it| settled.contains(&it)) {
             continue;
         }
         let is_wanted = |role: Role| wants(role) && !named.contains(&role);
-        hold_clear(snapshot, (place, array), &named, &is_wanted)
+        hold_clear(snapshot, names, (place, array), &named, &is_wanted)
             .map_err(|mistake| mistake.of(&snapshot.path))?;
-        let understood = understand(place, array).filter(|it| is_wanted(it.role));
+        let understood = understand(names, place, array).filter(|it| is_wanted(it.role));
         let Some(understood) = understood else { continue };
         let column = |component| Column { place, component };
         let all = || match &names.profile {
@@ -162,8 +183,8 @@ pub fn recognise(
 }
 
 /// The name of all components of which an array is one, if it is.
-fn group(place: Place, array: &Array) -> Option<String> {
-    match understand(place, array) {
+fn group(names: &Names, place: Place, array: &Array) -> Option<String> {
+    match understand(names, place, array) {
         Some(Understood { part, source, .. }) => part.map(|_| source),
         None => split(&array.name).filter(|_| array.components == 1).map(|(base, _)| base.into()),
     }
@@ -210,11 +231,12 @@ fn add(
 /// Neither the file nor the user tells which it is.
 fn hold_clear(
     snapshot: &Snapshot,
+    names: &Names,
     (place, array): (Place, &Array),
     named: &[Role],
     wants: &dyn Fn(Role) -> bool,
 ) -> Result<(), Mistake> {
-    let Some([a, b]) = two_meanings(&array.name) else { return Ok(()) };
+    let Some([a, b]) = names.two_meanings(&array.name) else { return Ok(()) };
     let stem = stem(&array.name);
     if stem == S {
         // A file with another name for a stress means the textbook's S.
@@ -230,7 +252,12 @@ fn hold_clear(
         return Ok(());
     }
     let mapped = mapped_name(place, stem);
-    let said = |role: Role| format!("`--map {}={mapped}`", role.symbol());
+    // The symbol of a pressure is the name of a given one.
+    let word = |role: Role| match role {
+        Role::Pressure => role.name(),
+        _ => role.symbol(),
+    };
+    let said = |role: Role| format!("`--map {}={mapped}`", word(role));
     let what = format!(
         "`{}` ({}) may be {} or {}: say which with {} or {}, or the code that wrote it with `--from`",
         array.name,
@@ -244,7 +271,7 @@ fn hold_clear(
 }
 
 /// The quantity of an array, the part of it, and the name in the file.
-fn understand(place: Place, array: &Array) -> Option<Understood> {
+fn understand(names: &Names, place: Place, array: &Array) -> Option<Understood> {
     let name = array.name.as_str();
     match (place, name) {
         // The project's own runs call x so.
@@ -262,14 +289,14 @@ fn understand(place: Place, array: &Array) -> Option<Understood> {
         }
         _ => {}
     }
-    if let Some(role) = Role::called(name) {
+    if let Some(role) = names.called(name) {
         return Some(Understood::new(role, None, name));
     }
     if let Some(found) = on_face(array) {
         return Some(found);
     }
     let (base, part) = split(name).filter(|_| array.components == 1)?;
-    let role = Role::called(base).filter(|role| role.form() != Form::Scalar)?;
+    let role = names.called(base).filter(|role| role.form() != Form::Scalar)?;
     // x0 may be the first coordinate, or where x was.
     let is_coordinate = base.len() == 1 && matches!(role, Role::Place | Role::Reference);
     (!is_coordinate || name.len() > 2).then(|| Understood::new(role, Some(part), base))

@@ -1,7 +1,7 @@
 //! What an array may be: quantities, with the names that codes have for them.
 
 /// How many numbers a quantity has in D dimensions: one, D, D x D, or (D (D + 1)/2)^2.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Form {
     /// One.
     Scalar,
@@ -15,12 +15,23 @@ pub enum Form {
     Voigt,
 }
 
+/// A quantity of the field's own: files call it by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct OwnRole {
+    /// The name.
+    pub name: &'static str,
+    /// How many numbers it has.
+    pub form: Form,
+}
+
 macro_rules! roles {
     ($($variant:ident $name:literal $symbol:literal $form:ident [$($word:literal)*] $doc:literal,)*) => {
         /// What an array may be.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Role {
             $(#[doc = $doc] $variant,)*
+            /// A quantity of the field's own, such as a given temperature.
+            Own(OwnRole),
         }
 
         impl Role {
@@ -29,22 +40,34 @@ macro_rules! roles {
 
             /// Its identifier.
             pub fn name(self) -> &'static str {
-                match self { $(Role::$variant => $name,)* }
+                match self {
+                    $(Role::$variant => $name,)*
+                    Role::Own(own) => own.name,
+                }
             }
 
             /// Its symbol.
             pub fn symbol(self) -> &'static str {
-                match self { $(Role::$variant => $symbol,)* }
+                match self {
+                    $(Role::$variant => $symbol,)*
+                    Role::Own(own) => own.name,
+                }
             }
 
             /// How many numbers it has.
             pub fn form(self) -> Form {
-                match self { $(Role::$variant => Form::$form,)* }
+                match self {
+                    $(Role::$variant => Form::$form,)*
+                    Role::Own(own) => own.form,
+                }
             }
 
             /// What codes call it, in small letters without what separates words; a single letter as it is.
             fn words(self) -> &'static [&'static str] {
-                match self { $(Role::$variant => &[$($word),*],)* }
+                match self {
+                    $(Role::$variant => &[$($word),*],)*
+                    Role::Own(_) => &[],
+                }
             }
         }
     };

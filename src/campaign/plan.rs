@@ -21,7 +21,7 @@ use super::dependencies::{self, Dependencies, Dependency, UNKNOWN};
 use super::digests::Digests;
 use super::sources;
 
-use crate::judge::results::{Over, Start as How, weight};
+use crate::judge::results::{Over, Start as How, own_roles, weight};
 use crate::judge::table::{Order, Orders};
 use crate::profile;
 use crate::session::input::{Input, Variant, quantities};
@@ -326,7 +326,8 @@ impl Setting<'_> {
         let text =
             |word: &str| quantities(own, &[word.to_owned()]).map_err(|error| error.to_string());
         let quantities = self.options(&study.quantity, "quantity", text)?.concat();
-        let map = self.options(&study.map, "map", |word| word.parse::<Mapping>())?;
+        let own = own_roles(own);
+        let map = self.options(&study.map, "map", |word| Mapping::read(word, &own))?;
         let columns = study.columns.iter().map(|word| word.value.clone()).collect();
         let profile = |word: &Spanned<String>| {
             let path = self.here.join(&word.value).to_string_lossy().into_owned();
@@ -336,7 +337,7 @@ impl Setting<'_> {
         let profile = study.from.as_ref().map(profile).transpose()?;
         let over = |word: &Spanned<String>| self.option(word, "over", Over::of(&word.value));
         let over = study.over.as_ref().map(over).transpose()?;
-        let names = Names { map, columns, profile };
+        let names = Names { map, columns, profile, own };
         let order = |word: &str| word.parse::<Order>().map_err(str::to_owned);
         let orders = Orders::new(&self.options(&study.order, "order", order)?, study.tolerance);
         let of = |word: &Spanned<String>| {

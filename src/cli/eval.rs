@@ -209,7 +209,7 @@ impl Eval {
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
         let near: Vec<f64> = parameters.iter().map(T::near).collect();
         let (body, _) = domain(&input.compiled.program, &near);
-        let points = self.places::<T>(dimension, &body)?;
+        let points = self.places::<T>(input, &body)?;
         let outside = self.outside(input, &parameters, &points, &time);
         let normals = self.normals(input, quantities, &parameters, &points)?;
         let programs = programs(input, &self.needed(quantities, &input.compiled))?;
@@ -315,13 +315,14 @@ impl Eval {
     /// The points that are asked for.
     fn places<T: Digits>(
         &self,
-        dimension: usize,
+        input: &Input,
         body: &Extent<f64>,
     ) -> anyhow::Result<Vec<Vec<T>>> {
+        let dimension = input.compiled.field.dimension;
         let Some(path) = &self.points else {
             return self.at.iter().map(|at| coordinates("--at", at, dimension)).collect();
         };
-        let names = self.naming.names()?;
+        let names = self.naming.names(&input.own_quantities())?;
         // The body decides between X and x; points outside it are evaluated all the same.
         let points =
             Points::of_file(path, &names, dimension, &|point: &[f64]| body.distance(point))
@@ -354,9 +355,9 @@ impl Eval {
     fn hold_normal(&self, quantities: &[Quantity]) -> anyhow::Result<()> {
         let given = [("--normal", &self.normal), ("--face", &self.face)];
         match given.into_iter().find(|(_, value)| value.is_some()) {
-            Some((option, Some(value))) if !quantities.contains(&Quantity::Traction) => bail!(
-                "`{option} {value}`: only the quantity `traction` takes a normal, and it is not among those wanted; \
-                 name it, as in `--quantity traction`, or leave `{option}` out"
+            Some((option, Some(value))) if !quantities.iter().any(|it| it.takes_normal()) => bail!(
+                "`{option} {value}`: only tractions and normal fluxes take a normal, and none is among the quantities \
+                 wanted; name it, as in `--quantity traction`, or leave `{option}` out"
             ),
             _ => Ok(()),
         }
@@ -378,12 +379,13 @@ impl Eval {
                 let face = face.map_err(|mistake| anyhow!("`--face {name}`: {mistake}"))?;
                 input.compiled.normals(face, parameters, points)
             }
-            (None, None) if quantities.contains(&Quantity::Traction) => {
-                bail!(
-                    "`traction` needs the reference normal of a boundary: give --face or --normal"
-                )
-            }
-            (None, None) => vec![Vec::new(); points.len()],
+            (None, None) => match quantities.iter().find(|it| it.takes_normal()) {
+                Some(quantity) => bail!(
+                    "`{}` needs the reference normal of a boundary: give --face or --normal",
+                    quantity.name()
+                ),
+                None => vec![Vec::new(); points.len()],
+            },
         })
     }
 

@@ -1,8 +1,11 @@
 //! The options that say how the arrays of files are called.
 
+use anyhow::anyhow;
 use clap::Args;
 use mms_results::names::{Mapping, Names};
+use mms_spec::own::Own;
 
+use crate::judge::results::own_roles;
 use crate::profile;
 
 /// The options of every command that reads files of other programs.
@@ -11,7 +14,7 @@ pub struct Naming {
     /// A quantity, and the columns that it is in: `X=x0,y0`, `u=disp`, `sigma=stress:0,stress:3,..` for components, counted
     /// from 0; `points` are the places of points in VTK, `cells:NAME` is an array of cells. May be repeated.
     #[arg(long, value_name = "QUANTITY=COLUMN,..")]
-    map: Vec<Mapping>,
+    map: Vec<String>,
     /// The names of the columns of a table without a header, in their order, as in `X,Y,u_x,u_y`; a header is replaced.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     columns: Vec<String>,
@@ -22,13 +25,16 @@ pub struct Naming {
 }
 
 impl Naming {
-    /// The names of arrays.
+    /// The names of arrays, for a field with these quantities of its own.
     ///
     /// # Errors
-    /// An unknown profile, or a mistake in a profile of one's own, with its place.
-    pub fn names(&self) -> anyhow::Result<Names> {
+    /// An unknown profile, a mistake in a profile of one's own, with its place, or a mapping of no quantity.
+    pub fn names(&self, own: &[Own]) -> anyhow::Result<Names> {
         let profile = self.from.as_deref().map(profile::find).transpose()?;
-        Ok(Names { map: self.map.clone(), columns: self.columns.clone(), profile })
+        let own = own_roles(own);
+        let map = self.map.iter().map(|text| Mapping::read(text, &own));
+        let map = map.collect::<Result<_, _>>().map_err(|mistake| anyhow!("`--map`: {mistake}"))?;
+        Ok(Names { map, columns: self.columns.clone(), profile, own })
     }
 
     /// The first option that is given; none if none is.

@@ -9,6 +9,7 @@ use mms_codegen::{Options, Selection};
 use mms_mechanics::extent::is_between;
 use mms_runtime::Division;
 use mms_runtime::scene::usual_cells;
+use mms_spec::own::Part;
 use mms_spec::quantity::Quantity;
 use serde_json::json;
 
@@ -97,7 +98,11 @@ impl State {
             input.files().into_iter().chain(self.points.iter().map(PathBuf::from)).collect();
         spare("--output", self.output.path(), &read)?;
         let quantities = match self.quantity.as_slice() {
-            [] => USUAL.to_vec(),
+            [] => {
+                let own = input.own_quantities().into_iter();
+                let given = own.filter(|own| own.part == Part::Value).map(Quantity::Own);
+                USUAL.into_iter().chain(given).collect()
+            }
             names => evaluated(&input.own_quantities(), names)?,
         };
         let quantities = input.offered(&self.quantity, quantities)?;
@@ -164,7 +169,7 @@ impl State {
 
     fn given(&self, exact: &Exact) -> anyhow::Result<Given> {
         let dimension = exact.dimension;
-        let names = self.naming.names()?;
+        let names = self.naming.names(&exact.input().own_quantities())?;
         match (&self.points, &self.cells) {
             (Some(path), _) if self.at_present => {
                 Ok(Given::Present(Box::new(Places::of_file(path, &names, dimension)?)))
@@ -234,9 +239,11 @@ impl State {
 
 /// Refuses tractions that were asked for by name where no point has one.
 fn hold_faces(quantities: &[Quantity], points: &Points, exact: &Exact) -> anyhow::Result<()> {
+    let wanted = quantities.iter().find(|quantity| quantity.takes_normal());
     ensure!(
-        !quantities.contains(&Quantity::Traction) || !points.faces(exact).is_empty(),
-        "`--quantity traction`: no point lies on a face of the body; give points that do"
+        wanted.is_none() || !points.faces(exact).is_empty(),
+        "`--quantity {}`: no point lies on a face of the body; give points that do",
+        wanted.map_or("", |quantity| quantity.name())
     );
     Ok(())
 }

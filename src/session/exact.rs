@@ -186,13 +186,19 @@ impl Exact {
         self.output(Output::Response(Response::Density), 1, time, [points, &[]])
     }
 
-    /// The tractions of a face at points X of it.
+    /// A quantity that takes a normal, on a face at points X of it.
     ///
     /// # Errors
     /// As of [`values`](Self::values).
-    pub fn tractions(&mut self, face: Face, time: f64, points: &[f64]) -> anyhow::Result<Vec<f64>> {
+    pub fn on_face(
+        &mut self,
+        quantity: Quantity,
+        face: Face,
+        time: f64,
+        points: &[f64],
+    ) -> anyhow::Result<Vec<f64>> {
         let normals = self.normals(face, points);
-        self.tractions_by(&normals, time, points)
+        self.by_normals(quantity, &normals, time, points)
     }
 
     /// Whether nothing has happened yet at some times: they are the first one, and not all times are alike.
@@ -217,18 +223,19 @@ impl Exact {
         self.input.compiled.normals(face, &self.parameters, points).concat()
     }
 
-    /// The tractions at points X, by the unit normals there.
+    /// A quantity that takes a normal at points X, by the unit normals there.
     ///
     /// # Errors
     /// As of [`values`](Self::values).
-    pub fn tractions_by(
+    pub fn by_normals(
         &mut self,
+        quantity: Quantity,
         normals: &[f64],
         time: f64,
         points: &[f64],
     ) -> anyhow::Result<Vec<f64>> {
-        let output = Output::Quantity(Quantity::Traction);
-        self.output(output, self.dimension, time, [points, normals])
+        let components = quantity.shape().components(self.dimension);
+        self.output(Output::Quantity(quantity), components, time, [points, normals])
     }
 
     /// The points on each face that has such, by position; how far each coordinate may be from what was meant.

@@ -74,7 +74,7 @@ pub enum Names {
 impl Names {
     fn of(self, quantity: Quantity) -> &'static str {
         match (self, quantity) {
-            (Names::Words, _) => quantity.name(),
+            (Names::Words, _) | (_, Quantity::Own(_)) => quantity.name(),
             (Names::Symbols, Quantity::MassDensity) => "density",
             (Names::Symbols, _) => quantity.symbol(),
         }
@@ -149,11 +149,12 @@ impl Wanted<'_> {
             match quantity {
                 // The points of VTK are x.
                 Quantity::Position if self.names == Names::Words => {}
-                Quantity::Traction => {
+                _ if quantity.takes_normal() => {
                     for (face, on_face) in points.faces(exact) {
-                        let values = self.tractions(exact, points, (face, &on_face), time)?;
-                        let name = format!("traction_{}", face.name());
-                        columns.push(Column { name, shape: Shape::Vector, values });
+                        let values =
+                            self.on_face(quantity, exact, points, (face, &on_face), time)?;
+                        let name = format!("{}_{}", quantity.name(), face.name());
+                        columns.push(Column { name, shape: shape(quantity, exact), values });
                     }
                 }
                 _ => {
@@ -169,9 +170,10 @@ impl Wanted<'_> {
         Ok(State { time, dimension, facts: self.domain.facts(), columns })
     }
 
-    /// P N at the points of a face; 0 at all others.
-    fn tractions(
+    /// A quantity that takes a normal at the points of a face; 0 at all others.
+    fn on_face(
         &self,
+        quantity: Quantity,
         exact: &mut Exact,
         points: &Points,
         (face, on_face): (Face, &[usize]),
@@ -180,11 +182,12 @@ impl Wanted<'_> {
         let dimension = exact.dimension;
         let place = |point: &usize| &points.reference[point * dimension..][..dimension];
         let places: Vec<f64> = on_face.iter().flat_map(place).copied().collect();
-        let found = exact.tractions(face, time, &places)?;
-        let found = self.held(Quantity::Traction, found, (&places, dimension), time)?;
-        let mut all = vec![0.0; points.reference.len()];
-        for (point, traction) in on_face.iter().zip(found.chunks(dimension)) {
-            all[point * dimension..][..dimension].copy_from_slice(traction);
+        let found = exact.on_face(quantity, face, time, &places)?;
+        let found = self.held(quantity, found, (&places, dimension), time)?;
+        let components = exact.components(quantity);
+        let mut all = vec![0.0; points.reference.len() / dimension * components];
+        for (point, value) in on_face.iter().zip(found.chunks(components)) {
+            all[point * components..][..components].copy_from_slice(value);
         }
         Ok(all)
     }

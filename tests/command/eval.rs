@@ -236,7 +236,7 @@ fn traction_needs_the_normal_of_a_boundary() {
     for option in ["--face x_max", "--normal 1", "--face x_max --quantity u,P"] {
         self::refused(
             &format!("bar_1d --at 0 --time 0 {option}"),
-            "only the quantity `traction` takes a normal",
+            "only tractions and normal fluxes take a normal",
         );
     }
 }

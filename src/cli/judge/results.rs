@@ -133,7 +133,7 @@ impl Judge {
                 input.offered(names, evaluated(&input.own_quantities(), names)?)?
             },
         };
-        Ok((self.results.naming.names()?, wanted))
+        Ok((self.results.naming.names(&exact.input().own_quantities())?, wanted))
     }
 
     fn reading<'a>(&self, names: &'a Names, wanted: &'a [Quantity]) -> Reading<'a> {
@@ -189,7 +189,7 @@ impl Judge {
     pub(super) fn same(&self) -> anyhow::Result<Outcome> {
         let [a, b] = self.results.same.as_slice() else { bail!("`--same`: expected two results") };
         let (room, advice) = room(self.results.max_memory);
-        let names = self.results.naming.names()?;
+        let names = self.results.naming.names(&[])?;
         let find = |given| Results::find(given, &everything(&names).within(room, advice));
         let found = same(&find(a)?, &find(b)?, &names)?;
         self.show(differences(a, b, &found))?;

@@ -3,6 +3,7 @@
 use anyhow::bail;
 use mms_convergence::Expected;
 use mms_spec::foreign::shown;
+use mms_spec::own::Part;
 use mms_spec::quantity::Quantity;
 
 use super::level::Sampling;
@@ -15,6 +16,9 @@ const NORMS: [&str; 4] = ["l1", "l2", "linf", "h1"];
 /// Whether it is u, its derivatives by time, or what is given: of others theory promises one order less, for they
 /// follow from the gradient of u.
 fn is_of_motion(quantity: Quantity) -> bool {
+    if let Quantity::Own(own) = quantity {
+        return matches!(own.part, Part::Value | Part::Rate);
+    }
     matches!(
         quantity,
         Quantity::Position

@@ -4,10 +4,11 @@ use anyhow::{anyhow, bail};
 use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, hold_distinct};
 use mms_results::names::{
-    Form, Meaning, Names, Role, Values, all_names, everything, recognise, wanted,
+    Form, Meaning, Names, OwnRole, Role, Values, all_names, everything, recognise, wanted,
 };
 use mms_results::{Snapshot, Stored, suggestion};
-use mms_spec::quantity::Quantity;
+use mms_spec::own::Own;
+use mms_spec::quantity::{Quantity, Shape};
 
 use super::extent::{self, Covered};
 use super::files::{Results, placed, room};
@@ -189,9 +190,19 @@ pub fn without_positions(
     )
 }
 
+/// The quantities of a field's own, as arrays may be.
+pub fn own_roles(own: &[Own]) -> Vec<OwnRole> {
+    let form = |own: &Own| match own.part.shape() {
+        Shape::Scalar => Form::Scalar,
+        Shape::Vector => Form::Vector,
+        Shape::Tensor => Form::Tensor,
+    };
+    own.iter().map(|it| OwnRole { name: &it.described().name, form: form(it) }).collect()
+}
+
 /// The quantity of the compiler that this is.
-fn quantity(role: Role) -> Option<Quantity> {
-    Quantity::from_name(role.name())
+fn quantity(role: Role, exact: &Exact) -> Option<Quantity> {
+    exact.input().compiled.quantity(role.name()).ok()
 }
 
 /// The numbers of a meaning, in the dimension of the field; of tensors in space where that was asked for.
@@ -231,7 +242,7 @@ impl Reading<'_> {
         if self.wanted.is_empty() {
             return role != Role::SmallStrain || exact.is_small_strain();
         }
-        quantity(role).is_some_and(|it| self.wanted.contains(&it))
+        quantity(role, exact).is_some_and(|it| self.wanted.contains(&it))
     }
 
     /// Measures a snapshot at a time.
@@ -281,7 +292,7 @@ impl Reading<'_> {
                 continue;
             }
             // One after the other: all of them at once would take as much memory as the file.
-            match quantity(meaning.role) {
+            match quantity(meaning.role, taken.exact) {
                 Some(quantity) => {
                     let values = values(meaning, snapshot, taken.exact)?;
                     taken.hold_density(meaning, &values)?;
@@ -349,7 +360,7 @@ impl Reading<'_> {
         let u = motion.displacement.filter(|_| self.wants_u());
         let mut all: Vec<_> = u.map(|u| (Quantity::Displacement, u)).into_iter().collect();
         for meaning in judged {
-            let Some(quantity) = quantity(meaning.role) else { continue };
+            let Some(quantity) = quantity(meaning.role, exact) else { continue };
             all.push((quantity, values(meaning, snapshot, exact)?));
         }
         Ok(all)
@@ -373,7 +384,7 @@ impl Reading<'_> {
             Form::Tensor | Form::Symmetric => rows,
             Form::Scalar | Form::Vector | Form::Voigt => motion.reference.components,
         };
-        let is_asked = quantity(meaning.role).is_some_and(|it| self.wanted.contains(&it))
+        let is_asked = self.wanted.iter().any(|it| it.name() == meaning.role.name())
             || dimension != motion.reference.components;
         let why = meaning.unlike(snapshot, dimension, Some(points));
         why.filter(|_| !is_asked)

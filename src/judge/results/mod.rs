@@ -31,7 +31,7 @@ pub use excluded::{Exclusions, exclusions};
 pub use explained::Explained;
 pub use extent::{distances, motion};
 pub use files::{Results, placed, room};
-pub use level::{Over, Reading, Sampling, weight, without_positions};
+pub use level::{Over, Reading, Sampling, own_roles, weight, without_positions};
 pub use same::{Same, same};
 pub use start::Start;
 

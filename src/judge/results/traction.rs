@@ -66,7 +66,7 @@ impl Taken<'_> {
         let values =
             Values { numbers: tractions.into(), components, rounding, stored, is_of_cells: false };
         let solution: Solution<'_> = &|exact, time, first, places| {
-            exact.tractions_by(&normals[first * components..], time, places)
+            exact.by_normals(Quantity::Traction, &normals[first * components..], time, places)
         };
         let compared = self.compared(Quantity::Traction, (&values, None), &places, solution)?;
         self.over_points(Quantity::Traction, &values, Sampling::Faces, &compared).map(Some)

@@ -24,7 +24,7 @@ pub fn hold(snapshot: &Snapshot, meanings: &[Meaning], exact: &Exact) -> anyhow:
     let mut all: Vec<(&str, &str, Option<Dimension>)> = Vec::new();
     for meaning in meanings {
         let units = meaning.units(snapshot);
-        all.extend(units.into_iter().map(|(name, unit)| (name, unit, dimension(meaning.role))));
+        all.extend(units.into_iter().map(|(name, unit)| (name, unit, dimension(meaning.role, exact))));
     }
     let times = snapshot.units.iter().filter(|(name, _)| is_time(name));
     all.extend(times.map(|(name, unit)| (name.as_str(), unit.as_str(), Some(Dimension::time()))));
@@ -60,10 +60,10 @@ pub fn hold(snapshot: &Snapshot, meanings: &[Meaning], exact: &Exact) -> anyhow:
 }
 
 /// The dimension of a quantity.
-fn dimension(role: Role) -> Option<Dimension> {
+fn dimension(role: Role, exact: &Exact) -> Option<Dimension> {
     let unit = match role {
         Role::Reference | Role::Position | Role::Place => Quantity::Position.unit(),
-        _ => Quantity::from_name(role.name())?.unit(),
+        _ => exact.input().compiled.quantity(role.name()).ok()?.unit(),
     };
     Some(Unit::known(unit)?.dimension)
 }
