@@ -5,6 +5,7 @@ mod branches;
 mod certify;
 mod diagnostics;
 mod faces;
+mod given;
 mod growth;
 mod language;
 mod materials;

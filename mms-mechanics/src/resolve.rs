@@ -47,6 +47,8 @@ pub struct Scope {
     positive: SortedSet<Symbol>,
     /// A part of the file could not be read: a name may be defined there.
     incomplete: bool,
+    /// What else formulas of this kind know, for whoever uses an unknown name.
+    hint: Option<&'static str>,
 }
 
 impl Scope {
@@ -91,6 +93,11 @@ impl Scope {
     /// Records that definitions may be missing, so that an unknown name is not a mistake.
     pub fn tolerate_unknown_names(&mut self) {
         self.incomplete = true;
+    }
+
+    /// Says what else formulas of this kind know, for messages about unknown names.
+    pub fn hint(&mut self, hint: &'static str) {
+        self.hint = Some(hint);
     }
 
     /// Records that a symbol is positive.
@@ -255,7 +262,9 @@ impl Resolver<'_> {
                 false => format!("names in scope: {}", self.known_names()),
             })
         };
-        self.report(diagnostic.help(elsewhere(name).map_or_else(among, str::to_owned)))
+        let mut diagnostic = diagnostic.help(elsewhere(name).map_or_else(among, str::to_owned));
+        diagnostic.help.extend(self.scope.hint.map(str::to_owned));
+        self.report(diagnostic)
     }
 
     fn known_names(&self) -> String {

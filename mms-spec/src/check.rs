@@ -63,7 +63,7 @@ pub struct ExtremeSpec {
 /// Reads one `[[check]]`; `field` are the names that the field defines.
 pub(super) fn check<'a>(
     table: &Table<'a>,
-    (dimension, own): (usize, &[Own]),
+    (dimension, own): (usize, [&[Own]; 2]),
     field: &Names,
     reader: &mut Reader<'a>,
 ) -> Option<CheckSpec> {
@@ -96,12 +96,12 @@ pub(super) fn check<'a>(
 
 fn quantity<'a>(
     table: &Table<'a>,
-    own: &[Own],
+    [possible, known]: [&[Own]; 2],
     reader: &mut Reader<'a>,
 ) -> Option<Spanned<Quantity>> {
     let found = reader.required_string(table, "quantity")?;
     let span = found.span;
-    let value = Quantity::among(own, &found.value);
+    let value = Quantity::among(possible, &found.value);
     match value {
         Some(value) if value.takes_normal() => {
             let help = match value {
@@ -121,7 +121,8 @@ fn quantity<'a>(
         Some(value) if !value.is_on_request() => Some(Spanned { value, span }),
         _ => {
             let names = Quantity::pointwise().map(Quantity::name);
-            let names: Vec<_> = names.chain(own.iter().map(|own| own.described().name.as_str())).collect();
+            let known = known.iter().map(|own| own.described().name.as_str());
+            let names: Vec<_> = names.chain(known).collect();
             reader.report(unknown_word(&found, "quantity", &names));
             None
         }

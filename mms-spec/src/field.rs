@@ -13,7 +13,7 @@ use crate::formula::Formula;
 use crate::given::{GivenSpec, givens};
 use crate::material::{MaterialUse, material_use};
 use crate::names::{Keeper, Names};
-use crate::own::possible_quantities;
+use crate::own::{own_quantities, possible_quantities};
 use crate::rigid::{RigidSpec, rigid};
 use crate::source::{SourceId, Sources, Span};
 use crate::study::{StudySpec, studies};
@@ -304,7 +304,8 @@ impl Evidence {
         names: &Names,
         reader: &mut Reader<'a>,
     ) -> Self {
-        let (dimension, own) = (field.dimension, possible_quantities(field));
+        let (dimension, possible, known) =
+            (field.dimension, possible_quantities(field), own_quantities(field, None));
         let parameters = field.parameters.iter().map(|parameter| parameter.name.value.as_str());
         let parameters: Vec<&str> = parameters.collect();
         let mut tables = |key: &str, keys: &[Key]| match root.get(key) {
@@ -316,7 +317,7 @@ impl Evidence {
         Evidence {
             checks: checks
                 .iter()
-                .filter_map(|table| check(table, (dimension, &own), names, reader))
+                .filter_map(|table| check(table, (dimension, [&possible, &known]), names, reader))
                 .collect(),
             studies: studies(&study, reader),
             extremes: extremes(&extreme, &parameters, reader),

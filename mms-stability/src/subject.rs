@@ -59,6 +59,7 @@ impl Formulas {
         let [stress, tangent] = at_rest(&mut graph, &compiled.model);
         let (field, material, model) = (&compiled.field, &compiled.material, &compiled.model);
         let is_pressed = !model.givens.is_empty()
+            && !graph.is_zero(stress[0])
             && is_spherical(&graph, &stress)
             && !pressures(&mut graph, field, material, model).is_empty();
         let position = quantity(Quantity::Position);

@@ -20,12 +20,12 @@ pub trait Kernel {
     fn quantity<T: Real>(quantity: Quantity, time: T, point: &[T]) -> Vec<T>;
     /// rho0 at a point.
     fn density<T: Real>(point: &[T]) -> T;
-    /// W of a displacement gradient, row-major.
-    fn material_strain_energy<T: Real>(point: &[T], gradient: &[T]) -> T;
-    /// P of a displacement gradient, row-major both.
-    fn material_first_piola_kirchhoff<T: Real>(point: &[T], gradient: &[T]) -> Vec<T>;
-    /// tau of a displacement gradient, row-major both.
-    fn material_kirchhoff_stress<T: Real>(point: &[T], gradient: &[T]) -> Vec<T>;
+    /// W of a displacement gradient at a time, row-major.
+    fn material_strain_energy<T: Real>(time: T, point: &[T], gradient: &[T]) -> T;
+    /// P of a displacement gradient at a time, row-major both.
+    fn material_first_piola_kirchhoff<T: Real>(time: T, point: &[T], gradient: &[T]) -> Vec<T>;
+    /// tau of a displacement gradient at a time, row-major both.
+    fn material_kirchhoff_stress<T: Real>(time: T, point: &[T], gradient: &[T]) -> Vec<T>;
 }
 
 /// Implements [`Kernel`] with a module of the gallery.
@@ -89,31 +89,37 @@ macro_rules! kernel {
             }
 
             fn material_strain_energy<T: mms_runtime::math::Real>(
+                time: T,
                 point: &[T],
                 gradient: &[T],
             ) -> T {
                 let field = mms_gallery::$module::prepare(&Default::default());
+                let at = field.at_time(time);
                 let x = point.try_into().expect("DIMENSION components");
-                field.material_strain_energy(x, crate::support::kernel::rows(gradient))
+                at.material_strain_energy(x, crate::support::kernel::rows(gradient))
             }
 
             fn material_first_piola_kirchhoff<T: mms_runtime::math::Real>(
+                time: T,
                 point: &[T],
                 gradient: &[T],
             ) -> Vec<T> {
                 let field = mms_gallery::$module::prepare(&Default::default());
+                let at = field.at_time(time);
                 let x = point.try_into().expect("DIMENSION components");
                 let rows = crate::support::kernel::rows(gradient);
-                field.material_first_piola_kirchhoff(x, rows).concat()
+                at.material_first_piola_kirchhoff(x, rows).concat()
             }
 
             fn material_kirchhoff_stress<T: mms_runtime::math::Real>(
+                time: T,
                 point: &[T],
                 gradient: &[T],
             ) -> Vec<T> {
                 let field = mms_gallery::$module::prepare(&Default::default());
+                let at = field.at_time(time);
                 let x = point.try_into().expect("DIMENSION components");
-                field.material_kirchhoff_stress(x, crate::support::kernel::rows(gradient)).concat()
+                at.material_kirchhoff_stress(x, crate::support::kernel::rows(gradient)).concat()
             }
         }
     };

@@ -41,6 +41,19 @@ impl Emitter<'_> {
         let quantities = self.quantities().map(|quantity| self.quantity(quantity));
         let faces = self.on_faces();
         let material = self.compiled.is_for_a_solver().then(|| self.responses(true));
+        let timeless = self.compiled.is_for_a_solver().then(|| {
+            quote! {
+                /// The body and the functions of the material that need no time.
+                impl<T: Real> ::core::ops::Deref for AtTime<'_, T> {
+                    type Target = Field<T>;
+
+                    #[inline(always)]
+                    fn deref(&self) -> &Field<T> {
+                        self.field
+                    }
+                }
+            }
+        });
         quote! {
             /// The field at one time: everything that needs no X.
             #[derive(Clone, Copy, Debug)]
@@ -59,15 +72,7 @@ impl Emitter<'_> {
                 }
             }
 
-            /// What needs no time, beside what does.
-            impl<T: Real> ::core::ops::Deref for AtTime<'_, T> {
-                type Target = Field<T>;
-
-                #[inline(always)]
-                fn deref(&self) -> &Field<T> {
-                    self.field
-                }
-            }
+            #timeless
 
             impl<T: Real> AtTime<'_, T> {
                 #(#quantities)*

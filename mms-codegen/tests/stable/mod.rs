@@ -199,6 +199,9 @@ fn with_material(stem: &str, text: &str, spec: &MaterialSpec, bulk: usize) -> (S
         format!("{} = {value}\n", parameter.name.value)
     };
     let arguments: String = spec.parameters.iter().enumerate().map(line).collect();
+    // Given fields are at rest, so that they add nothing to what is small.
+    let givens = spec.givens.iter().map(|given| format!("{} = 0\n", given.name.value));
+    let arguments = arguments + &givens.collect::<String>();
     let fibre = if spec.has_fibres() { "fibre = [\"3/5\", \"4/5\", 0]\n" } else { "" };
     let material = spec.name.raw();
     let text =

@@ -16,6 +16,10 @@ use mms_symbolic::sorted::SortedMap;
 /// The quantities that a field file defines.
 pub type OwnQuantities = SortedMap<Own, Vec<Expr>>;
 
+/// What the formulas of balances know beside the names of the file.
+const LANGUAGE: &str = "a balance also knows u_x, v_x, H11, F11, Finv11, C11, Cinv11 and their like, J, and derivatives \
+                        such as T_X and T_t of what [let] and [given] define";
+
 /// The motion that the names of a balance are about.
 struct Moved {
     /// u, the rigid motion included.
@@ -148,6 +152,7 @@ impl Reader<'_> {
         moved: &Moved,
     ) -> Option<SortedMap<Part, Vec<Expr>>> {
         let outer = self.scope.clone();
+        self.scope.hint(LANGUAGE);
         for formula in balance.formulas() {
             self.define_used(field, material, formula, moved);
         }
