@@ -177,8 +177,13 @@ impl Template<'_> {
             let name = &parameter.name.value;
             format!("{name:<7} = \"{}\"", renamed(name))
         });
+        let givens = self.material.givens.iter().map(|given| {
+            let name = &given.name.value;
+            let doc = given.doc.as_ref().map_or_else(String::new, |doc| format!("   # {}", doc.in_a_comment()));
+            format!("{name:<7} = \"0\"{doc}")
+        });
         let fibre = self.material.has_fibres().then(|| "fibre   = [1, 0, 0]".to_string());
-        lines.chain(fibre).collect::<Vec<_>>().join("\n")
+        lines.chain(givens).chain(fibre).collect::<Vec<_>>().join("\n")
     }
 }
 

@@ -142,6 +142,8 @@ fn the_texts_name_every_key_and_every_claim() {
         format::FIELD_FILE,
         format::FIELD,
         format::PARAMETER,
+        format::GIVEN,
+        format::BALANCE,
         format::DISPLACEMENT,
         format::MATERIAL,
         format::DOMAIN,
