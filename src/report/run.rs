@@ -167,14 +167,18 @@ fn table(details: &Details) -> Table {
 
 /// What drove the body.
 fn balance(balance: &Balance) -> Value {
-    json!({
+    let mut document = json!({
         "time": balance.time,
         "kinetic_energy": balance.kinetic_energy,
         "strain_energy": balance.strain_energy,
         "body_work": balance.body_work,
         "energy_residual": balance.energy_residual,
         "surface_force": balance.surface_force,
-    })
+    });
+    if let Some(work) = balance.given_work {
+        document["given_work"] = json!(work);
+    }
+    document
 }
 
 /// Of each quantity the largest over time, and those at the end.

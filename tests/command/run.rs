@@ -211,6 +211,20 @@ fn the_balance_of_energy_closes() {
     assert!(number("strain_energy") > 0.0 && number("time") < 0.045, "{balance}");
 }
 
+/// On rollers, which do no work, the energy changes by the work of b and by that of the given temperature alone: what is missing
+/// is the error of the method, of second order.
+#[test]
+fn the_balance_of_energy_closes_where_a_temperature_is_given() {
+    let [coarse, fine] = [32, 64].map(|cells| {
+        let document = document(&format!("heated_square_2d --cells {cells} --time 0.012"));
+        let balance = &document["diagnostics"]["balance"];
+        let number = |key: &str| balance[key].as_f64().expect("a number");
+        assert!(number("given_work").abs() > 50.0, "{balance}");
+        number("energy_residual").abs()
+    });
+    assert!(fine < 1.0 && coarse / fine > 3.0, "{coarse} {fine}");
+}
+
 /// What could be measured before is still printed.
 #[test]
 fn a_run_that_stops_says_where_and_why() {
