@@ -1,7 +1,7 @@
 //! A poroelastic column whose pore pressure is given, derived by hand.
 //!
 //! ```text
-//! u = A sin(k X) cos(w t),  p = p0 cos(k X) sin(w t),  k = pi/(2 L),  w = k c
+//! u = A sin(k X) cos(w t),  p = p0 cos(k X) sin(w t),  k = pi/(3 L),  w = k c
 //! F = 1 + A k cos(k X) cos(w t),  F' = -k^2 u
 //! P = mu (F - 1/F) + lambda ln F/F - a p
 //! P' = (mu (1 + F^-2) + lambda (1 - ln F) F^-2) F' - a p'
@@ -22,7 +22,7 @@ fn the_generated_column_is_the_column_on_paper() {
         let Parameters { length, young, nu, rho0, amplitude, biot, p0, mobility, storativity } =
             parameters;
         let NeoHookean { lambda, mu } = NeoHookean::of(young, nu);
-        let (k, c) = (PI / (2.0 * length), (young / rho0).sqrt());
+        let (k, c) = (PI / (3.0 * length), (young / rho0).sqrt());
         let w = k * c;
         let state = |x: f64, t: f64| {
             let (sin, cos) = (k * x).sin_cos();

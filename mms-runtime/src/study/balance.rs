@@ -19,7 +19,6 @@ pub struct Balance {
     pub body_work: f64,
     /// The work of given fields until then, that is the change of W with time at fixed F; only of a material that changes
     /// with time.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub given_work: Option<f64>,
     /// Kinetic and strain energy then, less what they were at the start, less the work of b and of given fields: what the
     /// faces did, and what the method gained or lost. Faces that rest, are free or joined by a period do nothing.
@@ -88,7 +87,6 @@ pub(super) struct Tally {
     /// The work of b until the time of the velocities.
     work: f64,
     /// The work of given fields until the last step.
-    #[serde(default)]
     given: f64,
     /// Kinetic and strain energy at the start.
     start: Option<f64>,
