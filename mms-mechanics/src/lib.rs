@@ -41,6 +41,7 @@ pub mod model;
 pub mod offset;
 pub mod output;
 mod place;
+pub mod region;
 mod requested;
 pub mod resolve;
 mod rest;
@@ -53,6 +54,7 @@ pub mod tensor;
 
 pub use derivation::{Derivation, Response, TooLarge, derive, tangent};
 pub use model::{Domain, Model};
+pub use place::{largest_triangle, triangles};
 pub use output::{Bound, Output, Program};
 pub use requested::requested;
 pub use rest::{at_rest, moduli};

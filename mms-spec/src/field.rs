@@ -4,7 +4,7 @@ use crate::check::{CheckSpec, ExtremeSpec, check, extremes};
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::domain::{
-    Body, BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported,
+    BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported,
 };
 use crate::foreign::Foreign;
 use crate::format::{CHECK, DISPLACEMENT, EXTREME, FIELD, FIELD_FILE, Key, STUDY};
@@ -76,12 +76,7 @@ impl FieldSpec {
         all.extend(&self.material.density);
         all.extend(self.material.arguments.iter().map(|(_, value)| value));
         all.extend(self.material.fibre.iter().flatten());
-        match &self.domain.body {
-            Body::Box { lower, upper } => all.extend(lower.iter().chain(upper)),
-            Body::Annulus { inner, outer, theta } => {
-                all.extend([inner, outer].into_iter().chain(theta.iter().flatten()));
-            }
-        }
+        all.extend(self.domain.body.formulas());
         all.extend(self.domain.time.iter().flatten());
         for check in &self.checks {
             all.extend(check.lets.iter().map(|definition| &definition.value));
@@ -146,6 +141,7 @@ pub fn read_field(
         parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
     hold_density(&material, &place.domain, &mut reader);
     let evidence = Evidence::read(&root, dimension, &names, &known, &mut reader);
+    refuse_studies(&evidence.studies, &place.domain, &mut reader);
     Some(FieldSpec {
         name: name.into(),
         title: header.title,
@@ -186,6 +182,16 @@ fn hold_density(material: &MaterialUse, domain: &DomainSpec, reader: &mut Reader
         Diagnostic::error(material.span, "missing key `density`")
             .label("[material] needs `density`")
             .help("only a static field, whose [domain] has no `time`, may leave it out"),
+    );
+}
+
+/// Refuses studies of a field without a body.
+fn refuse_studies(studies: &[StudySpec], domain: &DomainSpec, reader: &mut Reader<'_>) {
+    let Some(first) = studies.first().filter(|_| domain.body.is_nothing()) else { return };
+    reader.report(
+        Diagnostic::error(first.span, "a field without a body has no studies")
+            .label("the solver has nothing to fill with particles")
+            .help("remove [[study]], or give the body that the solver is to run on"),
     );
 }
 

@@ -22,6 +22,7 @@ pub mod foreign;
 mod form;
 pub mod format;
 mod formula;
+mod interned;
 pub mod language;
 mod material;
 pub mod moduli;
@@ -40,7 +41,9 @@ mod value;
 
 pub use check::{CheckSpec, ExtremeSpec, REGIMES};
 pub use document::MAX_FILE;
-pub use domain::{BODIES, Body, BoundarySpec, Claim, DomainSpec, Face};
+pub use domain::{
+    BODIES, BODY_KEYS, Body, BoundarySpec, Claim, DomainSpec, Face, MAX_VERTICES, Polygon, Round, Shape,
+};
 pub use field::{FieldSpec, read_field};
 pub use folder::{FieldFile, field_files};
 pub use form::Form;

@@ -8,7 +8,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-math",
         knows: &[],
         layers: &[
-            "defect double lane quick",
+            "coordinates defect double lane polygon quick",
             "batch block dispatch float kept machine places structures",
             "bunched generate",
         ],
@@ -28,7 +28,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-spec",
         knows: &[],
         layers: &[
-            "brackets foreign language quantity suggest",
+            "brackets foreign interned language quantity suggest",
             "source",
             "diagnostic formula",
             "document form syntax",
@@ -146,7 +146,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-diagnosis",
         knows: &["mms-runtime"],
         layers: &[
-            "falls law sample slopes smooth",
+            "body falls law sample slopes smooth",
             "exact",
             "evidence hypothesis material",
             "answer changed quadrature",

@@ -14,7 +14,6 @@ use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
 use mms_mechanics::extent::spread;
 use mms_mechanics::face::normal;
-use mms_mechanics::model::Body;
 use mms_mechanics::tensor::dot;
 use mms_mechanics::{Response, face};
 use mms_program::interpret::Number as _;
@@ -150,11 +149,9 @@ impl<'a> OnFace<'a> {
     /// Formulas in X in terms of the coordinates that vary on the face, for any parameters.
     fn restrict(&self, graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
         let body = &self.compiled.model.domain.body;
-        let polar = face::polar(graph, body);
-        let general = straightened(graph, formulas, &polar);
-        let (axis, is_upper) = face::fixed_coordinate(self.face);
-        let bound = face::bounds(body)[axis][usize::from(is_upper)];
-        substitute(graph, &general, &[(Symbol::Coordinate(axis), bound)].into())
+        let places = face::places(graph, body, Some(self.face));
+        let general = straightened(graph, formulas, &places);
+        substitute(graph, &general, &face::constant(body, self.face))
     }
 
     fn displacement(&self, graph: &mut Graph) -> Vec<Expr> {
@@ -321,14 +318,8 @@ fn size(compiled: &Compiled) -> f64 {
     graph.make_room();
     graph.work().allow(STEPS_OF_SCALE);
     let body = &compiled.model.domain.body;
-    let lengths: Vec<Expr> = match body {
-        Body::Box { lower, upper } => {
-            upper.iter().zip(lower).map(|(upper, lower)| graph.sub(*upper, *lower)).collect()
-        }
-        Body::Annulus { outer, .. } => vec![graph.scale(*outer, 2)],
-    };
-    let values = crate::declared::values(&graph, &compiled.model, &lengths);
-    values.into_iter().fold(0.0, f64::max)
+    let values = crate::declared::values(&graph, &compiled.model, &body.values());
+    body.with(values).size()
 }
 
 /// The longitudinal modulus at F = I, in the middle of the body.

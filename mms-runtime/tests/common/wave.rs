@@ -97,7 +97,7 @@ impl<const D: usize> Wave<D> {
     pub fn reflected(&self) -> Self {
         let body = match &self.body {
             Body::Box { lower, upper } => Body::Box { lower: -upper, upper: -lower },
-            annulus @ Body::Annulus { .. } => annulus.clone(),
+            other => other.clone(),
         };
         Self {
             body,
