@@ -97,7 +97,7 @@ fn bodies_with_an_axis_or_a_centre_are_proved() {
     let disk = assert_proved(&file(2, "", plane, "shape = \"disk\"\nouter = 1\n"));
     // J = (1 + t/10 + t Y/20) (1 + t/10), least and greatest on the rim.
     let [lower, upper] = bounds(&disk);
-    assert!(0.9 < lower && lower <= 1.0 && 1.265 <= upper && upper < 1.35, "{lower}, {upper}");
+    assert!(0.9 < lower && lower <= 1.0 && 1.265 <= upper && upper < 1.5, "{lower}, {upper}");
     let bodies = [
         "shape = \"cylinder\"\ninner = 0\nouter = 1\nz = [-1, 1]\n",
         "shape = \"sphere\"\ninner = 0\nouter = 1\n",
@@ -105,7 +105,7 @@ fn bodies_with_an_axis_or_a_centre_are_proved() {
     ];
     for body in bodies {
         let [lower, upper] = bounds(&assert_proved(&file(3, "", space, body)));
-        assert!(0.9 < lower && lower <= 1.0 && 1.3915 <= upper && upper < 1.5, "{lower}, {upper}");
+        assert!(0.9 < lower && lower <= 1.0 && 1.3915 <= upper && upper < 1.6, "{lower}, {upper}");
     }
 }
 
@@ -148,7 +148,16 @@ fn false_claims_on_curved_faces_are_refuted_there() {
     for (rest, radius) in cases {
         let failure = try_compile(&file(3, &lets, &u, rest)).expect_err("a false claim");
         let text = failure.to_string();
-        assert!(text.contains("does not hold") || text.contains("is not"), "{radius}: {text}");
+        // The place that the message names lies on the face.
+        let number = |axis: &str| -> f64 {
+            let (_, rest) = text.split_once(&format!("{axis} = ")).expect("a place");
+            rest.split([',', '\n']).next().and_then(|it| it.parse().ok()).expect("a number")
+        };
+        let [x, y, z] = ["X", "Y", "Z"].map(number);
+        let is_ball = rest.contains("sphere");
+        let found = if is_ball { x.hypot(y).hypot(z) } else { x.hypot(y) };
+        assert!(text.contains("face: not everywhere is"), "{text}");
+        assert!((found - radius).abs() < 1e-12, "{radius}: {text}");
     }
     let triangle = "shape = \"polygon\"\nvertices = [[0, 0], [1, 0], [0, 1]]\n[boundary]\nedge_2 = \"fixed\"\n";
     let failure = try_compile(&file(2, "", "\"t*X*Y/9\", \"0\"", triangle));

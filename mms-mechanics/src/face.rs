@@ -72,6 +72,18 @@ pub fn normal(graph: &mut Graph, body: &Body, dimension: usize, face: Face) -> V
     normal
 }
 
+/// The outward unit normal of a face of a block, in the coordinates of [`places`].
+pub fn direction(graph: &mut Graph, body: &Body, face: Face) -> [Expr; 3] {
+    let system = match body {
+        Region::Block(block) => block.system,
+        _ => System::Cartesian,
+    };
+    let symbols = coordinates(graph);
+    let (axis, is_upper) = fixed_coordinate(face);
+    let direction = system.basis(&mut Formulas(graph), &symbols)[axis];
+    direction.map(|component| graph.scale(component, if is_upper { 1 } else { -1 }))
+}
+
 trait Products {
     /// A product times a sign.
     fn product_of(&mut self, factors: &[Expr], sign: i32) -> Expr;
