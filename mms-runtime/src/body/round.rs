@@ -163,8 +163,10 @@ impl Block {
         }
         let particle = filling.position.len();
         let mut half_edges = Matrix::<f64, D>::zeros();
-        for axis in 0..D {
-            half_edges.set_column(axis, &(directions[axis] * (edges[axis] / 2.0)));
+        // Radius, theta and phi are left-handed: a domain takes them the other way round.
+        let order = if self.system == System::Spherical { [0, 2, 1] } else { [0, 1, 2] };
+        for (column, axis) in order.into_iter().take(D).enumerate() {
+            half_edges.set_column(column, &(directions[axis] * (edges[axis] / 2.0)));
         }
         let position = self.place::<D>(&centre);
         for face in self.faces() {
