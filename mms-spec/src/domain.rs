@@ -455,16 +455,18 @@ fn round<'a>(table: &Table<'a>, shape: &'static Shape, reader: &mut Reader<'a>) 
 fn polygon<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Polygon {
     let entry = reader.required(table, "vertices");
     let span = entry.as_ref().map_or(table.span, |entry| reader.span(entry.value));
-    let vertices = entry.map_or_else(Vec::new, |entry| reader.pairs(&entry, "vertices"));
+    let read = entry.and_then(|entry| reader.pairs(&entry, "vertices"));
+    let is_known = read.is_some();
+    let vertices = read.unwrap_or_default();
     let count = vertices.len();
-    if (1..3).contains(&count) || count > MAX_VERTICES {
+    if is_known && !(3..=MAX_VERTICES).contains(&count) {
         let message = format!("a polygon of {}", plural_vertices(count));
         let label = format!("expected from 3 to {MAX_VERTICES}");
         reader.report(Diagnostic::error(span, message).label(label));
     }
     let usual = || (1..=count).map(|number| interned(&format!("edge_{number}"))).collect();
     let names = match table.get("names") {
-        Some(entry) => edges(&entry, count, reader).unwrap_or_else(usual),
+        Some(entry) => edges(&entry, is_known.then_some(count), reader).unwrap_or_else(usual),
         None => usual(),
     };
     Polygon { vertices, names, span }
@@ -477,11 +479,11 @@ fn plural_vertices(count: usize) -> String {
 /// The names of edges, if they are as many different ones.
 fn edges<'a>(
     entry: &Entry<'a>,
-    count: usize,
+    count: Option<usize>,
     reader: &mut Reader<'a>,
 ) -> Option<Vec<&'static str>> {
     let names = reader.strings(entry)?;
-    if names.len() != count && count > 0 {
+    if let Some(count) = count.filter(|count| *count != names.len()) {
         let message = format!("`names` has {}, expected {count}", plural(names.len(), "name"));
         let label = "a polygon has as many edges as vertices; the first runs from the first to the second";
         reader.report(Diagnostic::error(reader.span(entry.value), message).label(label));

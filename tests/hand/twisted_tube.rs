@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! x     = R e_r + Z e_z,  e_r and e_t being the polar basis at Theta + psi
-//! psi   = A (R^2 - ri^2)/(ro^2 - ri^2),  A = a sin(w t + pi/6),  w = 2 c/ro
+//! psi   = A (R^2 - ri^2)/(ro^2 - ri^2),  A = a cos(w t),  w = 2 c/ro
 //! F     = Q (I + g E_T E_R),  g = R psi',  Q the rotation by psi;  J = 1
 //! P     = mu (F - F^-T) = mu g (e_t E_R + e_r E_T)
 //! Div P = mu (g' + 2 g/R) e_t - mu g psi' e_r,  since e_t,R = -psi' e_r and e_r,T = e_t, E_R,T = E_T
@@ -35,9 +35,9 @@ fn the_generated_tube_is_the_tube_on_paper() {
         let by_hand = |[x, y, _]: [f64; 3], t: f64| {
             let r = x.hypot(y);
             let part = (r * r - inner * inner) / span;
-            let (sin, cos) = (w * t + std::f64::consts::FRAC_PI_6).sin_cos();
-            let (angle, speed) = (amplitude * sin * part, amplitude * w * cos * part);
-            let slope = amplitude * sin * 2.0 * r / span;
+            let (sin, cos) = (w * t).sin_cos();
+            let (angle, speed) = (amplitude * cos * part, -amplitude * w * sin * part);
+            let slope = amplitude * cos * 2.0 * r / span;
             let (shear, growth) = (r * slope, 2.0 * slope);
             let turned = |theta: f64| Vector::<f64, 3>::new(theta.cos(), theta.sin(), 0.0);
             let quarter = std::f64::consts::FRAC_PI_2;
@@ -64,7 +64,7 @@ fn the_load_on_the_outer_surface_is_the_shear_stress() {
     let mu = NeoHookean::of(young, nu).mu;
     let c = (young / rho0).sqrt();
     for ([x, y, z], t) in points(outer, outer, height, outer / c) {
-        let angle = amplitude * (2.0 * c * t / outer + std::f64::consts::FRAC_PI_6).sin();
+        let angle = amplitude * (2.0 * c * t / outer).cos();
         let shear = 2.0 * angle * outer * outer / (outer * outer - inner * inner);
         let theta = y.atan2(x) + angle;
         let expected = [-theta.sin() * mu * shear, theta.cos() * mu * shear, 0.0];

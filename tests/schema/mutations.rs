@@ -8,6 +8,11 @@ use super::verdict::{Kind, json, reader_accepts};
 const FULL: &[(Kind, &str)] = &[
     (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/every_key_2d.toml")),
     (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/every_key_3d.toml")),
+    (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/units_cylinder.toml")),
+    (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/units_sphere.toml")),
+    (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/units_disk.toml")),
+    (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/units_polygon.toml")),
+    (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/units_nothing.toml")),
     (Kind::Field, include_str!("../../fields/bar_1d.toml")),
     (Kind::Material, include_str!("../../mms-codegen/tests/data/pass/material_every_key.toml")),
     (Kind::Field, include_str!("../../fields/plane_strain_gent.toml")),
