@@ -13,8 +13,8 @@ mod material;
 
 use mms_math::Scalar as _;
 
-use mms_mechanics::model::parameter_values;
 use mms_mechanics::model::Model;
+use mms_mechanics::model::parameter_values;
 use mms_program::interpret::Interpreter;
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule;
@@ -252,8 +252,8 @@ impl<'a> Declared<'a> {
             return Some(bound);
         }
         let message = "this bound is not a real number";
-        let diagnostic = Diagnostic::error(formula.span, message)
-            .label("not defined for these parameters");
+        let diagnostic =
+            Diagnostic::error(formula.span, message).label("not defined for these parameters");
         let diagnostic = self.with_parameters(diagnostic, &[expr]);
         self.report(diagnostic);
         None

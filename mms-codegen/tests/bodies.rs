@@ -38,9 +38,19 @@ fn assert_proved(text: &str) -> Certificate {
     let compiled = compiled(text);
     let certificate = certify(&compiled);
     for (claim, finding) in &certificate.claims {
-        assert_eq!(*finding, Finding::Proved, "{}: {}\n{text}", claim.face.value.name(), claim.claim.value.name());
+        assert_eq!(
+            *finding,
+            Finding::Proved,
+            "{}: {}\n{text}",
+            claim.face.value.name(),
+            claim.claim.value.name()
+        );
     }
-    assert!(matches!(certificate.jacobian, Sign::Positive(_)), "{:?}\n{text}", certificate.jacobian);
+    assert!(
+        matches!(certificate.jacobian, Sign::Positive(_)),
+        "{:?}\n{text}",
+        certificate.jacobian
+    );
     let objections = certificate.objections(&compiled);
     assert!(objections.is_empty(), "{objections:?}\n{text}");
     certificate
@@ -143,7 +153,10 @@ fn false_claims_on_curved_faces_are_refuted_there() {
     let cases = [
         ("shape = \"sphere\"\ninner = 1\nouter = \"3/2\"\n[boundary]\nouter = \"fixed\"\n", 1.5),
         ("shape = \"sphere\"\ninner = 1\nouter = 2\n[boundary]\ninner = \"free\"\n", 1.0),
-        ("shape = \"cylinder\"\ninner = 0.5\nouter = 1\nz = [0, 1]\n[boundary]\nouter = \"roller\"\n", 1.0),
+        (
+            "shape = \"cylinder\"\ninner = 0.5\nouter = 1\nz = [0, 1]\n[boundary]\nouter = \"roller\"\n",
+            1.0,
+        ),
     ];
     for (rest, radius) in cases {
         let failure = try_compile(&file(3, &lets, &u, rest)).expect_err("a false claim");
@@ -175,11 +188,31 @@ fn each_face_of_each_body_has_its_own_normal() {
     };
     let round = ["inner", "outer", "theta_min", "theta_max"];
     let cases = [
-        (3, space, "shape = \"cylinder\"\ninner = 1\nouter = 2\ntheta = [\"pi/7\", 2]\nz = [-1, 1]\n", [&round[..], &["z_min", "z_max"]].concat()),
-        (3, space, "shape = \"sphere\"\ninner = 1\nouter = 2\ntheta = [\"pi/7\", 2]\nphi = [\"pi/5\", 2]\n", [&round[..], &["phi_min", "phi_max"]].concat()),
+        (
+            3,
+            space,
+            "shape = \"cylinder\"\ninner = 1\nouter = 2\ntheta = [\"pi/7\", 2]\nz = [-1, 1]\n",
+            [&round[..], &["z_min", "z_max"]].concat(),
+        ),
+        (
+            3,
+            space,
+            "shape = \"sphere\"\ninner = 1\nouter = 2\ntheta = [\"pi/7\", 2]\nphi = [\"pi/5\", 2]\n",
+            [&round[..], &["phi_min", "phi_max"]].concat(),
+        ),
         (2, plane, "shape = \"disk\"\nouter = 2\ntheta = [\"pi/7\", 2]\n", round[1..].to_vec()),
-        (2, plane, "shape = \"polygon\"\nvertices = [[0, 0], [\"4/3\", 0], [1, \"1/3\"], [\"4/3\", 1], [0, 1]]\n", vec!["edge_1", "edge_2", "edge_3", "edge_4", "edge_5"]),
-        (2, plane, "shape = \"polygon\"\nvertices = [[0, 1], [\"4/3\", 1], [1, \"1/3\"], [\"4/3\", 0], [0, 0]]\n", vec!["edge_1", "edge_2", "edge_3", "edge_4", "edge_5"]),
+        (
+            2,
+            plane,
+            "shape = \"polygon\"\nvertices = [[0, 0], [\"4/3\", 0], [1, \"1/3\"], [\"4/3\", 1], [0, 1]]\n",
+            vec!["edge_1", "edge_2", "edge_3", "edge_4", "edge_5"],
+        ),
+        (
+            2,
+            plane,
+            "shape = \"polygon\"\nvertices = [[0, 1], [\"4/3\", 1], [1, \"1/3\"], [\"4/3\", 0], [0, 0]]\n",
+            vec!["edge_1", "edge_2", "edge_3", "edge_4", "edge_5"],
+        ),
     ];
     for (dimension, u, body, faces) in cases {
         let compiled = compiled(&file(dimension, "", u, &(body.to_string() + &claims(&faces))));
@@ -191,15 +224,22 @@ fn each_face_of_each_body_has_its_own_normal() {
             seen += 1;
             for index in 1..4 {
                 let (place, normal) = placed(&compiled, face, index);
-                let inward: Vec<f64> =
-                    place.iter().zip(&normal).map(|(x, n)| x.to_f64() - 1e-3 * n.to_f64()).collect();
-                let outward: Vec<f64> =
-                    place.iter().zip(&normal).map(|(x, n)| x.to_f64() + 1e-3 * n.to_f64()).collect();
+                let inward: Vec<f64> = place
+                    .iter()
+                    .zip(&normal)
+                    .map(|(x, n)| x.to_f64() - 1e-3 * n.to_f64())
+                    .collect();
+                let outward: Vec<f64> = place
+                    .iter()
+                    .zip(&normal)
+                    .map(|(x, n)| x.to_f64() + 1e-3 * n.to_f64())
+                    .collect();
                 assert!(near.contains(&inward) && !near.contains(&outward), "{face:?}, {body}");
                 // A step of that length along the normal goes that far from the face.
                 assert!((near.distance_to(face, &inward) - 1e-3).abs() < 1e-9, "{face:?}, {body}");
                 let found = value(&compiled, output, &place, &[]);
-                let expected = value(&compiled, Output::Quantity(Quantity::Traction), &place, &normal);
+                let expected =
+                    value(&compiled, Output::Quantity(Quantity::Traction), &place, &normal);
                 for (found, expected) in found.iter().zip(&expected) {
                     let apart = (found.clone() - expected.clone()).magnitude();
                     assert!(apart.at_most(&Precise::from_f64(1e-60)), "{face:?}, {body}");
@@ -240,7 +280,12 @@ fn placed(compiled: &Compiled, face: Face, index: usize) -> (Vec<Precise>, Vec<P
     (place, normal)
 }
 
-fn value(compiled: &Compiled, output: Output, place: &[Precise], normal: &[Precise]) -> Vec<Precise> {
+fn value(
+    compiled: &Compiled,
+    output: Output,
+    place: &[Precise],
+    normal: &[Precise],
+) -> Vec<Precise> {
     let mut interpreter = Interpreter::new(&compiled.program, &[]);
     interpreter.set_time(&Precise::from_f64(0.5));
     let plan = interpreter.plan(&[output]);

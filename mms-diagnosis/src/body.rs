@@ -57,7 +57,8 @@ pub fn away<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>)
         }
         (Body::Polygon { vertices, .. }, Face::Edge(first, _)) => {
             let [lower, upper] = bounds(body);
-            polygon::nearest(polygon::edge(vertices, first), [x[0], x[1]]).1 / (upper - lower).amax()
+            polygon::nearest(polygon::edge(vertices, first), [x[0], x[1]]).1
+                / (upper - lower).amax()
         }
         (body, face) => {
             let Some(block) = block(body) else { return 1.0 };
@@ -78,6 +79,10 @@ pub fn away<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>)
 }
 
 /// N at X on a face.
-pub fn normal<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>) -> Vector<f64, D> {
+pub fn normal<const D: usize>(
+    body: &Body<f64, D>,
+    face: Face,
+    x: &Vector<f64, D>,
+) -> Vector<f64, D> {
     Surface::new(body, face).foot(x)[1]
 }

@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use mms_runtime::{Domain, ManufacturedField, Material, Matrix, Vector};
 
-use crate::exact::Exact;
 use crate::body::{faces, is_on};
+use crate::exact::Exact;
 use crate::hypothesis::{Change, Given, Hypothesis, MotionPart};
 
 /// Terms that are left out on purpose.
@@ -190,4 +190,3 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
         }
     }
 }
-

@@ -184,7 +184,10 @@ impl Quadrilateral {
     pub fn point(&self, [s, t]: [f64; 2]) -> Vertex {
         let [a, b, c, d] = self.corners;
         core::array::from_fn(|k| {
-            (1.0 - s) * (1.0 - t) * a[k] + s * (1.0 - t) * b[k] + s * t * c[k] + (1.0 - s) * t * d[k]
+            (1.0 - s) * (1.0 - t) * a[k]
+                + s * (1.0 - t) * b[k]
+                + s * t * c[k]
+                + (1.0 - s) * t * d[k]
         })
     }
 

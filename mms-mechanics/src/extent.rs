@@ -8,8 +8,8 @@ use mms_program::interpret::Number;
 use mms_spec::Face;
 use mms_symbolic::expr::Rational;
 
-pub use crate::region::{Block, Region};
 use crate::region::fixed_coordinate;
+pub use crate::region::{Block, Region};
 
 /// What rounding makes of a bound, relative to the larger one.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -350,7 +350,10 @@ mod tests {
         assert!((bodies[1].distance_to(Face::Outer, &[-1.5, 0.0]) - 0.5).abs() < 1e-15);
         assert!((bodies[1].distance_to(Face::ThetaMin, &[0.0, 2.0]) - 2f64.sqrt()).abs() < 1e-15);
         assert!((bodies[1].distance_to(Face::ThetaMax, &[-1.0, -1.0]) - 1.0).abs() < 1e-15);
-        assert!((bodies[3].distance_to(Face::Edge(3, "slope"), &[0.0, 0.0]) - 0.5f64.sqrt()).abs() < 1e-15);
+        assert!(
+            (bodies[3].distance_to(Face::Edge(3, "slope"), &[0.0, 0.0]) - 0.5f64.sqrt()).abs()
+                < 1e-15
+        );
         assert_eq!(bodies[3].distance_to(Face::Min(0), &[0.0, 0.0]), f64::INFINITY);
         assert_eq!(bodies[0].measure(), 4.0);
         assert!((bodies[2].measure() - 0.75 * PI).abs() < 1e-12);
@@ -372,8 +375,7 @@ mod tests {
             let places = [[0.0, 0.0, 0.1], [1.0, 2.0, 3.0], [0.3, 0.6, 0.2], [-0.5, -0.6, -0.4]];
             for place in places {
                 let points = fractions().flat_map(|a| {
-                    fractions()
-                        .flat_map(move |b| fractions().map(move |c| body.point(&[a, b, c])))
+                    fractions().flat_map(move |b| fractions().map(move |c| body.point(&[a, b, c])))
                 });
                 let away = |p: Vec<f64>| {
                     p.iter().zip(place).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()

@@ -54,7 +54,7 @@ pub mod tensor;
 
 pub use derivation::{Derivation, Response, TooLarge, derive, tangent};
 pub use model::{Domain, Model};
-pub use place::{largest_triangle, triangles};
 pub use output::{Bound, Output, Program};
+pub use place::{largest_triangle, triangles};
 pub use requested::requested;
 pub use rest::{at_rest, moduli};

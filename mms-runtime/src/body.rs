@@ -147,18 +147,17 @@ impl<'a> Region<'a> {
             Ok(Region::Round(Block { system, bounds }))
         };
         match body {
-            Body::Annulus { inner, outer, theta } => {
-                round(System::Polar, [inner, outer], &[theta])
-            }
+            Body::Annulus { inner, outer, theta } => round(System::Polar, [inner, outer], &[theta]),
             Body::Cylinder { inner, outer, theta, z } => {
                 round(System::Polar, [inner, outer], &[theta, z])
             }
             Body::Sphere { inner, outer, theta, phi } => {
                 round(System::Spherical, [inner, outer], &[theta, phi])
             }
-            Body::Polygon { vertices, names } => {
-                Ok(Region::Polygon(Polygon { vertices: vertices.iter().map(pair).collect(), names }))
-            }
+            Body::Polygon { vertices, names } => Ok(Region::Polygon(Polygon {
+                vertices: vertices.iter().map(pair).collect(),
+                names,
+            })),
             Body::Box { .. } | Body::Nothing => Err(Refusal::NoBody),
         }
     }

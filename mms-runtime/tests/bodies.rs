@@ -185,10 +185,8 @@ fn round_bodies_in_space_are_full() {
         ]);
         measures(&cylinder(inner, [0.2, 2.1]), ring * 1.9 * 0.8, &sector);
         let ball = (1.1f64.powi(3) - inner.powi(3)) / 3.0;
-        let whole = of(&[
-            hollow(inner * inner * 2.0 * TAU).as_slice(),
-            &outside(1.1 * 1.1 * 2.0 * TAU),
-        ]);
+        let whole =
+            of(&[hollow(inner * inner * 2.0 * TAU).as_slice(), &outside(1.1 * 1.1 * 2.0 * TAU)]);
         measures(&sphere(inner, [0.0, TAU], [0.0, PI]), ball * 2.0 * TAU, &whole);
         // Between two cones, and between two half planes.
         let [up, down] = [0.5f64, 2.0];

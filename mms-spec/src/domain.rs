@@ -485,7 +485,8 @@ fn edges<'a>(
     let names = reader.strings(entry)?;
     if let Some(count) = count.filter(|count| *count != names.len()) {
         let message = format!("`names` has {}, expected {count}", plural(names.len(), "name"));
-        let label = "a polygon has as many edges as vertices; the first runs from the first to the second";
+        let label =
+            "a polygon has as many edges as vertices; the first runs from the first to the second";
         reader.report(Diagnostic::error(reader.span(entry.value), message).label(label));
         return None;
     }

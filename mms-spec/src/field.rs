@@ -3,9 +3,7 @@
 use crate::check::{CheckSpec, ExtremeSpec, check, extremes};
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
-use crate::domain::{
-    BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported,
-};
+use crate::domain::{BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported};
 use crate::foreign::Foreign;
 use crate::format::{CHECK, DISPLACEMENT, EXTREME, FIELD, FIELD_FILE, Key, STUDY};
 use crate::formula::Formula;

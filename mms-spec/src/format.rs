@@ -233,11 +233,7 @@ pub const DOMAIN: &[Key] = &[
         Holds::Formulas(Length::Exactly(2)),
         "The first and the last angle from +Z of a part of a sphere; from 0 to pi without them.",
     ),
-    optional(
-        "vertices",
-        Holds::Vertices,
-        "The vertices of a polygon, in their order around it.",
-    ),
+    optional("vertices", Holds::Vertices, "The vertices of a polygon, in their order around it."),
     optional(
         "names",
         Holds::Words,

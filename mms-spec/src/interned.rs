@@ -24,6 +24,8 @@ mod tests {
     #[test]
     fn a_text_is_kept_once() {
         let kept = interned("crack_mouth");
-        assert!(std::ptr::eq(kept, interned(&String::from("crack_mouth"))) && kept == "crack_mouth");
+        assert!(
+            std::ptr::eq(kept, interned(&String::from("crack_mouth"))) && kept == "crack_mouth"
+        );
     }
 }

@@ -42,7 +42,8 @@ mod value;
 pub use check::{CheckSpec, ExtremeSpec, REGIMES};
 pub use document::MAX_FILE;
 pub use domain::{
-    BODIES, BODY_KEYS, Body, BoundarySpec, Claim, DomainSpec, Face, MAX_VERTICES, Polygon, Round, Shape,
+    BODIES, BODY_KEYS, Body, BoundarySpec, Claim, DomainSpec, Face, MAX_VERTICES, Polygon, Round,
+    Shape,
 };
 pub use field::{FieldSpec, read_field};
 pub use folder::{FieldFile, field_files};

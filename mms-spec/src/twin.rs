@@ -60,9 +60,12 @@ impl Twin {
         }
         if *self == Twin::Standard && field.domain.body.is_nothing() {
             diagnostics.push(
-                Diagnostic::error(field.material.span, "a field without a body has no standard twin")
-                    .label("the translation would be some times the size of its body")
-                    .help("give a motion, as in --rigid 'rotation = \"pi*t\"'"),
+                Diagnostic::error(
+                    field.material.span,
+                    "a field without a body has no standard twin",
+                )
+                .label("the translation would be some times the size of its body")
+                .help("give a motion, as in --rigid 'rotation = \"pi*t\"'"),
             );
             return;
         }

@@ -138,8 +138,7 @@ impl Subject {
         let compiled = &self.input.compiled;
         let (extent, _) = domain(&compiled.program, &compiled.parameters::<f64>(&self.set));
         let Some(bounds) = extent.box_bounds() else { return Ok(None) };
-        let middle: Vec<f64> =
-            bounds.iter().map(|[lower, upper]| (lower + upper) / 2.0).collect();
+        let middle: Vec<f64> = bounds.iter().map(|[lower, upper]| (lower + upper) / 2.0).collect();
         let scene = self.input.scene_with(&self.set, |code| code.double)?;
         Ok(Some(Elasticity::of(&scene, &middle)))
     }

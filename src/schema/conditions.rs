@@ -167,7 +167,10 @@ fn round_faces() -> Vec<Value> {
 fn edges() -> Value {
     let mut polygon = has(&[shape_is("polygon")]);
     extend(&mut polygon, json!({ "not": has(&[("domain.names", json!(true))]) }));
-    if_then(polygon, at("boundary", json!({ "propertyNames": { "pattern": "^edge_[1-9][0-9]*$" } })))
+    if_then(
+        polygon,
+        at("boundary", json!({ "propertyNames": { "pattern": "^edge_[1-9][0-9]*$" } })),
+    )
 }
 
 /// A field without a body has no faces and no studies.

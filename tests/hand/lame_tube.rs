@@ -20,8 +20,7 @@ fn the_generated_tube_is_the_tube_on_paper() {
             let (strain, hoop) = (first - second / (r * r), first + second / (r * r));
             let radial = Vector::<f64, 3>::new(x / r, y / r, 0.0);
             let around = Vector::<f64, 3>::new(-y / r, x / r, 0.0);
-            let strains =
-                radial * radial.transpose() * strain + around * around.transpose() * hoop;
+            let strains = radial * radial.transpose() * strain + around * around.transpose() * hoop;
             let stress: Matrix<f64, 3> =
                 Matrix::<f64, 3>::identity() * (lambda * (strain + hoop)) + strains * (2.0 * mu);
             // det(I + H), of a motion along the radius.
@@ -32,9 +31,8 @@ fn the_generated_tube_is_the_tube_on_paper() {
         };
         let quarter = std::f64::consts::FRAC_PI_2;
         let round = in_box([inner, 0.0, 0.0], [outer, quarter, height], [0.0, 0.1]).into_iter();
-        let points: Vec<_> = round
-            .map(|([r, theta, z], t)| ([r * theta.cos(), r * theta.sin(), z], t))
-            .collect();
+        let points: Vec<_> =
+            round.map(|([r, theta, z], t)| ([r * theta.cos(), r * theta.sin(), z], t)).collect();
         // b is 0 on paper, and what rounding leaves of stresses over a length in the code.
         let generated = |x, t| {
             let values: Values = generated!(prepare(&parameters))(x, t);

@@ -25,7 +25,8 @@ fn points(inner: f64, outer: f64, height: f64, end: f64) -> Vec<([f64; 3], f64)>
 
 #[test]
 fn the_generated_tube_is_the_tube_on_paper() {
-    let odd = Parameters::<f64> { inner: 0.9, outer: 1.6, amplitude: -0.7, ..Parameters::default() };
+    let odd =
+        Parameters::<f64> { inner: 0.9, outer: 1.6, amplitude: -0.7, ..Parameters::default() };
     for parameters in [Parameters::default(), odd] {
         let Parameters { inner, outer, height, young, nu, rho0, amplitude } = parameters;
         let mu = NeoHookean::of(young, nu).mu;

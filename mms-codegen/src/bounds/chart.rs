@@ -238,8 +238,7 @@ impl Chart {
             })
         };
         let along = fractions[0].clone() * T::from_f64(count);
-        let [[from, to], across] =
-            [&along, &fractions[1]].map(|fraction| fraction.bounds());
+        let [[from, to], across] = [&along, &fractions[1]].map(|fraction| fraction.bounds());
         if from == to && across[0] == across[1] {
             let s = along - T::from_f64(first as f64);
             return point(first, &s, &fractions[1]);

@@ -8,8 +8,8 @@ use mms_math::coordinates::System;
 
 use super::Compiled;
 use crate::declared::elasticity::{curvatures, stiffness};
-use mms_mechanics::invariant::Kind;
 use mms_mechanics::extent::Region;
+use mms_mechanics::invariant::Kind;
 use mms_mechanics::model::Model;
 use mms_program::Program;
 use mms_program::interpret::{Interpreter, Number as _, Point};

@@ -147,7 +147,9 @@ impl<'a> Declared<'a> {
             let diagnostic = Diagnostic::error(bound.formula.span, message)
                 .label(format!("this is {}", digits(&bound.value)));
             let diagnostic = self.with_parameters(diagnostic, &[bound.expr]);
-            self.report(diagnostic.help("`phi` is the angle from +Z, in radians; `theta` goes around"));
+            self.report(
+                diagnostic.help("`phi` is the angle from +Z, in radians; `theta` goes around"),
+            );
         }
         let message = "the axis of a sphere is no face";
         if first.value.at_most(&(zero + rounding.clone())) {
@@ -158,11 +160,7 @@ impl<'a> Declared<'a> {
         }
     }
 
-    fn polygon(
-        &mut self,
-        polygon: &'a Polygon,
-        vertices: &[[Expr; 2]],
-    ) -> Option<Extent<Precise>> {
+    fn polygon(&mut self, polygon: &'a Polygon, vertices: &[[Expr; 2]]) -> Option<Extent<Precise>> {
         let mut found = Vec::new();
         for (formulas, exprs) in polygon.vertices.iter().zip(vertices) {
             found.push(self.bounds(formulas.each_ref(), *exprs));
@@ -189,7 +187,11 @@ impl<'a> Declared<'a> {
         let exprs = [vertices[first], vertices[second]].concat();
         let diagnostic = Diagnostic::error(span, message).label(label);
         let diagnostic = self.with_parameters(diagnostic, &exprs);
-        self.report(diagnostic.help("edges of a polygon meet in its vertices alone, each of which is another point"));
+        self.report(
+            diagnostic.help(
+                "edges of a polygon meet in its vertices alone, each of which is another point",
+            ),
+        );
         None
     }
 }

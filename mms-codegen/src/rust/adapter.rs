@@ -214,7 +214,8 @@ impl Emitter<'_> {
                 Box { lower: self.lower().into(), upper: self.upper().into() }
             },
             Body::Round(round) => {
-                let theta = quote!(inner: self.inner()[0], outer: self.outer()[0], theta: self.theta());
+                let theta =
+                    quote!(inner: self.inner()[0], outer: self.outer()[0], theta: self.theta());
                 match round.shape.name {
                     "cylinder" => quote!(Cylinder { #theta, z: self.z_ends() }),
                     "sphere" => quote!(Sphere { #theta, phi: self.phi() }),

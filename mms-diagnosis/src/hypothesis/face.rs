@@ -112,7 +112,8 @@ fn of_tractions<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         ),
         made("traction_present_area", "P N on the present area", |at, face, tau| {
             for ((tau, h), x) in tau.iter_mut().zip(at.gradient).zip(at.reference) {
-                *tau *= cofactor(h).map_or(f64::NAN, |it| (it * normal(&at.exact.domain.body, face, x)).norm());
+                *tau *= cofactor(h)
+                    .map_or(f64::NAN, |it| (it * normal(&at.exact.domain.body, face, x)).norm());
             }
         }),
     ];

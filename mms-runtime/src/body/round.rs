@@ -202,7 +202,8 @@ fn parts(length: f64, spacing: f64, least: usize) -> usize {
 
 /// A part of so many equal ones between two ends.
 fn part([from, to]: [f64; 2], at: usize, count: usize) -> [f64; 2] {
-    let end = |at: usize| if at == count { to } else { from + (to - from) * at as f64 / count as f64 };
+    let end =
+        |at: usize| if at == count { to } else { from + (to - from) * at as f64 / count as f64 };
     [end(at), end(at + 1)]
 }
 

@@ -68,7 +68,8 @@ impl<T: Real> Surface<T> {
                 Surface::Edge { ends, normal: polygon::normal(&near, first).map(T::of) }
             }
             (body, face) => {
-                let block = block(body).unwrap_or_else(|| unreachable!("the body has no such face"));
+                let block =
+                    block(body).unwrap_or_else(|| unreachable!("the body has no such face"));
                 let (axis, last) = Block::end(face);
                 let bound = block.bounds[axis][usize::from(last)];
                 let direction = [bound.cos(), bound.sin()].map(T::of);
@@ -104,7 +105,8 @@ impl<T: Real> Surface<T> {
                 let radial: Vector<T, D> =
                     Vector::from_fn(|a, _| if a < among { foot[a] } else { T::zero() });
                 let length = radial.norm();
-                let along_x: Vector<T, D> = Vector::from_fn(|a, _| if a == 0 { T::one() } else { T::zero() });
+                let along_x: Vector<T, D> =
+                    Vector::from_fn(|a, _| if a == 0 { T::one() } else { T::zero() });
                 let direction = if length > T::zero() { radial / length } else { along_x };
                 foot += direction * radius - radial;
                 normal = if outer { direction } else { -direction };
@@ -121,7 +123,8 @@ impl<T: Real> Surface<T> {
                 let radial: Vector<T, D> =
                     Vector::from_fn(|a, _| if a < 2 { foot[a] } else { T::zero() });
                 let length = radial.norm();
-                let along_x: Vector<T, D> = Vector::from_fn(|a, _| if a == 0 { T::one() } else { T::zero() });
+                let along_x: Vector<T, D> =
+                    Vector::from_fn(|a, _| if a == 0 { T::one() } else { T::zero() });
                 let direction = if length > T::zero() { radial / length } else { along_x };
                 let axis = Vector::from_fn(|a, _| if a == 2 { T::one() } else { T::zero() });
                 let along = axis * cosine + direction * sine;
