@@ -55,25 +55,34 @@ impl Round {
         self.inner.iter().chain([&self.outer]).chain(self.pairs().flatten())
     }
 
-    /// The faces, in a fixed order: none where a radius is written as 0, or an angle as that of the axis.
-    fn faces(&self) -> Vec<Face> {
-        let is_axis = |at: usize| match &self.phi {
-            Some(phi) => phi[at].text.trim() == ["0", "pi"][at],
-            None => true,
-        };
+    /// The faces that its keys speak of, in a fixed order.
+    fn declared(&self) -> Vec<Face> {
         [
-            (Face::Inner, self.inner.as_ref().is_some_and(|inner| !is_zero(inner))),
+            (Face::Inner, self.inner.is_some()),
             (Face::Outer, true),
             (Face::ThetaMin, self.theta.is_some()),
             (Face::ThetaMax, self.theta.is_some()),
             (Face::Min(2), self.z.is_some()),
             (Face::Max(2), self.z.is_some()),
-            (Face::PhiMin, !is_axis(0)),
-            (Face::PhiMax, !is_axis(1)),
+            (Face::PhiMin, self.phi.is_some()),
+            (Face::PhiMax, self.phi.is_some()),
         ]
         .into_iter()
         .filter_map(|(face, is_there)| is_there.then_some(face))
         .collect()
+    }
+
+    /// Whether a face has an area, as far as its key tells: not where the radius is written as 0, or the angle as that of
+    /// the axis.
+    fn has_area(&self, face: Face) -> bool {
+        let is_axis =
+            |at: usize| self.phi.as_ref().is_some_and(|phi| phi[at].text.trim() == ["0", "pi"][at]);
+        match face {
+            Face::Inner => !self.inner.as_ref().is_some_and(is_zero),
+            Face::PhiMin => !is_axis(0),
+            Face::PhiMax => !is_axis(1),
+            _ => true,
+        }
     }
 }
 
@@ -288,9 +297,18 @@ impl Face {
 
     /// The faces of a body, in a fixed order.
     pub fn of(body: &Body, dimension: usize) -> Vec<Face> {
+        let mut faces = Face::declared(body, dimension);
+        if let Body::Round(round) = body {
+            faces.retain(|face| round.has_area(*face));
+        }
+        faces
+    }
+
+    /// The faces that the keys of a body speak of, those without an area included.
+    fn declared(body: &Body, dimension: usize) -> Vec<Face> {
         match body {
             Body::Box { .. } => Face::of_box(dimension),
-            Body::Round(round) => round.faces(),
+            Body::Round(round) => round.declared(),
             Body::Polygon(polygon) => {
                 polygon.names.iter().enumerate().map(|(at, name)| Face::Edge(at, name)).collect()
             }
@@ -540,7 +558,7 @@ pub(super) fn boundary<'a>(
         );
         return Vec::new();
     }
-    let faces = body.map_or_else(|| Face::ALL.to_vec(), |body| Face::of(body, dimension));
+    let faces = body.map_or_else(|| Face::ALL.to_vec(), |body| Face::declared(body, dimension));
     let claims: Vec<_> = Claim::ALL.iter().map(|claim| claim.name()).collect();
     let mut boundary = Vec::new();
     for entry in &table.entries {

@@ -124,7 +124,7 @@ fn domain(required: &[&str], refused: &[&str]) -> Value {
     at("domain", json!({ "required": required, "properties": refused }))
 }
 
-/// Faces of what is round, each with what there is where it is: an inner radius that is not 0, or bounds of an angle.
+/// Faces of what is round, each with the key that it needs.
 fn round_faces() -> Vec<Value> {
     let round = BODIES.iter().filter(|shape| shape.required.contains(&"outer"));
     let mut conditions = Vec::new();
@@ -140,7 +140,6 @@ fn round_faces() -> Vec<Value> {
         ];
         conditions.push(if_then(has(&[shape_is(shape.name)]), faces(&own.concat())));
     }
-    let zero = json!({ "enum": [0, "0"] });
     let without = |asked: Value, own: &[Face]| {
         let refused: Map<_, _> =
             own.iter().map(|face| (face.name().to_string(), json!(false))).collect();
@@ -153,13 +152,8 @@ fn round_faces() -> Vec<Value> {
         extend(&mut asked, json!({ "not": has(&[(&format!("domain.{key}"), json!(true))]) }));
         asked
     };
-    conditions.push(without(has(&[("domain.inner", zero.clone())]), &[Face::Inner]));
     conditions.push(without(absent("theta"), &[Face::ThetaMin, Face::ThetaMax]));
     conditions.push(without(absent("phi"), &[Face::PhiMin, Face::PhiMax]));
-    let first = json!({ "prefixItems": [zero] });
-    conditions.push(without(has(&[("domain.phi", first)]), &[Face::PhiMin]));
-    let last = json!({ "prefixItems": [true, { "const": "pi" }], "minItems": 2 });
-    conditions.push(without(has(&[("domain.phi", last)]), &[Face::PhiMax]));
     conditions
 }
 

@@ -110,7 +110,10 @@ fn reach(exact: &mut Exact) -> anyhow::Result<[Vec<f64>; 2]> {
         }
         exact.body.point(&fractions)
     };
-    let points: Vec<f64> = (0..along.pow(dimension as u32)).flat_map(sample).collect();
+    let mut points: Vec<f64> = (0..along.pow(dimension as u32)).flat_map(sample).collect();
+    if let Extent::Polygon(vertices) = &exact.body {
+        points.extend(vertices.iter().flatten());
+    }
     let [first, last] = exact.window;
     let (mut lower, mut upper) =
         (vec![f64::INFINITY; dimension], vec![f64::NEG_INFINITY; dimension]);

@@ -43,8 +43,8 @@ pub const CRATES: &[Crate] = &[
         name: "mms-mechanics",
         knows: &["mms-math", "mms-program", "mms-spec", "mms-symbolic"],
         layers: &[
-            "defect extent invariant meanings resolve",
-            "expansion model",
+            "defect invariant meanings region resolve",
+            "expansion extent model",
             "face place",
             "amplitude offset rounding",
             "candidates tensor",
@@ -82,7 +82,14 @@ pub const CRATES: &[Crate] = &[
     },
     Crate {
         name: "mms-stability",
-        knows: &["mms-codegen", "mms-mechanics", "mms-program", "mms-spec", "mms-symbolic"],
+        knows: &[
+            "mms-codegen",
+            "mms-math",
+            "mms-mechanics",
+            "mms-program",
+            "mms-spec",
+            "mms-symbolic",
+        ],
         layers: &[
             "chart elasticity least pencil wavelength",
             "impedance mesh subject",
