@@ -137,7 +137,7 @@ impl Field {
             mms_spec::Body::Box { .. } => {
                 self.bound(Bound::Upper)[0].clone() - self.bound(Bound::Lower)[0].clone()
             }
-            mms_spec::Body::Annulus { .. } => self.bound(Bound::Outer)[0].clone(),
+            _ => self.bound(Bound::Outer)[0].clone(),
         }
     }
 }

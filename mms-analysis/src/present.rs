@@ -16,6 +16,7 @@
 
 use mms_codegen::Compiled;
 use mms_math::Scalar as _;
+use mms_math::coordinates::System;
 use mms_mechanics::extent::Extent;
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Program};
@@ -141,9 +142,8 @@ impl<'a> Inverse<'a> {
         if !self.body.contains(&point) && self.body.distance(&point) > near {
             return None;
         }
-        if let Extent::Box([lower, upper]) = &self.body {
-            let bounds = lower.iter().zip(upper);
-            point.iter_mut().zip(bounds).for_each(|(x, (a, b))| *x = x.clamp(*a, *b));
+        if let Some(bounds) = self.body.box_bounds() {
+            point.iter_mut().zip(bounds).for_each(|(x, [a, b])| *x = x.clamp(*a, *b));
         }
         Some(point)
     }
@@ -184,12 +184,15 @@ impl<'a> Instant<'a> {
 
 /// Cuts the body until the motion is one to one on each part, or there are too many.
 fn tiles(motion: &mut Instant<'_>, body: &Extent<f64>) -> Vec<Tile> {
-    let all = match body {
-        Extent::Box([lower, upper]) => {
-            lower.iter().zip(upper).map(|(a, b)| Interval::new(*a, *b)).collect()
+    let [lower, upper] = match body {
+        // About the origin, whatever part of the turn there is.
+        Extent::Block(block) if block.system == System::Polar && block.bounds.len() == 2 => {
+            let outer = block.bounds[0][1];
+            [vec![-outer; 2], vec![outer; 2]]
         }
-        Extent::Annulus([_, outer], _) => vec![Interval::new(-*outer, *outer); 2],
+        _ => body.bounding_box(),
     };
+    let all = lower.iter().zip(&upper).map(|(a, b)| Interval::new(*a, *b)).collect();
     let (mut open, mut done) = (vec![Tile::new(motion, all)], Vec::new());
     while let Some(tile) = open.pop() {
         if tile.contraction.is_some() || open.len() + done.len() >= MOST_TILES {
@@ -205,9 +208,20 @@ fn tiles(motion: &mut Instant<'_>, body: &Extent<f64>) -> Vec<Tile> {
 
 /// Whether a box may have a point of the body.
 fn may_meet(body: &Extent<f64>, sides: &[Interval]) -> bool {
-    let Extent::Annulus([inner, outer], _) = body else { return true };
-    let squared = sides[0].square() + sides[1].square();
-    squared.upper() >= inner * inner && squared.lower() <= outer * outer
+    match body {
+        Extent::Block(block) if block.system != System::Cartesian => {
+            let among = if block.system == System::Spherical { 3 } else { 2 };
+            let [inner, outer] = block.bounds[0];
+            let squares = sides[..among].iter().map(|side| side.square());
+            let squared = squares.reduce(|sum, square| sum + square);
+            squared.is_none_or(|it| it.upper() >= inner * inner && it.lower() <= outer * outer)
+        }
+        Extent::Block(_) | Extent::Nothing(_) => true,
+        Extent::Polygon(_) => {
+            let reach = sides.iter().map(|side| side.width().powi(2)).sum::<f64>().sqrt();
+            body.distance(&middle(sides)) <= reach
+        }
+    }
 }
 
 impl Tile {

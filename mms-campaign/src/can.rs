@@ -1,6 +1,6 @@
 //! What a solver says that it can.
 
-use mms_spec::BODIES;
+use mms_spec::Shape;
 use mms_spec::diagnostic::{Diagnostic, quoted};
 use mms_spec::source::Spanned;
 use mms_spec::suggest::advice;
@@ -59,7 +59,7 @@ pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Can> {
         found.iter().for_each(|word| hold(reader, key, word, known));
         found.into_iter().map(|word| word.value).collect::<Vec<_>>()
     };
-    let bodies = words(reader, "bodies", BODIES);
+    let bodies = words(reader, "bodies", &Shape::words());
     let loads = words(reader, "loads", LOADS);
     let materials = reader.texts(&table, "materials");
     let materials: Vec<_> = materials.into_iter().map(|word| word.value).collect();

@@ -453,8 +453,9 @@ pub unsafe extern "C" fn mms_field_bound_components(
 }
 
 /// Writes where the body or the time window ends: "lower", "upper" (D coordinates each, of a box),
-/// "inner", "outer" (a radius each, of an annulus), "theta" (first and last angle), "time" (first
-/// and last). It follows the parameters. `values` has room for `room` numbers; where that is not enough,
+/// "inner", "outer" (a radius each, of what is round), "theta" (first and last angle), "z" (the ends of a
+/// cylinder), "phi" (first and last angle from +Z of a sphere), "vertices" (of a polygon, X and Y of one after
+/// another), "time" (first and last). It follows the parameters. `values` has room for `room` numbers; where that is not enough,
 /// nothing is written to it.
 ///
 /// Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound; MMS_CODE_INVALID_ARGUMENT.

@@ -275,17 +275,17 @@ impl Field {
 
     /// What the body and the time window end at.
     pub fn bound(&self, name: &str) -> Result<Vec<f64>, Error> {
-        const NAMED: &[(&str, Bound)] = &[
-            ("lower", Bound::Lower),
-            ("upper", Bound::Upper),
-            ("inner", Bound::Inner),
-            ("outer", Bound::Outer),
-            ("theta", Bound::Theta),
-            ("time", Bound::Time),
-        ];
+        let named = |bound: Bound| match bound {
+            Bound::Time => "time",
+            Bound::Z => "z",
+            bound => bound.name(),
+        };
         let program = &self.compiled.program;
-        let there = |bound| program.outputs.contains_key(&Output::Bound(bound));
-        let known: Vec<_> = NAMED.iter().filter(|(_, bound)| there(*bound)).collect();
+        let there = |bound: &Bound| {
+            *bound != Bound::Space && program.outputs.contains_key(&Output::Bound(*bound))
+        };
+        let known = Bound::ALL.into_iter().filter(there).map(|bound| (named(bound), bound));
+        let known: Vec<_> = known.collect();
         let Some((_, bound)) = known.iter().find(|(known, _)| *known == name) else {
             let names = known.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
             let message = format!("no bound `{name}`: this body has {names}");

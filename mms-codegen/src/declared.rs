@@ -2,21 +2,19 @@
 //! material, with the defaults when it is compiled, and with the values that a user sets.
 //!
 //! In 77 digits: each parameter lies within its `range`; lower < upper; 0 <= inner < outer; angles ascend, by at
-//! most a turn; first < last time; no claim is on a face without extent. At the corners of the body and at 128
+//! most a turn; edges of a polygon do not cross (`body`); first < last time; no claim is on a face without extent. At the corners of the body and at 128
 //! points in it: rho0 > 0, the direction of fibres has the length 1, and Poisson's ratio lies between -1 and 1/2;
 //! at F = I, W has two derivatives by each invariant, and the material is elliptic (`elasticity`). That is a
 //! sample, not a proof. The parameters of each `[[extreme]]` are held to the same.
 
+mod body;
 pub(crate) mod elasticity;
 mod material;
 
-use std::f64::consts::TAU;
-
 use mms_math::Scalar as _;
 
-use mms_mechanics::extent::Extent;
+use mms_mechanics::model::Model;
 use mms_mechanics::model::parameter_values;
-use mms_mechanics::model::{Body, Model};
 use mms_program::interpret::Interpreter;
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule;
@@ -227,16 +225,7 @@ impl<'a> Declared<'a> {
 
     fn domain(&mut self) {
         let reported = self.diagnostics.len();
-        let extent = match (&self.field.domain.body, &self.model.domain.body) {
-            (mms_spec::Body::Box { lower, upper }, Body::Box { lower: from, upper: to }) => {
-                self.cuboid([lower, upper], [from, to])
-            }
-            (
-                mms_spec::Body::Annulus { inner, outer, theta },
-                Body::Annulus { inner: from, outer: to, theta: angles },
-            ) => self.annulus([inner, outer], [*from, *to], theta.as_ref(), *angles),
-            _ => None,
-        };
+        let extent = self.body();
         self.axis();
         // A body that is wrong has no points to look at.
         if let Some(extent) = extent.filter(|_| self.diagnostics.len() == reported) {
@@ -255,25 +244,25 @@ impl<'a> Declared<'a> {
         }
     }
 
+    /// The value of a bound, if it has one.
+    fn bound(&mut self, formula: &'a Formula, expr: Expr) -> Option<Bound<'a>> {
+        let value = evaluate(&self.graph, &self.parameters, &[expr]).swap_remove(0);
+        let bound = Bound { formula, expr, value };
+        if bound.value.is_defined() {
+            return Some(bound);
+        }
+        let message = "this bound is not a real number";
+        let diagnostic =
+            Diagnostic::error(formula.span, message).label("not defined for these parameters");
+        let diagnostic = self.with_parameters(diagnostic, &[expr]);
+        self.report(diagnostic);
+        None
+    }
+
     /// The values of two bounds, if both have one.
     fn bounds(&mut self, formulas: [&'a Formula; 2], exprs: [Expr; 2]) -> Option<[Bound<'a>; 2]> {
-        let values = evaluate(&self.graph, &self.parameters, &exprs);
-        let bound = |index: usize| Bound {
-            formula: formulas[index],
-            expr: exprs[index],
-            value: values[index].clone(),
-        };
-        let bounds = [bound(0), bound(1)];
-        for bound in &bounds {
-            if !bound.value.is_defined() {
-                let message = "this bound is not a real number";
-                let diagnostic = Diagnostic::error(bound.formula.span, message)
-                    .label("not defined for these parameters");
-                let diagnostic = self.with_parameters(diagnostic, &[bound.expr]);
-                self.report(diagnostic);
-            }
-        }
-        bounds.iter().all(|bound| bound.value.is_defined()).then_some(bounds)
+        let [first, last] = [0, 1].map(|end| self.bound(formulas[end], exprs[end]));
+        Some([first?, last?])
     }
 
     /// Reports two bounds of which the second is not the greater one.
@@ -286,61 +275,6 @@ impl<'a> Declared<'a> {
         let diagnostic = Diagnostic::error(last.formula.span, message).label(label);
         let diagnostic = self.with_parameters(diagnostic, &[first.expr, last.expr]);
         self.report(diagnostic);
-    }
-
-    fn cuboid(
-        &mut self,
-        [lower, upper]: [&'a Vec<Formula>; 2],
-        [from, to]: [&Vec<Expr>; 2],
-    ) -> Option<Extent<Precise>> {
-        let mut corners = [Vec::new(), Vec::new()];
-        for (axis, (formulas, exprs)) in
-            lower.iter().zip(upper).zip(from.iter().zip(to)).enumerate()
-        {
-            let bounds = self.bounds([formulas.0, formulas.1], [*exprs.0, *exprs.1]);
-            let Some([least, greatest]) = bounds else { continue };
-            let message = format!("the box is empty along {}", AXES[axis]);
-            self.ascending(&message, "its `lower` is", &least, &greatest);
-            corners[0].push(least.value);
-            corners[1].push(greatest.value);
-        }
-        (corners[0].len() == lower.len()).then_some(Extent::Box(corners))
-    }
-
-    fn annulus(
-        &mut self,
-        radii: [&'a Formula; 2],
-        [from, to]: [Expr; 2],
-        theta: Option<&'a [Formula; 2]>,
-        angles: [Expr; 2],
-    ) -> Option<Extent<Precise>> {
-        let radii = self.bounds(radii, [from, to]);
-        if let Some([inner, outer]) = &radii {
-            self.radii(inner, outer);
-        }
-        let angles = match theta {
-            Some(theta) => {
-                let [first, last] = self.bounds(theta.each_ref(), angles)?;
-                self.angles(&first, &last);
-                [first.value, last.value]
-            }
-            None => [Precise::from_f64(0.0), Precise::from_f64(2.0) * Precise::pi()],
-        };
-        let [inner, outer] = radii?;
-        Some(Extent::Annulus([inner.value, outer.value], angles))
-    }
-
-    fn radii(&mut self, inner: &Bound<'_>, outer: &Bound<'_>) {
-        let zero = Precise::from_f64(0.0);
-        if !zero.at_most(&inner.value) {
-            let diagnostic = Diagnostic::error(inner.formula.span, "the inner radius is negative")
-                .label(format!("this is {}", digits(&inner.value)));
-            let diagnostic = self.with_parameters(diagnostic, &[inner.expr]);
-            self.report(diagnostic);
-        } else if inner.value.at_most(&zero) {
-            self.refuse_claims(&[Face::Inner], "a disc has no inner face", "`inner` is 0");
-        }
-        self.ascending("the annulus is empty", "the inner radius is", inner, outer);
     }
 
     /// Reports a rotation about nothing.
@@ -363,24 +297,6 @@ impl<'a> Declared<'a> {
                 .help("give three components that are not all 0; the length does not matter");
             let diagnostic = self.with_parameters(diagnostic, &[square]);
             self.report(diagnostic);
-        }
-    }
-
-    fn angles(&mut self, first: &Bound<'_>, last: &Bound<'_>) {
-        self.ascending("the sector is empty", "its first angle is", first, last);
-        let turn = Precise::from_f64(2.0) * Precise::pi();
-        let length = last.value.clone() - first.value.clone();
-        // Angles that differ by a turn do so to 60 digits of 77 at least.
-        let rounding = turn.clone() * Precise::from_f64(1e-60);
-        if !length.at_most(&(turn.clone() + rounding.clone())) {
-            let label = format!("{} from the first angle, more than {TAU}", digits(&length));
-            let message = "the sector is longer than a full turn";
-            let diagnostic = Diagnostic::error(last.formula.span, message).label(label);
-            let diagnostic = self.with_parameters(diagnostic, &[first.expr, last.expr]);
-            self.report(diagnostic.help("angles are in radians"));
-        } else if (turn - rounding).at_most(&length) {
-            let edges = [Face::ThetaMin, Face::ThetaMax];
-            self.refuse_claims(&edges, "a full ring has no edges", "`theta` is a full turn");
         }
     }
 

@@ -6,10 +6,13 @@
 //! in the material. What the field claims is not looked at, for its boundary may be another; but for the affine part,
 //! whose faces all get u or P N.
 
-use mms_mechanics::model::{Body, Model};
+use mms_mechanics::extent::Region;
+use mms_mechanics::face::Formulas;
+use mms_mechanics::largest_triangle;
+use mms_mechanics::model::Model;
 use mms_spec::source::{Sources, Spanned};
 use mms_spec::{Claim, FieldSpec, Formula, ParameterSpec};
-use mms_symbolic::expr::{Expr, Function, Graph, HALF, Symbol};
+use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::{coordinates, substitute};
 use mms_symbolic::sorted::SortedMap;
@@ -52,7 +55,12 @@ impl Variation {
     pub fn fits(&self, field: &FieldSpec) -> Result<(), String> {
         match self {
             Variation::Moved if !matches!(field.domain.body, mms_spec::Body::Box { .. }) => {
-                Err("the body is no box: an annulus lies about the origin".into())
+                let why = match &field.domain.body {
+                    mms_spec::Body::Round(round) => format!("{} lies about the origin", round.shape.noun),
+                    mms_spec::Body::Nothing => "there is none".into(),
+                    _ => "only boxes are moved".into(),
+                };
+                Err(format!("the body is no box: {why}"))
             }
             Variation::Moduli(_) if pair(field).is_none() && !has_definitions(field) => {
                 Err("the material is not given by lambda and mu, kappa and mu, or young and nu, and no definition is called lambda".into())
@@ -94,8 +102,8 @@ impl Variation {
             Variation::Shifted => shift(graph, model, parameter),
             Variation::Moved => {
                 shift(graph, model, parameter);
-                if let Body::Box { lower, upper } = &mut model.domain.body {
-                    for bound in lower.iter_mut().chain(upper) {
+                if let Region::Block(block) = &mut model.domain.body {
+                    for bound in block.bounds.iter_mut().flatten() {
                         *bound = graph.add(*bound, parameter);
                     }
                 }
@@ -175,7 +183,7 @@ fn give_data(field: &mut FieldSpec) {
 
 /// u becomes u(c) + H(c) (X - c).
 fn affine(graph: &mut Graph, model: &mut Model) {
-    let middle = middle(graph, &model.domain.body);
+    let middle = middle(graph, model);
     let axes = || 0..middle.len();
     let there: SortedMap<_, _> =
         axes().map(|axis| (Symbol::Coordinate(axis), middle[axis])).collect();
@@ -193,26 +201,30 @@ fn affine(graph: &mut Graph, model: &mut Model) {
     model.displacement = affine;
 }
 
-/// The point of a body halfway between its bounds, which of an annulus are those of radius and angle.
-fn middle(graph: &mut Graph, body: &Body) -> Vec<Expr> {
-    let mut half = |[lower, upper]: [Expr; 2]| {
-        let sum = graph.add(lower, upper);
-        graph.scale(sum, HALF)
-    };
-    match body {
-        Body::Box { lower, upper } => {
-            lower.iter().zip(upper).map(|(lower, upper)| half([*lower, *upper])).collect()
+/// The point of a body halfway between its bounds, which of what is round are those of radius and angles; in a polygon the
+/// middle of its largest triangle.
+fn middle(graph: &mut Graph, model: &Model) -> Vec<Expr> {
+    match &model.domain.body {
+        Region::Block(block) => {
+            let halves: Vec<Expr> = block.bounds.iter().map(|bounds| mean(graph, bounds)).collect();
+            let zero = graph.number(0);
+            let at = std::array::from_fn(|axis| halves.get(axis).copied().unwrap_or(zero));
+            block.system.position(&mut Formulas(graph), &at)[..halves.len()].to_vec()
         }
-        Body::Annulus { inner, outer, theta } => {
-            let [radius, angle] = [half([*inner, *outer]), half(*theta)];
-            [Function::Cos, Function::Sin]
-                .map(|function| {
-                    let direction = graph.call(function, &[angle]);
-                    graph.mul(radius, direction)
-                })
-                .to_vec()
+        Region::Polygon(vertices) => {
+            let corners = largest_triangle(graph, model).map(|corner| vertices[corner]);
+            (0..2).map(|axis| mean(graph, &corners.map(|corner| corner[axis]))).collect()
+        }
+        Region::Nothing(dimension) => {
+            let half = graph.number(HALF);
+            vec![half; *dimension]
         }
     }
+}
+
+fn mean(graph: &mut Graph, exprs: &[Expr]) -> Expr {
+    let sum = graph.sum(exprs.iter().map(|expr| (*expr, Rational::ONE)));
+    graph.scale(sum, Rational::ONE / Rational::from(exprs.len()))
 }
 
 /// X becomes X - s everywhere.

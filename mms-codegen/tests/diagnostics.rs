@@ -97,7 +97,7 @@ const FIELD: &str = "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = { 
                      lower = [0]\nupper = [1]\ntime = [0, 1]\n";
 
 /// The mistakes of `--set`, `--freeze`, `--rigid` and `--window`: a name that is unknown, one that is given twice, a stretch
-/// of 0, which J is divided by, a second rigid motion, and a window or a standard motion of a static field.
+/// of 0, which J is divided by, a second rigid motion, a window or a standard motion of a static field, and a standard motion without a body.
 fn wrong_selections() -> Vec<Failure> {
     let set = |value: &str| vec![("a".to_string(), value.to_string())];
     let freeze = |names: &[&str]| Freeze::Only(names.iter().map(|name| name.to_string()).collect());
@@ -118,7 +118,9 @@ fn wrong_selections() -> Vec<Failure> {
     let at_rest = FIELD.replace("time = [0, 1]\n", "");
     let window = Some(["0".to_string(), "1".to_string()]);
     failures.push(compile(&at_rest, Selection { window, ..Selection::default() }));
-    failures.push(compile(&at_rest, twin));
+    failures.push(compile(&at_rest, twin.clone()));
+    let nowhere = FIELD.replace("shape = \"box\"\nlower = [0]\nupper = [1]", "shape = \"none\"");
+    failures.push(compile(&nowhere, twin));
     failures
 }
 

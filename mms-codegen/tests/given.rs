@@ -194,7 +194,8 @@ fn the_names_of_balances_are_the_motion() {
         let padded = |of: &[Precise], i: usize, j: usize, beyond: Precise| {
             if i.max(j) < dimension { of[i * dimension + j].clone() } else { beyond }
         };
-        let entry = |letters: &str, i: usize, j: usize| named(&format!("{letters}{}{}", i + 1, j + 1));
+        let entry =
+            |letters: &str, i: usize, j: usize| named(&format!("{letters}{}{}", i + 1, j + 1));
         for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
             let gradient = padded(&h, i, j, precise(0.0));
             assert_close("H", &[entry("H", i, j)], std::slice::from_ref(&gradient));
@@ -221,7 +222,9 @@ fn the_material_is_judged_with_given_fields_at_rest() {
     let of = |p: &str| {
         compiled(&text(
             2,
-            &format!("[material]\nmodel = \"poroelastic\"\nlambda = 3\nmu = 2\nbiot = 1\np = \"{p}\"\ndensity = 2\n"),
+            &format!(
+                "[material]\nmodel = \"poroelastic\"\nlambda = 3\nmu = 2\nbiot = 1\np = \"{p}\"\ndensity = 2\n"
+            ),
         ))
     };
     let [none, some] = ["0", "1/3 + X*t"].map(of);

@@ -91,7 +91,7 @@ fn every_key_arrives() {
     assert_eq!(spec.parameters[3].value.text, "1000");
     assert_eq!(spec.displacement[0].text, "A*X*R");
     assert_eq!(spec.material.fibre.as_ref().map(Vec::len), Some(3));
-    assert!(matches!(&spec.domain.body, Body::Annulus { theta: Some(_), .. }));
+    assert!(matches!(&spec.domain.body, Body::Round(round) if round.theta.is_some()));
     let faces: Vec<_> = spec.boundary.iter().map(|found| found.face.value.name()).collect();
     assert_eq!(faces, ["inner", "outer", "theta_min", "theta_max"]);
     let claims: Vec<_> = spec.boundary.iter().map(|found| found.claim.value.name()).collect();

@@ -1,10 +1,10 @@
 //! A field with a mistake, as a solver is given it.
 
+use mms_runtime::{Domain, ManufacturedField, Material, Matrix, Vector};
 
-use mms_runtime::{Body, Domain, Face, ManufacturedField, Material, Matrix, Vector};
-
+use crate::body::{faces, is_on};
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, MotionPart, faces};
+use crate::hypothesis::{Change, Given, Hypothesis, MotionPart};
 
 /// Terms that are left out on purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -181,29 +181,5 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
             let on_face = pairs.filter(|(_, x)| is_on(body, face, x));
             on_face.for_each(|((stress, changed), _)| *stress = changed);
         }
-    }
-}
-
-/// Whether a point of the boundary is on a face, to a thousandth of the body's size.
-pub fn is_on<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>) -> bool {
-    match (body, face) {
-        (Body::Box { lower, upper }, Face::Min(axis) | Face::Max(axis)) => {
-            let place = if face == Face::Min(axis) { lower[axis] } else { upper[axis] };
-            (x[axis] - place).abs() < 1e-3 * (upper[axis] - lower[axis])
-        }
-        (Body::Annulus { inner, outer, theta }, face) => {
-            let radius = x.norm();
-            let turns = |angle: f64| {
-                let away = (x[1].atan2(x[0]) - angle).rem_euclid(std::f64::consts::TAU);
-                away.min(std::f64::consts::TAU - away)
-            };
-            match face {
-                Face::Inner => (radius - inner).abs() < 1e-3 * (outer - inner),
-                Face::Outer => (radius - outer).abs() < 1e-3 * (outer - inner),
-                Face::ThetaMin => turns(theta[0]) < 1e-3 * (theta[1] - theta[0]),
-                _ => turns(theta[1]) < 1e-3 * (theta[1] - theta[0]),
-            }
-        }
-        _ => false,
     }
 }

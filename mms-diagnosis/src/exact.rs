@@ -199,7 +199,12 @@ impl<'a, const D: usize> Exact<'a, D> {
     }
 
     /// P F^T of H at X and a time, which is tau but for the small strain.
-    pub fn stress(&self, time: f64, x: &[Vector<f64, D>], h: &[Matrix<f64, D>]) -> Vec<Matrix<f64, D>> {
+    pub fn stress(
+        &self,
+        time: f64,
+        x: &[Vector<f64, D>],
+        h: &[Matrix<f64, D>],
+    ) -> Vec<Matrix<f64, D>> {
         let mut stress = vec![Matrix::zeros(); h.len()];
         self.field.kirchhoff_stress(time, x, h, &mut stress);
         stress

@@ -26,6 +26,7 @@
 //! the size that the last one asked for.
 
 pub mod answer;
+mod body;
 pub mod changed;
 pub mod closed_form;
 pub mod evidence;

@@ -4,9 +4,9 @@ use mms_runtime::body::bounding_box;
 use mms_runtime::{Body, Face, Vector};
 
 use crate::answer::Place;
+use crate::body::{away, faces};
 use crate::evidence::{Mesh, Snapshot, nearest};
 use crate::exact::{Exact, vectors};
-use crate::hypothesis::{away, faces};
 
 /// How many cells wide the layer is that is looked at.
 const CELLS: f64 = 2.0;

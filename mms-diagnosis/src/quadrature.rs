@@ -2,9 +2,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use mms_runtime::body::round::Block;
+use mms_runtime::body::{block, faces};
+use mms_runtime::math::coordinates::Numbers;
+use mms_runtime::math::polygon::{self, quadrilaterals};
 use mms_runtime::{Body, Face, Vector};
 
-use crate::hypothesis::faces;
+use crate::body::padded;
 use crate::smooth::legendre;
 
 /// Points with weights over a body, and over its faces.
@@ -28,7 +32,8 @@ pub struct Piece<const D: usize> {
 }
 
 impl<const D: usize> Quadrature<D> {
-    /// So many points along each axis of a box, along the radius, and in each quarter turn of an annulus.
+    /// So many points along each axis of a box, along the radius and the height, in each quarter turn of an angle, and along
+    /// both sides of the quadrilaterals of a polygon.
     pub fn new(body: &Body<f64, D>, count: usize) -> Self {
         let (mut points, mut volumes) = (Vec::new(), Vec::new());
         match body {
@@ -39,11 +44,21 @@ impl<const D: usize> Quadrature<D> {
                     volumes.push(weight);
                 }
             }
-            Body::Annulus { inner, outer, theta } => {
-                for (angle, arc) in around(*theta, count) {
-                    for (radius, along) in over([*inner, *outer], 1, count) {
-                        points.push(turned([radius, 0.0], angle));
-                        volumes.push(arc * along * radius);
+            Body::Polygon { vertices, .. } => {
+                for quad in quadrilaterals(vertices) {
+                    let axes = std::array::from_fn(|_| over([0.0, 1.0], 1, count));
+                    for (at, weight) in products::<2>(&axes) {
+                        let [[a, b], [c, d]] = quad.slopes(at.into());
+                        points.push(in_plane(quad.point(at.into())));
+                        volumes.push(weight * (a * d - b * c).abs());
+                    }
+                }
+            }
+            body => {
+                if let Some(block) = block(body) {
+                    for (at, weight) in products::<D>(&axes(&block, None, count)) {
+                        points.push(block.place(&padded(&at)));
+                        volumes.push(weight * scales(&block, &at).product());
                     }
                 }
             }
@@ -51,6 +66,29 @@ impl<const D: usize> Quadrature<D> {
         let pieces = faces(body).into_iter().flat_map(|face| on_face(body, face, count)).collect();
         Quadrature { points, volumes, pieces }
     }
+}
+
+/// How far X moves with each coordinate.
+fn scales<const D: usize>(block: &Block, at: &Vector<f64, D>) -> Vector<f64, D> {
+    let scales = block.system.scales(&mut Numbers::new(), &padded(at));
+    Vector::from_fn(|axis, _| scales[axis])
+}
+
+/// Points along each coordinate, one of which may be a number.
+fn axes<const D: usize>(
+    block: &Block,
+    constant: Option<(usize, f64)>,
+    count: usize,
+) -> [Vec<(f64, f64)>; D] {
+    std::array::from_fn(|axis| match constant {
+        Some((own, value)) if own == axis => vec![(value, 1.0)],
+        _ if block.system.is_angle(axis) => around(block.bounds[axis], count),
+        _ => over(block.bounds[axis], 1, count),
+    })
+}
+
+fn in_plane<const D: usize>(place: [f64; 2]) -> Vector<f64, D> {
+    Vector::from_fn(|axis, _| place.get(axis).copied().unwrap_or(0.0))
 }
 
 /// The points of a face.
@@ -72,36 +110,33 @@ fn on_face<const D: usize>(body: &Body<f64, D>, face: Face, count: usize) -> Vec
             };
             products::<D>(&axes).into_iter().map(piece).collect()
         }
-        (Body::Annulus { inner, outer, theta }, Face::Inner | Face::Outer) => {
-            let (radius, sign) = if face == Face::Inner { (*inner, -1.0) } else { (*outer, 1.0) };
-            let piece = |(angle, arc): (f64, f64)| Piece {
+        (Body::Polygon { vertices, .. }, Face::Edge(first, _)) => {
+            let [from, to] = polygon::edge(vertices, first);
+            let (from, to): (Vector<f64, D>, _) = (in_plane(from), in_plane(to));
+            let normal = in_plane(polygon::normal(vertices, first)) * (to - from).norm();
+            let piece = |(way, weight): (f64, f64)| Piece {
                 face,
-                position: turned([radius, 0.0], angle),
-                area: turned([sign * radius * arc, 0.0], angle),
+                position: from + (to - from) * way,
+                area: normal * weight,
             };
-            around(*theta, count).into_iter().map(piece).collect()
+            over([0.0, 1.0], 1, count).into_iter().map(piece).collect()
         }
-        (Body::Annulus { inner, outer, theta: [first, last] }, _) => {
-            let (angle, sign) = if face == Face::ThetaMin { (*first, -1.0) } else { (*last, 1.0) };
-            let piece = |(radius, along): (f64, f64)| Piece {
-                face,
-                position: turned([radius, 0.0], angle),
-                area: turned([0.0, sign * along], angle),
+        (body, _) => {
+            let Some(block) = block(body) else { return Vec::new() };
+            let (own, is_upper) = Block::end(face);
+            let bound = block.bounds[own][usize::from(is_upper)];
+            let sign = if is_upper { 1.0 } else { -1.0 };
+            let piece = |(at, weight): (Vector<f64, D>, f64)| {
+                let mut lengths = scales(&block, &at);
+                lengths[own] = sign;
+                let direction = block.directions::<D>(&padded(&at))[own];
+                let area = direction * (weight * lengths.product());
+                Piece { face, position: block.place(&padded(&at)), area }
             };
-            over([*inner, *outer], 1, count).into_iter().map(piece).collect()
+            let points = products::<D>(&axes(&block, Some((own, bound)), count));
+            points.into_iter().map(piece).collect()
         }
-        _ => Vec::new(),
     }
-}
-
-/// A vector in the plane, turned by an angle.
-fn turned<const D: usize>([x, y]: [f64; 2], angle: f64) -> Vector<f64, D> {
-    let (sine, cosine) = angle.sin_cos();
-    Vector::from_fn(|axis, _| match axis {
-        0 => x * cosine - y * sine,
-        1 => x * sine + y * cosine,
-        _ => 0.0,
-    })
 }
 
 /// Angles from one to another, with their arcs.

@@ -10,9 +10,9 @@ use mms_runtime::{
 };
 
 use crate::answer::Computed;
+use crate::body::{away, faces};
 use crate::changed::{Changed, Without};
 use crate::exact::Exact;
-use crate::hypothesis::{away, faces};
 use crate::quadrature::{Piece, Quadrature};
 use crate::smooth::{Smooth, less, size};
 

@@ -14,8 +14,8 @@ use mms_codegen::Compiled;
 use mms_mechanics::Response;
 use mms_mechanics::invariant::Kind;
 use mms_mechanics::{Bound, Output};
-use mms_program::block::{Blockwise, Component, Inputs, Outputs, Plan, Prepared, Rooms, Way};
 use mms_program::Op;
+use mms_program::block::{Blockwise, Component, Inputs, Outputs, Plan, Prepared, Rooms, Way};
 use mms_program::interpret::Interpreter;
 use mms_runtime::column::BUNCH;
 use mms_runtime::column::Matrices;
@@ -298,19 +298,31 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
 
 impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interpreted<T> {
     fn domain(&self) -> Domain<T, D> {
-        let body = match self.compiled.field.domain.body {
+        let number = |bound: Bound| self.bound(bound)[0];
+        let pair = |bound: Bound| {
+            let values = self.bound(bound);
+            [values[0], values[1]]
+        };
+        let round = || (number(Bound::Inner), number(Bound::Outer), pair(Bound::Theta));
+        let body = match &self.compiled.field.domain.body {
             mms_spec::Body::Box { .. } => Body::Box {
                 lower: Vector::from_column_slice(&self.bound(Bound::Lower)),
                 upper: Vector::from_column_slice(&self.bound(Bound::Upper)),
             },
-            mms_spec::Body::Annulus { .. } => {
-                let theta = self.bound(Bound::Theta);
-                Body::Annulus {
-                    inner: self.bound(Bound::Inner)[0],
-                    outer: self.bound(Bound::Outer)[0],
-                    theta: [theta[0], theta[1]],
+            mms_spec::Body::Round(shape) => {
+                let (inner, outer, theta) = round();
+                match shape.shape.name {
+                    "cylinder" => Body::Cylinder { inner, outer, theta, z: pair(Bound::Z) },
+                    "sphere" => Body::Sphere { inner, outer, theta, phi: pair(Bound::Phi) },
+                    _ => Body::Annulus { inner, outer, theta },
                 }
             }
+            mms_spec::Body::Polygon(polygon) => {
+                let vertices = self.bound(Bound::Vertices);
+                let pairs = vertices.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
+                Body::Polygon { vertices: pairs.collect(), names: polygon.names.clone() }
+            }
+            mms_spec::Body::Nothing => Body::Nothing,
         };
         let time = self.bound(Bound::Time);
         let claims = self.compiled.field.boundary.iter();
@@ -348,6 +360,9 @@ fn face(face: mms_spec::Face) -> Face {
         mms_spec::Face::Outer => Face::Outer,
         mms_spec::Face::ThetaMin => Face::ThetaMin,
         mms_spec::Face::ThetaMax => Face::ThetaMax,
+        mms_spec::Face::PhiMin => Face::PhiMin,
+        mms_spec::Face::PhiMax => Face::PhiMax,
+        mms_spec::Face::Edge(first, name) => Face::Edge(first, name),
     }
 }
 

@@ -121,9 +121,8 @@ fn expand(request: &Request) -> Result<proc_macro2::TokenStream> {
 /// Mistakes of the file at its path, and each mistake of the selection where it was made.
 fn refused(request: &Request, failure: Failure) -> Error {
     let Failure { sources, diagnostics } = failure;
-    let (of_the_call, of_the_file): (Vec<_>, Vec<_>) = diagnostics
-        .into_iter()
-        .partition(|diagnostic| request.entry(diagnostic.span).is_some());
+    let (of_the_call, of_the_file): (Vec<_>, Vec<_>) =
+        diagnostics.into_iter().partition(|diagnostic| request.entry(diagnostic.span).is_some());
     let mut errors = Vec::new();
     if !of_the_file.is_empty() {
         let text = Failure { sources: sources.clone(), diagnostics: of_the_file }.to_string();

@@ -11,6 +11,8 @@
 //! | `lane` | the scalar of a loop: a number, and whether products are fused with sums |
 //! | `float` | `f32` and `f64`: the quick answer, or the standard library's where there is none |
 //! | `double` | twice the digits of `f64` (double-double), without the standard library |
+//! | `coordinates` | systems of coordinates: positions, directions, volumes between bounds |
+//! | `polygon` | whether edges cross, triangles, distances |
 //! | `batch`, `dispatch` | many points, block by block, and which instructions may be used |
 //! | `block` | the numbers of a block, and the loops over it |
 //! | `machine` | eight numbers as one value, in registers where there are such (SIMD pack) |
@@ -25,6 +27,7 @@ pub mod batch;
 mod block;
 #[cfg(feature = "std")]
 pub mod bunched;
+pub mod coordinates;
 mod defect;
 #[cfg(feature = "std")]
 pub mod dispatch;
@@ -41,6 +44,8 @@ mod lane;
 pub mod machine;
 #[cfg(feature = "std")]
 mod places;
+#[cfg(feature = "std")]
+pub mod polygon;
 #[cfg(feature = "std")]
 mod quick;
 #[cfg(feature = "std")]

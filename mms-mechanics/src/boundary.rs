@@ -72,11 +72,11 @@ pub fn data(
 /// With the coordinate replaced that is constant on a face of a box. To project on a circle would
 /// cost what it cannot save.
 fn on_face(graph: &mut Graph, body: &Body, face: Face, components: &[Expr]) -> Vec<Expr> {
-    match body {
-        Body::Box { .. } => {
+    match body.box_bounds() {
+        Some(_) => {
             let point = projection(graph, body, face);
             substitute(graph, components, &point)
         }
-        Body::Annulus { .. } => components.to_vec(),
+        None => components.to_vec(),
     }
 }

@@ -2,120 +2,258 @@
 
 use std::f64::consts::TAU;
 
+use mms_math::coordinates::{Numbers, Side, System};
+use mms_math::polygon;
 use mms_program::interpret::Number;
 use mms_spec::Face;
 use mms_symbolic::expr::Rational;
+
+use crate::region::fixed_coordinate;
+pub use crate::region::{Block, Region};
 
 /// What rounding makes of a bound, relative to the larger one.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A body in numbers.
-#[derive(Clone, Debug)]
-pub enum Extent<T> {
-    /// A box: its least and its greatest coordinates.
-    Box([Vec<T>; 2]),
-    /// A ring or a sector of it: inner and outer radius, first and last angle.
-    Annulus([T; 2], [T; 2]),
-}
+pub type Extent<T> = Region<T>;
 
 impl<T: Number> Extent<T> {
-    /// The point at these fractions of the way from one end to the other: of each edge of a box;
-    /// of the angle and of the radius of an annulus.
+    /// The point at these fractions of the way from one end to the other: of each edge of a box; of the angle theta, of
+    /// the radius and of the third coordinate of what is round. In a polygon the first one chooses among triangles, each
+    /// as often as it is large. Where there is no body, they are X.
     pub fn point(&self, fractions: &[T]) -> Vec<T> {
         match self {
-            Extent::Box([lower, upper]) => {
-                let edges = lower.iter().zip(upper).zip(fractions);
-                edges.map(|((lower, upper), fraction)| between(lower, upper, fraction)).collect()
-            }
-            Extent::Annulus([inner, outer], [first, last]) => {
-                let angle = between(first, last, &fractions[0]);
-                let radius = between(inner, outer, &fractions[1]);
-                vec![radius.clone() * angle.clone().cos(), radius * angle.sin()]
-            }
-        }
-    }
-
-    /// How many fractions a point has.
-    pub fn dimension(&self) -> usize {
-        match self {
-            Extent::Box([lower, _]) => lower.len(),
-            Extent::Annulus(..) => 2,
+            Extent::Block(block) => block.point(fractions),
+            Extent::Polygon(vertices) => in_polygon(vertices, &fractions[0], &fractions[1]),
+            Extent::Nothing(dimension) => fractions[..*dimension].to_vec(),
         }
     }
 }
 
+impl<T: Number> Block<T> {
+    fn point(&self, fractions: &[T]) -> Vec<T> {
+        let dimension = self.bounds.len();
+        let fraction = |axis: usize| match self.system {
+            System::Cartesian => axis,
+            // The angle comes first.
+            System::Polar | System::Spherical => [1, 0, 2][axis],
+        };
+        let at = std::array::from_fn(|axis| match self.bounds.get(axis) {
+            Some([from, to]) => between(from, to, &fractions[fraction(axis)]),
+            None => T::from_f64(0.0),
+        });
+        self.system.position(&mut Numbers::new(), &at)[..dimension].to_vec()
+    }
+}
+
+/// The point of a polygon at two fractions.
+fn in_polygon<T: Number>(vertices: &[[T; 2]], first: &T, second: &T) -> Vec<T> {
+    let rounded: Vec<[f64; 2]> = vertices.iter().map(|vertex| vertex.clone().map(near)).collect();
+    let triangles = polygon::triangles(&rounded);
+    let area = |it: &[usize; 3]| polygon::area(&it.map(|corner| rounded[corner])).abs();
+    let whole: f64 = triangles.iter().map(area).sum();
+    let (fraction, mut before) = (near(first.clone()), 0.0);
+    let Some(last) = triangles.last().copied() else { return vec![T::from_f64(f64::NAN); 2] };
+    let mut chosen = (last, before, 1.0);
+    for triangle in triangles {
+        let part = area(&triangle) / whole;
+        if part > 0.0 {
+            chosen = (triangle, before, part);
+        }
+        before += part;
+        if fraction < before {
+            break;
+        }
+    }
+    let (triangle, before, part) = chosen;
+    let [a, b, c] = triangle.map(|corner| &vertices[corner]);
+    // The distance from the first corner grows like a square root, so that equal parts are as large.
+    let s = (first.clone() - T::from_f64(before)) / T::from_f64(part);
+    let s = if near(s.clone()) > 0.0 { s.sqrt() } else { T::from_f64(0.0) };
+    let coordinate = |k: usize| {
+        let far = between(&b[k], &c[k], second);
+        between(&a[k], &far, &s)
+    };
+    vec![coordinate(0), coordinate(1)]
+}
+
+fn near<T: Number>(value: T) -> f64 {
+    value.bounds()[0]
+}
+
 impl Extent<f64> {
-    /// Whether a point is in the body or on its boundary, or within rounding of it.
+    /// Whether a point is in the body or on its boundary, or within rounding of it. Without a body, every point is.
     pub fn contains(&self, point: &[f64]) -> bool {
-        match (self, point) {
-            (Extent::Box([lower, upper]), _) => lower
-                .iter()
-                .zip(upper)
-                .zip(point)
-                .all(|((lower, upper), coordinate)| is_between(*lower, *upper, *coordinate)),
-            (Extent::Annulus([inner, outer], [first, last]), [x, y]) => {
-                let turns = (y.atan2(*x) - first).rem_euclid(TAU);
-                // A little before the first angle is nearly a turn behind it.
-                let angle = if TAU - turns <= ROUNDING * TAU { 0.0 } else { turns };
-                is_between(*inner, *outer, x.hypot(*y)) && is_between(0.0, last - first, angle)
+        match self {
+            Extent::Block(block) => block.contains(point),
+            Extent::Polygon(vertices) => {
+                let point = [point[0], point[1]];
+                let size = self.size();
+                let is_on = |first: usize| {
+                    polygon::nearest(polygon::edge(vertices, first), point).1 <= ROUNDING * size
+                };
+                polygon::contains(vertices, point) || (0..vertices.len()).any(is_on)
             }
-            (Extent::Annulus(..), _) => false,
+            Extent::Nothing(_) => true,
         }
     }
-}
 
-impl Extent<f64> {
-    /// The length, area or volume of the body.
+    /// The length, area or volume of the body; 0 where there is none.
     pub fn measure(&self) -> f64 {
         match self {
-            Extent::Box([lower, upper]) => lower.iter().zip(upper).map(|(a, b)| b - a).product(),
-            Extent::Annulus([inner, outer], [first, last]) => {
-                (last - first) / 2.0 * (outer * outer - inner * inner)
+            Extent::Block(block) => {
+                let sides = block.bounds.iter().copied().map(Side::Between);
+                block.system.measure(&sides.collect::<Vec<_>>())
+            }
+            Extent::Polygon(vertices) => polygon::area(vertices).abs(),
+            Extent::Nothing(_) => 0.0,
+        }
+    }
+
+    /// The least and the greatest coordinates of the body.
+    pub fn bounding_box(&self) -> [Vec<f64>; 2] {
+        match self {
+            Extent::Block(block) => {
+                let [lower, upper] = block.system.bounding_box(&block.bounds);
+                [lower, upper].map(|corner| corner[..block.bounds.len()].to_vec())
+            }
+            Extent::Polygon(vertices) => {
+                let along = |k: usize| vertices.iter().map(move |vertex| vertex[k]);
+                [
+                    (0..2).map(|k| along(k).fold(f64::INFINITY, f64::min)).collect(),
+                    (0..2).map(|k| along(k).fold(f64::NEG_INFINITY, f64::max)).collect(),
+                ]
+            }
+            Extent::Nothing(dimension) => [vec![0.0; *dimension], vec![1.0; *dimension]],
+        }
+    }
+
+    /// The longest edge of a box, and of the box around a polygon; the outer diameter of what is round, or its length.
+    pub fn size(&self) -> f64 {
+        let longest = |edges: &mut dyn Iterator<Item = f64>| edges.fold(0.0, f64::max);
+        match self {
+            Extent::Block(Block { system: System::Cartesian, bounds }) => {
+                longest(&mut bounds.iter().map(|[lower, upper]| upper - lower))
+            }
+            Extent::Block(Block { system: System::Polar, bounds }) => {
+                let lengths = bounds.iter().skip(2).map(|[lower, upper]| upper - lower);
+                longest(&mut lengths.chain([2.0 * bounds[0][1]]))
+            }
+            Extent::Block(Block { system: System::Spherical, bounds }) => 2.0 * bounds[0][1],
+            Extent::Polygon(_) | Extent::Nothing(_) => {
+                let [lower, upper] = self.bounding_box();
+                longest(&mut lower.iter().zip(&upper).map(|(lower, upper)| upper - lower))
             }
         }
     }
 
     /// How far a point is from the body, in the unit of lengths; 0 within it.
     pub fn distance(&self, point: &[f64]) -> f64 {
-        match (self, point) {
-            (Extent::Box([lower, upper]), _) => {
-                let sides = point.iter().zip(lower.iter().zip(upper));
-                sides.map(|(x, (a, b))| beyond(*x, *a, *b).powi(2)).sum::<f64>().sqrt()
-            }
-            (Extent::Annulus([inner, outer], [first, last]), [x, y]) => {
-                if (y.atan2(*x) - first).rem_euclid(TAU) <= last - first {
-                    return beyond(x.hypot(*y), *inner, *outer);
+        match self {
+            Extent::Block(block) => block.distance(point),
+            Extent::Polygon(vertices) => {
+                let point = [point[0], point[1]];
+                if self.contains(&point) {
+                    return 0.0;
                 }
-                let to_edge = |angle: &f64| {
-                    let (sine, cosine) = angle.sin_cos();
-                    let along = (x * cosine + y * sine).clamp(*inner, *outer);
-                    (x - along * cosine).hypot(y - along * sine)
-                };
-                to_edge(first).min(to_edge(last))
+                let to_edge = |first| polygon::nearest(polygon::edge(vertices, first), point).1;
+                (0..vertices.len()).map(to_edge).fold(f64::INFINITY, f64::min)
             }
-            (Extent::Annulus(..), _) => f64::INFINITY,
+            Extent::Nothing(_) => 0.0,
+        }
+    }
+
+    /// How far a point of the body is from a face of it, in the unit of lengths; infinitely far from one that the body does
+    /// not have.
+    pub fn distance_to(&self, face: Face, point: &[f64]) -> f64 {
+        match (self, face) {
+            (Extent::Block(block), _) => block.distance_to(face, point),
+            (Extent::Polygon(vertices), Face::Edge(first, _)) if first < vertices.len() => {
+                polygon::nearest(polygon::edge(vertices, first), [point[0], point[1]]).1
+            }
+            _ => f64::INFINITY,
         }
     }
 }
 
-impl Extent<f64> {
-    /// How far a point of the body is from a face of it, in the unit of lengths; infinitely far from one that the body does
-    /// not have.
-    pub fn distance_to(&self, face: Face, point: &[f64]) -> f64 {
-        match (self, face, point) {
-            (Extent::Box([lower, _]), Face::Min(axis), _) if axis < lower.len() => {
-                (point[axis] - lower[axis]).abs()
+impl Block<f64> {
+    fn contains(&self, point: &[f64]) -> bool {
+        let at = self.system.local(padded(point));
+        self.bounds.iter().enumerate().all(|(axis, [from, to])| match axis == 1 {
+            true if self.system != System::Cartesian => {
+                let turns = (at[1] - from).rem_euclid(TAU);
+                // A little before the first angle is nearly a turn behind it.
+                let angle = if TAU - turns <= ROUNDING * TAU { 0.0 } else { turns };
+                is_between(0.0, to - from, angle)
             }
-            (Extent::Box([_, upper]), Face::Max(axis), _) if axis < upper.len() => {
-                (upper[axis] - point[axis]).abs()
+            _ => is_between(*from, *to, at[axis]),
+        })
+    }
+
+    fn distance(&self, point: &[f64]) -> f64 {
+        let radii = self.bounds[0];
+        match (self.system, point) {
+            (System::Cartesian, _) => {
+                let sides = point.iter().zip(&self.bounds);
+                sides.map(|(x, [a, b])| beyond(*x, *a, *b).powi(2)).sum::<f64>().sqrt()
             }
-            (Extent::Annulus([inner, _], _), Face::Inner, [x, y]) => (x.hypot(*y) - inner).abs(),
-            (Extent::Annulus([_, outer], _), Face::Outer, [x, y]) => (outer - x.hypot(*y)).abs(),
-            (Extent::Annulus(_, [first, _]), Face::ThetaMin, [x, y]) => to_ray(*first, [*x, *y]),
-            (Extent::Annulus(_, [_, last]), Face::ThetaMax, [x, y]) => to_ray(*last, [*x, *y]),
+            (System::Polar, [x, y]) => to_sector(radii, self.bounds[1], [*x, *y]),
+            (System::Polar, [x, y, z]) => {
+                let [from, to] = self.bounds[2];
+                to_sector(radii, self.bounds[1], [*x, *y]).hypot(beyond(*z, from, to))
+            }
+            (System::Spherical, [x, y, z]) => {
+                let [theta, phi] = [self.bounds[1], self.bounds[2]];
+                // In the half plane of an angle theta, a sector about the origin.
+                let within = |across: f64| to_sector(radii, phi, [*z, across]);
+                if (y.atan2(*x) - theta[0]).rem_euclid(TAU) <= theta[1] - theta[0] {
+                    return within(x.hypot(*y));
+                }
+                let to_plane = |angle: f64| {
+                    let (sine, cosine) = angle.sin_cos();
+                    within(x * cosine + y * sine).hypot(y * cosine - x * sine)
+                };
+                to_plane(theta[0]).min(to_plane(theta[1]))
+            }
             _ => f64::INFINITY,
         }
     }
+
+    fn distance_to(&self, face: Face, point: &[f64]) -> f64 {
+        let (axis, is_upper) = fixed_coordinate(face);
+        let is_of = match face {
+            Face::Min(axis) | Face::Max(axis) => self.system == System::Cartesian || axis == 2,
+            Face::PhiMin | Face::PhiMax => self.system == System::Spherical,
+            Face::Edge(..) => false,
+            _ => self.system != System::Cartesian,
+        };
+        if !is_of || axis >= self.bounds.len() || axis >= point.len() {
+            return f64::INFINITY;
+        }
+        let bound = self.bounds[axis][usize::from(is_upper)];
+        match (self.system, axis) {
+            (System::Polar | System::Spherical, 1) => to_ray(bound, [point[0], point[1]]),
+            (System::Spherical, 2) => to_ray(bound, [point[2], point[0].hypot(point[1])]),
+            _ => (self.system.local(padded(point))[axis] - bound).abs(),
+        }
+    }
+}
+
+fn padded(point: &[f64]) -> [f64; 3] {
+    std::array::from_fn(|axis| point.get(axis).copied().unwrap_or(0.0))
+}
+
+/// How far a point of the plane is from a sector of a ring.
+fn to_sector([inner, outer]: [f64; 2], [first, last]: [f64; 2], [x, y]: [f64; 2]) -> f64 {
+    if (y.atan2(x) - first).rem_euclid(TAU) <= last - first {
+        return beyond(x.hypot(y), inner, outer);
+    }
+    let to_edge = |angle: f64| {
+        let (sine, cosine) = angle.sin_cos();
+        let along = (x * cosine + y * sine).clamp(inner, outer);
+        (x - along * cosine).hypot(y - along * sine)
+    };
+    to_edge(first).min(to_edge(last))
 }
 
 /// How far a point is from the ray at an angle.
@@ -177,13 +315,22 @@ mod tests {
 
     use super::*;
 
+    fn sector(radii: [f64; 2], angles: [f64; 2]) -> Extent<f64> {
+        Extent::Block(Block { system: System::Polar, bounds: vec![radii, angles] })
+    }
+
+    fn angle() -> Extent<f64> {
+        Extent::Polygon(vec![[0.0, -1.0], [2.0, -1.0], [2.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    }
+
     /// Against the nearest of many points of the body.
     #[test]
     fn distances_are_those_to_the_nearest_point() {
         let bodies = [
-            Extent::Box([vec![0.0, -1.0], vec![2.0, 1.0]]),
-            Extent::Annulus([1.0, 2.0], [0.25 * PI, 1.5 * PI]),
-            Extent::Annulus([0.5, 1.0], [0.0, 2.0 * PI]),
+            Extent::cuboid(vec![0.0, -1.0], vec![2.0, 1.0]),
+            sector([1.0, 2.0], [0.25 * PI, 1.5 * PI]),
+            sector([0.5, 1.0], [0.0, 2.0 * PI]),
+            angle(),
         ];
         let fractions = || (0..=400).map(|k| f64::from(k) / 400.0);
         for body in &bodies {
@@ -203,7 +350,56 @@ mod tests {
         assert!((bodies[1].distance_to(Face::Outer, &[-1.5, 0.0]) - 0.5).abs() < 1e-15);
         assert!((bodies[1].distance_to(Face::ThetaMin, &[0.0, 2.0]) - 2f64.sqrt()).abs() < 1e-15);
         assert!((bodies[1].distance_to(Face::ThetaMax, &[-1.0, -1.0]) - 1.0).abs() < 1e-15);
+        assert!(
+            (bodies[3].distance_to(Face::Edge(3, "slope"), &[0.0, 0.0]) - 0.5f64.sqrt()).abs()
+                < 1e-15
+        );
+        assert_eq!(bodies[3].distance_to(Face::Min(0), &[0.0, 0.0]), f64::INFINITY);
         assert_eq!(bodies[0].measure(), 4.0);
         assert!((bodies[2].measure() - 0.75 * PI).abs() < 1e-12);
+        assert_eq!(bodies[3].measure(), 2.5);
+    }
+
+    #[test]
+    fn distances_in_space_are_those_to_the_nearest_point() {
+        let block = |system: System, bounds: [[f64; 2]; 3]| {
+            Extent::Block(Block { system, bounds: bounds.to_vec() })
+        };
+        let bodies = [
+            block(System::Polar, [[0.5, 1.0], [0.3, 1.9], [-1.0, 0.5]]),
+            block(System::Spherical, [[0.5, 1.0], [0.3, 1.9], [0.4, 2.0]]),
+            block(System::Spherical, [[0.0, 1.0], [0.0, TAU], [0.0, PI]]),
+        ];
+        let fractions = || (0..=60).map(|k| f64::from(k) / 60.0);
+        for body in &bodies {
+            let places = [[0.0, 0.0, 0.1], [1.0, 2.0, 3.0], [0.3, 0.6, 0.2], [-0.5, -0.6, -0.4]];
+            for place in places {
+                let points = fractions().flat_map(|a| {
+                    fractions().flat_map(move |b| fractions().map(move |c| body.point(&[a, b, c])))
+                });
+                let away = |p: Vec<f64>| {
+                    p.iter().zip(place).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+                };
+                let nearest = points.map(away).fold(f64::INFINITY, f64::min);
+                let found = body.distance(&place);
+                assert!((found - nearest).abs() < 0.04, "{body:?}, {place:?}: {found}, {nearest}");
+                assert_eq!(found == 0.0, body.contains(&place), "{body:?}, {place:?}");
+            }
+        }
+        let cone = bodies[1].distance_to(Face::PhiMax, &[0.6, 0.6, 0.0]);
+        // The distance of the angle pi/2 from the cone at 2: R sin(2 - pi/2).
+        assert!((cone - 0.72f64.sqrt() * (2.0 - 0.5 * PI).sin()).abs() < 1e-15);
+        assert!((bodies[0].distance_to(Face::Max(2), &[0.6, 0.6, 0.2]) - 0.3).abs() < 1e-15);
+        assert!((bodies[1].distance_to(Face::Outer, &[0.6, 0.0, 0.0]) - 0.4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn points_of_polygons_lie_in_them_as_often_as_their_parts_are_large() {
+        let body = angle();
+        let points: Vec<Vec<f64>> = (1..=4000).map(|k| body.point(&halton::<f64>(k))).collect();
+        assert!(points.iter().all(|point| body.contains(point)));
+        // Below 0 lie 2 of 2.5.
+        let below = points.iter().filter(|point| point[1] < 0.0).count();
+        assert!((below as f64 / 4000.0 - 0.8).abs() < 0.01, "{below}");
     }
 }

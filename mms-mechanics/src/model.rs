@@ -9,7 +9,9 @@ pub use superposed::{RigidMotion, Rotation};
 
 use crate::invariant::Kind;
 use crate::meanings::Meanings;
+use crate::region::{Block, Region};
 use crate::resolve::Scope;
+use mms_math::coordinates::System;
 use mms_spec::diagnostic::{Diagnostic, quoted};
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
@@ -20,10 +22,10 @@ use mms_symbolic::expr::print::Names;
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 
-use mms_symbolic::expr::print::AXES;
-use mms_symbolic::sorted::SortedMap;
 use energy::Givens;
 pub use given::OwnQuantities;
+use mms_symbolic::expr::print::AXES;
+use mms_symbolic::sorted::SortedMap;
 use written::Read;
 pub use written::{Part, Written};
 
@@ -42,34 +44,15 @@ pub struct Parameter {
     pub doc: Option<Foreign>,
 }
 
-/// The reference body.
-#[derive(Clone, Debug)]
-pub enum Body {
-    /// A box with edges along the axes.
-    Box {
-        /// The least coordinates.
-        lower: Vec<Expr>,
-        /// The greatest coordinates.
-        upper: Vec<Expr>,
-    },
-    /// A plane ring, or a sector of it, about the origin.
-    Annulus {
-        /// The inner radius.
-        inner: Expr,
-        /// The outer radius.
-        outer: Expr,
-        /// The first and last angle.
-        theta: [Expr; 2],
-    },
-}
+/// The reference body, in terms of the parameters.
+pub type Body = Region<Expr>;
 
 impl Body {
-    /// The coordinates between whose bounds the body is a box: X itself, or radius and angle.
+    /// The coordinates between whose bounds the body is a block: X itself, or radius and angles.
     pub fn coordinates(&self, reference: &[f64]) -> Vec<f64> {
-        match (self, reference) {
-            (Body::Annulus { .. }, [x, y]) => vec![x.hypot(*y), y.atan2(*x)],
-            _ => reference.to_vec(),
-        }
+        let Region::Block(block) = self else { return reference.to_vec() };
+        let padded = std::array::from_fn(|axis| reference.get(axis).copied().unwrap_or(0.0));
+        block.system.local(padded)[..reference.len()].to_vec()
     }
 }
 
@@ -186,7 +169,7 @@ impl Model {
         let fibre = reader.fibre(field, material);
         let kind = material.and_then(|material| reader.kind(field, material, fibre.as_deref()));
         let of_the_field = reader.read.len();
-        let domain = reader.domain(&field.domain);
+        let domain = reader.domain(&field.domain, field.dimension);
         let checks = field.checks.iter().map(|check| reader.check(check)).collect::<Vec<_>>();
         reader.read.truncate(of_the_field);
         let rigid = field.rigid.as_ref().map(|rigid| reader.rigid(rigid, field.dimension));
@@ -410,34 +393,56 @@ impl Reader<'_> {
         }
     }
 
-    fn domain(&mut self, domain: &mms_spec::DomainSpec) -> Option<Domain> {
+    fn domain(&mut self, domain: &mms_spec::DomainSpec, dimension: usize) -> Option<Domain> {
         // Everything is resolved before anything may be missing: each formula reports its mistakes.
         let [first, last] = match &domain.time {
             Some(time) => time.each_ref().map(|time| self.constant(time)),
             None => [0, 1].map(|time| Some(self.graph.number(time))),
         };
-        let body = self.body(&domain.body)?;
+        let body = self.body(&domain.body, dimension)?;
         Some(Domain { body, time: [first?, last?], is_static: domain.time.is_none() })
     }
 
-    fn body(&mut self, body: &mms_spec::Body) -> Option<Body> {
+    fn body(&mut self, body: &mms_spec::Body, dimension: usize) -> Option<Body> {
         match body {
             mms_spec::Body::Box { lower, upper } => {
                 let (lower, upper) = (self.constants(lower), self.constants(upper));
-                Some(Body::Box { lower: lower?, upper: upper? })
+                Some(Region::cuboid(lower?, upper?))
             }
-            mms_spec::Body::Annulus { inner, outer, theta } => {
-                let (inner, outer) = (self.constant(inner), self.constant(outer));
-                let [first, last] = match theta {
-                    Some(theta) => theta.each_ref().map(|angle| self.constant(angle)),
-                    None => {
-                        let pi = self.graph.pi();
-                        [Some(self.graph.number(0)), Some(self.graph.scale(pi, 2))]
-                    }
-                };
-                Some(Body::Annulus { inner: inner?, outer: outer?, theta: [first?, last?] })
+            mms_spec::Body::Round(round) => self.round(round),
+            mms_spec::Body::Polygon(polygon) => {
+                let vertices: Vec<_> =
+                    polygon.vertices.iter().map(|vertex| self.constants(vertex)).collect();
+                let pair = |vertex: Option<Vec<Expr>>| <[Expr; 2]>::try_from(vertex?).ok();
+                let vertices = vertices.into_iter().map(pair).collect::<Option<Vec<_>>>()?;
+                (vertices.len() >= 3).then_some(Region::Polygon(vertices))
             }
+            mms_spec::Body::Nothing => Some(Region::Nothing(dimension)),
         }
+    }
+
+    fn round(&mut self, round: &mms_spec::Round) -> Option<Body> {
+        let zero = self.graph.number(0);
+        let pi = self.graph.pi();
+        let turn = self.graph.scale(pi, 2);
+        let inner = round.inner.as_ref().map_or(Some(zero), |inner| self.constant(inner));
+        let outer = self.constant(&round.outer);
+        let mut pair = |pair: &Option<[Formula; 2]>, otherwise: [Expr; 2]| match pair {
+            Some(pair) => {
+                let [first, last] = pair.each_ref().map(|it| self.constant(it));
+                Some([first?, last?])
+            }
+            None => Some(otherwise),
+        };
+        let theta = pair(&round.theta, [zero, turn]);
+        let (z, phi) = (pair(&round.z, [zero; 2]), pair(&round.phi, [zero, pi]));
+        let mut bounds = vec![[inner?, outer?], theta?];
+        let is_ball = round.shape.name == "sphere";
+        if is_ball || round.z.is_some() {
+            bounds.push(if is_ball { phi? } else { z? });
+        }
+        let system = if is_ball { System::Spherical } else { System::Polar };
+        Some(Region::Block(Block { system, bounds }))
     }
 
     fn constants(&mut self, formulas: &[Formula]) -> Option<Vec<Expr>> {

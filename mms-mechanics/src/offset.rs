@@ -7,7 +7,7 @@
 //! the coordinates before anything is derived. X - s becomes a value of its own, [`Node::Offset`]: to every
 //! pass it is a leaf as exact as X is, with the slope 1, and in the program a difference.
 
-use crate::model::{Body, Model};
+use crate::model::Model;
 use crate::place::{defaults, value_with};
 use mms_symbolic::expr::{Expr, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::substitute::{coordinates, substitute};
@@ -53,18 +53,18 @@ fn far_corners(
     model: &Model,
     places: &SortedMap<usize, Expr>,
 ) -> SortedMap<usize, Expr> {
-    let Body::Box { lower, upper } = &model.domain.body else { return SortedMap::new() };
+    let Some(bounds) = model.domain.body.box_bounds() else { return SortedMap::new() };
     let defaults = defaults(graph, model);
     let far = |axis: usize| {
         let number = |expr: Expr| value_with(graph, expr, &defaults).to_f64();
-        let (lower, upper) = (number(lower[axis]), number(upper[axis]));
+        let (lower, upper) = (number(bounds[axis][0]), number(bounds[axis][1]));
         let (extent, place) = (upper - lower, places.get(&axis).map_or(0.0, |it| number(*it)));
         let step = extent.log2().ceil().exp2();
         let corner = Rational::try_from((lower / step).floor() * step).ok()?;
         let is_far = (lower - place).abs() >= FAR * extent;
         is_far.then(|| (axis, graph.number(corner)))
     };
-    (0..lower.len()).filter_map(far).collect()
+    (0..bounds.len()).filter_map(far).collect()
 }
 
 /// The parameters that a coordinate has beside it in a sum.

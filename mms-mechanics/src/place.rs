@@ -1,10 +1,12 @@
 //! Evaluates expressions at a few places of the body, in double-double: which are 0 there, and which are 0
 //! whatever the parameters are.
 
+use mms_math::coordinates::System;
+use mms_math::polygon;
 use mms_math::{Double, Scalar as _};
 
-use crate::extent::{Extent, halton, spread};
-use crate::model::{Body, Model};
+use crate::extent::{Block, Region, halton, spread};
+use crate::model::Model;
 use mms_program::interpret::{Number as _, binary, unary};
 use mms_symbolic::expr::{ByExpr, Expr, Graph, Node, Rational, Symbol};
 
@@ -61,11 +63,7 @@ pub(super) fn defaults(graph: &Graph, model: &Model) -> Vec<Double> {
 
 /// What the body and the time window are bounded by.
 pub(super) fn bounds(model: &Model) -> Vec<Expr> {
-    let of_body = match &model.domain.body {
-        Body::Box { lower, upper } => [&lower[..], upper].concat(),
-        Body::Annulus { inner, outer, theta } => vec![*inner, *outer, theta[0], theta[1]],
-    };
-    [&of_body[..], &model.domain.time].concat()
+    [&model.domain.body.values()[..], &model.domain.time].concat()
 }
 
 /// As many places of the body as asked for.
@@ -105,14 +103,7 @@ fn places_at(
 ) -> Vec<Spot> {
     let nowhere = nowhere(parameters);
     let of = |bound: &Expr| value(graph, *bound, &nowhere);
-    let extent = match &model.domain.body {
-        Body::Box { lower, upper } => {
-            Extent::Box([lower, upper].map(|corner| corner.iter().map(of).collect()))
-        }
-        Body::Annulus { inner, outer, theta } => {
-            Extent::Annulus([inner, outer].map(of), [&theta[0], &theta[1]].map(of))
-        }
-    };
+    let extent = model.domain.body.map(of);
     let [first, last] = [0, 1].map(|end: usize| of(&model.domain.time[end]));
     let place = |fractions: &[Double; 4]| Spot {
         parameters: parameters.to_vec(),
@@ -162,11 +153,40 @@ fn extent(graph: &Graph, model: &Model, parameters: &[Double]) -> [Double; 4] {
         size(&Double::from_f64(largest))
     };
     let along = |axis: usize| match &model.domain.body {
-        Body::Box { lower, upper } if axis < lower.len() => largest(&[lower[axis], upper[axis]]),
-        Body::Box { .. } => Double::from_f64(1.0),
-        Body::Annulus { outer, .. } => largest(&[*outer]),
+        Region::Block(Block { system: System::Cartesian, bounds }) => {
+            bounds.get(axis).map_or(Double::from_f64(1.0), |bounds| largest(bounds))
+        }
+        Region::Block(Block { system: System::Polar, bounds }) if axis == 2 => {
+            bounds.get(axis).map_or_else(|| largest(&bounds[0][1..]), |bounds| largest(bounds))
+        }
+        Region::Block(Block { bounds, .. }) => largest(&bounds[0][1..]),
+        Region::Polygon(vertices) => {
+            largest(&vertices.iter().map(|vertex| vertex[axis.min(1)]).collect::<Vec<_>>())
+        }
+        Region::Nothing(_) => Double::from_f64(1.0),
     };
     [along(0), along(1), along(2), largest(&model.domain.time)]
+}
+
+/// The triangles of a polygon, by the positions of their vertices, where the parameters have their defaults; none of another
+/// body.
+pub fn triangles(graph: &Graph, model: &Model) -> Vec<[usize; 3]> {
+    vertices(graph, model).map_or_else(Vec::new, |vertices| polygon::triangles(&vertices))
+}
+
+/// The largest of them.
+pub fn largest_triangle(graph: &Graph, model: &Model) -> [usize; 3] {
+    let vertices = vertices(graph, model).unwrap_or_default();
+    let area = |it: &[usize; 3]| polygon::area(&it.map(|corner| vertices[corner])).abs();
+    let triangles = polygon::triangles(&vertices).into_iter();
+    triangles.max_by(|a, b| area(a).total_cmp(&area(b))).unwrap_or([0, 1, 2])
+}
+
+fn vertices(graph: &Graph, model: &Model) -> Option<Vec<[f64; 2]>> {
+    let Region::Polygon(vertices) = &model.domain.body else { return None };
+    let defaults = defaults(graph, model);
+    let number = |expr: Expr| value_with(graph, expr, &defaults).to_f64();
+    Some(vertices.iter().map(|vertex| vertex.map(number)).collect())
 }
 
 /// The value of what does not depend on X and t, with these parameters.

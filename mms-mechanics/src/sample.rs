@@ -3,7 +3,7 @@
 use mms_program::interpret::{Interpreter, Number};
 
 use crate::extent::{Extent, between, halton};
-use crate::output::{Bound, Output, Program};
+use crate::output::{Bound, Output, Program, body};
 
 /// A reference position and a time.
 #[derive(Clone, Debug)]
@@ -19,13 +19,10 @@ pub fn domain<T: Number>(program: &Program, parameters: &[T]) -> (Extent<T>, [T;
     let interpreter = Interpreter::new(program, parameters);
     let bound = |bound: Bound| interpreter.output(Output::Bound(bound));
     let time = bound(Bound::Time);
-    let extent = if program.outputs.contains_key(&Output::Bound(Bound::Lower)) {
-        Extent::Box([bound(Bound::Lower), bound(Bound::Upper)])
-    } else {
-        let [inner, outer] = [bound(Bound::Inner), bound(Bound::Outer)].map(|it| it[0].clone());
-        let theta = bound(Bound::Theta);
-        Extent::Annulus([inner, outer], [theta[0].clone(), theta[1].clone()])
-    };
+    let extent = body(|part| {
+        let output = Output::Bound(part);
+        program.outputs.contains_key(&output).then(|| interpreter.output(output))
+    });
     (extent, [time[0].clone(), time[1].clone()])
 }
 

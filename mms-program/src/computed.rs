@@ -242,6 +242,10 @@ impl<F: Format> Div for Computed<F> {
 }
 
 impl<F: Format> Number for Computed<F> {
+    fn bounds(&self) -> [f64; 2] {
+        self.exact.bounds()
+    }
+
     fn steps(&self, function: Option<Function>) -> u64 {
         // The exact value, and what is computed for it.
         2 * self.exact.steps(function)

@@ -112,6 +112,10 @@ impl<T: Scalar> Neg for Dual<T> {
 }
 
 impl<T: Number> Number for Dual<T> {
+    fn bounds(&self) -> [f64; 2] {
+        self.value.bounds()
+    }
+
     fn steps(&self, function: Option<Function>) -> u64 {
         // The value and the slope.
         2 * self.value.steps(function)

@@ -163,6 +163,10 @@ fn zero<T: Scalar>() -> T {
 }
 
 impl<T: Bounds> Number for Fan<T> {
+    fn bounds(&self) -> [f64; 2] {
+        self.value.bounds()
+    }
+
     fn steps(&self, function: Option<Function>) -> u64 {
         // Of each direction, whose number whoever evaluates knows.
         2 * self.value.steps(function)

@@ -32,6 +32,14 @@ pub trait Number: Scalar {
         wide.clone() * wide
     }
 
+    /// The numbers of double precision that it lies between, but for a rounding of the type's own.
+    fn bounds(&self) -> [f64; 2];
+
+    /// A number that may be either; of a type that has one number at a time, this one.
+    fn or(self, _other: Self) -> Self {
+        self
+    }
+
     /// What an operation takes, or a function of this number: see [`mms_symbolic::work`].
     fn steps(&self, _function: Option<Function>) -> u64 {
         1
@@ -49,9 +57,23 @@ fn nearest<T: Scalar>(number: &Rational) -> T {
     }
 }
 
-impl Number for f32 {}
-impl Number for f64 {}
-impl Number for Double {}
+impl Number for f32 {
+    fn bounds(&self) -> [f64; 2] {
+        [f64::from(*self); 2]
+    }
+}
+
+impl Number for f64 {
+    fn bounds(&self) -> [f64; 2] {
+        [*self; 2]
+    }
+}
+
+impl Number for Double {
+    fn bounds(&self) -> [f64; 2] {
+        [self.to_f64(); 2]
+    }
+}
 
 /// Numerator and denominator, where both are exact even in `f32`.
 pub fn small_ratio(number: &Rational) -> Option<(i32, i32)> {

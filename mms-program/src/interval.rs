@@ -181,6 +181,15 @@ impl Div for Interval {
 }
 
 impl Number for Interval {
+    fn bounds(&self) -> [f64; 2] {
+        [self.lower, self.upper]
+    }
+
+    fn or(self, other: Self) -> Self {
+        let (lower, upper) = (self.lower.min(other.lower), self.upper.max(other.upper));
+        Interval::new(lower, upper).only_if(self.defined && other.defined)
+    }
+
     fn steps(&self, function: Option<Function>) -> u64 {
         effort::of_interval(function, [self.lower, self.upper])
     }

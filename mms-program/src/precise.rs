@@ -213,6 +213,10 @@ impl<const BITS: usize> Neg for Binary<BITS> {
 }
 
 impl<const BITS: usize> Number for Binary<BITS> {
+    fn bounds(&self) -> [f64; 2] {
+        [self.to_f64(); 2]
+    }
+
     fn steps(&self, function: Option<Function>) -> u64 {
         effort::of_digits(function, BITS, self.0.as_ref().map_or(0, exponent))
     }

@@ -4,8 +4,8 @@ use crate::components::parts;
 use crate::mapping::mapped;
 use crate::meaning::{Column, Part, Place, array};
 use crate::parts::{S, arrays, part_of, split, stem, two_meanings};
-use crate::wanted::{Need, Wanted};
 use crate::role::plain;
+use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot};
 
 pub use crate::mapping::Mapping;
@@ -59,7 +59,8 @@ pub struct Names {
 }
 
 /// The names that codes use, without anything that a user says.
-pub static KNOWN: Names = Names { map: Vec::new(), columns: Vec::new(), profile: None, own: Vec::new() };
+pub static KNOWN: Names =
+    Names { map: Vec::new(), columns: Vec::new(), profile: None, own: Vec::new() };
 
 impl Names {
     /// Whether a user maps an array of this name, or a component of it.

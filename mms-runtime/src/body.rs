@@ -1,7 +1,8 @@
 //! Bodies filled with particles, in double precision.
 
-mod annulus;
 mod cuboid;
+mod polygon;
+pub mod round;
 
 use std::fmt;
 use std::str::FromStr;
@@ -11,7 +12,9 @@ use crate::failure::Refusal;
 use crate::failure::{at_most, positive};
 use crate::field::{Body, Face};
 use crate::real::{Matrix, Real, Vector};
-use annulus::Sector;
+use mms_math::coordinates::System;
+use polygon::Polygon;
+use round::Block;
 
 /// More particles than this are refused.
 const PARTICLE_LIMIT: f64 = (1u64 << 27) as f64;
@@ -21,7 +24,7 @@ const PARTICLE_LIMIT: f64 = (1u64 << 27) as f64;
 pub enum Fill {
     /// On a lattice of boxes; a curved face cuts it ragged.
     Cartesian,
-    /// In rings along the faces of an annulus; in a box the same as `Cartesian`.
+    /// Along the faces; in a box the same as `Cartesian`.
     Fitted,
 }
 
@@ -69,7 +72,7 @@ pub struct Piece<const D: usize> {
 pub struct Filling<const D: usize> {
     /// X.
     pub position: Vec<Vector<f64, D>>,
-    /// V0. They add up to the volume of a box and of a fitted annulus.
+    /// V0. They add up to the volume of a box and of a body that particles are fitted to.
     pub volume: Vec<f64>,
     /// The columns are half the edges of each domain.
     pub half_edges: Vec<Matrix<f64, D>>,
@@ -93,13 +96,12 @@ impl<const D: usize> Filling<D> {
         at_most("particles", most.round(), PARTICLE_LIMIT)?;
         let filling = match (body, fill) {
             (Body::Box { .. }, _) => cuboid::fill(&lower, &upper, spacing),
-            (Body::Annulus { inner, outer, theta }, fill) => {
-                let sector = Sector::new([*inner, *outer], *theta);
-                match fill {
-                    Fill::Cartesian => sector.fill_cartesian(spacing),
-                    Fill::Fitted => sector.fill_fitted(spacing),
-                }
-            }
+            (body, fill) => match (Region::of(body)?, fill) {
+                (Region::Round(block), Fill::Cartesian) => block.fill_cartesian(spacing),
+                (Region::Round(block), Fill::Fitted) => block.fill_fitted(spacing),
+                (Region::Polygon(polygon), Fill::Cartesian) => polygon.fill_cartesian(spacing),
+                (Region::Polygon(polygon), Fill::Fitted) => polygon.fill_fitted(spacing),
+            },
         };
         positive("the number of particles", filling.len() as f64)?;
         Ok(filling)
@@ -126,35 +128,112 @@ impl<const D: usize> Filling<D> {
     }
 }
 
+/// A body that is no box, in double precision.
+enum Region<'a> {
+    Round(Block),
+    Polygon(Polygon<'a>),
+}
+
+impl<'a> Region<'a> {
+    /// That of a body which is no box.
+    ///
+    /// # Errors
+    /// There is none.
+    fn of<T: Real, const D: usize>(body: &'a Body<T, D>) -> Result<Self, Refusal> {
+        let pair = |pair: &[T; 2]| pair.map(Real::to_f64);
+        let round = |system: System, radii: [&T; 2], others: &[&[T; 2]]| {
+            let radii = radii.map(|radius| radius.to_f64());
+            let bounds = [radii].into_iter().chain(others.iter().map(|it| pair(it))).collect();
+            Ok(Region::Round(Block { system, bounds }))
+        };
+        match body {
+            Body::Annulus { inner, outer, theta } => round(System::Polar, [inner, outer], &[theta]),
+            Body::Cylinder { inner, outer, theta, z } => {
+                round(System::Polar, [inner, outer], &[theta, z])
+            }
+            Body::Sphere { inner, outer, theta, phi } => {
+                round(System::Spherical, [inner, outer], &[theta, phi])
+            }
+            Body::Polygon { vertices, names } => Ok(Region::Polygon(Polygon {
+                vertices: vertices.iter().map(pair).collect(),
+                names,
+            })),
+            Body::Box { .. } | Body::Nothing => Err(Refusal::NoBody),
+        }
+    }
+}
+
+/// What lies between bounds of radius and angles, of a body that is round.
+pub fn block<T: Real, const D: usize>(body: &Body<T, D>) -> Option<Block> {
+    match Region::of(body) {
+        Ok(Region::Round(block)) => Some(block),
+        _ => None,
+    }
+}
+
 /// The faces that a body has.
-pub(crate) fn faces<T: Real, const D: usize>(body: &Body<T, D>) -> Vec<Face> {
+pub fn faces<T: Real, const D: usize>(body: &Body<T, D>) -> Vec<Face> {
     match body {
         Body::Box { .. } => (0..D).flat_map(|a| [Face::Min(a), Face::Max(a)]).collect(),
-        Body::Annulus { inner, outer, theta } => {
-            let all = [Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax];
-            let ring = Sector::new([*inner, *outer], *theta).is_ring();
-            all[..if ring { 2 } else { 4 }].to_vec()
-        }
+        body => match Region::of(body) {
+            Ok(Region::Round(block)) => block.faces(),
+            Ok(Region::Polygon(polygon)) => polygon.faces(),
+            Err(_) => Vec::new(),
+        },
     }
 }
 
 /// Lower and upper corner of the smallest box around a body.
 ///
 /// # Errors
-/// An edge that is not positive and finite.
+/// There is no body, or an edge is not positive and finite.
 pub fn bounding_box<T: Real, const D: usize>(
     body: &Body<T, D>,
 ) -> Result<[Vector<f64, D>; 2], Refusal> {
     let corners = match body {
         Body::Box { lower, upper } => [lower.map(Real::to_f64), upper.map(Real::to_f64)],
-        Body::Annulus { inner, outer, theta } => {
-            let sector = Sector::new([*inner, *outer], *theta);
-            positive("the thickness of the annulus", sector.outer - sector.inner)?;
-            sector.bounding_box()
-        }
+        body => match Region::of(body)? {
+            Region::Round(block) => {
+                let [inner, outer] = block.bounds[0];
+                let thickness = match D {
+                    2 => "the thickness of the annulus",
+                    _ => "the thickness of the body",
+                };
+                positive(thickness, outer - inner)?;
+                for [from, to] in &block.bounds[1..] {
+                    positive("what the body extends along an angle or its axis", to - from)?;
+                }
+                let corners = block.system.bounding_box(&block.bounds);
+                corners.map(|corner| Vector::from_fn(|axis, _| corner[axis]))
+            }
+            Region::Polygon(polygon) => polygon.bounding_box(),
+        },
     };
     for edge in (corners[1] - corners[0]).iter() {
         positive("an edge of the body", *edge)?;
     }
     Ok(corners)
+}
+
+/// Boxes of one size, laid out from the lower corner, whose middles lie inside.
+fn lattice<const D: usize>(
+    [lower, upper]: [Vector<f64, D>; 2],
+    spacing: &Vector<f64, D>,
+    is_inside: impl Fn(&Vector<f64, D>) -> bool,
+) -> Filling<D> {
+    let mut filling = Filling::default();
+    let half = spacing / 2.0;
+    let count: [usize; D] =
+        std::array::from_fn(|a| ((upper[a] - lower[a]) / spacing[a]).ceil() as usize + 1);
+    for k in 0..count.iter().product() {
+        let stride = |a: usize| count[..a].iter().product::<usize>();
+        let index = |a: usize| k / stride(a) % count[a];
+        let middle = Vector::from_fn(|a, _| lower[a] + (2 * index(a) + 1) as f64 * half[a]);
+        if is_inside(&middle) {
+            filling.position.push(middle);
+            filling.volume.push(spacing.iter().product());
+            filling.half_edges.push(Matrix::from_diagonal(&half));
+        }
+    }
+    filling
 }

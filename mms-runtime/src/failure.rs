@@ -21,6 +21,11 @@ pub enum Refusal {
         /// What it asks for.
         condition: Condition,
     },
+    /// A field without a body.
+    #[error(
+        "the field has no body (`shape = \"none\"`): there is nothing to fill with particles; give its [domain] a body"
+    )]
+    NoBody,
     /// No particle lies along a face that needs it.
     #[error(
         "face {face} is `{condition}`, but a Cartesian fill cuts it ragged; fill the body with \

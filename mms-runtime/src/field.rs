@@ -79,6 +79,37 @@ pub enum Body<T, const D: usize> {
         /// First and last angle, in radians.
         theta: [T; 2],
     },
+    /// A cylinder about the axis Z, hollow or not, or a sector of one; three dimensions.
+    Cylinder {
+        /// Inner radius, which may be 0.
+        inner: T,
+        /// Outer radius.
+        outer: T,
+        /// First and last angle, in radians.
+        theta: [T; 2],
+        /// Lower and upper end.
+        z: [T; 2],
+    },
+    /// A sphere about the origin, hollow or not, or a part of one; three dimensions.
+    Sphere {
+        /// Inner radius, which may be 0.
+        inner: T,
+        /// Outer radius.
+        outer: T,
+        /// First and last angle about the axis Z, in radians.
+        theta: [T; 2],
+        /// First and last angle from +Z, in radians.
+        phi: [T; 2],
+    },
+    /// A polygon; two dimensions.
+    Polygon {
+        /// The vertices, in their order around it, either way.
+        vertices: Vec<[T; 2]>,
+        /// The names of the edges, in the order of the vertices that they start from.
+        names: Vec<&'static str>,
+    },
+    /// No body: the field is numbers without claims, and no solver can run it.
+    Nothing,
 }
 
 /// A face of a body.
@@ -88,14 +119,20 @@ pub enum Face {
     Min(usize),
     /// The face of a box at the largest coordinate of this axis (0, 1, 2).
     Max(usize),
-    /// The inner radius of an annulus.
+    /// The inner radius.
     Inner,
-    /// The outer radius of an annulus.
+    /// The outer radius.
     Outer,
     /// The first angle of a sector.
     ThetaMin,
     /// The last angle of a sector.
     ThetaMax,
+    /// The first angle of a sphere from +Z.
+    PhiMin,
+    /// The last angle of a sphere from +Z.
+    PhiMax,
+    /// The edge of a polygon after the vertex of that position, and its name.
+    Edge(usize, &'static str),
 }
 
 impl fmt::Display for Face {
@@ -109,6 +146,9 @@ impl fmt::Display for Face {
             Face::Outer => f.write_str("outer"),
             Face::ThetaMin => f.write_str("theta_min"),
             Face::ThetaMax => f.write_str("theta_max"),
+            Face::PhiMin => f.write_str("phi_min"),
+            Face::PhiMax => f.write_str("phi_max"),
+            Face::Edge(_, name) => f.write_str(name),
         }
     }
 }

@@ -191,7 +191,12 @@ mod tests {
             let gradients: Bunches<Matrices<f64, 2>> = h.iter().copied().collect();
             let mut found = vec![Matrices::zeros(); whole];
             let gradients = &gradients.bunches()[..whole];
-            ByPoints.kirchhoff_stress_of_bunches(0.0, &x.as_chunks().0[..whole], gradients, &mut found);
+            ByPoints.kirchhoff_stress_of_bunches(
+                0.0,
+                &x.as_chunks().0[..whole],
+                gradients,
+                &mut found,
+            );
             for (p, expected) in expected[..BUNCH * whole].iter().enumerate() {
                 assert_eq!(found[p / BUNCH].get(p % BUNCH), *expected, "{p} of {count}");
             }

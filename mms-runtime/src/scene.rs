@@ -154,7 +154,7 @@ fn edges<T: Real, const D: usize>(body: Body<T, D>) -> Option<Vec<f64>> {
         Body::Box { lower, upper } => {
             Some((upper - lower).iter().map(|edge| edge.to_f64()).collect())
         }
-        Body::Annulus { .. } => None,
+        _ => None,
     }
 }
 

@@ -126,6 +126,148 @@ fn fitted_annuli_are_full() {
     }
 }
 
+fn cylinder(inner: f64, theta: [f64; 2]) -> Body<f64, 3> {
+    Body::Cylinder { inner, outer: 1.1, theta, z: [-0.3, 0.5] }
+}
+
+fn sphere(inner: f64, theta: [f64; 2], phi: [f64; 2]) -> Body<f64, 3> {
+    Body::Sphere { inner, outer: 1.1, theta, phi }
+}
+
+/// An L, and a triangle whose vertices run clockwise.
+fn polygons() -> [(Body<f64, 2>, f64, Vec<f64>); 2] {
+    let named = |vertices: &[[f64; 2]]| Body::Polygon {
+        vertices: vertices.to_vec(),
+        names: ["a", "b", "c", "d", "e", "f"][..vertices.len()].to_vec(),
+    };
+    let angle = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let triangle = [[0.0, 0.0], [0.3, 0.9], [1.2, 0.0]];
+    [
+        (named(&angle), 3.0, vec![2.0, 1.0, 1.0, 1.0, 1.0, 2.0]),
+        (named(&triangle), 0.54, vec![0.9f64.sqrt(), 1.62f64.sqrt(), 1.2]),
+    ]
+}
+
+/// The volume and the areas of all faces, against closed forms.
+fn measures<const D: usize>(body: &Body<f64, D>, volume: f64, areas: &[(Face, f64)]) {
+    let filling = fill(body, Fill::Fitted, [0.11, 0.12, 0.13]);
+    domains(&filling);
+    let sum: f64 = filling.volume.iter().sum();
+    assert!((sum / volume - 1.0).abs() < 1e-12, "{body:?}: {sum}, not {volume}");
+    let names: Vec<Face> = areas.iter().map(|(name, _)| *name).collect();
+    assert_eq!(mms_runtime::body::faces(body), names);
+    for (name, exact) in areas {
+        let (_, area, _) = face(&filling, *name);
+        assert!((area / exact - 1.0).abs() < 1e-12, "{body:?}, {name}: {area}, not {exact}");
+    }
+}
+
+#[test]
+fn round_bodies_in_space_are_full() {
+    for inner in [0.0, 0.4] {
+        let ring = (1.1f64 * 1.1 - inner * inner) / 2.0;
+        let hollow = |area: f64| (inner > 0.0).then_some((Face::Inner, area));
+        let ends = |area: f64| [(Face::Min(2), area), (Face::Max(2), area)];
+        let outside = |area: f64| [(Face::Outer, area)];
+        let of = |parts: &[&[(Face, f64)]]| parts.concat();
+        let whole = of(&[
+            hollow(inner * TAU * 0.8).as_slice(),
+            &outside(1.1 * TAU * 0.8),
+            &ends(ring * TAU),
+        ]);
+        measures(&cylinder(inner, [0.0, TAU]), ring * TAU * 0.8, &whole);
+        let rays = [Face::ThetaMin, Face::ThetaMax].map(|face| (face, (1.1 - inner) * 0.8));
+        let sector = of(&[
+            hollow(inner * 1.9 * 0.8).as_slice(),
+            &outside(1.1 * 1.9 * 0.8),
+            &rays,
+            &ends(ring * 1.9),
+        ]);
+        measures(&cylinder(inner, [0.2, 2.1]), ring * 1.9 * 0.8, &sector);
+        let ball = (1.1f64.powi(3) - inner.powi(3)) / 3.0;
+        let whole =
+            of(&[hollow(inner * inner * 2.0 * TAU).as_slice(), &outside(1.1 * 1.1 * 2.0 * TAU)]);
+        measures(&sphere(inner, [0.0, TAU], [0.0, PI]), ball * 2.0 * TAU, &whole);
+        // Between two cones, and between two half planes.
+        let [up, down] = [0.5f64, 2.0];
+        let height = up.cos() - down.cos();
+        let part = of(&[
+            hollow(inner * inner * 1.9 * height).as_slice(),
+            &outside(1.1 * 1.1 * 1.9 * height),
+            &[Face::ThetaMin, Face::ThetaMax].map(|face| (face, ring * (down - up))),
+            &[(Face::PhiMin, ring * 1.9 * up.sin()), (Face::PhiMax, ring * 1.9 * down.sin())],
+        ]);
+        measures(&sphere(inner, [0.2, 2.1], [up, down]), ball * 1.9 * height, &part);
+    }
+}
+
+#[test]
+fn polygons_are_full() {
+    for (body, area, lengths) in polygons() {
+        let faces = mms_runtime::body::faces(&body);
+        let lengths: Vec<_> = faces.into_iter().zip(lengths).collect();
+        measures(&body, area, &lengths);
+        closed_surface(&fill(&body, Fill::Fitted, [0.09; 3]), 1e-12);
+    }
+}
+
+/// The order of what particles and pieces integrate, on three meshes each: the trace of the second moment of volume, the flux
+/// of X^3 through the faces beside its divergence, and what is left of the sum of all areas.
+fn orders<const D: usize>(body: &Body<f64, D>, second_moment: f64) {
+    let errors = |spacing: f64| {
+        let filling = fill(body, Fill::Fitted, [spacing; 3]);
+        let moment: f64 =
+            filling.position.iter().zip(&filling.volume).map(|(x, v)| v * x.norm_squared()).sum();
+        let inside: f64 =
+            filling.position.iter().zip(&filling.volume).map(|(x, v)| v * 3.0 * x[0] * x[0]).sum();
+        let flux: f64 =
+            filling.pieces.iter().map(|piece| piece.area[0] * piece.position[0].powi(3)).sum();
+        let open: Vector<f64, D> = filling.pieces.iter().map(|piece| piece.area).sum();
+        [(moment - second_moment).abs() / second_moment, (flux - inside).abs(), open.norm()]
+    };
+    let meshes = [0.08, 0.04, 0.02].map(errors);
+    for what in 0..3 {
+        let [coarse, _, fine] = meshes.map(|errors| errors[what]);
+        // Numbers of parts are rounded, so that a mesh is not exactly twice as fine; the order is that of both steps.
+        let order = (coarse / fine).log2() / 2.0;
+        assert!(fine < 1e-13 || (1.7..2.6).contains(&order), "{what}: {order}, {meshes:?}");
+    }
+}
+
+#[test]
+fn fitted_fills_integrate_with_second_order() {
+    // Of a cylinder between R and r: (R^4 - r^4)/4 theta h + (R^2 - r^2)/2 theta (b^3 - a^3)/3.
+    let tube = |inner: f64, turn: f64| {
+        (1.1f64.powi(4) - inner.powi(4)) / 4.0 * turn * 0.8
+            + (1.1f64.powi(2) - inner.powi(2)) / 2.0 * turn * (0.125 + 0.027) / 3.0
+    };
+    orders(&cylinder(0.4, [0.2, 2.1]), tube(0.4, 1.9));
+    orders(&cylinder(0.0, [0.0, TAU]), tube(0.0, TAU));
+    // Of a sphere: (R^5 - r^5)/5 times its solid angle.
+    let shell = |inner: f64, angle: f64| (1.1f64.powi(5) - inner.powi(5)) / 5.0 * angle;
+    orders(&sphere(0.4, [0.2, 2.1], [0.5, 2.0]), shell(0.4, 1.9 * (0.5f64.cos() - 2f64.cos())));
+    orders(&sphere(0.0, [0.0, TAU], [0.0, PI]), shell(0.0, 2.0 * TAU));
+    // Of the L: two boxes; of the triangle a, b, c: A/6 (a.a + b.b + c.c + a.b + b.c + c.a).
+    let [(angle, ..), (triangle, ..)] = polygons();
+    orders(&angle, 2.0 * (4.0 / 3.0 + 1.0 / 3.0) + (1.0 / 3.0 + 7.0 / 3.0));
+    orders(&triangle, 0.54 / 6.0 * (0.9 + 1.44 + 0.36));
+}
+
+/// A Cartesian fill in space and of a polygon: ragged, without faces, and right in the limit.
+#[test]
+fn cartesian_fills_converge() {
+    let error = |spacing: f64| {
+        let ball = fill(&sphere(0.4, [0.0, TAU], [0.0, PI]), Fill::Cartesian, [spacing; 3]);
+        assert!(ball.pieces.is_empty());
+        let volume = 4.0 / 3.0 * PI * (1.1f64.powi(3) - 0.4f64.powi(3));
+        (ball.volume.iter().sum::<f64>() / volume - 1.0).abs()
+    };
+    assert!(error(0.1) < 0.05 && error(0.02) < 0.005, "{} {}", error(0.1), error(0.02));
+    let [(angle, ..), _] = polygons();
+    let filled = fill(&angle, Fill::Cartesian, [0.1; 3]);
+    assert!((filled.volume.iter().sum::<f64>() - 3.0).abs() < 1e-12, "cells fit the L");
+}
+
 /// The sum of areas of a ring's pieces is zero; of a sector's, up to O(h^2).
 #[test]
 fn the_surface_of_a_sector_closes_with_second_order() {

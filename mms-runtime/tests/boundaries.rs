@@ -202,3 +202,71 @@ fn an_annulus_with_prescribed_faces_converges() {
         check_order(&sector, &method, ["8", "32"], 1.5..2.3);
     }
 }
+
+/// An L, whose faces meet in a corner that looks inward.
+fn angle() -> Body<f64, 2> {
+    let vertices = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]];
+    Body::Polygon { vertices, names: EDGES.to_vec() }
+}
+
+const EDGES: [&str; 6] = ["a", "b", "c", "d", "e", "f"];
+
+fn tube() -> Body<f64, 3> {
+    let theta = [0.0, std::f64::consts::FRAC_PI_2];
+    Body::Cylinder { inner: 0.5, outer: 1.0, theta, z: [0.0, 0.5] }
+}
+
+fn shell() -> Body<f64, 3> {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let (theta, phi) = ([0.0, quarter], [quarter / 2.0, quarter]);
+    Body::Sphere { inner: 0.5, outer: 1.0, theta, phi }
+}
+
+/// Bodies that follow a wave on all their faces, with an axis or a centre in them too. Boxes are left out, as on the annulus.
+#[test]
+fn bodies_with_prescribed_faces_converge() {
+    let turn = std::f64::consts::TAU;
+    for (shape, formulation) in [(CubicBspline, Total), (Cpdi, Updated)] {
+        let method = with(shape, formulation, &Setup::default());
+        check_order(&Wave::on(angle()), &method, ["8", "32"], 1.7..2.1);
+        let disk = Body::Annulus { inner: 0.0, outer: 0.8, theta: [0.0, turn] };
+        check_order(&Wave::on(disk), &method, ["8", "32"], 1.5..2.1);
+        check_order(&Wave::in_space(tube()), &method, ["4", "16"], 1.7..2.1);
+        check_order(&Wave::in_space(shell()), &method, ["4", "16"], 1.7..2.1);
+    }
+}
+
+/// Loads on curved and on slanted faces, beside faces that follow the wave: where both meet, the largest error is of a lower
+/// order.
+#[test]
+fn bodies_with_loads_on_their_faces_converge() {
+    let load = |faces: &[Face]| -> Vec<(Face, Condition)> {
+        faces.iter().map(|face| (*face, Condition::Traction)).collect()
+    };
+    let edges: Vec<Face> = (0..6).map(|first| Face::Edge(first, EDGES[first])).collect();
+    let method = with(Cpdi, Updated, &Setup::default());
+    let order = |[coarse, fine]: [Level; 2]| {
+        let sizes = [coarse.cell_size, fine.cell_size];
+        let [coarse, fine] = [coarse, fine].map(|it| it.errors.expect("a run that ends").l2);
+        observed_order([coarse, fine], sizes).expect("errors that are not 0")
+    };
+    let angle = Wave::on(angle()).with_faces(&load(&edges));
+    let tube = Wave::in_space(tube()).with_faces(&load(&[Face::Inner, Face::Outer]));
+    let shell =
+        Wave::in_space(shell()).with_faces(&load(&[Face::Inner, Face::Outer, Face::PhiMin]));
+    let orders = [
+        order(["8", "32"].map(|cells| level(&angle, &method, cells))),
+        order(["4", "16"].map(|cells| level(&tube, &method, cells))),
+        order(["4", "16"].map(|cells| level(&shell, &method, cells))),
+    ];
+    assert!(orders.iter().all(|order| (1.5..2.1).contains(order)), "{orders:?}");
+}
+
+/// A field without a body is refused by its name.
+#[test]
+fn a_field_without_a_body_is_refused() {
+    let nowhere = Wave::on(Body::Nothing);
+    let method = with(Cpdi, Updated, &Setup::default());
+    let refused = run_level(&nowhere, &method, &"8".parse().unwrap(), &mut ());
+    assert_eq!(refused.expect_err("no body"), mms_runtime::Refusal::NoBody);
+}

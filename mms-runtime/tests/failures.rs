@@ -40,11 +40,12 @@ impl Material<f64, 1> for Spoilt {
     }
     fn kirchhoff_stress(
         &self,
+        time: f64,
         x: &[Vector<f64, 1>],
         h: &[Matrix<f64, 1>],
         out: &mut [Matrix<f64, 1>],
     ) {
-        self.bar.kirchhoff_stress(x, h, out);
+        self.bar.kirchhoff_stress(time, x, h, out);
     }
 }
 

@@ -89,7 +89,9 @@ fn balance<'a>(
                     .label("of a balance; a constraint has a residual alone")
                     .help("write two tables [[balance]]"),
             );
-            reader.stray.extend(storage.into_iter().chain(flux.into_iter().flatten()).chain([residual]));
+            reader
+                .stray
+                .extend(storage.into_iter().chain(flux.into_iter().flatten()).chain([residual]));
             return None;
         }
         (None, None) => {

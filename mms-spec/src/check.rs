@@ -112,9 +112,7 @@ fn quantity<'a>(
             };
             let message = format!("a check cannot be about `{}`", value.name());
             reader.report(
-                Diagnostic::error(span, message)
-                    .label("needs the normal of a boundary")
-                    .help(help),
+                Diagnostic::error(span, message).label("needs the normal of a boundary").help(help),
             );
             None
         }

@@ -1,15 +1,16 @@
 //! `[domain]` and `[boundary]`: where and when a field lives, and what it claims on its faces.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, quoted};
 use crate::format::DOMAIN;
 use crate::formula::Formula;
+use crate::interned::interned;
+use crate::names::MAX_NAME;
 use crate::source::{Span, Spanned};
 use crate::table::{Entry, Reader, Table, list};
 use crate::value::{plural, unknown_word};
 
 /// The shape of the reference body.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there is one in a file")]
 pub enum Body {
     /// A box with edges along the axes.
     Box {
@@ -18,15 +19,183 @@ pub enum Body {
         /// The greatest coordinates, one per dimension.
         upper: Vec<Formula>,
     },
-    /// The plane region between two circles around the origin, or a sector of it.
-    Annulus {
-        /// The inner radius.
-        inner: Formula,
-        /// The outer radius.
-        outer: Formula,
-        /// The angles between which a sector lies; all around without them.
-        theta: Option<[Formula; 2]>,
+    /// What lies between two circles, cylinders or spheres around the origin, or a sector of it.
+    Round(Box<Round>),
+    /// A polygon in the plane.
+    Polygon(Polygon),
+    /// No body: numbers without claims.
+    Nothing,
+}
+
+/// A body around the origin.
+#[derive(Clone, Debug)]
+pub struct Round {
+    /// Which of them.
+    pub shape: &'static Shape,
+    /// The inner radius; a disk has none.
+    pub inner: Option<Formula>,
+    /// The outer radius.
+    pub outer: Formula,
+    /// The angles between which a sector lies; all around without them.
+    pub theta: Option<[Formula; 2]>,
+    /// The ends of a cylinder.
+    pub z: Option<[Formula; 2]>,
+    /// The angles from +Z between which a part of a sphere lies; from 0 to pi without them.
+    pub phi: Option<[Formula; 2]>,
+}
+
+impl Round {
+    /// The pairs of bounds that are given beside the radii.
+    pub fn pairs(&self) -> impl Iterator<Item = &[Formula; 2]> {
+        [&self.theta, &self.z, &self.phi].into_iter().flatten()
+    }
+
+    /// All formulas.
+    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        self.inner.iter().chain([&self.outer]).chain(self.pairs().flatten())
+    }
+
+    /// The faces that its keys speak of, in a fixed order.
+    fn declared(&self) -> Vec<Face> {
+        [
+            (Face::Inner, self.inner.is_some()),
+            (Face::Outer, true),
+            (Face::ThetaMin, self.theta.is_some()),
+            (Face::ThetaMax, self.theta.is_some()),
+            (Face::Min(2), self.z.is_some()),
+            (Face::Max(2), self.z.is_some()),
+            (Face::PhiMin, self.phi.is_some()),
+            (Face::PhiMax, self.phi.is_some()),
+        ]
+        .into_iter()
+        .filter_map(|(face, is_there)| is_there.then_some(face))
+        .collect()
+    }
+
+    /// Whether a face has an area, as far as its key tells: not where the radius is written as 0, or the angle as that of
+    /// the axis.
+    fn has_area(&self, face: Face) -> bool {
+        let is_axis =
+            |at: usize| self.phi.as_ref().is_some_and(|phi| phi[at].text.trim() == ["0", "pi"][at]);
+        match face {
+            Face::Inner => !self.inner.as_ref().is_some_and(is_zero),
+            Face::PhiMin => !is_axis(0),
+            Face::PhiMax => !is_axis(1),
+            _ => true,
+        }
+    }
+}
+
+/// Whether a formula is a bare 0.
+fn is_zero(formula: &Formula) -> bool {
+    formula.text.trim().parse::<f64>() == Ok(0.0)
+}
+
+/// A polygon.
+#[derive(Clone, Debug)]
+pub struct Polygon {
+    /// The vertices, in their order around it.
+    pub vertices: Vec<[Formula; 2]>,
+    /// The names of the edges: the first runs from the first vertex to the second.
+    pub names: Vec<&'static str>,
+    /// Where the vertices stand.
+    pub span: Span,
+}
+
+/// A shape of a body: its keys in `[domain]`, and the dimension that it needs.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// The word for it in a field file.
+    pub name: &'static str,
+    /// The word with its article.
+    pub noun: &'static str,
+    /// The dimension of a field on it; any where there is none.
+    pub dimension: Option<usize>,
+    /// The keys that it must have.
+    pub required: &'static [&'static str],
+    /// The keys that it may have.
+    pub optional: &'static [&'static str],
+    /// Its keys in words.
+    has: &'static str,
+}
+
+/// The shapes of bodies.
+pub const BODIES: &[Shape] = &[
+    Shape {
+        name: "box",
+        noun: "a box",
+        dimension: None,
+        required: &["lower", "upper"],
+        optional: &[],
+        has: "`lower` and `upper`",
     },
+    Shape {
+        name: "annulus",
+        noun: "an annulus",
+        dimension: Some(2),
+        required: &["inner", "outer"],
+        optional: &["theta"],
+        has: "`inner`, `outer` and, for a sector, `theta`",
+    },
+    Shape {
+        name: "disk",
+        noun: "a disk",
+        dimension: Some(2),
+        required: &["outer"],
+        optional: &["theta"],
+        has: "`outer` and, for a sector, `theta`",
+    },
+    Shape {
+        name: "cylinder",
+        noun: "a cylinder",
+        dimension: Some(3),
+        required: &["inner", "outer", "z"],
+        optional: &["theta"],
+        has: "`inner`, `outer`, `z` and, for a sector, `theta`",
+    },
+    Shape {
+        name: "sphere",
+        noun: "a sphere",
+        dimension: Some(3),
+        required: &["inner", "outer"],
+        optional: &["theta", "phi"],
+        has: "`inner`, `outer` and, for a part of it, `theta` and `phi`",
+    },
+    Shape {
+        name: "polygon",
+        noun: "a polygon",
+        dimension: Some(2),
+        required: &["vertices"],
+        optional: &["names"],
+        has: "`vertices` and, for its edges, `names`",
+    },
+    Shape {
+        name: "none",
+        noun: "a field without a body",
+        dimension: None,
+        required: &[],
+        optional: &[],
+        has: "no other key than `time`",
+    },
+];
+
+/// The keys of `[domain]` that say where a body is.
+pub const BODY_KEYS: &[&str] =
+    &["lower", "upper", "inner", "outer", "theta", "z", "phi", "vertices", "names"];
+
+/// A polygon has no more vertices than this.
+pub const MAX_VERTICES: usize = 256;
+
+impl Shape {
+    /// The shape of that name.
+    pub fn named(name: &str) -> Option<&'static Shape> {
+        BODIES.iter().find(|shape| shape.name == name)
+    }
+
+    /// The words for all of them.
+    pub fn words() -> Vec<&'static str> {
+        BODIES.iter().map(|shape| shape.name).collect()
+    }
 }
 
 impl Body {
@@ -34,7 +203,24 @@ impl Body {
     pub fn name(&self) -> &'static str {
         match self {
             Body::Box { .. } => "box",
-            Body::Annulus { .. } => "annulus",
+            Body::Round(round) => round.shape.name,
+            Body::Polygon(_) => "polygon",
+            Body::Nothing => "none",
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_nothing(&self) -> bool {
+        matches!(self, Body::Nothing)
+    }
+
+    /// The formulas that say where it is.
+    pub fn formulas(&self) -> Vec<&Formula> {
+        match self {
+            Body::Box { lower, upper } => lower.iter().chain(upper).collect(),
+            Body::Round(round) => round.formulas().collect(),
+            Body::Polygon(polygon) => polygon.vertices.iter().flatten().collect(),
+            Body::Nothing => Vec::new(),
         }
     }
 }
@@ -57,18 +243,24 @@ pub enum Face {
     Min(usize),
     /// The face of a box where the coordinate of that axis is greatest.
     Max(usize),
-    /// The inner circle of an annulus.
+    /// The inner circle, cylinder or sphere.
     Inner,
-    /// The outer circle of an annulus.
+    /// The outer one.
     Outer,
-    /// The straight edge of a sector at its first angle.
+    /// The flat face of a sector at its first angle.
     ThetaMin,
-    /// The straight edge of a sector at its last angle.
+    /// The flat face of a sector at its last angle.
     ThetaMax,
+    /// The cone of a sphere at its first angle from +Z.
+    PhiMin,
+    /// The cone of a sphere at its last angle from +Z.
+    PhiMax,
+    /// The edge of a polygon after the vertex of that position, and its name.
+    Edge(usize, &'static str),
 }
 
 impl Face {
-    /// Every face of any body.
+    /// Every face of any body but the edges of polygons, which have names of their own.
     pub const ALL: &[Face] = &[
         Face::Min(0),
         Face::Max(0),
@@ -80,6 +272,8 @@ impl Face {
         Face::Outer,
         Face::ThetaMin,
         Face::ThetaMax,
+        Face::PhiMin,
+        Face::PhiMax,
     ];
 
     /// The key of `[boundary]` that names it.
@@ -95,26 +289,36 @@ impl Face {
             Face::Outer => "outer",
             Face::ThetaMin => "theta_min",
             Face::ThetaMax => "theta_max",
+            Face::PhiMin => "phi_min",
+            Face::PhiMax => "phi_max",
+            Face::Edge(_, name) => name,
         }
     }
 
     /// The faces of a body, in a fixed order.
     pub fn of(body: &Body, dimension: usize) -> Vec<Face> {
+        let mut faces = Face::declared(body, dimension);
+        if let Body::Round(round) = body {
+            faces.retain(|face| round.has_area(*face));
+        }
+        faces
+    }
+
+    /// The faces that the keys of a body speak of, those without an area included.
+    fn declared(body: &Body, dimension: usize) -> Vec<Face> {
         match body {
             Body::Box { .. } => Face::of_box(dimension),
-            Body::Annulus { theta, .. } => Face::of_annulus(theta.is_some()),
+            Body::Round(round) => round.declared(),
+            Body::Polygon(polygon) => {
+                polygon.names.iter().enumerate().map(|(at, name)| Face::Edge(at, name)).collect()
+            }
+            Body::Nothing => Vec::new(),
         }
     }
 
     /// The faces of a box, in a fixed order.
     pub fn of_box(dimension: usize) -> Vec<Face> {
         (0..dimension).flat_map(|axis| [Face::Min(axis), Face::Max(axis)]).collect()
-    }
-
-    /// The faces of an annulus, whole or a sector, in a fixed order.
-    pub fn of_annulus(is_sector: bool) -> Vec<Face> {
-        let faces = [Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax];
-        faces[..if is_sector { 4 } else { 2 }].to_vec()
     }
 }
 
@@ -170,9 +374,6 @@ pub struct BoundarySpec {
     pub claim: Spanned<Claim>,
 }
 
-/// The words for the shapes of a body.
-pub const BODIES: &[&str] = &["box", "annulus"];
-
 /// A domain without content, in place of one whose absence has been reported.
 pub(super) fn reported(dimension: usize, span: Span) -> DomainSpec {
     let corner = vec![Formula::reported(span); dimension];
@@ -191,20 +392,25 @@ pub(super) fn domain<'a>(
         return reported(dimension, reader.span(entry.value));
     };
     let shape = reader.required(&table, "shape");
-    let named = shape.as_ref().and_then(|shape| reader.word(shape, "shape", BODIES));
-    // Without a valid shape the keys tell what was meant.
-    let is_annulus = match &named {
-        Some(shape) => shape.value == "annulus",
-        None => table.get("inner").is_some() || table.get("outer").is_some(),
-    };
-    let body = if is_annulus {
-        if let Some(shape) = named.filter(|_| dimension != 2) {
-            let message = format!("an annulus is 2-dimensional, but the field is {dimension}-D");
-            reader.report(Diagnostic::error(shape.span, message).label("needs `dimension = 2`"));
-        }
-        annulus(&table, reader)
-    } else {
-        cuboid(&table, dimension, reader)
+    let named = shape.as_ref().and_then(|shape| reader.word(shape, "shape", &Shape::words()));
+    let shape = named.as_ref().and_then(|named| Shape::named(&named.value));
+    let shape = shape.unwrap_or_else(|| meant(&table, dimension));
+    if let (Some(named), Some(needed)) = (named, shape.dimension)
+        && needed != dimension
+    {
+        let noun = shape.noun;
+        let message = format!("{noun} is {needed}-dimensional, but the field is {dimension}-D");
+        let label = format!("needs `dimension = {needed}`");
+        reader.report(Diagnostic::error(named.span, message).label(label));
+    }
+    for key in BODY_KEYS.iter().filter(|key| !shape.has_key(key)) {
+        reader.refuse(&table, key, &format!("{} has {}", shape.noun, shape.has));
+    }
+    let body = match shape.name {
+        "box" => cuboid(&table, dimension, reader),
+        "polygon" => Body::Polygon(polygon(&table, reader)),
+        "none" => Body::Nothing,
+        _ => round(&table, shape, reader),
     };
     // A key that was lost or misspelt is not missing.
     let is_lost = reader.is_incomplete() || table.misspelt.contains(&"time");
@@ -216,10 +422,27 @@ pub(super) fn domain<'a>(
     DomainSpec { body, time, is_moved: false }
 }
 
-fn cuboid<'a>(table: &Table<'a>, dimension: usize, reader: &mut Reader<'a>) -> Body {
-    for key in ["inner", "outer", "theta"] {
-        reader.refuse(table, key, "a box has `lower` and `upper`");
+/// The shape that the keys tell where no valid word does.
+fn meant(table: &Table<'_>, dimension: usize) -> &'static Shape {
+    let has = |key: &str| table.get(key).is_some();
+    let name = match () {
+        () if has("vertices") => "polygon",
+        () if has("z") => "cylinder",
+        () if has("phi") => "sphere",
+        () if (has("inner") || has("outer")) && dimension == 3 => "sphere",
+        () if has("inner") || has("outer") => "annulus",
+        () => "box",
+    };
+    Shape::named(name).unwrap_or(&BODIES[0])
+}
+
+impl Shape {
+    fn has_key(&self, key: &str) -> bool {
+        self.required.contains(&key) || self.optional.contains(&key)
     }
+}
+
+fn cuboid<'a>(table: &Table<'a>, dimension: usize, reader: &mut Reader<'a>) -> Body {
     let reason = one_per_dimension(dimension);
     Body::Box {
         lower: reader.required_formulas(table, "lower", dimension, &reason),
@@ -227,17 +450,91 @@ fn cuboid<'a>(table: &Table<'a>, dimension: usize, reader: &mut Reader<'a>) -> B
     }
 }
 
-fn annulus<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Body {
-    for key in ["lower", "upper"] {
-        reader.refuse(table, key, "an annulus has `inner`, `outer` and, for a sector, `theta`");
+fn round<'a>(table: &Table<'a>, shape: &'static Shape, reader: &mut Reader<'a>) -> Body {
+    let is_required = |key: &str| shape.required.contains(&key);
+    let inner = is_required("inner").then(|| reader.required_formula(table, "inner"));
+    let outer = reader.required_formula(table, "outer");
+    let mut pair = |key: &str, reason: &str| match table.get(key).filter(|_| shape.has_key(key)) {
+        Some(entry) => Some(reader.pair(&entry, reason)),
+        None if is_required(key) => {
+            let mut ends = reader.required_formulas(table, key, 2, reason).into_iter();
+            Some(std::array::from_fn(|_| {
+                ends.next().unwrap_or_else(|| Formula::reported(table.span))
+            }))
+        }
+        None => None,
+    };
+    let angles = "expected the first and the last angle";
+    let (theta, phi) = (pair("theta", angles), pair("phi", angles));
+    let z = pair("z", "expected the lower and the upper end");
+    Body::Round(Box::new(Round { shape, inner, outer, theta, z, phi }))
+}
+
+fn polygon<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Polygon {
+    let entry = reader.required(table, "vertices");
+    let span = entry.as_ref().map_or(table.span, |entry| reader.span(entry.value));
+    let read = entry.and_then(|entry| reader.pairs(&entry, "vertices"));
+    let is_known = read.is_some();
+    let vertices = read.unwrap_or_default();
+    let count = vertices.len();
+    if is_known && !(3..=MAX_VERTICES).contains(&count) {
+        let message = format!("a polygon of {}", plural_vertices(count));
+        let label = format!("expected from 3 to {MAX_VERTICES}");
+        reader.report(Diagnostic::error(span, message).label(label));
     }
-    Body::Annulus {
-        inner: reader.required_formula(table, "inner"),
-        outer: reader.required_formula(table, "outer"),
-        theta: table
-            .get("theta")
-            .map(|theta| reader.pair(&theta, "expected the first and the last angle")),
+    let usual = || (1..=count).map(|number| interned(&format!("edge_{number}"))).collect();
+    let names = match table.get("names") {
+        Some(entry) => edges(&entry, is_known.then_some(count), reader).unwrap_or_else(usual),
+        None => usual(),
+    };
+    Polygon { vertices, names, span }
+}
+
+fn plural_vertices(count: usize) -> String {
+    if count == 1 { "1 vertex".into() } else { format!("{count} vertices") }
+}
+
+/// The names of edges, if they are as many different ones.
+fn edges<'a>(
+    entry: &Entry<'a>,
+    count: Option<usize>,
+    reader: &mut Reader<'a>,
+) -> Option<Vec<&'static str>> {
+    let names = reader.strings(entry)?;
+    if let Some(count) = count.filter(|count| *count != names.len()) {
+        let message = format!("`names` has {}, expected {count}", plural(names.len(), "name"));
+        let label =
+            "a polygon has as many edges as vertices; the first runs from the first to the second";
+        reader.report(Diagnostic::error(reader.span(entry.value), message).label(label));
+        return None;
     }
+    let mut known: Vec<&'static str> = Vec::new();
+    for name in &names {
+        let text = name.value.as_str();
+        let is_lower = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        let is_name = text.starts_with(|c: char| c.is_ascii_lowercase())
+            && text.chars().all(is_lower)
+            && text.len() <= MAX_NAME;
+        let shown = quoted(text);
+        let wrong = match () {
+            () if !is_name => Some((
+                format!("{shown} is no name of an edge"),
+                "expected a small letter, then small letters, digits and `_`",
+            )),
+            () if known.contains(&text) => {
+                Some((format!("the name {shown} is given to two edges"), "choose another name"))
+            }
+            () => None,
+        };
+        match wrong {
+            Some((message, label)) => {
+                reader.report(Diagnostic::error(name.span, message).label(label));
+                return None;
+            }
+            None => known.push(interned(text)),
+        }
+    }
+    Some(known)
 }
 
 /// Why a vector must have so many components.
@@ -253,7 +550,15 @@ pub(super) fn boundary<'a>(
     reader: &mut Reader<'a>,
 ) -> Vec<BoundarySpec> {
     let Some(table) = reader.open_table(entry, "[boundary]") else { return Vec::new() };
-    let faces = body.map_or_else(|| Face::ALL.to_vec(), |body| Face::of(body, dimension));
+    if body.is_some_and(Body::is_nothing) {
+        reader.report(
+            Diagnostic::error(entry.key.span, "a field without a body has no faces")
+                .label("claims are about faces, and `shape = \"none\"` has none")
+                .help("remove [boundary], or give the body that its claims are about"),
+        );
+        return Vec::new();
+    }
+    let faces = body.map_or_else(|| Face::ALL.to_vec(), |body| Face::declared(body, dimension));
     let claims: Vec<_> = Claim::ALL.iter().map(|claim| claim.name()).collect();
     let mut boundary = Vec::new();
     for entry in &table.entries {
@@ -274,7 +579,8 @@ fn face(key: &Spanned<String>, faces: &[Face], reader: &mut Reader<'_>) -> Optio
         return Some(Spanned { value: *face, span: key.span });
     }
     let names: Vec<_> = faces.iter().map(|face| face.name()).collect();
-    let exists_elsewhere = Face::ALL.iter().any(|face| face.name() == key.value);
+    let exists_elsewhere = Face::ALL.iter().any(|face| face.name() == key.value)
+        || key.value.strip_prefix("edge_").is_some_and(|number| number.parse::<usize>().is_ok());
     reader.report(if exists_elsewhere {
         Diagnostic::error(key.span, format!("this body has no face `{}`", key.value))
             .label(format!("its faces are {}", list(&names)))

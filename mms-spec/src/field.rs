@@ -4,9 +4,7 @@ use crate::balance::{BalanceSpec, balances};
 use crate::check::{CheckSpec, ExtremeSpec, check, extremes};
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
-use crate::domain::{
-    Body, BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported,
-};
+use crate::domain::{BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported};
 use crate::foreign::Foreign;
 use crate::format::{BALANCE, CHECK, DISPLACEMENT, EXTREME, FIELD, FIELD_FILE, Key, STUDY};
 use crate::formula::Formula;
@@ -85,12 +83,7 @@ impl FieldSpec {
         all.extend(self.material.arguments.iter().map(|(_, value)| value));
         all.extend(self.material.givens.iter().map(|(_, value)| value));
         all.extend(self.material.fibre.iter().flatten());
-        match &self.domain.body {
-            Body::Box { lower, upper } => all.extend(lower.iter().chain(upper)),
-            Body::Annulus { inner, outer, theta } => {
-                all.extend([inner, outer].into_iter().chain(theta.iter().flatten()));
-            }
-        }
+        all.extend(self.domain.body.formulas());
         all.extend(self.domain.time.iter().flatten());
         all.extend(self.balances.iter().flat_map(BalanceSpec::formulas));
         for check in &self.checks {
@@ -186,6 +179,7 @@ pub fn read_field(
         refused: Vec::new(),
     };
     let evidence = Evidence::read(&root, &spec, &names, &mut reader);
+    refuse_studies(&evidence.studies, &spec.domain, &mut reader);
     (spec.checks, spec.studies, spec.extremes) =
         (evidence.checks, evidence.studies, evidence.extremes);
     (spec.stray, spec.refused) = (reader.stray, reader.refused);
@@ -212,6 +206,16 @@ fn hold_density(material: &MaterialUse, domain: &DomainSpec, reader: &mut Reader
         Diagnostic::error(material.span, "missing key `density`")
             .label("[material] needs `density`")
             .help("only a static field, whose [domain] has no `time`, may leave it out"),
+    );
+}
+
+/// Refuses studies of a field without a body.
+fn refuse_studies(studies: &[StudySpec], domain: &DomainSpec, reader: &mut Reader<'_>) {
+    let Some(first) = studies.first().filter(|_| domain.body.is_nothing()) else { return };
+    reader.report(
+        Diagnostic::error(first.span, "a field without a body has no studies")
+            .label("the solver has nothing to fill with particles")
+            .help("remove [[study]], or give the body that the solver is to run on"),
     );
 }
 

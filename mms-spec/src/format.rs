@@ -5,7 +5,7 @@
 //! speaks of names that another one defines, and where numbers must increase. What depends on other values (how
 //! many components, which faces) is the reader's, and the schema's own tests hold it to that.
 
-use crate::domain::{BODIES, Claim};
+use crate::domain::{Claim, Shape};
 use crate::names::Keeper;
 use crate::quantity::Quantity;
 use crate::study::{FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, TRANSFERS};
@@ -46,6 +46,10 @@ pub enum Holds {
     Formula,
     /// An array of formulas.
     Formulas(Length),
+    /// An array of pairs of formulas: points of a plane.
+    Vertices,
+    /// An array of different names.
+    Words,
     /// A table with these keys.
     Table(&'static [Key]),
     /// An array of tables with these keys.
@@ -222,7 +226,7 @@ pub const MATERIAL: &[Key] = &[
 
 /// `[domain]`.
 pub const DOMAIN: &[Key] = &[
-    required("shape", Holds::Word(|| BODIES.to_vec()), "The shape of the reference body."),
+    required("shape", Holds::Word(Shape::words), "The shape of the reference body."),
     optional(
         "lower",
         Holds::Formulas(Length::Dimension),
@@ -233,12 +237,36 @@ pub const DOMAIN: &[Key] = &[
         Holds::Formulas(Length::Dimension),
         "The greatest coordinates of a box, one per dimension.",
     ),
-    optional("inner", Holds::Formula, "The inner radius of an annulus around the origin."),
-    optional("outer", Holds::Formula, "The outer radius of an annulus around the origin."),
+    optional(
+        "inner",
+        Holds::Formula,
+        "The inner radius of an annulus, a cylinder or a sphere around the origin; it may be 0.",
+    ),
+    optional(
+        "outer",
+        Holds::Formula,
+        "The outer radius of an annulus, a disk, a cylinder or a sphere around the origin.",
+    ),
     optional(
         "theta",
         Holds::Formulas(Length::Exactly(2)),
-        "The first and the last angle of a sector of an annulus.",
+        "The first and the last angle about the axis Z of a sector; all around without them.",
+    ),
+    optional(
+        "z",
+        Holds::Formulas(Length::Exactly(2)),
+        "The lower and the upper end of a cylinder, whose axis is Z.",
+    ),
+    optional(
+        "phi",
+        Holds::Formulas(Length::Exactly(2)),
+        "The first and the last angle from +Z of a part of a sphere; from 0 to pi without them.",
+    ),
+    optional("vertices", Holds::Vertices, "The vertices of a polygon, in their order around it."),
+    optional(
+        "names",
+        Holds::Words,
+        "The names of the edges of a polygon, in the order of the vertices that they start from.",
     ),
     optional(
         "time",

@@ -51,7 +51,8 @@ pub(super) fn material_givens<'a>(
             given.doc = reader.optional_foreign(keys, "doc");
             given.rest = keys.get("rest").map(|rest| reader.formula("rest", rest.value));
         }
-        if names.define_own(&entry.key, &Part::OF_GIVEN, reader) && names.define(&entry.key, reader) {
+        if names.define_own(&entry.key, &Part::OF_GIVEN, reader) && names.define(&entry.key, reader)
+        {
             givens.push(given);
         } else {
             reader.stray.extend(given.rest);
@@ -81,7 +82,8 @@ pub(super) fn givens<'a>(
         let value = reader.required_formula(&keys, "value");
         let unit = keys.get("unit").and_then(|unit| reader.string(&unit));
         let doc = reader.optional_foreign(&keys, "doc");
-        if names.define_own(&entry.key, &Part::OF_GIVEN, reader) && names.define(&entry.key, reader) {
+        if names.define_own(&entry.key, &Part::OF_GIVEN, reader) && names.define(&entry.key, reader)
+        {
             givens.push(GivenSpec { name: entry.key.clone(), value, unit, doc });
         } else {
             reader.stray.push(value);

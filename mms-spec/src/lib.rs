@@ -24,6 +24,7 @@ mod form;
 pub mod format;
 mod formula;
 mod given;
+mod interned;
 pub mod language;
 mod material;
 pub mod moduli;
@@ -44,7 +45,10 @@ mod value;
 pub use balance::{BalanceLaw, BalanceSpec};
 pub use check::{CheckSpec, ExtremeSpec, REGIMES};
 pub use document::MAX_FILE;
-pub use domain::{BODIES, Body, BoundarySpec, Claim, DomainSpec, Face};
+pub use domain::{
+    BODIES, BODY_KEYS, Body, BoundarySpec, Claim, DomainSpec, Face, MAX_VERTICES, Polygon, Round,
+    Shape,
+};
 pub use field::{FieldSpec, read_field};
 pub use folder::{FieldFile, field_files};
 pub use form::Form;

@@ -225,9 +225,8 @@ pub fn read_material(
     let parameters = reader
         .names(&root, "parameters")
         .map(|table| material_parameters(&table, &mut names, &mut reader));
-    let givens = reader
-        .names(&root, "given")
-        .map(|table| material_givens(&table, &mut names, &mut reader));
+    let givens =
+        reader.names(&root, "given").map(|table| material_givens(&table, &mut names, &mut reader));
     let definitions = reader.names(&root, "let").map(|table| lets(&table, &mut names, &mut reader));
     let mut spec = MaterialSpec {
         name: name.into(),

@@ -10,17 +10,15 @@
 //! | `NormalFlux` | `heat_normal_flux` | Q.N on a face with the outward unit normal N |
 //! | `Residual` | `volume_residual` | the left side of a constraint |
 //!
-//! Their descriptions are interned, as a compiler interns the names of a program: equal descriptions share one place, so that
-//! a quantity stays a number to copy and to compare.
+//! Their descriptions are interned, so that a quantity stays something to copy and to compare.
 
-use std::collections::BTreeSet;
 use std::ops::Deref;
-use std::sync::{Mutex, PoisonError};
 
 use crate::balance::{BalanceLaw, BalanceSpec};
 use crate::diagnostic::Diagnostic;
 use crate::field::FieldSpec;
 use crate::foreign::Foreign;
+use crate::interned::Interner;
 use crate::material::MaterialSpec;
 use crate::quantity::{Quantity, Shape};
 use crate::source::Spanned;
@@ -111,14 +109,8 @@ impl Own {
 
     /// The handle of a description.
     pub fn new(described: Described) -> Own {
-        static KNOWN: Mutex<BTreeSet<&'static Described>> = Mutex::new(BTreeSet::new());
-        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(own) = known.get(&described) {
-            return Own(own);
-        }
-        let own: &'static Described = Box::leak(Box::new(described));
-        known.insert(own);
-        Own(own)
+        static KNOWN: Interner<Described> = Interner::new();
+        Own(KNOWN.keep(described))
     }
 }
 
@@ -153,7 +145,8 @@ pub fn own_quantities(field: &FieldSpec, material: Option<&MaterialSpec>) -> Vec
 /// The quantities that a field file may define, whatever its material is: any formula of `[material]` may set a given field.
 pub(super) fn possible_quantities(field: &FieldSpec) -> Vec<Own> {
     let of_material = field.material.arguments.iter();
-    let of_material = of_material.map(|(name, _)| Given { name: &name.value, unit: None, doc: None });
+    let of_material =
+        of_material.map(|(name, _)| Given { name: &name.value, unit: None, doc: None });
     quantities_of(field, of_material.chain(givens(field, None)).collect())
 }
 
@@ -238,7 +231,9 @@ fn doc_of_balance(balance: &BalanceSpec, part: Part) -> String {
         ),
         (Part::Flux, _) => format!("Flux Q of {name} through reference area."),
         (Part::NormalFlux, _) => {
-            format!("Outward flux Q.N of {name} through reference area, for the reference unit normal N.")
+            format!(
+                "Outward flux Q.N of {name} through reference area, for the reference unit normal N."
+            )
         }
         _ => format!("Residual of the constraint {name}."),
     }

@@ -195,6 +195,5 @@ impl Quantity {
 }
 
 /// The symbols that are accepted in place of identifiers.
-const ALIASED: &[&str] = &[
-    "u", "x", "v", "a", "H", "F", "J", "C", "B", "E", "rho", "P", "S", "p", "sigma", "b", "W",
-];
+const ALIASED: &[&str] =
+    &["u", "x", "v", "a", "H", "F", "J", "C", "B", "E", "rho", "P", "S", "p", "sigma", "b", "W"];

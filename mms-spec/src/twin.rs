@@ -6,7 +6,7 @@
 //! field at rest, and are left out.
 
 use crate::diagnostic::Diagnostic;
-use crate::domain::{Body, Claim};
+use crate::domain::{Body, Claim, Polygon};
 use crate::field::FieldSpec;
 use crate::formula::Formula;
 use crate::rigid::read_rigid;
@@ -27,7 +27,7 @@ pub enum Twin {
 
 impl Twin {
     /// The keys of `[rigid]` that the motion of a field stands for, s being the fraction of the time
-    /// window that has passed, and L the length of the body along X, or its outer radius:
+    /// window that has passed, and L the length of the body along X, its outer radius, or its first edge:
     ///
     /// - in one dimension the translation 3 L s^2,
     /// - in two the angle s + s^2 and the translation 3 L s, -2 L s^2,
@@ -55,6 +55,17 @@ impl Twin {
                 Diagnostic::error(field.material.span, "a static field has no standard twin")
                     .label("the field has no time in which it could turn")
                     .help("give a constant rotation, as in --rigid 'rotation = \"0.5\"'"),
+            );
+            return;
+        }
+        if *self == Twin::Standard && field.domain.body.is_nothing() {
+            diagnostics.push(
+                Diagnostic::error(
+                    field.material.span,
+                    "a field without a body has no standard twin",
+                )
+                .label("the translation would be some times the size of its body")
+                .help("give a motion, as in --rigid 'rotation = \"pi*t\"'"),
             );
             return;
         }
@@ -92,7 +103,9 @@ fn standard(field: &FieldSpec) -> Option<String> {
             let (lower, upper) = (lower?, upper?);
             if lower == "0" { upper } else { format!("({upper} - {lower})") }
         }
-        Body::Annulus { outer, .. } => term(outer)?,
+        Body::Round(round) => term(&round.outer)?,
+        Body::Polygon(polygon) => first_edge(polygon)?,
+        Body::Nothing => return None,
     };
     Some(match field.dimension {
         1 => format!(r#"translation = ["3*{size}*({s})^2"]"#),
@@ -103,6 +116,13 @@ fn standard(field: &FieldSpec) -> Option<String> {
             r#"rotation = {{ axis = ["2", "-1", "2"], angle = "{s} + ({s})^2" }}, translation = ["3*{size}*{s}", "-2*{size}*({s})^2", "{size}*{s}*(2 - {s})"]"#
         ),
     })
+}
+
+/// The length of the first edge.
+fn first_edge(polygon: &Polygon) -> Option<String> {
+    let [from, to] = polygon.vertices.first_chunk()?;
+    let along = |axis: usize| Some(format!("{} - {}", term(&to[axis])?, term(&from[axis])?));
+    Some(format!("hypot({}, {})", along(0)?, along(1)?))
 }
 
 /// A formula as an operand, on one line: a name or a number stands for itself. None if a mistake in it has been reported.

@@ -191,6 +191,32 @@ impl<'a> Reader<'a> {
         std::array::from_fn(|_| formulas.next().unwrap_or_else(|| Formula::reported(span)))
     }
 
+    /// An array of pairs of formulas; none where that is reported.
+    pub fn pairs(&mut self, entry: &Entry<'a>, what: &str) -> Option<Vec<[Formula; 2]>> {
+        let key = entry.key.value.as_str();
+        let DeValue::Array(items) = entry.value.get_ref() else {
+            let instead = format!("write {key} = [[\"0\", \"0\"], [\"1\", \"0\"], [\"0\", \"1\"]]");
+            let expected = format!("an array of {what}");
+            self.wrong_type_because(key, entry.value, &expected, Some(instead));
+            return None;
+        };
+        let pair = |value: &'a Value<'a>| {
+            let item = Entry { key: entry.key.clone(), value };
+            self.pair(&item, "expected X and Y")
+        };
+        Some(items.iter().map(pair).collect())
+    }
+
+    /// An array of strings; none where that is reported.
+    pub fn strings(&mut self, entry: &Entry<'a>) -> Option<Vec<Spanned<String>>> {
+        let DeValue::Array(items) = entry.value.get_ref() else {
+            self.wrong_type(&entry.key.value, entry.value, "an array of strings");
+            return None;
+        };
+        let string = |value| self.string(&Entry { key: entry.key.clone(), value });
+        items.iter().map(string).collect::<Vec<_>>().into_iter().collect()
+    }
+
     fn wrong_count(&mut self, key: &str, span: Span, found: usize, expected: usize, reason: &str) {
         let found = plural(found, "component");
         let message = format!("`{key}` has {found}, expected {expected}");

@@ -1,5 +1,8 @@
-//! A body as a box of fractions: of its edges, or of radius and angle.
+//! A body as a box of fractions: of its edges, or of radius and angles.
 
+use std::f64::consts::PI;
+
+use mms_math::coordinates::{Numbers, System};
 use mms_mechanics::extent::Extent;
 use mms_mechanics::face::fixed_coordinate;
 use mms_spec::Face;
@@ -11,60 +14,66 @@ const ROUNDING: f64 = 1e-12;
 /// A body of `D` dimensions.
 #[derive(Clone, Debug)]
 pub struct Chart<const D: usize> {
-    /// Least and greatest coordinates: X, or radius and angle.
+    body: Extent<f64>,
+    system: System,
+    /// Least and greatest coordinates: X, or radius and angles; of a polygon those of the box around it.
     bounds: [[f64; D]; 2],
-    is_polar: bool,
 }
 
 impl<const D: usize> Chart<D> {
     /// Of a body in numbers.
-    pub fn new(extent: &Extent<f64>) -> Self {
-        let (lower, upper, is_polar) = match extent {
-            Extent::Box([lower, upper]) => (lower.clone(), upper.clone(), false),
-            Extent::Annulus(radii, angles) => {
-                (vec![radii[0], angles[0]], vec![radii[1], angles[1]], true)
+    pub fn new(body: Extent<f64>) -> Self {
+        let (system, corners) = match &body {
+            Extent::Block(block) => {
+                let end = |end: usize| block.bounds.iter().map(|it| it[end]).collect();
+                (block.system, [end(0), end(1)])
             }
+            _ => (System::Cartesian, body.bounding_box()),
         };
-        let bounds = [lower, upper].map(|bound| std::array::from_fn(|axis| bound[axis]));
-        Chart { bounds, is_polar }
+        let bounds = corners.map(|corner: Vec<f64>| std::array::from_fn(|axis| corner[axis]));
+        Chart { body, system, bounds }
     }
 
-    fn coordinate(&self, axis: usize, fraction: f64) -> f64 {
-        let [lower, upper] = [0, 1].map(|end| self.bounds[end][axis]);
-        lower + (upper - lower) * fraction
+    /// Whether the fractions of its faces are 0 and 1, so that it has a mesh of them: not of a polygon, and not where
+    /// there is no body.
+    pub fn is_block(&self) -> bool {
+        matches!(self.body, Extent::Block(_))
+    }
+
+    fn at(&self, fractions: &[f64; D]) -> [f64; 3] {
+        std::array::from_fn(|axis| match fractions.get(axis) {
+            Some(fraction) => {
+                let [lower, upper] = [0, 1].map(|end: usize| self.bounds[end][axis]);
+                lower + (upper - lower) * fraction
+            }
+            None => 0.0,
+        })
     }
 
     /// X.
     pub fn place(&self, fractions: &[f64; D]) -> SVector<f64, D> {
-        let coordinates = SVector::from_fn(|axis, _| self.coordinate(axis, fractions[axis]));
-        if !self.is_polar {
-            return coordinates;
+        if !self.is_block() {
+            return SVector::from_vec(self.body.point(fractions));
         }
-        let (sine, cosine) = coordinates[1].sin_cos();
-        SVector::from_fn(|axis, _| coordinates[0] * [cosine, sine][axis])
+        let place = self.system.position(&mut Numbers::new(), &self.at(fractions));
+        SVector::from_fn(|axis, _| place[axis])
     }
 
     /// The unit vectors along which the coordinates grow, as columns.
     pub fn basis(&self, fractions: &[f64; D]) -> SMatrix<f64, D, D> {
-        if !self.is_polar {
-            return SMatrix::identity();
-        }
-        let (sine, cosine) = self.coordinate(1, fractions[1]).sin_cos();
-        SMatrix::from_fn(|row, column| [[cosine, -sine], [sine, cosine]][row][column])
+        let basis = self.system.basis(&mut Numbers::new(), &self.at(fractions));
+        SMatrix::from_fn(|row, column| basis[column][row])
     }
 
     /// How far X moves for each fraction.
     pub fn scales(&self, fractions: &[f64; D]) -> [f64; D] {
-        std::array::from_fn(|axis| {
-            let length = self.bounds[1][axis] - self.bounds[0][axis];
-            let is_angle = self.is_polar && axis == 1;
-            if is_angle { length * self.coordinate(0, fractions[0]) } else { length }
-        })
+        let scales = self.system.scales(&mut Numbers::new(), &self.at(fractions));
+        std::array::from_fn(|axis| (self.bounds[1][axis] - self.bounds[0][axis]) * scales[axis])
     }
 
     /// The longest edge, or the outer radius.
     pub fn size(&self) -> f64 {
-        if self.is_polar {
+        if self.system != System::Cartesian {
             return self.bounds[1][0];
         }
         (0..D).map(|axis| self.bounds[1][axis] - self.bounds[0][axis]).fold(0.0, f64::max)
@@ -73,20 +82,35 @@ impl<const D: usize> Chart<D> {
     /// Whether it closes on itself along an axis.
     pub fn is_closed(&self, axis: usize) -> bool {
         let turns = (self.bounds[1][axis] - self.bounds[0][axis]) / std::f64::consts::TAU;
-        self.is_polar && axis == 1 && (turns - 1.0).abs() <= ROUNDING
+        self.system != System::Cartesian && axis == 1 && (turns - 1.0).abs() <= ROUNDING
     }
 
-    /// Whether all angles meet in one point where the radius is least.
+    /// The axes along which all coordinates mean the same place where another one is at an end of its range: where the
+    /// radius is 0, all angles do, and on the axis of a sphere all angles about it.
+    pub fn collapsed(&self, at_lower: [bool; D], at_upper: [bool; D]) -> [bool; D] {
+        let is_centre = self.is_disc() && at_lower[0];
+        let is_pole = self.system == System::Spherical
+            && ((at_lower[D - 1] && self.bounds[0][D - 1] == 0.0)
+                || (at_upper[D - 1] && (self.bounds[1][D - 1] - PI).abs() <= ROUNDING));
+        std::array::from_fn(|axis| {
+            (is_centre && self.system.is_angle(axis)) || (is_pole && axis == 1)
+        })
+    }
+
+    /// Whether all angles meet where the radius is least.
     pub fn is_disc(&self) -> bool {
-        self.is_polar && self.bounds[0][0] == 0.0
+        self.system != System::Cartesian && self.bounds[0][0] == 0.0
     }
 
-    /// Whether a face is there: a disc has no inner one, a whole ring no edges.
+    /// Whether a face is there: a disc has no inner one, a whole ring no edges, and the axis of a sphere is none.
     pub fn has(&self, face: Face) -> bool {
+        let (axis, _) = fixed_coordinate(face);
         match face {
             Face::Inner => !self.is_disc(),
             Face::ThetaMin | Face::ThetaMax => !self.is_closed(1),
-            Face::Outer | Face::Min(_) | Face::Max(_) => true,
+            Face::PhiMin => self.bounds[0][axis] != 0.0,
+            Face::PhiMax => (self.bounds[1][axis] - PI).abs() > ROUNDING,
+            Face::Outer | Face::Min(_) | Face::Max(_) | Face::Edge(..) => true,
         }
     }
 

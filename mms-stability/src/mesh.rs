@@ -104,11 +104,14 @@ impl<const D: usize> Lattice<'_, D> {
         })
     }
 
-    /// The number of a node: one where the body closes on itself, and one in the middle of a disc.
+    /// The number of a node: one where the body closes on itself, and one where all angles are one place.
     fn number(&self, positions: [usize; D]) -> usize {
-        let is_middle = self.chart.is_disc() && positions[0] == 0;
+        let at = |end: usize| {
+            std::array::from_fn(|axis| positions[axis] == end * 2 * self.elements[axis])
+        };
+        let is_one = self.chart.collapsed(at(0), at(1));
         (0..D).rev().fold(0, |number, axis| {
-            let position = if is_middle { 0 } else { positions[axis] % self.along(axis) };
+            let position = if is_one[axis] { 0 } else { positions[axis] % self.along(axis) };
             number * self.along(axis) + position
         })
     }

@@ -35,6 +35,8 @@ pub enum Solved {
     Leaves,
     /// The field is not static.
     Moving,
+    /// There is no coarse mesh of its body.
+    NoMesh,
     /// The exact state has no value, or to evaluate it takes too long.
     Unknown,
 }
@@ -48,6 +50,7 @@ impl Solved {
             Solved::Diverges => "diverges",
             Solved::Leaves => "leaves",
             Solved::Moving => "not_static",
+            Solved::NoMesh => "no_mesh",
             Solved::Unknown => "unknown",
         }
     }
@@ -66,6 +69,9 @@ impl Solved {
                 "Newton's method LEAVES the exact state: it lies on an unstable branch"
             }
             Solved::Unknown => "NOT SOLVED: the exact state has no value, or that takes too long",
+            Solved::NoMesh => {
+                "NOT SOLVED: the coarse mesh is one of boxes and of what is round, not of polygons"
+            }
             Solved::Moving => "the field is not static: there is nothing to solve",
         }
     }
@@ -85,6 +91,9 @@ pub fn solve(compiled: &Compiled) -> Solved {
 fn solved<const D: usize>(compiled: &Compiled, subject: &mut Subject<'_, D>) -> Solved {
     if !subject.is_static {
         return Solved::Moving;
+    }
+    if !subject.chart.is_block() {
+        return Solved::NoMesh;
     }
     let Some(mesh) = pinned(compiled, subject) else { return Solved::Unknown };
     let problem = Problem::new(&mesh, subject);

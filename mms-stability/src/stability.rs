@@ -23,6 +23,8 @@ pub struct Stability {
     pub corners: Vec<Corner>,
     /// Long waves; `None` where nothing is free to move.
     pub growth: Option<Growth>,
+    /// Whether faces, corners and long waves were looked at: on a polygon, and without a body, they are not.
+    pub has_mesh: bool,
     /// Whether the budget ended first: what was not looked at may grow.
     pub is_spent: bool,
     /// Whether u does not depend on t.
@@ -43,12 +45,15 @@ pub fn judge(compiled: &Compiled) -> Stability {
 
 fn judged<const D: usize>(compiled: &Compiled, formulas: &Formulas) -> Stability {
     let mut subject = Subject::<D>::new(compiled, formulas);
+    let is_block = subject.chart.is_block();
+    let has_body = !compiled.field.domain.body.is_nothing();
     Stability {
         material: Material::of_subject(&mut subject),
-        waves: waves(&mut subject),
-        surfaces: surfaces(compiled, &mut subject),
-        corners: corners(compiled, &mut subject),
-        growth: growth(compiled, &mut subject),
+        waves: has_body.then(|| waves(&mut subject)).flatten(),
+        surfaces: if is_block { surfaces(compiled, &mut subject) } else { Vec::new() },
+        corners: if is_block { corners(compiled, &mut subject) } else { Vec::new() },
+        growth: is_block.then(|| growth(compiled, &mut subject)).flatten(),
+        has_mesh: is_block,
         is_spent: formulas.is_spent(),
         is_static: subject.is_static,
         shortest_wavelength: shortest_wavelength(compiled),

@@ -160,7 +160,7 @@ impl<'a, const D: usize> Subject<'a, D> {
         let (extent, window) = domain(&compiled.program, &formulas.parameters);
         let duals: Vec<_> = formulas.parameters.iter().copied().map(Dual::constant).collect();
         Subject {
-            chart: Chart::new(&extent),
+            chart: Chart::new(extent),
             window,
             is_static: formulas.is_static,
             is_frame_indifferent: formulas.is_frame_indifferent,

@@ -17,7 +17,7 @@ use mms_spec::suggest::advice;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::provenance::Input;
 use crate::report::accuracy::Report;
-use crate::session::input::{Motion, Text, precision, quantities, settings};
+use crate::session::input::{Motion, Text, hold_body, precision, quantities, settings};
 use crate::workbench::{Module, Time, Way, Workbench, time};
 
 /// Measure the errors of a field against arbitrary precision: every quantity, in single, double and
@@ -92,6 +92,7 @@ impl Accuracy {
         let options = self.motion.options(Selection { set, ..Selection::default() });
         let refused = |failure| anyhow!("the field does not compile as selected\n{failure}");
         let compiled = text.compile(&options).map_err(refused)?;
+        hold_body(&compiled, "errors are measured over a body")?;
         let quantities = self.quantities(&compiled)?;
         let quantities: Vec<_> = quantities.into_iter().filter(|it| compiled.offers(*it)).collect();
         let request = Request {

@@ -129,6 +129,9 @@ impl Check {
     fn report(&self, path: &Foreign, compiled: &Arc<Compiled>) -> anyhow::Result<(Outcome, Value)> {
         let comparisons = compare(compiled);
         let named = mistaken::named(compiled, &comparisons);
+        if compiled.field.domain.body.is_nothing() {
+            return self.report_numbers(path, compiled, (&comparisons, &named));
+        }
         let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
         let gaps = gaps(compiled);
         let mut certificate = certify(compiled);
@@ -190,6 +193,37 @@ impl Check {
                 "simplified": compiled.simplified,
             }),
         ))
+    }
+}
+
+impl Check {
+    /// Of a field without a body there are its closed forms, at points of the unit cube, and nothing to prove.
+    fn report_numbers(
+        &self,
+        path: &Foreign,
+        compiled: &Compiled,
+        (comparisons, named): (&[Comparison], &[Option<Ranked>]),
+    ) -> anyhow::Result<(Outcome, Value)> {
+        if !self.json {
+            let line = "  proof  NONE: numbers without claims, for [domain] has no body (`shape = \"none\"`)";
+            print(&text(path, compiled, vec![line.into()], &[], (comparisons, named)))?;
+        }
+        let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
+        let outcome = match comparisons.iter().all(agrees) {
+            true => Outcome::AsExpected,
+            false => Outcome::Refuted,
+        };
+        let checks = comparisons.iter().zip(named);
+        let checks = checks.map(|(it, named)| comparison_document(it, named.as_ref()));
+        let document = json!({
+            "file": path,
+            "claims": [],
+            "certificate": null,
+            "objections": [],
+            "checks": checks.collect::<Vec<_>>(),
+            "simplified": compiled.simplified,
+        });
+        Ok((outcome, document))
     }
 }
 

@@ -313,11 +313,7 @@ impl Eval {
     }
 
     /// The points that are asked for.
-    fn places<T: Digits>(
-        &self,
-        input: &Input,
-        body: &Extent<f64>,
-    ) -> anyhow::Result<Vec<Vec<T>>> {
+    fn places<T: Digits>(&self, input: &Input, body: &Extent<f64>) -> anyhow::Result<Vec<Vec<T>>> {
         let dimension = input.compiled.field.dimension;
         let Some(path) = &self.points else {
             return self.at.iter().map(|at| coordinates("--at", at, dimension)).collect();

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
 use mms_codegen::Compiled;
-use mms_mechanics::extent::Extent;
 use mms_mechanics::sample::domain;
 use mms_runtime::Division;
 use mms_spec::Form;
@@ -235,14 +234,8 @@ impl Bench<'_> {
 fn unit_work(compiled: &Compiled, set: &SortedMap<usize, Rational>, longest: f64) -> f64 {
     let (extent, [start, end]) = domain(&compiled.program, &compiled.parameters::<f64>(set));
     let [_, speed] = sound(compiled, set);
-    let part: f64 = match extent {
-        Extent::Box([lower, upper]) => {
-            lower.iter().zip(&upper).map(|(lower, upper)| (upper - lower) / longest).product()
-        }
-        Extent::Annulus([inner, outer], [first, last]) => {
-            (last - first) / 2.0 * (outer.powi(2) - inner.powi(2)) / longest.powi(2)
-        }
-    };
+    let dimension = extent.dimension() as i32;
+    let part = extent.measure() / longest.powi(dimension);
     part * speed * (end - start) / longest
 }
 

@@ -1,7 +1,6 @@
 //! Points at which accelerations or residuals were computed: each once, with its volume.
 
 use anyhow::{bail, ensure};
-use mms_mechanics::extent::Extent;
 use mms_results::lattice::Lattice;
 use mms_results::mesh::Mesh;
 use mms_results::names::Values;
@@ -56,7 +55,7 @@ pub fn volumes(
 /// Volumes of points in a box that are evenly apart: on a face half of it, on an edge a quarter.
 fn by_distance(points: &[f64], rounding: f64, exact: &Exact) -> Option<Vec<f64>> {
     let count = points.len() / exact.dimension;
-    if !matches!(exact.body, Extent::Box(_)) || count < 2 {
+    if exact.body.box_bounds().is_none() || count < 2 {
         return None;
     }
     let lattice = Lattice::new(points, exact.dimension, exact.spacing(count));

@@ -4,7 +4,6 @@ use mms_analysis::accuracy::{Varied, regime, vary};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options};
 use mms_mechanics::Output;
-use mms_mechanics::extent::Extent;
 use mms_mechanics::sample::{domain, samples};
 use mms_program::interpret::{Interpreter, Point};
 use mms_runtime::study::{Observer, Watch};
@@ -89,13 +88,7 @@ impl Subject {
         let compiled = &input.compiled;
         let parameters = compiled.parameters::<f64>(&set);
         let (extent, window) = domain(&compiled.program, &parameters);
-        let edge = match extent {
-            Extent::Box([lower, upper]) => lower
-                .iter()
-                .zip(upper)
-                .fold(0.0, |edge: f64, (lower, upper)| edge.max(upper - lower)),
-            Extent::Annulus([_, outer], _) => 2.0 * outer,
-        };
+        let edge = extent.size();
         let (size, least_jacobian) = motion(compiled, &parameters);
         Subject { input, set, settings, size, least_jacobian, edge, window }
     }
@@ -144,9 +137,8 @@ impl Subject {
     pub fn elasticity(&self) -> anyhow::Result<Option<Elasticity>> {
         let compiled = &self.input.compiled;
         let (extent, _) = domain(&compiled.program, &compiled.parameters::<f64>(&self.set));
-        let Extent::Box([lower, upper]) = extent else { return Ok(None) };
-        let middle: Vec<f64> =
-            lower.iter().zip(upper).map(|(lower, upper)| (lower + upper) / 2.0).collect();
+        let Some(bounds) = extent.box_bounds() else { return Ok(None) };
+        let middle: Vec<f64> = bounds.iter().map(|[lower, upper]| (lower + upper) / 2.0).collect();
         let scene = self.input.scene_with(&self.set, |code| code.double)?;
         Ok(Some(Elasticity::of(&scene, &middle)))
     }

@@ -1,12 +1,17 @@
 //! The motion that a field prescribes: its body with a grid on it at some times, coloured by how far each
 //! place has moved.
 
+use std::f64::consts::TAU;
+
 use dashu_ratio::RBig;
 use maud::{Markup, html};
 use mms_codegen::Compiled;
-use mms_mechanics::{Bound, Output};
+use mms_mechanics::Output;
+use mms_mechanics::extent::Extent;
+use mms_mechanics::sample::domain;
 use mms_program::interpret::{Interpreter, Point};
-use mms_spec::Body;
+use mms_runtime::math::coordinates::{Numbers, System};
+use mms_runtime::math::polygon;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::sorted::SortedMap;
 
@@ -36,8 +41,12 @@ impl Motion {
     pub fn of(compiled: &Compiled, set: &SortedMap<usize, RBig>) -> Option<Self> {
         let parameters = compiled.parameters::<f64>(set);
         let mut interpreter = Interpreter::new(&compiled.program, &parameters);
-        let cells = cells(&interpreter, &compiled.field.domain.body);
-        let time = interpreter.output(Output::Bound(Bound::Time));
+        let (body, time) = domain(&compiled.program, &parameters);
+        let cells = cells(&body);
+        if cells.is_empty() {
+            // Without a body there is nothing to draw.
+            return None;
+        }
         let output = Output::Quantity(Quantity::Displacement);
         let mut moved = Vec::new();
         for moment in 0..MOMENTS {
@@ -125,36 +134,72 @@ fn divisions(edge: f64, longest: f64, most: usize) -> usize {
     ((edge / longest * most as f64).round() as usize).max(2)
 }
 
-fn cells(interpreter: &Interpreter<'_, f64, Output>, body: &Body) -> Vec<Cell> {
-    let bound = |bound| interpreter.output(Output::Bound(bound));
+fn cells(body: &Extent<f64>) -> Vec<Cell> {
     match body {
-        Body::Box { .. } => {
-            let (lower, upper) = (bound(Bound::Lower), bound(Bound::Upper));
-            let edges: Vec<f64> = lower.iter().zip(&upper).map(|(from, to)| to - from).collect();
-            let longest = edges.iter().copied().fold(0.0, f64::max);
-            let along = |axis: usize, most: usize| {
-                parts(lower[axis], upper[axis], divisions(edges[axis], longest, most))
+        Extent::Block(block) if block.system == System::Cartesian => of_box(&block.bounds),
+        Extent::Block(block) => {
+            let parts_along = |axis: usize| {
+                let [from, to] = block.bounds[axis];
+                let count = match block.system.is_angle(axis) {
+                    true => ((32.0 * (to - from) / TAU).round() as usize).max(8),
+                    false => 4,
+                };
+                parts(from, to, count)
             };
-            match edges.len() {
-                1 => along(0, 24).map(|[a, b]| vec![vec![a], vec![b]]).collect(),
-                2 => quads(along(0, 10), along(1, 10))
-                    .map(|quad| quad.map(Vec::from).into())
-                    .collect(),
-                _ => (0..3)
-                    .flat_map(|axis| faces(axis, [lower[axis], upper[axis]], |axis| along(axis, 6)))
-                    .collect(),
+            let place = |at: [f64; 3]| -> Vec<f64> {
+                let place = block.system.position(&mut Numbers::new(), &at);
+                place[..block.bounds.len()].to_vec()
+            };
+            if block.bounds.len() == 2 {
+                return quads(parts_along(0), parts_along(1))
+                    .map(|quad| quad.map(|[radius, angle]| place([radius, angle, 0.0])).into())
+                    .collect();
             }
+            // Radius, theta and phi are left-handed, so that seen from outside they run the other way.
+            let is_mirrored = block.system == System::Spherical;
+            let along = |axis: usize| faces(axis, block.bounds[axis], &parts_along);
+            let all = (0..3).flat_map(along).map(|cell| {
+                let corners = cell.iter().map(|at| place([at[0], at[1], at[2]]));
+                if is_mirrored { corners.rev().collect() } else { corners.collect() }
+            });
+            // What is a point or a line is no cell, as at an inner radius of 0.
+            all.filter(|cell: &Cell| spread(cell) > 0.0).collect()
         }
-        Body::Annulus { .. } => {
-            let (inner, outer, theta) =
-                (bound(Bound::Inner)[0], bound(Bound::Outer)[0], bound(Bound::Theta));
-            let turns = (theta[1] - theta[0]) / std::f64::consts::TAU;
-            let around = ((32.0 * turns).round() as usize).max(8);
-            let place = |[r, theta]: [f64; 2]| vec![r * theta.cos(), r * theta.sin()];
-            quads(parts(inner, outer, 4), parts(theta[0], theta[1], around))
-                .map(|quad| quad.map(place).into())
+        Extent::Polygon(vertices) => {
+            let quads = polygon::quadrilaterals(vertices).into_iter();
+            quads
+                .map(|quad| {
+                    let mut cell: Cell = quad.corners.map(Vec::from).into();
+                    if polygon::area(&quad.corners) < 0.0 {
+                        cell.reverse();
+                    }
+                    cell
+                })
                 .collect()
         }
+        Extent::Nothing(_) => Vec::new(),
+    }
+}
+
+/// The least of what the diagonals of a cell extend.
+fn spread(cell: &[Vec<f64>]) -> f64 {
+    let between = |a: usize, b: usize| {
+        cell[a].iter().zip(&cell[b]).map(|(a, b)| (a - b).powi(2)).sum::<f64>()
+    };
+    between(0, 2).min(between(1, 3))
+}
+
+fn of_box(bounds: &[[f64; 2]]) -> Vec<Cell> {
+    let edges: Vec<f64> = bounds.iter().map(|[from, to]| to - from).collect();
+    let longest = edges.iter().copied().fold(0.0, f64::max);
+    let along = |axis: usize, most: usize| {
+        let [from, to] = bounds[axis];
+        parts(from, to, divisions(edges[axis], longest, most))
+    };
+    match edges.len() {
+        1 => along(0, 24).map(|[a, b]| vec![vec![a], vec![b]]).collect(),
+        2 => quads(along(0, 10), along(1, 10)).map(|quad| quad.map(Vec::from).into()).collect(),
+        _ => (0..3).flat_map(|axis| faces(axis, bounds[axis], |axis| along(axis, 6))).collect(),
     }
 }
 

@@ -6,7 +6,7 @@ use mms_spec::format::MATERIAL;
 use mms_spec::moduli;
 use mms_spec::moduli::Pair;
 use mms_spec::quantity::Quantity;
-use mms_spec::{Face, MaterialSpec};
+use mms_spec::{BODIES, BODY_KEYS, Face, MaterialSpec, Shape};
 use serde_json::{Map, Value, json};
 
 use super::holds::{count, extend};
@@ -15,7 +15,8 @@ use crate::gallery;
 /// All of them.
 pub fn of_field() -> Value {
     let dimensions = (1..=3).flat_map(|dimension| [in_dimension(dimension), box_faces(dimension)]);
-    let conditions = dimensions.chain([boxes(), annuli(), rings(), sectors(), rigid(), motions()]);
+    let bodies = BODIES.iter().map(keys_of).chain(round_faces()).chain([edges(), nothing()]);
+    let conditions = dimensions.chain(bodies).chain([rigid(), motions()]);
     conditions.chain(materials()).collect()
 }
 
@@ -62,9 +63,9 @@ fn shape_is(shape: &str) -> (&'static str, Value) {
 fn in_dimension(dimension: usize) -> Value {
     let vectors = ["displacement.u", "domain.lower", "domain.upper", "rigid.translation"];
     let mut asked: Vec<_> = vectors.iter().map(|path| at(path, count(dimension))).collect();
-    if dimension != 2 {
-        asked.push(at("domain.shape", json!({ "const": "box" })));
-    }
+    let fits = |shape: &&Shape| shape.dimension.is_none_or(|needed| needed == dimension);
+    let shapes: Vec<_> = BODIES.iter().filter(fits).map(|shape| shape.name).collect();
+    asked.push(at("domain.shape", json!({ "enum": shapes })));
     asked.push(at("rigid.rotation", rotation(dimension)));
     asked.push(at("check", json!({ "items": all(components(dimension)) })));
     if_then(has(&[dimension_is(dimension)]), all(asked))
@@ -110,12 +111,11 @@ fn faces(faces: &[Face]) -> Value {
     at("boundary", json!({ "propertyNames": { "enum": names } }))
 }
 
-fn boxes() -> Value {
-    if_then(has(&[shape_is("box")]), domain(&["lower", "upper"], &["inner", "outer", "theta"]))
-}
-
-fn annuli() -> Value {
-    if_then(has(&[shape_is("annulus")]), domain(&["inner", "outer"], &["lower", "upper"]))
+/// The keys of a body of that shape.
+fn keys_of(shape: &Shape) -> Value {
+    let is_other = |key: &&&str| !shape.required.contains(*key) && !shape.optional.contains(*key);
+    let others: Vec<&str> = BODY_KEYS.iter().filter(is_other).copied().collect();
+    if_then(has(&[shape_is(shape.name)]), domain(shape.required, &others))
 }
 
 /// A `[domain]` with some keys, and without others.
@@ -124,15 +124,53 @@ fn domain(required: &[&str], refused: &[&str]) -> Value {
     at("domain", json!({ "required": required, "properties": refused }))
 }
 
-fn rings() -> Value {
-    let mut ring = has(&[shape_is("annulus")]);
-    extend(&mut ring, json!({ "not": has(&[("domain.theta", json!(true))]) }));
-    if_then(ring, faces(&Face::of_annulus(false)))
+/// Faces of what is round, each with the key that it needs.
+fn round_faces() -> Vec<Value> {
+    let round = BODIES.iter().filter(|shape| shape.required.contains(&"outer"));
+    let mut conditions = Vec::new();
+    for shape in round {
+        let has_key = |key: &str| shape.required.contains(&key) || shape.optional.contains(&key);
+        let of = |key: &str, faces: &[Face]| if has_key(key) { faces.to_vec() } else { Vec::new() };
+        let own = [
+            of("inner", &[Face::Inner]),
+            vec![Face::Outer],
+            of("theta", &[Face::ThetaMin, Face::ThetaMax]),
+            of("z", &[Face::Min(2), Face::Max(2)]),
+            of("phi", &[Face::PhiMin, Face::PhiMax]),
+        ];
+        conditions.push(if_then(has(&[shape_is(shape.name)]), faces(&own.concat())));
+    }
+    let without = |asked: Value, own: &[Face]| {
+        let refused: Map<_, _> =
+            own.iter().map(|face| (face.name().to_string(), json!(false))).collect();
+        if_then(asked, at("boundary", json!({ "properties": refused })))
+    };
+    let absent = |key: &str| {
+        let round = json!({ "enum": BODIES.iter().filter(|shape| shape.optional.contains(&key))
+            .map(|shape| shape.name).collect::<Vec<_>>() });
+        let mut asked = has(&[("domain.shape", round)]);
+        extend(&mut asked, json!({ "not": has(&[(&format!("domain.{key}"), json!(true))]) }));
+        asked
+    };
+    conditions.push(without(absent("theta"), &[Face::ThetaMin, Face::ThetaMax]));
+    conditions.push(without(absent("phi"), &[Face::PhiMin, Face::PhiMax]));
+    conditions
 }
 
-fn sectors() -> Value {
-    let condition = has(&[shape_is("annulus"), ("domain.theta", json!(true))]);
-    if_then(condition, faces(&Face::of_annulus(true)))
+/// The edges of a polygon without names of their own.
+fn edges() -> Value {
+    let mut polygon = has(&[shape_is("polygon")]);
+    extend(&mut polygon, json!({ "not": has(&[("domain.names", json!(true))]) }));
+    if_then(
+        polygon,
+        at("boundary", json!({ "propertyNames": { "pattern": "^edge_[1-9][0-9]*$" } })),
+    )
+}
+
+/// A field without a body has no faces and no studies.
+fn nothing() -> Value {
+    let refused = json!({ "properties": { "boundary": false, "study": { "maxItems": 0 } } });
+    if_then(has(&[shape_is("none")]), refused)
 }
 
 /// A rigid motion has a rotation, a translation or both.

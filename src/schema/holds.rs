@@ -5,7 +5,7 @@ use mms_spec::format;
 use mms_spec::format::{Holds, Key, Length};
 use mms_spec::language::FUNCTIONS;
 use mms_spec::names::{COORDINATES, INVARIANTS, Keeper, MAX_NAME};
-use mms_spec::{Claim, Face, MAX_COUNT};
+use mms_spec::{Claim, Face, MAX_COUNT, MAX_VERTICES};
 use serde_json::{Map, Value, json};
 
 /// Adds the keywords of one schema to another.
@@ -74,6 +74,17 @@ fn value(holds: &Holds) -> Value {
             "propertyNames": name(Keeper::Material),
             "additionalProperties": formula(),
         }),
+        Holds::Vertices => json!({
+            "type": "array",
+            "items": formulas(Length::Exactly(2)),
+            "minItems": 3,
+            "maxItems": MAX_VERTICES,
+        }),
+        Holds::Words => json!({
+            "type": "array",
+            "items": { "type": "string", "pattern": "^[a-z][a-z0-9_]*$", "maxLength": MAX_NAME },
+            "uniqueItems": true,
+        }),
         Holds::Faces => faces(),
         Holds::Rotation(keys) => {
             let mut schema = table(keys);
@@ -126,5 +137,11 @@ fn faces() -> Value {
     let claim = json!({ "description": meanings.join("; "), "enum": format::claims() });
     let faces = Face::ALL.iter().map(|face| (face.name().to_string(), claim.clone()));
     let properties: Map<_, _> = faces.collect();
-    json!({ "type": "object", "properties": properties, "additionalProperties": false })
+    // The edges of a polygon have names of their own.
+    json!({
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": { "enum": format::claims() },
+        "propertyNames": { "pattern": "^[a-z][a-z0-9_]*$" },
+    })
 }

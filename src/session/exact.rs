@@ -49,6 +49,7 @@ impl Exact {
     /// Settings that it does not have.
     pub fn new(input: Input, settings: &[String]) -> anyhow::Result<Exact> {
         input.hold(settings)?;
+        input.hold_body("there is nothing that states and results could fill")?;
         let set = input.settings(settings)?;
         let parameters = input.compiled.parameters::<f64>(&set);
         let (body, window) = domain(&input.compiled.program, &parameters);

@@ -484,6 +484,7 @@ impl Input {
     /// # Errors
     /// The field is static.
     pub fn hold_moving(&self) -> anyhow::Result<()> {
+        self.hold_body("a solver has nothing to fill with particles")?;
         ensure!(
             !self.is_static(),
             "`{}` is static: the explicit solver of this project follows motions; `mms emit` and `mms state` give your \
@@ -498,10 +499,31 @@ impl Input {
         self.compiled.model.own.keys().copied().collect()
     }
 
+    /// Refuses a field without a body; `why` says what needs one.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn hold_body(&self, why: &str) -> anyhow::Result<()> {
+        hold_body(&self.compiled, why)
+    }
+
     /// Whether nothing moves: the field has no time.
     pub fn is_static(&self) -> bool {
         self.compiled.model.domain.is_static
     }
+}
+
+/// Refuses a compiled field without a body; `why` says what needs one.
+///
+/// # Errors
+/// There is none.
+pub fn hold_body(compiled: &Compiled, why: &str) -> anyhow::Result<()> {
+    ensure!(
+        !compiled.field.domain.body.is_nothing(),
+        "`{}` has no body (`shape = \"none\"`): {why}; `mms eval`, `mms emit` and `mms show` work without one",
+        compiled.field.name.shown()
+    );
+    Ok(())
 }
 
 /// The same, those on request as well, which `all` leaves out.

@@ -1,7 +1,9 @@
 //! What a solver needs to know of a field once: its time window, how far its motion goes, what is claimed on its faces.
 
 use mms_emit::port::faces::claims;
+use mms_mechanics::Bound;
 use mms_mechanics::extent::Extent;
+use mms_mechanics::output::parts;
 use mms_results::write::{self, Fact};
 use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Face};
@@ -68,11 +70,17 @@ impl Domain {
 
     /// As keys of a document.
     pub fn document(&self) -> Map<String, Value> {
-        let body = match &self.body {
-            Extent::Box([lower, upper]) => json!({"lower": lower, "upper": upper}),
-            Extent::Annulus([inner, outer], theta) => {
-                json!({"inner": inner, "outer": outer, "theta": theta})
-            }
+        let part = |(bound, values): (Bound, Vec<f64>)| {
+            let value = match bound {
+                Bound::Inner | Bound::Outer => json!(values[0]),
+                Bound::Vertices => values.chunks_exact(2).map(|vertex| json!(vertex)).collect(),
+                _ => json!(values),
+            };
+            (if bound == Bound::Z { "z" } else { bound.name() }.to_owned(), value)
+        };
+        let body: Value = match &self.body {
+            Extent::Nothing(_) => Value::Null,
+            body => parts(body, 0.0).into_iter().map(part).collect::<Map<_, _>>().into(),
         };
         let faces = self
             .faces
@@ -102,7 +110,10 @@ fn reach(exact: &mut Exact) -> anyhow::Result<[Vec<f64>; 2]> {
         }
         exact.body.point(&fractions)
     };
-    let points: Vec<f64> = (0..along.pow(dimension as u32)).flat_map(sample).collect();
+    let mut points: Vec<f64> = (0..along.pow(dimension as u32)).flat_map(sample).collect();
+    if let Extent::Polygon(vertices) = &exact.body {
+        points.extend(vertices.iter().flatten());
+    }
     let [first, last] = exact.window;
     let (mut lower, mut upper) =
         (vec![f64::INFINITY; dimension], vec![f64::NEG_INFINITY; dimension]);

@@ -57,7 +57,10 @@ fn the_generated_column_is_the_column_on_paper() {
             assert!((at.p_gradient([x])[0] - p_slope).abs() <= TOLERANCE * p0.abs() * k);
             assert!((at.p_rate([x]) - p_rate).abs() <= TOLERANCE * p0.abs() * w);
             assert!((at.fluid_flux([x])[0] - flux).abs() <= TOLERANCE * mobility * p0.abs() * k);
-            assert!((at.fluid_normal_flux([x], [-1.0]) + flux).abs() <= TOLERANCE * mobility * p0.abs() * k);
+            assert!(
+                (at.fluid_normal_flux([x], [-1.0]) + flux).abs()
+                    <= TOLERANCE * mobility * p0.abs() * k
+            );
             assert!((at.fluid_source([x]) - source).abs() <= TOLERANCE * scale, "{x} {t}");
         }
     }

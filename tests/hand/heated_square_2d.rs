@@ -57,10 +57,7 @@ fn the_generated_square_is_the_square_on_paper() {
             let (c11, c12, c22) =
                 (f11 * f11 + f21 * f21, f11 * f12 + f21 * f22, f12 * f12 + f22 * f22);
             let factor = -conductivity / (f11 * f22 - f12 * f21);
-            [
-                factor * (c22 * slope[0] - c12 * slope[1]),
-                factor * (c11 * slope[1] - c12 * slope[0]),
-            ]
+            [factor * (c22 * slope[0] - c12 * slope[1]), factor * (c11 * slope[1] - c12 * slope[0])]
         };
         let scale = conductivity * warmth.abs() * k;
         for (x, t) in points {

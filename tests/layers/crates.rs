@@ -8,7 +8,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-math",
         knows: &[],
         layers: &[
-            "defect double lane quick",
+            "coordinates defect double lane polygon quick",
             "batch block dispatch float kept machine places structures",
             "bunched generate",
         ],
@@ -28,7 +28,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-spec",
         knows: &[],
         layers: &[
-            "brackets foreign language quantity suggest",
+            "brackets foreign interned language quantity suggest",
             "source",
             "diagnostic formula",
             "document form syntax",
@@ -43,8 +43,8 @@ pub const CRATES: &[Crate] = &[
         name: "mms-mechanics",
         knows: &["mms-math", "mms-program", "mms-spec", "mms-symbolic"],
         layers: &[
-            "defect extent invariant meanings resolve",
-            "expansion model",
+            "defect invariant meanings region resolve",
+            "expansion extent model",
             "face place",
             "amplitude offset rounding",
             "candidates tensor",
@@ -82,7 +82,14 @@ pub const CRATES: &[Crate] = &[
     },
     Crate {
         name: "mms-stability",
-        knows: &["mms-codegen", "mms-mechanics", "mms-program", "mms-spec", "mms-symbolic"],
+        knows: &[
+            "mms-codegen",
+            "mms-math",
+            "mms-mechanics",
+            "mms-program",
+            "mms-spec",
+            "mms-symbolic",
+        ],
         layers: &[
             "chart elasticity least pencil wavelength",
             "impedance mesh subject",
@@ -146,7 +153,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-diagnosis",
         knows: &["mms-runtime"],
         layers: &[
-            "falls law sample slopes smooth",
+            "body falls law sample slopes smooth",
             "exact",
             "evidence hypothesis material",
             "answer changed quadrature",

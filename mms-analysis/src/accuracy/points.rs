@@ -137,16 +137,31 @@ fn subnormal<T: Digits>(
 ) -> Option<()> {
     let tiny = (1 + index % 1000) as f64 * T::PRECISION.smallest();
     let holds = |from: &T, to: &T| (from.parts().0..=to.parts().0).contains(&tiny);
-    match (extreme_input(index, extent.dimension()), extent) {
-        (None, _) => holds(&window[0], &window[1]).then(|| input.time = T::from_f64(tiny)),
-        (Some(axis), Extent::Box([lower, upper])) => {
-            holds(&lower[axis], &upper[axis]).then(|| input.coordinates[axis] = T::from_f64(tiny))
-        }
-        (Some(_), Extent::Annulus([inner, outer], [first, last])) => {
-            let radius = *inner + (*outer - *inner) * T::from_f64(0.5);
-            holds(first, last).then(|| input.coordinates = vec![radius, T::from_f64(tiny)])
-        }
+    let Some(axis) = extreme_input(index, extent.dimension()) else {
+        return holds(&window[0], &window[1]).then(|| input.time = T::from_f64(tiny));
+    };
+    if let Some(bounds) = extent.box_bounds() {
+        let [lower, upper] = &bounds[axis];
+        return holds(lower, upper).then(|| input.coordinates[axis] = T::from_f64(tiny));
     }
+    // On an axis of space, halfway along the body, but for the coordinate that is tiny.
+    let near = extent.map(|value| value.parts().0);
+    let coordinates = match extent {
+        Extent::Block(block) => {
+            let [inner, outer] = block.bounds[0];
+            let mut coordinates = vec![T::from_f64(0.0); extent.dimension()];
+            coordinates[0] = inner + (outer - inner) * T::from_f64(0.5);
+            coordinates[axis.max(1)] = T::from_f64(tiny);
+            coordinates
+        }
+        _ => {
+            let mut coordinates = input.coordinates.clone();
+            coordinates[axis] = T::from_f64(tiny);
+            coordinates
+        }
+    };
+    let place: Vec<f64> = coordinates.iter().map(|value| value.parts().0).collect();
+    near.contains(&place).then(|| input.coordinates = coordinates)
 }
 
 /// Makes a coordinate or the time the largest number, of either sign.
@@ -160,14 +175,9 @@ fn largest<T: Digits>(input: &mut Input<T>, index: usize) {
     }
 }
 
-/// The longest edge of the box around the body.
+/// The size of the body.
 pub fn size(compiled: &Compiled, parameters: &[f64]) -> f64 {
-    match domain(&compiled.program, parameters).0 {
-        Extent::Box([lower, upper]) => {
-            upper.iter().zip(&lower).map(|(upper, lower)| upper - lower).fold(0.0, f64::max)
-        }
-        Extent::Annulus([_, outer], _) => 2.0 * outer,
-    }
+    domain(&compiled.program, parameters).0.size()
 }
 
 /// A number of double precision as an exact one.

@@ -80,8 +80,8 @@ pub fn set(parameter: usize, value: f64) -> SortedMap<usize, Rational> {
 
 fn bounds(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> Vec<f64> {
     let interpreter = Interpreter::new(&compiled.program, &compiled.parameters::<f64>(set));
-    let all = [Bound::Lower, Bound::Upper, Bound::Inner, Bound::Outer, Bound::Theta, Bound::Time];
-    all.into_iter().flat_map(|bound| interpreter.output(Output::Bound(bound))).collect()
+    let all = Bound::ALL.into_iter();
+    all.flat_map(|bound| interpreter.output(Output::Bound(bound))).collect()
 }
 
 /// With 77 digits: what is typed as a difference may cancel.

@@ -12,7 +12,7 @@ mod vanish;
 use mms_math::Scalar as _;
 
 use mms_codegen::compile::Compiled;
-use mms_mechanics::sample::{Sample, samples};
+use mms_mechanics::sample::{Sample, domain, samples};
 use mms_mechanics::{Bound, Output};
 use mms_mechanics::{Response, TooLarge};
 use mms_program::interpret::{Interpreter, Point};
@@ -186,7 +186,9 @@ fn sizes(compiled: &Compiled, parameters: &[Precise], points: &[Sample<Precise>]
     let edge = length(bound(Bound::Lower), bound(Bound::Upper));
     let radius = || bound(Bound::Outer).pop();
     let undefined = || Precise::from_f64(f64::NAN);
-    let size = edge.or_else(radius).unwrap_or_else(undefined);
+    let (body, _) = domain(&compiled.program, parameters);
+    let other = || Precise::from_f64(body.map(Precise::to_f64).size());
+    let size = edge.or_else(radius).unwrap_or_else(other);
     let [first, last] = [0, 1].map(|end| bound(Bound::Time).get(end).cloned());
     let window = first.zip(last).map_or_else(undefined, |(first, last)| last - first);
     let outputs = [Output::Response(Response::Density), Output::Response(Response::WaveSpeed)];

@@ -11,7 +11,6 @@ use super::chart::Chart;
 use super::enclosure::Formulas;
 use super::search::{Measure, largest};
 use mms_mechanics::Output;
-use mms_mechanics::face;
 use mms_mechanics::model::Model;
 use mms_program::Stage;
 use mms_program::interval::Interval;
@@ -37,7 +36,8 @@ pub fn near_zero(
 ) {
     let roots: Vec<Expr> = outputs.values().flatten().copied().collect();
     let candidates = candidates(graph, model, &roots);
-    if candidates.is_empty() {
+    // Without a body nothing bounds an angle.
+    if candidates.is_empty() || field.domain.body.is_nothing() {
         return;
     }
     let proved: SortedMap<Expr, Small> = graph.aside(|graph| {
@@ -61,7 +61,7 @@ pub fn near_zero(
 /// The angles at points of the body that depend on nothing without bounds.
 fn candidates(graph: &Graph, model: &Model, roots: &[Expr]) -> SortedSet<Expr> {
     let is_bounded = |expr: Expr| is_bounded(graph, model, expr);
-    let mut bounds = face::bounds(&model.domain.body).into_iter().flatten();
+    let mut bounds = model.domain.body.values().into_iter();
     if !bounds.all(is_bounded) || !model.domain.time.into_iter().all(is_bounded) {
         return SortedSet::new();
     }

@@ -1,14 +1,18 @@
 //! What a field depends on, as a box: parameters with a range, the time, and coordinates between
 //! whose bounds the body lies.
 //!
-//! An annulus is a box in radius and angle; a face is a box of one variable less. So everything that
-//! is proved over a domain is proved over a box.
+//! What is round is a box in radius and angles; a face is a box of one variable less. A polygon is a row of triangles,
+//! each the image of a square, one side of which is a corner. So everything that is proved over a domain is proved over
+//! a box. Where all angles are one place, as on an axis, nothing is lost: what is bounded is bounded at places.
 
 use super::search::{Cell, Limit};
-use mms_mechanics::face;
-use mms_mechanics::face::{ANGLE, RADIUS};
+use mms_math::coordinates::System;
+use mms_math::polygon::padded;
+use mms_mechanics::extent::{Block, Region};
+use mms_mechanics::face::{self, Formulas, POLAR_ANGLE, RADIUS};
 use mms_mechanics::model::Model;
 use mms_mechanics::tensor::Tensor;
+use mms_mechanics::triangles;
 use mms_program::interpret::{Interpreter, Number};
 use mms_program::interval::Interval;
 use mms_program::precise::Precise;
@@ -29,8 +33,11 @@ pub struct Chart {
     variables: Vec<Symbol>,
     /// What stands for the other parameters, and for a coordinate that is constant on a face.
     fixed: SortedMap<Symbol, Expr>,
-    /// X in terms of radius and angle; empty for a box.
-    polar: SortedMap<Symbol, Expr>,
+    /// X in terms of radius and angles; empty where they are themselves.
+    places: SortedMap<Symbol, Expr>,
+    system: System,
+    /// The triangles of a polygon, as many as a power of two, so that no cell of a search lies across two for long.
+    triangles: Vec<[usize; 3]>,
     /// The bounds of each variable, in terms of the parameters among those before it; then X and
     /// all parameters.
     program: Program<Output>,
@@ -46,6 +53,8 @@ pub struct Chart {
 pub enum Output {
     /// The two bounds of the variable of that index.
     Bounds(usize),
+    /// The vertices of a polygon, one after another.
+    Vertices,
     /// All parameters.
     Parameters,
     /// X.
@@ -68,34 +77,43 @@ impl Chart {
             }
         }
         variables.push((Symbol::Time, model.domain.time));
-        let constant = face.map(face::fixed_coordinate);
-        for (axis, bounds) in face::bounds(body).into_iter().enumerate() {
-            let symbol = Symbol::Coordinate(axis);
-            match constant {
-                Some((fixed_axis, is_upper)) if fixed_axis == axis => {
-                    let bound = substitute(graph, &[bounds[usize::from(is_upper)]], &fixed)[0];
-                    fixed.insert(symbol, bound);
-                }
-                _ => variables.push((symbol, bounds)),
+        if let Some(face) = face {
+            for (symbol, bound) in face::constant(body, face) {
+                let bound = substitute(graph, &[bound], &fixed)[0];
+                fixed.insert(symbol, bound);
             }
         }
-        let polar = face::polar(graph, body);
+        variables.extend(face::ranges(graph, body, face));
+        let places = face::places(graph, body, face);
+        let system = match body {
+            Region::Block(Block { system, .. }) => *system,
+            _ => System::Cartesian,
+        };
+        let triangles = match face {
+            None => padded(triangles(graph, model)),
+            Some(_) => Vec::new(),
+        };
         let mut outputs = SortedMap::new();
         for (index, (_, bounds)) in variables.iter().enumerate() {
             outputs.insert(Output::Bounds(index), substitute(graph, bounds, &fixed));
+        }
+        if let Region::Polygon(_) = body {
+            outputs.insert(Output::Vertices, substitute(graph, &body.values(), &fixed));
         }
         let leaves = |graph: &mut Graph, count: usize, symbol: fn(usize) -> Symbol| -> Vec<Expr> {
             (0..count).map(|index| graph.symbol(symbol(index))).collect()
         };
         let place = leaves(graph, field.dimension, Symbol::Coordinate);
-        let place = substitute(graph, &place, &polar);
+        let place = substitute(graph, &place, &places);
         outputs.insert(Output::Coordinates, substitute(graph, &place, &fixed));
         let parameters = leaves(graph, model.parameters.len(), Symbol::Parameter);
         outputs.insert(Output::Parameters, substitute(graph, &parameters, &fixed));
         Chart {
             variables: variables.into_iter().map(|(symbol, _)| symbol).collect(),
             fixed,
-            polar,
+            places,
+            system,
+            triangles,
             program: schedule_plainly(graph, &outputs),
             dimension: field.dimension,
             parameters: model.parameters.len(),
@@ -120,23 +138,23 @@ impl Chart {
 
     /// Formulas in X in terms of the variables.
     pub fn pull_back(&self, graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
-        let general = straightened(graph, formulas, &self.polar);
+        let general = straightened(graph, formulas, &self.places);
         self.fix(graph, &general)
     }
 
     /// The components of a pulled-back tensor in the basis of the coordinates: Q^T A Q with the
-    /// directions of growing radius and angle as the columns of Q.
+    /// directions of growing radius and angles as the columns of Q.
     pub fn in_local_basis(&self, graph: &mut Graph, tensor: &[Expr]) -> Vec<Expr> {
-        if self.polar.is_empty() {
+        let dimension = self.dimension;
+        if self.system == System::Cartesian {
             return tensor.to_vec();
         }
-        let angle = graph.symbol(ANGLE);
-        let angle = self.fix(graph, &[angle])[0];
-        let [sine, cosine] =
-            [Function::Sin, Function::Cos].map(|function| graph.call(function, &[angle]));
-        let minus = graph.scale(sine, -1);
-        let basis = Tensor::from_components(2, vec![cosine, minus, sine, cosine]);
-        let tensor = Tensor::from_components(2, tensor.to_vec());
+        let coordinates = face::coordinates(graph);
+        let directions = self.system.basis(&mut Formulas(graph), &coordinates);
+        let basis = Tensor::from_fn(dimension, |row, column| directions[column][row]);
+        let basis = self.fix(graph, basis.components());
+        let basis = Tensor::from_components(dimension, basis);
+        let tensor = Tensor::from_components(dimension, tensor.to_vec());
         let rotated = basis.transpose().mul(graph, &tensor).mul(graph, &basis);
         let reduced = graph.attempt(|graph| {
             let relations = Relations::find(graph, rotated.components());
@@ -174,7 +192,74 @@ impl Chart {
         for variable in self.ranged() {
             changes[variable] += along;
         }
+        if !self.triangles.is_empty() {
+            self.changes_in_triangles(cell, &slopes, &mut changes);
+        }
         changes
+    }
+
+    /// The same for the fractions of a polygon, each of which moves X and Y.
+    fn changes_in_triangles(&self, cell: &Cell, slopes: &[f64], changes: &mut [f64]) {
+        let first = cell.0.len() - 2;
+        let centre = cell.centre();
+        let at = self.place(&centre);
+        for own in first..cell.0.len() {
+            let mut moved = centre.clone();
+            moved[own] = cell.0[own].lower();
+            let to = self.place(&moved);
+            let by = |axis: usize| slopes[axis] * 2.0 * (to[axis] - at[axis]).abs();
+            changes[own] = by(first) + by(first + 1);
+        }
+        let [from, to] = self.within(&cell.0[first]);
+        if from != to {
+            // What lies across two triangles is cut between them first.
+            changes[first] = f64::INFINITY;
+        }
+    }
+
+    /// The first and the last triangle that a fraction may lie in.
+    fn within<T: Number>(&self, fraction: &T) -> [usize; 2] {
+        let count = self.triangles.len();
+        let [lower, upper] = fraction.bounds().map(|end| end * count as f64);
+        let last = (upper.ceil() as usize).saturating_sub(1).min(count - 1);
+        [(lower.floor().max(0.0) as usize).min(last), last]
+    }
+
+    /// X and Y in the triangles of a polygon with these vertices.
+    fn in_triangles<T: Number>(&self, vertices: &[T], fractions: &[T]) -> [T; 2] {
+        let count = self.triangles.len() as f64;
+        let [first, last] = self.within(&fractions[0]);
+        let point = |triangle: usize, s: &T, t: &T| -> [T; 2] {
+            let corners = self.triangles[triangle];
+            std::array::from_fn(|axis| {
+                let [a, b, c] = corners.map(|corner| vertices[2 * corner + axis].clone());
+                let far = b.clone() - a.clone() + t.clone() * (c - b);
+                a + s.clone() * far
+            })
+        };
+        let along = fractions[0].clone() * T::from_f64(count);
+        let [[from, to], across] = [&along, &fractions[1]].map(|fraction| fraction.bounds());
+        if from == to && across[0] == across[1] {
+            let s = along - T::from_f64(first as f64);
+            return point(first, &s, &fractions[1]);
+        }
+        // The image of a rectangle is the hull of those of its corners, for X and Y are linear in each fraction.
+        let mut hull: Option<[T; 2]> = None;
+        for triangle in first..=last {
+            let ends = [from, to].map(|end| (end - triangle as f64).clamp(0.0, 1.0));
+            for (s, t) in ends.into_iter().flat_map(|s| across.map(|t| (s, t))) {
+                let corner = point(triangle, &T::from_f64(s), &T::from_f64(t));
+                hull = Some(match hull {
+                    Some(hull) => {
+                        let [x, y] = hull;
+                        let [own_x, own_y] = corner;
+                        [x.or(own_x), y.or(own_y)]
+                    }
+                    None => corner,
+                });
+            }
+        }
+        hull.unwrap_or_else(|| [0, 1].map(|_| T::from_f64(f64::NAN)))
     }
 
     /// Formulas in all parameters in terms of the variables: the others have their defaults.
@@ -196,6 +281,12 @@ impl Chart {
                 let parameters = self.raw_parameters(&values);
                 interpreter = Some(Interpreter::within(&self.work, &self.program, &parameters));
                 known = count;
+            }
+            if !self.triangles.is_empty() && index + 2 == fractions.len() {
+                let vertices = interpreter.as_ref().map(|it| it.output(Output::Vertices));
+                let vertices = vertices.unwrap_or_default();
+                values.extend(self.in_triangles(&vertices, &fractions[index..]));
+                break;
             }
             let bounds = interpreter.as_ref().map(|it| it.output(Output::Bounds(index)));
             let Some([lower, upper]) = bounds.as_deref() else { continue };
@@ -340,16 +431,26 @@ impl<T: Number, K: Key> Run<'_, T, K> {
     }
 }
 
-/// Formulas in X in terms of radius and angle, and without sqrt(X^2 + Y^2), which is the radius.
+/// Formulas in X in terms of radius and angles, and without sqrt(X^2 + Y^2) and sqrt(X^2 + Y^2 + Z^2), which are a radius
+/// or its part across the axis.
 pub fn straightened(
     graph: &mut Graph,
     formulas: &[Expr],
-    polar: &SortedMap<Symbol, Expr>,
+    places: &SortedMap<Symbol, Expr>,
 ) -> Vec<Expr> {
-    if polar.is_empty() {
+    if places.is_empty() {
         return formulas.to_vec();
     }
-    let replaced = substitute(graph, formulas, polar);
+    let replaced = match across(graph, places) {
+        Some(across) => {
+            let named = with_radii(graph, formulas);
+            let radius = graph.symbol(RADIUS);
+            let mut places = places.clone();
+            places.extend([(ACROSS, across), (WHOLE, radius)]);
+            substitute(graph, &named, &places)
+        }
+        None => substitute(graph, formulas, places),
+    };
     let short = graph.attempt(|graph| {
         let relations = Relations::find(graph, &replaced);
         let reduced = reduce(graph, &replaced, &relations);
@@ -358,19 +459,61 @@ pub fn straightened(
     short.unwrap_or(replaced)
 }
 
-/// (R^n)^e = R^(n e) for the radius R, which is not negative.
-fn without_roots(graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
+/// R sin phi, where X is given by radius and two angles.
+fn across(graph: &mut Graph, places: &SortedMap<Symbol, Expr>) -> Option<Expr> {
+    let angle = graph.symbol(POLAR_ANGLE);
+    let cosine = graph.call(Function::Cos, &[angle]);
     let radius = graph.symbol(RADIUS);
+    let height = graph.mul(radius, cosine);
+    if places.get(&POLAR_ANGLE) != Some(&height) {
+        return None;
+    }
+    let sine = graph.call(Function::Sin, &[angle]);
+    Some(graph.mul(radius, sine))
+}
+
+/// The names of sqrt(X^2 + Y^2) and of sqrt(X^2 + Y^2 + Z^2) until they are replaced.
+const ACROSS: Symbol = Symbol::Local(0);
+const WHOLE: Symbol = Symbol::Local(1);
+
+/// Formulas with names for these two, in whatever powers they are.
+fn with_radii(graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
+    let coordinates = face::coordinates(graph);
+    let squares = coordinates.map(|it| (graph.power(it, 2), Rational::ONE));
+    let [plane, space] = [2, 3].map(|count| graph.sum(squares[..count].iter().cloned()));
+    let [across, whole] = [ACROSS, WHOLE].map(|name| graph.symbol(name));
     rebuild(graph, formulas, |graph, node| {
         let Node::Product(factors) = node else { return graph.remake(node) };
-        let factors = factors.into_iter().map(|(base, exponent)| match graph.node(base) {
-            Node::Product(inner) => match inner.as_slice() {
-                [(expr, power)] if *expr == radius => (radius, power * exponent),
-                _ => (base, exponent),
-            },
+        let twice = |exponent: Rational| exponent * Rational::from(2);
+        let factors = factors.into_iter().map(|(base, exponent)| match base {
+            _ if base == plane => (across, twice(exponent)),
+            _ if base == space => (whole, twice(exponent)),
             _ => (base, exponent),
         });
         let factors: Vec<(Expr, Rational)> = factors.collect();
         graph.remake(Node::Product(factors))
+    })
+}
+
+/// (R^n)^e = R^(n e) for the radius R, which is not negative, and likewise for the sine of phi.
+fn without_roots(graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
+    let radius = graph.symbol(RADIUS);
+    let angle = graph.symbol(POLAR_ANGLE);
+    let sine = graph.call(Function::Sin, &[angle]);
+    rebuild(graph, formulas, |graph, node| {
+        let Node::Product(factors) = node else { return graph.remake(node) };
+        let mut found: Vec<(Expr, Rational)> = Vec::new();
+        for (base, exponent) in factors {
+            match graph.node(base) {
+                Node::Product(inner)
+                    if inner.iter().all(|(expr, _)| *expr == radius || *expr == sine) =>
+                {
+                    let powers = inner.iter().map(|(expr, power)| (*expr, power * &exponent));
+                    found.extend(powers);
+                }
+                _ => found.push((base, exponent)),
+            }
+        }
+        graph.remake(Node::Product(found))
     })
 }

@@ -233,6 +233,9 @@ pub fn reach_at(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> Vec<[f
 }
 
 fn reach_in(compiled: &Compiled, chart: impl Fn(&mut Graph) -> Chart) -> Vec<[f64; 2]> {
+    if compiled.field.domain.body.is_nothing() {
+        return vec![[f64::NEG_INFINITY, f64::INFINITY]; compiled.field.dimension];
+    }
     let mut graph = room(compiled);
     graph.work().allow(REACH);
     let chart = chart(&mut graph);
@@ -328,6 +331,10 @@ impl Certificate {
 /// What contradicts a compiled field, as far as a short search finds it: a claim that does not hold
 /// at one of a few points, and J, density or moduli that are not positive within a few cells. It proves nothing.
 pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
+    if compiled.field.domain.body.is_nothing() {
+        // Nothing is claimed anywhere.
+        return Vec::new();
+    }
     let quantities = &compiled.derived.quantities;
     let gradient = &quantities[&Quantity::DisplacementGradient];
     if compiled.graph.reachable(gradient).len() > QUICK_NODES {

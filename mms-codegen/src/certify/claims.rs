@@ -12,9 +12,9 @@ use crate::bounds::enclosure::Formulas;
 use crate::bounds::search::{Measure, largest};
 use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
+use mms_mechanics::extent::Region;
 use mms_mechanics::extent::spread;
 use mms_mechanics::face::normal;
-use mms_mechanics::model::Body;
 use mms_mechanics::tensor::dot;
 use mms_mechanics::{Response, face};
 use mms_program::interpret::Number as _;
@@ -99,6 +99,9 @@ struct OnFace<'a> {
     compiled: &'a Compiled,
     face: Face,
     chart: Chart,
+    /// Whether the coordinate that is constant on the face is left open, on the face and in its normal: what holds for all
+    /// of them holds for one, and a sine of a symbol is shorter than that of a number.
+    is_open: bool,
 }
 
 /// Proves or refutes a claim; the cells that it took come second.
@@ -111,7 +114,10 @@ pub fn judge(
     let on_face = OnFace::new(graph, compiled, claim.face.value);
     let subject = on_face.subject(graph, claim.claim.value);
     let must_vanish = !matches!(claim.claim.value, Claim::Prescribed | Claim::Traction);
-    if must_vanish && on_face.vanishes(graph, &subject.components) {
+    if must_vanish
+        && (on_face.vanishes(graph, &subject.components)
+            || on_face.vanishes_openly(graph, claim.claim.value))
+    {
         return (Finding::Proved, 0);
     }
     let formulas = on_face.formulas(graph, &subject.components);
@@ -144,17 +150,18 @@ pub fn refute(
 impl<'a> OnFace<'a> {
     fn new(graph: &mut Graph, compiled: &'a Compiled, face: Face) -> Self {
         let chart = Chart::new(graph, &compiled.field, &compiled.model, Some(face));
-        OnFace { compiled, face, chart }
+        OnFace { compiled, face, chart, is_open: false }
     }
 
     /// Formulas in X in terms of the coordinates that vary on the face, for any parameters.
     fn restrict(&self, graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
         let body = &self.compiled.model.domain.body;
-        let polar = face::polar(graph, body);
-        let general = straightened(graph, formulas, &polar);
-        let (axis, is_upper) = face::fixed_coordinate(self.face);
-        let bound = face::bounds(body)[axis][usize::from(is_upper)];
-        substitute(graph, &general, &[(Symbol::Coordinate(axis), bound)].into())
+        let places = face::places(graph, body, Some(self.face));
+        let general = straightened(graph, formulas, &places);
+        match self.is_open {
+            true => general,
+            false => substitute(graph, &general, &face::constant(body, self.face)),
+        }
     }
 
     fn displacement(&self, graph: &mut Graph) -> Vec<Expr> {
@@ -164,7 +171,11 @@ impl<'a> OnFace<'a> {
 
     fn normal(&self, graph: &mut Graph) -> Vec<Expr> {
         let body = &self.compiled.model.domain.body;
-        let normal = normal(graph, body, self.compiled.field.dimension, self.face);
+        let dimension = self.compiled.field.dimension;
+        if self.is_open {
+            return face::direction(graph, body, self.face)[..dimension].to_vec();
+        }
+        let normal = normal(graph, body, dimension, self.face);
         self.restrict(graph, &normal)
     }
 
@@ -237,6 +248,22 @@ impl<'a> OnFace<'a> {
         }
         let declared = self.chart.fix(graph, components);
         zero(graph, &declared)
+    }
+
+    /// Whether a claim on a face where an angle is constant holds for any angle in its place, and for any normal at it.
+    fn vanishes_openly(&self, graph: &mut Graph, claim: Claim) -> bool {
+        let Region::Block(block) = &self.compiled.model.domain.body else { return false };
+        if !block.system.is_angle(face::fixed_coordinate(self.face).0) {
+            return false;
+        }
+        let open = OnFace {
+            compiled: self.compiled,
+            face: self.face,
+            chart: self.chart.clone(),
+            is_open: true,
+        };
+        let subject = open.subject(graph, claim);
+        open.vanishes(graph, &subject.components)
     }
 
     /// Formulas in the variables of the face, ready to be evaluated.
@@ -321,14 +348,8 @@ fn size(compiled: &Compiled) -> f64 {
     graph.make_room();
     graph.work().allow(STEPS_OF_SCALE);
     let body = &compiled.model.domain.body;
-    let lengths: Vec<Expr> = match body {
-        Body::Box { lower, upper } => {
-            upper.iter().zip(lower).map(|(upper, lower)| graph.sub(*upper, *lower)).collect()
-        }
-        Body::Annulus { outer, .. } => vec![graph.scale(*outer, 2)],
-    };
-    let values = crate::declared::values(&graph, &compiled.model, &lengths);
-    values.into_iter().fold(0.0, f64::max)
+    let values = crate::declared::values(&graph, &compiled.model, &body.values());
+    body.with(values).size()
 }
 
 /// The longitudinal modulus at F = I, in the middle of the body.

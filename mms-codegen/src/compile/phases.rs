@@ -12,9 +12,9 @@ use mms_mechanics::boundary::data;
 use mms_mechanics::kinematics::Route;
 #[cfg(feature = "defects")]
 use mms_mechanics::misread;
-use mms_mechanics::model::Body;
 use mms_mechanics::model::parameter_values;
 use mms_mechanics::offset::about_its_place;
+use mms_mechanics::output::parts;
 use mms_mechanics::simplify::{simplify, twins};
 use mms_mechanics::{Bound, Output, Program};
 use mms_mechanics::{Derivation, Model, TooLarge, derive};
@@ -345,16 +345,9 @@ fn outputs(
     for ((face, datum), components) in data(graph, model, field, derivation) {
         outputs.insert(Output::Face(face, datum), components);
     }
-    match &model.domain.body {
-        Body::Box { lower, upper } => {
-            outputs.insert(Output::Bound(Bound::Lower), lower.clone());
-            outputs.insert(Output::Bound(Bound::Upper), upper.clone());
-        }
-        Body::Annulus { inner, outer, theta } => {
-            outputs.insert(Output::Bound(Bound::Inner), vec![*inner]);
-            outputs.insert(Output::Bound(Bound::Outer), vec![*outer]);
-            outputs.insert(Output::Bound(Bound::Theta), theta.to_vec());
-        }
+    let zero = graph.number(0);
+    for (bound, values) in parts(&model.domain.body, zero) {
+        outputs.insert(Output::Bound(bound), values);
     }
     outputs.insert(Output::Bound(Bound::Time), model.domain.time.to_vec());
     for (index, value) in parameter_values(graph, model, &SortedMap::new()).into_iter().enumerate()

@@ -4,11 +4,13 @@
 //! not decide, or something is wrong, it says nothing.
 
 use mms_math::Double;
+use mms_math::coordinates::System;
 
 use super::Compiled;
 use crate::declared::elasticity::{curvatures, stiffness};
+use mms_mechanics::extent::Region;
 use mms_mechanics::invariant::Kind;
-use mms_mechanics::model::{Body, Model};
+use mms_mechanics::model::Model;
 use mms_program::Program;
 use mms_program::interpret::{Interpreter, Number as _, Point};
 use mms_program::interval::Interval;
@@ -18,6 +20,9 @@ use mms_symbolic::sorted::SortedMap;
 
 /// Sectors of a turn are left to those who tell them from full rings.
 const TURN: f64 = std::f64::consts::TAU * (1.0 - 1e-9);
+
+/// An angle from +Z up to this is surely at most pi, or is pi itself but for rounding.
+const POLE: f64 = std::f64::consts::PI * (1.0 + 4.0 * f64::EPSILON);
 
 /// What is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,7 +43,9 @@ pub struct Quick {
     program: Program<Output>,
     /// The parameters that have ranges.
     ranged: Vec<usize>,
-    body: Shape,
+    body: Region<()>,
+    /// Whether theta is given.
+    is_sector: bool,
     defaults: Vec<Default>,
 }
 
@@ -72,13 +79,6 @@ impl Default {
     }
 }
 
-/// What a body is, and whether the angles of an annulus are given.
-#[derive(Clone, Copy, Debug)]
-enum Shape {
-    Box,
-    Annulus { sector: bool },
-}
-
 impl Quick {
     /// What is to be looked at of a field; nothing where that would not do.
     pub fn new(compiled: &Compiled) -> Option<Self> {
@@ -94,17 +94,18 @@ impl Quick {
             return None;
         }
         let parameters = model.parameters.iter();
-        let sector = matches!(field.domain.body, mms_spec::Body::Annulus { theta: Some(_), .. });
+        let is_sector = match &field.domain.body {
+            mms_spec::Body::Round(round) => round.theta.is_some(),
+            _ => false,
+        };
         Some(Quick {
             dimension: field.dimension,
             program: schedule(&graph, &outputs),
             ranged: (0..model.parameters.len())
                 .filter(|index| model.parameters[*index].range.is_some())
                 .collect(),
-            body: match model.domain.body {
-                Body::Box { .. } => Shape::Box,
-                Body::Annulus { .. } => Shape::Annulus { sector },
-            },
+            body: model.domain.body.map(|_| ()),
+            is_sector,
             defaults: parameters.map(|it| Default::new(&graph, it.default)).collect(),
         })
     }
@@ -160,23 +161,33 @@ impl Quick {
 
     /// Coordinates that the body lies within, unless it may be empty.
     fn corners(&self, body: &[Interval]) -> Option<Vec<Interval>> {
-        match self.body {
-            Shape::Box => {
-                let (lower, upper) = body.split_at(self.dimension);
-                let mut edges = lower.iter().zip(upper);
-                edges.all(|(from, to)| below(*from, *to)).then(|| {
-                    let edges = lower.iter().zip(upper);
-                    edges.map(|(from, to)| Interval::new(from.lower(), to.upper())).collect()
-                })
-            }
-            Shape::Annulus { sector } => {
-                let &[inner, outer, first, last] = body else { return None };
-                let is_part = below(first, last) && (last - first).upper() < TURN;
-                let is_ring = below(Interval::new(0.0, 0.0), inner) && below(inner, outer);
-                let reach = Interval::new(-outer.upper(), outer.upper());
-                (is_ring && (is_part || !sector)).then(|| vec![reach; self.dimension])
-            }
+        let zero = Interval::new(0.0, 0.0);
+        let ascend = |bounds: &[Interval; 2]| below(bounds[0], bounds[1]);
+        let hull = |[from, to]: &[Interval; 2]| Interval::new(from.lower(), to.upper());
+        // Whether the edges of a polygon cross is not looked at here.
+        let Region::Block(block) = self.body.with(body.to_vec()) else { return None };
+        if block.system == System::Cartesian {
+            let is_box = block.bounds.iter().all(ascend);
+            return is_box.then(|| block.bounds.iter().map(hull).collect());
         }
+        let [[inner, outer], theta] = block.bounds.first_chunk()?;
+        let is_part = ascend(theta) && (theta[1] - theta[0]).upper() < TURN;
+        let is_ring = below(zero, *inner) && below(*inner, *outer);
+        let third = block.bounds.get(2);
+        let is_within = third.is_none_or(ascend)
+            && match (block.system, third) {
+                (System::Spherical, Some([first, last])) => {
+                    let half = Interval::new(POLE, POLE);
+                    at_most(zero, *first) && at_most(*last, half)
+                }
+                _ => true,
+            };
+        let reach = Interval::new(-outer.upper(), outer.upper());
+        let mut corners = vec![reach; self.dimension];
+        if let (System::Polar, Some(ends)) = (block.system, third) {
+            corners[2] = hull(ends);
+        }
+        (is_ring && is_within && (is_part || !self.is_sector)).then_some(corners)
     }
 
     /// Whether Q_ik = A_i1k1 is positive definite: of an isotropic solid, that is all (see [`super::elasticity`]).
@@ -205,12 +216,7 @@ impl Quick {
 /// The expressions that are looked at.
 fn outputs(graph: &mut Graph, model: &Model) -> SortedMap<Output, Vec<Expr>> {
     let ranges = model.parameters.iter().filter_map(|parameter| parameter.range).flatten();
-    let body = match &model.domain.body {
-        Body::Box { lower, upper } => [&lower[..], upper].concat(),
-        Body::Annulus { inner, outer, theta: [first, last] } => {
-            vec![*inner, *outer, *first, *last]
-        }
-    };
+    let body = model.domain.body.values();
     let (_, slopes) = curvatures(graph, model);
     SortedMap::from([
         (Output::Ranges, ranges.collect()),

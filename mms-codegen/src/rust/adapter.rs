@@ -7,9 +7,8 @@ use super::{Emitter, RUNTIME, input};
 use mms_mechanics::Output;
 use mms_mechanics::Response;
 use mms_mechanics::invariant::Kind;
-use mms_mechanics::model::Body;
 use mms_spec::quantity::Quantity;
-use mms_spec::{Claim, Face};
+use mms_spec::{Body, Claim, Face};
 use mms_symbolic::expr::Symbol;
 
 impl Emitter<'_> {
@@ -242,17 +241,33 @@ impl Emitter<'_> {
     fn domain(&self) -> TokenStream {
         let runtime = Ident::new(RUNTIME, Span::call_site());
         let dimension = self.dimension();
-        let body = match &self.compiled.model.domain.body {
+        let body = match &self.compiled.field.domain.body {
             Body::Box { .. } => quote! {
-                ::#runtime::Body::Box { lower: self.lower().into(), upper: self.upper().into() }
+                Box { lower: self.lower().into(), upper: self.upper().into() }
             },
-            Body::Annulus { .. } => quote! {
-                ::#runtime::Body::Annulus {
-                    inner: self.inner()[0],
-                    outer: self.outer()[0],
-                    theta: self.theta(),
+            Body::Round(round) => {
+                let theta =
+                    quote!(inner: self.inner()[0], outer: self.outer()[0], theta: self.theta());
+                match round.shape.name {
+                    "cylinder" => quote!(Cylinder { #theta, z: self.z_ends() }),
+                    "sphere" => quote!(Sphere { #theta, phi: self.phi() }),
+                    _ => quote!(Annulus { #theta }),
                 }
-            },
+            }
+            Body::Polygon(polygon) => {
+                let names = &polygon.names;
+                quote! {
+                Polygon {
+                    vertices: self
+                        .vertices()
+                        .chunks_exact(2)
+                        .map(|vertex| [vertex[0], vertex[1]])
+                        .collect(),
+                    names: ::std::vec![#(#names),*],
+                }
+                }
+            }
+            Body::Nothing => quote!(Nothing),
         };
         let faces = self.compiled.field.boundary.iter().map(|boundary| {
             let index = Literal::usize_unsuffixed;
@@ -269,6 +284,12 @@ impl Emitter<'_> {
                 Face::Outer => quote!(Outer),
                 Face::ThetaMin => quote!(ThetaMin),
                 Face::ThetaMax => quote!(ThetaMax),
+                Face::PhiMin => quote!(PhiMin),
+                Face::PhiMax => quote!(PhiMax),
+                Face::Edge(first, name) => {
+                    let first = index(first);
+                    quote!(Edge(#first, #name))
+                }
             };
             let condition = match boundary.claim.value {
                 Claim::Fixed => quote!(Fixed),
@@ -282,7 +303,7 @@ impl Emitter<'_> {
         quote! {
             fn domain(&self) -> ::#runtime::Domain<T, #dimension> {
                 ::#runtime::Domain {
-                    body: #body,
+                    body: ::#runtime::Body::#body,
                     time: self.time_window(),
                     faces: ::std::vec![#(#faces),*],
                 }

@@ -6,7 +6,6 @@ use quote::{format_ident, quote};
 use super::{Context, Emitter};
 use mms_mechanics::Response;
 use mms_mechanics::invariant::Kind;
-use mms_mechanics::model::Body;
 use mms_mechanics::{Bound, Output};
 use mms_program::Stage;
 use mms_spec::foreign::{Foreign, blanked};
@@ -144,8 +143,9 @@ impl Emitter<'_> {
 
     fn bounds(&self) -> TokenStream {
         let place = Context::at_points(quote!(self), &[]);
-        let function = |bound: Bound, name: &str, doc: &str| {
-            let name = format_ident!("{name}");
+        let function = |bound: Bound| {
+            let name = format_ident!("{}", bound.name());
+            let doc = format!(" {}", bound.doc());
             let values = self.values(Output::Bound(bound));
             let length = Literal::usize_unsuffixed(values.len());
             let values = values.iter().map(|value| self.operand(*value, &place));
@@ -154,21 +154,13 @@ impl Emitter<'_> {
                 pub fn #name(&self) -> [T; #length] { [#(#values),*] }
             }
         };
-        let time =
-            function(Bound::Time, "time_window", " The first and last time of the claims, s.");
-        let body = match &self.compiled.model.domain.body {
-            Body::Box { .. } => [
-                function(Bound::Lower, "lower", " The body's least reference coordinates, m."),
-                function(Bound::Upper, "upper", " The body's greatest reference coordinates, m."),
-            ]
-            .to_vec(),
-            Body::Annulus { .. } => [
-                function(Bound::Inner, "inner", " The body's inner radius, m."),
-                function(Bound::Outer, "outer", " The body's outer radius, m."),
-                function(Bound::Theta, "theta", " The body's first and last angle."),
-            ]
-            .to_vec(),
-        };
+        let time = function(Bound::Time);
+        // Where there is no body, there is nothing that bounds it.
+        let parts = self.program.outputs.keys().filter_map(|output| match output {
+            Output::Bound(bound) if !matches!(bound, Bound::Time | Bound::Space) => Some(*bound),
+            _ => None,
+        });
+        let body = parts.map(function);
         quote!(#(#body)* #time)
     }
 
@@ -203,12 +195,7 @@ impl Emitter<'_> {
                 " First Piola-Kirchhoff stress P = dW/dF at X of the displacement gradient H, Pa.",
                 Shape::Tensor,
             ),
-            (
-                Response::KirchhoffStress,
-                "material_kirchhoff_stress",
-                kirchhoff,
-                Shape::Tensor,
-            ),
+            (Response::KirchhoffStress, "material_kirchhoff_stress", kirchhoff, Shape::Tensor),
         ];
         let wanted = functions
             .into_iter()
@@ -219,8 +206,7 @@ impl Emitter<'_> {
                 let strained = !matches!(response, Response::Density | Response::WaveSpeed);
                 let gradient = strained.then(|| quote!(, #gradient));
                 let output = Output::Response(response);
-                let (kind, value) =
-                    (self.shape_type(shape), self.shaped(output, shape, &place));
+                let (kind, value) = (self.shape_type(shape), self.shaped(output, shape, &place));
                 let body = self.body(&[output], &place);
                 quote! {
                     #[doc = #doc]

@@ -1,9 +1,10 @@
 //! Mistakes on faces.
 
 use mms_runtime::tensor::{cofactor, determinant};
-use mms_runtime::{Body, Condition, Face, Matrix, Vector};
+use mms_runtime::{Condition, Face, Matrix};
 
 use super::{Change, Given, Hypothesis, Known, OfTraction, force, inverse, of_first, of_swaps};
+use crate::body::{faces, normal};
 use crate::exact::Exact;
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
@@ -27,48 +28,6 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         }));
     }
     all
-}
-
-/// The faces of a body.
-pub fn faces<const D: usize>(body: &Body<f64, D>) -> Vec<Face> {
-    match body {
-        Body::Box { .. } => (0..D).flat_map(|axis| [Face::Min(axis), Face::Max(axis)]).collect(),
-        Body::Annulus { theta: [first, last], .. } => {
-            let is_ring = last - first >= std::f64::consts::TAU * (1.0 - 1e-12);
-            let all = [Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax];
-            all[..if is_ring { 2 } else { 4 }].to_vec()
-        }
-    }
-}
-
-/// How far X is from a face, over the size of the body.
-pub fn away<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>) -> f64 {
-    match (body, face) {
-        (Body::Box { lower, upper }, Face::Min(axis)) => {
-            (x[axis] - lower[axis]) / (upper[axis] - lower[axis])
-        }
-        (Body::Box { lower, upper }, Face::Max(axis)) => {
-            (upper[axis] - x[axis]) / (upper[axis] - lower[axis])
-        }
-        (Body::Annulus { inner, outer, .. }, Face::Inner) => (x.norm() - inner) / (outer - inner),
-        (Body::Annulus { inner, outer, .. }, Face::Outer) => (outer - x.norm()) / (outer - inner),
-        (Body::Annulus { theta, outer, .. }, face) => {
-            let angle = if face == Face::ThetaMin { theta[0] } else { theta[1] };
-            (x[1] * angle.cos() - x[0] * angle.sin()).abs() / outer
-        }
-        _ => 1.0,
-    }
-}
-
-/// N at X on a face, but for its sign.
-fn normal<const D: usize>(face: Face, x: &Vector<f64, D>) -> Vector<f64, D> {
-    match face {
-        Face::Min(axis) | Face::Max(axis) => Vector::from_fn(|i, _| f64::from(i == axis)),
-        Face::Inner | Face::Outer => x.normalize(),
-        Face::ThetaMin | Face::ThetaMax => {
-            Vector::from_fn(|i, _| if i == 0 { -x[1] } else { x[0] } / x.norm())
-        }
-    }
 }
 
 /// R of F = R U, by Newton's iteration (Higham, "Computing the polar decomposition, with applications", SIAM J. Sci. Stat.
@@ -153,7 +112,8 @@ fn of_tractions<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         ),
         made("traction_present_area", "P N on the present area", |at, face, tau| {
             for ((tau, h), x) in tau.iter_mut().zip(at.gradient).zip(at.reference) {
-                *tau *= cofactor(h).map_or(f64::NAN, |it| (it * normal(face, x)).norm());
+                *tau *= cofactor(h)
+                    .map_or(f64::NAN, |it| (it * normal(&at.exact.domain.body, face, x)).norm());
             }
         }),
     ];
@@ -163,7 +123,7 @@ fn of_tractions<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             "the normal part of P N alone: a pressure",
             |at, face, tau| {
                 for ((tau, h), x) in tau.iter_mut().zip(at.gradient).zip(at.reference) {
-                    let (f, n) = (h + Matrix::identity(), normal(face, x));
+                    let (f, n) = (h + Matrix::identity(), normal(&at.exact.domain.body, face, x));
                     let p = *tau * inverse(&f.transpose());
                     *tau = n * (n.transpose() * p * n) * n.transpose() * f.transpose();
                 }

@@ -21,7 +21,6 @@ use mms_runtime::{Condition, Face, Matrix, Vector, tensor};
 use crate::exact::{Exact, Quantity};
 use crate::slopes::Slopes;
 
-pub use face::{away, faces};
 pub use output::earlier_velocity;
 pub use stress::over_jacobian;
 pub use tangent::{of_tangent, voigt_orders};

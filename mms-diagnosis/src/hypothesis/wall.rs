@@ -2,7 +2,8 @@
 
 use mms_runtime::{Condition, Vector};
 
-use super::{Change, Given, Hypothesis, MotionPart, faces};
+use super::{Change, Given, Hypothesis, MotionPart};
+use crate::body::faces;
 use crate::exact::Exact;
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {

@@ -94,7 +94,7 @@ impl Material<f64, 2> for Square {
         speed.fill(((LAMBDA + 2.0 * MU) / DENSITY).sqrt());
     }
 
-    fn kirchhoff_stress(&self, _: &[Point], h: &[Tensor], stress: &mut [Tensor]) {
+    fn kirchhoff_stress(&self, _: f64, _: &[Point], h: &[Tensor], stress: &mut [Tensor]) {
         for (h, stress) in h.iter().zip(stress) {
             *stress = first(h, [LAMBDA, MU]) * (h + Tensor::identity()).transpose();
         }

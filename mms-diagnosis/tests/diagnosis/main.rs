@@ -320,7 +320,7 @@ impl Material<f64, 2> for Mistaken {
         LOADED.wave_speed(x, speed);
     }
 
-    fn kirchhoff_stress(&self, _: &[Point], h: &[Tensor], stress: &mut [Tensor]) {
+    fn kirchhoff_stress(&self, _: f64, _: &[Point], h: &[Tensor], stress: &mut [Tensor]) {
         for (h, stress) in h.iter().zip(stress) {
             *stress = field::first(h, self.moduli) * (h + Tensor::identity()).transpose();
         }

@@ -50,7 +50,7 @@ impl Material<f64, 1> for Rod {
         speed.fill(((LAMBDA + 2.0 * MU) / DENSITY).sqrt());
     }
 
-    fn kirchhoff_stress(&self, _: &[Point], h: &[Tensor], tau: &mut [Tensor]) {
+    fn kirchhoff_stress(&self, _: f64, _: &[Point], h: &[Tensor], tau: &mut [Tensor]) {
         h.iter().zip(tau).for_each(|(h, tau)| *tau = Tensor::new(stress(h.x) * (1.0 + h.x)));
     }
 }

@@ -129,7 +129,7 @@ impl Material<f64, 3> for Cube {
         speed.fill((LAMBDA + 2.0 * MU).sqrt());
     }
 
-    fn kirchhoff_stress(&self, _: &[Place], h: &[Solid], stress: &mut [Solid]) {
+    fn kirchhoff_stress(&self, _: f64, _: &[Place], h: &[Solid], stress: &mut [Solid]) {
         h.iter().zip(stress).for_each(|(h, out)| *out = kirchhoff(&(h + Solid::identity())));
     }
 }

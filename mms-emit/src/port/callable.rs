@@ -132,6 +132,7 @@ pub fn input(symbol: Symbol) -> String {
 pub fn callables(compiled: &Compiled) -> Vec<Callable> {
     let wanted = |callable: &Callable| match callable.output {
         Output::Bound(_) if !compiled.selection.is_for_a_solver() => false,
+        Output::Bound(Bound::Space) => false,
         Output::Bound(Bound::Time) if compiled.field.is_static() => false,
         Output::Quantity(quantity) if !compiled.offers(quantity) => false,
         Output::Response(Response::Density | Response::WaveSpeed)
@@ -142,7 +143,7 @@ pub fn callables(compiled: &Compiled) -> Vec<Callable> {
         output => compiled.program.outputs.contains_key(&output),
     };
     let dimension = compiled.field.dimension;
-    let mut all: Vec<Callable> = BOUNDS.iter().map(|it| bound(*it, compiled)).collect();
+    let mut all: Vec<Callable> = Bound::ALL.iter().map(|it| bound(*it, compiled)).collect();
     all.extend(RESPONSES.iter().map(|it| response(*it, compiled)));
     all.extend(compiled.quantities().map(|it| quantity(it, compiled)));
     all.extend(compiled.program.outputs.keys().filter_map(|output| match *output {
@@ -153,9 +154,6 @@ pub fn callables(compiled: &Compiled) -> Vec<Callable> {
     all
 }
 
-const BOUNDS: [Bound; 6] =
-    [Bound::Lower, Bound::Upper, Bound::Inner, Bound::Outer, Bound::Theta, Bound::Time];
-
 const RESPONSES: [Response; 5] = [
     Response::Density,
     Response::WaveSpeed,
@@ -165,19 +163,23 @@ const RESPONSES: [Response; 5] = [
 ];
 
 fn bound(bound: Bound, compiled: &Compiled) -> Callable {
-    let (name, symbol, doc, unit) = match bound {
-        Bound::Lower => ("lower", "lower", "Least reference coordinates of the body.", "m"),
-        Bound::Upper => ("upper", "upper", "Greatest reference coordinates of the body.", "m"),
-        Bound::Inner => ("inner", "inner", "Inner radius of the body.", "m"),
-        Bound::Outer => ("outer", "outer", "Outer radius of the body.", "m"),
-        Bound::Theta => ("theta", "theta", "First and last angle of the body.", "1"),
-        Bound::Time => ("time_window", "t", "First and last time of what the field claims.", "s"),
+    let (symbol, doc, unit) = match bound {
+        Bound::Lower => ("lower", "Least reference coordinates of the body.", "m"),
+        Bound::Upper => ("upper", "Greatest reference coordinates of the body.", "m"),
+        Bound::Inner => ("inner", "Inner radius of the body.", "m"),
+        Bound::Outer => ("outer", "Outer radius of the body.", "m"),
+        Bound::Theta => ("theta", "First and last angle of the body.", "1"),
+        Bound::Z => ("z_end", "Lower and upper end of the body.", "m"),
+        Bound::Phi => ("phi", "First and last angle of the body from +Z.", "1"),
+        Bound::Vertices => ("vertex", "Vertices of the body, X and Y one after another.", "m"),
+        Bound::Space => ("space", "As many zeros as space has dimensions.", "1"),
+        Bound::Time => ("t", "First and last time of what the field claims.", "s"),
     };
     let output = Output::Bound(bound);
     let count = compiled.program.outputs.get(&output).map_or(0, Vec::len);
     let shape = matches!(bound, Bound::Inner | Bound::Outer).then_some(Shape::Scalar);
     Callable {
-        name: name.into(),
+        name: bound.name().into(),
         output,
         doc: doc.into(),
         unit,

@@ -45,7 +45,11 @@ macro_rules! once {
             })*
         }
 
-        impl Number for Once<$float> {}
+        impl Number for Once<$float> {
+            fn bounds(&self) -> [f64; 2] {
+                [f64::from(self.0); 2]
+            }
+        }
 
         impl Digits for Once<$float> {
             const PRECISION: Precision = Precision::$precision;

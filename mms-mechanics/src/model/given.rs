@@ -237,7 +237,8 @@ impl Reader<'_> {
         }
         let letters = name.trim_end_matches(|it: char| it.is_ascii_digit());
         let [row, column] = name[letters.len()..].as_bytes() else { return None };
-        let place = |digit: u8| usize::from(digit).checked_sub(usize::from(b'1')).filter(|it| *it < 3);
+        let place =
+            |digit: u8| usize::from(digit).checked_sub(usize::from(b'1')).filter(|it| *it < 3);
         let (row, column) = (place(*row)?, place(*column)?);
         let tensor = match letters {
             "H" => moved.gradient.clone(),
@@ -281,7 +282,8 @@ impl Reader<'_> {
             }
             None => Symbol::Time,
         };
-        let value = self.scope.known(of).map(|value| differentiate(self.graph, &[value], symbol)[0]);
+        let value =
+            self.scope.known(of).map(|value| differentiate(self.graph, &[value], symbol)[0]);
         self.scope.define(name, value);
     }
 }

@@ -1,5 +1,10 @@
 //! The faces of a reference body, as surfaces.
 
+use mms_math::coordinates::System;
+use mms_math::polygon;
+
+use crate::body::block;
+use crate::body::round::Block;
 use crate::field::{Body, Face};
 use crate::lattice::Lattice;
 use crate::real::{Real, Vector};
@@ -15,19 +20,35 @@ pub enum Surface<T> {
         /// Its coordinate.
         position: T,
     },
-    /// Of an annulus.
-    Circle {
+    /// A circle, a cylinder about the axis Z, or a sphere.
+    Round {
+        /// In how many coordinates the radius is.
+        among: usize,
         /// Whether the body is inside.
         outer: bool,
-        /// Its radius.
+        /// The radius.
         radius: T,
     },
-    /// Of a sector.
+    /// Of a sector: a ray, or a half plane that ends in the axis Z.
     Ray {
         /// Whether the body is at smaller angles.
         last: bool,
         /// Cosine and sine of its angle.
         direction: [T; 2],
+    },
+    /// Of a sphere: a cone about the axis Z.
+    Cone {
+        /// Whether the body is at smaller angles from +Z.
+        last: bool,
+        /// Cosine and sine of its angle from +Z.
+        direction: [T; 2],
+    },
+    /// Of a polygon: the edge between two points.
+    Edge {
+        /// The points.
+        ends: [[T; 2]; 2],
+        /// The outward normal.
+        normal: [T; 2],
     },
 }
 
@@ -41,16 +62,27 @@ impl<T: Real> Surface<T> {
             (Body::Box { lower, .. }, Face::Min(axis)) => {
                 Surface::Plane { axis, upper: false, position: lower[axis] }
             }
-            (Body::Annulus { inner, .. }, Face::Inner) => {
-                Surface::Circle { outer: false, radius: *inner }
+            (Body::Polygon { vertices, .. }, Face::Edge(first, _)) => {
+                let near: Vec<_> = vertices.iter().map(|it| it.map(Real::to_f64)).collect();
+                let ends = polygon::edge(&near, first).map(|end| end.map(T::of));
+                Surface::Edge { ends, normal: polygon::normal(&near, first).map(T::of) }
             }
-            (Body::Annulus { theta, .. }, Face::ThetaMin | Face::ThetaMax) => {
-                let last = face == Face::ThetaMax;
-                let angle = theta[usize::from(last)].to_f64();
-                Surface::Ray { last, direction: [angle.cos(), angle.sin()].map(T::of) }
+            (body, face) => {
+                let block =
+                    block(body).unwrap_or_else(|| unreachable!("the body has no such face"));
+                let (axis, last) = Block::end(face);
+                let bound = block.bounds[axis][usize::from(last)];
+                let direction = [bound.cos(), bound.sin()].map(T::of);
+                match (axis, block.system) {
+                    (0, system) => {
+                        let among = if system == System::Spherical { 3 } else { 2 };
+                        Surface::Round { among, outer: last, radius: T::of(bound) }
+                    }
+                    (1, _) => Surface::Ray { last, direction },
+                    (_, System::Spherical) => Surface::Cone { last, direction },
+                    (axis, _) => Surface::Plane { axis, upper: last, position: T::of(bound) },
+                }
             }
-            (Body::Annulus { outer, .. }, _) => Surface::Circle { outer: true, radius: *outer },
-            (Body::Box { .. }, _) => unreachable!("a box has no such face"),
         }
     }
 
@@ -69,18 +101,51 @@ impl<T: Real> Surface<T> {
                 foot[axis] = position;
                 normal[axis] = if upper { T::one() } else { -T::one() };
             }
-            Surface::Circle { outer, radius } => {
-                let length = foot.norm();
-                let along_x = Vector::from_fn(|a, _| if a == 0 { T::one() } else { T::zero() });
-                let radial = if length > T::zero() { foot / length } else { along_x };
-                foot = radial * radius;
-                normal = if outer { radial } else { -radial };
+            Surface::Round { among, outer, radius } => {
+                let radial: Vector<T, D> =
+                    Vector::from_fn(|a, _| if a < among { foot[a] } else { T::zero() });
+                let length = radial.norm();
+                let along_x: Vector<T, D> =
+                    Vector::from_fn(|a, _| if a == 0 { T::one() } else { T::zero() });
+                let direction = if length > T::zero() { radial / length } else { along_x };
+                foot += direction * radius - radial;
+                normal = if outer { direction } else { -direction };
             }
             Surface::Ray { last, direction: [cosine, sine] } => {
                 let along = Vector::from_fn(|a, _| [cosine, sine, T::zero()][a.min(2)]);
                 let around = Vector::from_fn(|a, _| [-sine, cosine, T::zero()][a.min(2)]);
+                // What is left along the axis Z stays.
+                let rest = Vector::from_fn(|a, _| if a == 2 { foot[a] } else { T::zero() });
+                foot = along * foot.dot(&along) + rest;
+                normal = if last { around } else { -around };
+            }
+            Surface::Cone { last, direction: [cosine, sine] } => {
+                let radial: Vector<T, D> =
+                    Vector::from_fn(|a, _| if a < 2 { foot[a] } else { T::zero() });
+                let length = radial.norm();
+                let along_x: Vector<T, D> =
+                    Vector::from_fn(|a, _| if a == 0 { T::one() } else { T::zero() });
+                let direction = if length > T::zero() { radial / length } else { along_x };
+                let axis = Vector::from_fn(|a, _| if a == 2 { T::one() } else { T::zero() });
+                let along = axis * cosine + direction * sine;
+                let around = direction * cosine - axis * sine;
                 foot = along * foot.dot(&along);
                 normal = if last { around } else { -around };
+            }
+            Surface::Edge { ends, normal: outward } => {
+                let place = |[x, y]: [T; 2]| Vector::from_fn(|a, _| [x, y, T::zero()][a.min(2)]);
+                let [from, to] = ends.map(place);
+                let along: Vector<T, D> = to - from;
+                let part = (foot - from).dot(&along) / along.norm_squared();
+                let clamped = part.max(T::zero()).min(T::one());
+                let nearest = from + along * clamped;
+                normal = place(outward);
+                // Beside the edge the way to its end counts, whichever side of its line that is on.
+                let away = nearest - foot;
+                if clamped != part && away.norm() > T::zero() {
+                    normal = away.normalize();
+                }
+                foot = nearest;
             }
         }
         [foot, normal]

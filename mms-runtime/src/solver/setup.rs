@@ -203,7 +203,7 @@ fn fill<T: Real, const D: usize>(
 ) -> Result<Filling<D>, Refusal> {
     let along_faces = match body {
         Body::Box { .. } => Fill::Cartesian,
-        Body::Annulus { .. } => Fill::Fitted,
+        _ => Fill::Fitted,
     };
     let mut filling = Filling::new(body, setup.fill.unwrap_or(along_faces), spacing)?;
     if setup.jitter != 0.0 {

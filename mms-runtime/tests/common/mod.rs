@@ -91,6 +91,7 @@ impl<T: Real> Material<T, 1> for Bar {
 
     fn kirchhoff_stress(
         &self,
+        _: T,
         _: &[Vector<T, 1>],
         h: &[Matrix<T, 1>],
         stress: &mut [Matrix<T, 1>],
@@ -101,7 +102,13 @@ impl<T: Real> Material<T, 1> for Bar {
         }
     }
 
-    fn strain_energy(&self, _: &[Vector<T, 1>], h: &[Matrix<T, 1>], energy: &mut [T]) -> bool {
+    fn strain_energy(
+        &self,
+        _: T,
+        _: &[Vector<T, 1>],
+        h: &[Matrix<T, 1>],
+        energy: &mut [T],
+    ) -> bool {
         // W = E/4 (F^2 - 1) - E/2 ln F
         for (energy, h) in energy.iter_mut().zip(h) {
             let h = h[0].to_f64();
@@ -198,6 +205,7 @@ impl<T: Real, const D: usize> Material<T, D> for Affine {
 
     fn kirchhoff_stress(
         &self,
+        _: T,
         _: &[Vector<T, D>],
         h: &[Matrix<T, D>],
         stress: &mut [Matrix<T, D>],
@@ -293,6 +301,7 @@ impl<T: Real, const D: usize> Material<T, D> for AxisAligned {
 
     fn kirchhoff_stress(
         &self,
+        _: T,
         _: &[Vector<T, D>],
         h: &[Matrix<T, D>],
         stress: &mut [Matrix<T, D>],

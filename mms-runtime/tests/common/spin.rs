@@ -29,6 +29,7 @@ impl Material<f64, 2> for Spin {
 
     fn kirchhoff_stress(
         &self,
+        _: f64,
         _: &[Vector<f64, 2>],
         h: &[Matrix<f64, 2>],
         stress: &mut [Matrix<f64, 2>],

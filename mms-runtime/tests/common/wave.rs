@@ -81,6 +81,24 @@ impl Wave<2> {
     }
 }
 
+impl Wave<3> {
+    /// A wave in each component, none along an axis, on any body.
+    pub fn in_space(body: Body<f64, 3>) -> Self {
+        Self {
+            body,
+            faces: Vec::new(),
+            amplitude: Vector::<f64, 3>::new(0.04, -0.03, 0.02),
+            vectors: Matrix::<f64, 3>::new(2.0, 1.5, 0.5, -1.0, 2.5, 1.0, 0.5, -1.0, 2.0),
+            phase: Vector::<f64, 3>::new(0.3, 1.1, 2.0),
+            frequency: 3.0,
+            slide: Vector::zeros(),
+            mu: 0.5,
+            end: 0.6,
+            forced: true,
+        }
+    }
+}
+
 impl<const D: usize> Wave<D> {
     /// With these claims about its faces.
     pub fn with_faces(self, faces: &[(Face, Condition)]) -> Self {
@@ -97,7 +115,7 @@ impl<const D: usize> Wave<D> {
     pub fn reflected(&self) -> Self {
         let body = match &self.body {
             Body::Box { lower, upper } => Body::Box { lower: -upper, upper: -lower },
-            annulus @ Body::Annulus { .. } => annulus.clone(),
+            other => other.clone(),
         };
         Self {
             body,
@@ -156,6 +174,7 @@ impl<const D: usize> Material<f64, D> for Wave<D> {
 
     fn kirchhoff_stress(
         &self,
+        _: f64,
         _: &[Vector<f64, D>],
         h: &[Matrix<f64, D>],
         stress: &mut [Matrix<f64, D>],

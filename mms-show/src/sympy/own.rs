@@ -69,9 +69,7 @@ fn meaning(name: &str, names: &Renamed) -> String {
         "F" => format!("deformed[{place}]"),
         "Finv" => format!("(deformed.adjugate() / determinant(deformed))[{place}]"),
         "C" => format!("(deformed.T * deformed)[{place}]"),
-        _ => format!(
-            "((deformed.T * deformed).adjugate() / determinant(deformed) ** 2)[{place}]"
-        ),
+        _ => format!("((deformed.T * deformed).adjugate() / determinant(deformed) ** 2)[{place}]"),
     }
 }
 
@@ -94,7 +92,8 @@ pub(super) fn quantities(compiled: &Compiled, names: &Renamed) -> Vec<String> {
                 translated(residual, names)
             }
             (Part::Source, Some(BalanceLaw::Flow { storage, flux })) => {
-                let storage = storage.iter().map(|it| format!("diff({}, t)", translated(it, names)));
+                let storage =
+                    storage.iter().map(|it| format!("diff({}, t)", translated(it, names)));
                 let flux = flux.iter().flatten().zip(axes);
                 let flux =
                     flux.map(|(it, axis)| format!("diff({}, {axis})", translated(it, names)));

@@ -228,8 +228,7 @@ impl Checker<'_> {
         for given in &field.givens {
             let name = &given.name.value;
             let unit = given.unit.as_ref();
-            let unit =
-                unit.and_then(|unit| Unit::parse(self.sources, unit, &mut self.diagnostics));
+            let unit = unit.and_then(|unit| Unit::parse(self.sources, unit, &mut self.diagnostics));
             let measure = match unit {
                 Some(unit) => {
                     let message = format!("the given field `{name}` does not have its unit");
@@ -253,7 +252,8 @@ impl Checker<'_> {
         }
         match &balance.law {
             BalanceLaw::Flow { storage: Some(storage), flux: Some(flux) } => {
-                if let Some(expected) = self.inferred(storage).and_then(|it| it.times(&velocity())) {
+                if let Some(expected) = self.inferred(storage).and_then(|it| it.times(&velocity()))
+                {
                     let name = &balance.name.value;
                     let message =
                         format!("the flux of `{name}` must be its storage times a velocity");
@@ -309,12 +309,22 @@ impl Checker<'_> {
                 let message = "the corners of the box must be lengths";
                 self.expect(lower.iter().chain(upper), Dimension::length(), message, None);
             }
-            Body::Annulus { inner, outer, theta } => {
-                let message = "the radii of the annulus must be lengths";
-                self.expect([inner, outer], Dimension::length(), message, None);
+            Body::Round(round) => {
+                let message = format!("the radii of the {} must be lengths", round.shape.name);
+                let radii = round.inner.iter().chain([&round.outer]);
+                self.expect(radii, Dimension::length(), message, None);
+                let message = "the ends of the cylinder must be lengths";
+                self.expect(round.z.iter().flatten(), Dimension::length(), message, None);
                 let message = "an angle must be a number without unit";
-                self.expect(theta.iter().flatten(), Dimension::NONE, message, None);
+                let angles = round.theta.iter().chain(&round.phi).flatten();
+                self.expect(angles, Dimension::NONE, message, None);
             }
+            Body::Polygon(polygon) => {
+                let message = "the vertices of the polygon must be lengths";
+                let vertices = polygon.vertices.iter().flatten();
+                self.expect(vertices, Dimension::length(), message, None);
+            }
+            Body::Nothing => {}
         }
         let message = "the ends of the time window must be times";
         match domain.is_moved {

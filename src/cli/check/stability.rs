@@ -29,6 +29,12 @@ pub fn text(stability: &Stability, certificate: &Certificate, is_static: bool) -
         true => equilibrium(growth),
         false => long(growth, stability.is_static),
     }));
+    if !stability.has_mesh {
+        lines.push(
+            "  faces  NOT LOOKED AT: waves on faces and corners, and long waves, of a polygon"
+                .into(),
+        );
+    }
     lines
 }
 

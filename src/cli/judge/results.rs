@@ -131,7 +131,7 @@ impl Judge {
             names => {
                 let input = exact.input();
                 input.offered(names, evaluated(&input.own_quantities(), names)?)?
-            },
+            }
         };
         Ok((self.results.naming.names(&exact.input().own_quantities())?, wanted))
     }

@@ -179,7 +179,10 @@ impl Template<'_> {
         });
         let givens = self.material.givens.iter().map(|given| {
             let name = &given.name.value;
-            let doc = given.doc.as_ref().map_or_else(String::new, |doc| format!("   # {}", doc.in_a_comment()));
+            let doc = given
+                .doc
+                .as_ref()
+                .map_or_else(String::new, |doc| format!("   # {}", doc.in_a_comment()));
             format!("{name:<7} = \"0\"{doc}")
         });
         let fibre = self.material.has_fibres().then(|| "fibre   = [1, 0, 0]".to_string());

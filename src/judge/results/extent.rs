@@ -9,6 +9,7 @@ use mms_results::mesh::{Mesh, swept};
 use mms_results::motion::{Body, Motion, resolve};
 use mms_results::names::Meaning;
 use mms_results::{Cells, Snapshot};
+use mms_runtime::math::coordinates::{Side, System};
 use mms_spec::Face;
 
 use super::ALIKE;
@@ -58,13 +59,9 @@ pub fn of_cells(
     let dimension = mesh.dimension;
     let body = &exact.body;
     let share = (measure + beside_curves(mesh, body)) / body.measure();
-    let least = match body {
-        Extent::Box([lower, upper]) => {
-            lower.iter().zip(upper).map(|(a, b)| b - a).fold(f64::INFINITY, f64::min)
-        }
-        Extent::Annulus([inner, outer], _) => outer - inner,
-    };
-    let most = ROUNDING + 8.0 * dimension as f64 * rounding / least;
+    let least = thickness(body);
+    let facets = facets(mesh, body);
+    let most = ROUNDING + 8.0 * dimension as f64 * rounding / least + facets;
     let covers = format!("the cells cover {} of the body", of(share));
     ensure!(share <= 1.0 + most, "{path}: {covers}: some of them lie over others");
     let part = (share < 1.0 - most).then_some(covers);
@@ -132,10 +129,45 @@ fn of(share: f64) -> String {
     }
 }
 
+/// The least distance between opposite faces of a body.
+fn thickness(body: &Extent<f64>) -> f64 {
+    match body {
+        Extent::Block(block) => {
+            let lengths = block.bounds.iter().enumerate();
+            let lengths = lengths.filter(|(axis, _)| !block.system.is_angle(*axis));
+            lengths.map(|(_, [a, b])| b - a).fold(f64::INFINITY, f64::min)
+        }
+        _ => body.size(),
+    }
+}
+
+/// The part of a body in space that facets of cells may miss of its curved faces, or have beyond them: where the corners of
+/// a facet of the longest edge s lie on a circle of radius R, it is no farther from it than s^2/(8 R).
+fn facets(mesh: &Mesh<'_>, body: &Extent<f64>) -> f64 {
+    let Extent::Block(block) = body else { return 0.0 };
+    if block.system == System::Cartesian || block.bounds.len() < 3 {
+        return 0.0;
+    }
+    let longest = mesh.sizes().map_or(0.0, |[_, longest]| longest);
+    let on = |radius: f64| {
+        let mut sides: Vec<Side> = block.bounds.iter().copied().map(Side::Between).collect();
+        sides[0] = Side::At(radius);
+        // Along two directions on a sphere.
+        let ways = if block.system == System::Spherical { 2.0 } else { 1.0 };
+        ways * block.system.measure(&sides) * longest.powi(2) / (8.0 * radius)
+    };
+    let radii = block.bounds[0].into_iter().filter(|radius| *radius > 0.0);
+    radii.map(on).sum::<f64>() / body.measure()
+}
+
 /// The area between the edges of cells and the circles that they stand for: outside them on the outer one, and, with the
 /// other sign, inside them on the inner one.
 fn beside_curves(mesh: &Mesh<'_>, body: &Extent<f64>) -> f64 {
-    let Extent::Annulus([inner, outer], _) = body else { return 0.0 };
+    let Extent::Block(block) = body else { return 0.0 };
+    if block.system != System::Polar || block.bounds.len() != 2 {
+        return 0.0;
+    }
+    let [inner, outer] = block.bounds[0];
     let distance = |a: &[f64], b: &[f64]| (a[0] - b[0]).hypot(a[1] - b[1]);
     let on = |face: Face, radius: f64| -> f64 {
         let is_on = |[a, b]: [&[f64]; 2]| {
@@ -145,7 +177,7 @@ fn beside_curves(mesh: &Mesh<'_>, body: &Extent<f64>) -> f64 {
         let edges = mesh.free_edges(&is_on);
         edges.iter().map(|edge| beside(edge, radius)).sum()
     };
-    on(Face::Outer, *outer) - on(Face::Inner, *inner)
+    on(Face::Outer, outer) - on(Face::Inner, inner)
 }
 
 /// The area between an edge and an arc of that radius about the origin, from the rays through its ends.
@@ -196,36 +228,43 @@ fn empty(
 ) -> Option<Vec<f64>> {
     let found = far(lattice, points, body, EMPTY * spacing)?;
     let dimension = body.dimension();
+    let Extent::Block(_) = body else { return Some(found) };
     let parts: Vec<f64> = points.chunks(dimension).flat_map(|it| parts(body, it)).collect();
     let spacing = (dimension as f64 / parts.len() as f64).powf(1.0 / dimension as f64);
-    let unit = Extent::Box([vec![0.0; dimension], vec![1.0; dimension]]);
+    let unit = Extent::cuboid(vec![0.0; dimension], vec![1.0; dimension]);
     far(&Lattice::new(&parts, dimension, spacing), &parts, &unit, EMPTY * spacing)?;
     Some(found)
 }
 
-/// Where a point is from one end of the body to the other, along each edge of a box, along the angle and the radius of a ring.
+/// Where a point is from one end of the body to the other, along each edge of a box, along the angle, the radius and the third
+/// coordinate of what is round; nowhere in another body.
 fn parts(body: &Extent<f64>, point: &[f64]) -> Vec<f64> {
-    match body {
-        Extent::Box([lower, upper]) => {
-            let edges = lower.iter().zip(upper).zip(point);
-            edges.map(|((a, b), x)| (x - a) / (b - a)).collect()
+    let Extent::Block(block) = body else { return Vec::new() };
+    let padded = std::array::from_fn(|axis| point.get(axis).copied().unwrap_or(0.0));
+    let at = block.system.local(padded);
+    let part = |axis: usize| {
+        let [a, b] = block.bounds[axis];
+        match block.system != System::Cartesian && axis == 1 {
+            true => (at[1] - a).rem_euclid(TAU) / (b - a),
+            false => (at[axis] - a) / (b - a),
         }
-        Extent::Annulus([inner, outer], [first, last]) => {
-            let turned = (point[1].atan2(point[0]) - first).rem_euclid(TAU);
-            vec![turned / (last - first), (point[0].hypot(point[1]) - inner) / (outer - inner)]
-        }
+    };
+    let mut order: Vec<usize> = (0..block.bounds.len()).collect();
+    if block.system != System::Cartesian {
+        order.swap(0, 1);
     }
+    order.into_iter().map(part).collect()
 }
 
 /// A place of the body that is as far from all points; or one at a side of a box beside which a layer of half that has none.
 fn far(lattice: &Lattice<'_>, points: &[f64], body: &Extent<f64>, reach: f64) -> Option<Vec<f64>> {
     let dimension = body.dimension();
     let lengths = match body {
-        Extent::Box([lower, upper]) => {
-            for axis in 0..dimension {
+        Extent::Block(block) if block.system == System::Cartesian => {
+            for (axis, [lower, upper]) in block.bounds.iter().enumerate() {
                 let along = || points.iter().skip(axis).step_by(dimension).copied();
-                let below = along().fold(f64::INFINITY, f64::min) - lower[axis];
-                let above = upper[axis] - along().fold(f64::NEG_INFINITY, f64::max);
+                let below = along().fold(f64::INFINITY, f64::min) - lower;
+                let above = upper - along().fold(f64::NEG_INFINITY, f64::max);
                 for (side, gap) in [(0.0, below), (1.0, above)] {
                     if gap > reach / 2.0 {
                         let mut parts = vec![0.5; dimension];
@@ -234,11 +273,19 @@ fn far(lattice: &Lattice<'_>, points: &[f64], body: &Extent<f64>, reach: f64) ->
                     }
                 }
             }
-            lower.iter().zip(upper).map(|(a, b)| b - a).collect()
+            block.bounds.iter().map(|[a, b]| b - a).collect()
         }
-        Extent::Annulus([inner, outer], [first, last]) => {
-            vec![outer * (last - first), outer - inner]
+        Extent::Block(block) => {
+            let outer = block.bounds[0][1];
+            let length = |axis: usize| {
+                let [a, b] = block.bounds[axis];
+                if block.system.is_angle(axis) { outer * (b - a) } else { b - a }
+            };
+            let mut lengths: Vec<f64> = (0..dimension).map(length).collect();
+            lengths.swap(0, 1);
+            lengths
         }
+        _ => vec![2.0 * body.size(); dimension],
     };
     // Places so near to each other that none of them misses an empty part by much.
     let counts: Vec<usize> =

@@ -24,7 +24,9 @@ pub fn hold(snapshot: &Snapshot, meanings: &[Meaning], exact: &Exact) -> anyhow:
     let mut all: Vec<(&str, &str, Option<Dimension>)> = Vec::new();
     for meaning in meanings {
         let units = meaning.units(snapshot);
-        all.extend(units.into_iter().map(|(name, unit)| (name, unit, dimension(meaning.role, exact))));
+        all.extend(
+            units.into_iter().map(|(name, unit)| (name, unit, dimension(meaning.role, exact))),
+        );
     }
     let times = snapshot.units.iter().filter(|(name, _)| is_time(name));
     all.extend(times.map(|(name, unit)| (name.as_str(), unit.as_str(), Some(Dimension::time()))));

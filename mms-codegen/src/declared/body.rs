@@ -1,0 +1,197 @@
+//! Whether the numbers of a body make one: boxes with edges of positive length, radii and angles that ascend, polygons
+//! whose edges do not cross.
+
+use std::f64::consts::TAU;
+
+use mms_math::Scalar as _;
+use mms_math::coordinates::System;
+use mms_math::polygon::{self, Mistake};
+use mms_mechanics::extent::{Block, Extent, Region};
+use mms_program::precise::Precise;
+use mms_spec::diagnostic::Diagnostic;
+use mms_spec::{Body, Face, Formula, Polygon, Round};
+use mms_symbolic::expr::Expr;
+use mms_symbolic::expr::print::AXES;
+
+use super::{Bound, Declared, digits, evaluate};
+
+impl<'a> Declared<'a> {
+    /// The body in numbers; none where something is wrong with it, or there is none.
+    pub(super) fn body(&mut self) -> Option<Extent<Precise>> {
+        let model = self.model;
+        match (&self.field.domain.body, &model.domain.body) {
+            (Body::Box { lower, upper }, Region::Block(block)) => {
+                self.cuboid([lower, upper], &block.bounds)
+            }
+            (Body::Round(round), Region::Block(block)) => self.round(round, block),
+            (Body::Polygon(polygon), Region::Polygon(vertices)) => self.polygon(polygon, vertices),
+            _ => None,
+        }
+    }
+
+    fn cuboid(
+        &mut self,
+        [lower, upper]: [&'a Vec<Formula>; 2],
+        ends: &[[Expr; 2]],
+    ) -> Option<Extent<Precise>> {
+        let mut corners = [Vec::new(), Vec::new()];
+        for (axis, (formulas, ends)) in lower.iter().zip(upper).zip(ends).enumerate() {
+            let bounds = self.bounds([formulas.0, formulas.1], *ends);
+            let Some([least, greatest]) = bounds else { continue };
+            let message = format!("the box is empty along {}", AXES[axis]);
+            self.ascending(&message, "its `lower` is", &least, &greatest);
+            corners[0].push(least.value);
+            corners[1].push(greatest.value);
+        }
+        let [from, to] = corners;
+        (from.len() == lower.len()).then(|| Region::cuboid(from, to))
+    }
+
+    fn round(&mut self, round: &'a Round, block: &Block<Expr>) -> Option<Extent<Precise>> {
+        let [from, to] = block.bounds[0];
+        let zero = || Precise::from_f64(0.0);
+        let inner = match &round.inner {
+            Some(inner) => self.bound(inner, from),
+            None => None,
+        };
+        let outer = self.bound(&round.outer, to);
+        if let (Some(inner), Some(outer)) = (&inner, &outer) {
+            self.radii(round, inner, outer);
+        } else if let (None, Some(outer)) = (&round.inner, &outer)
+            && outer.value.at_most(&zero())
+        {
+            let message = format!("the {} is empty", round.shape.name);
+            let diagnostic = Diagnostic::error(outer.formula.span, message)
+                .label(format!("the outer radius is {}", digits(&outer.value)));
+            let diagnostic = self.with_parameters(diagnostic, &[outer.expr]);
+            self.report(diagnostic);
+        }
+        let mut bounds = Vec::new();
+        let third = match block.system {
+            System::Spherical => &round.phi,
+            _ => &round.z,
+        };
+        for (at, pair) in [&round.theta, third].into_iter().enumerate() {
+            let Some(exprs) = block.bounds.get(at + 1) else { continue };
+            let Some(pair) = pair else {
+                // All around, or from pole to pole.
+                bounds.push(evaluate(&self.graph, &self.parameters, exprs).try_into().ok()?);
+                continue;
+            };
+            let [first, last] = self.bounds(pair.each_ref(), *exprs)?;
+            match (at, block.system) {
+                (0, _) => self.angles(&first, &last),
+                (_, System::Spherical) => self.polar_angles(&first, &last),
+                _ => {
+                    let message = "the cylinder is empty along Z";
+                    self.ascending(message, "its lower end is", &first, &last);
+                }
+            }
+            bounds.push([first.value, last.value]);
+        }
+        let inner = if round.inner.is_some() { inner?.value } else { zero() };
+        bounds.insert(0, [inner, outer?.value]);
+        Some(Region::Block(Block { system: block.system, bounds }))
+    }
+
+    fn radii(&mut self, round: &Round, inner: &Bound<'_>, outer: &Bound<'_>) {
+        let zero = Precise::from_f64(0.0);
+        let name = round.shape.name;
+        if !zero.at_most(&inner.value) {
+            let diagnostic = Diagnostic::error(inner.formula.span, "the inner radius is negative")
+                .label(format!("this is {}", digits(&inner.value)));
+            let diagnostic = self.with_parameters(diagnostic, &[inner.expr]);
+            self.report(diagnostic);
+        } else if inner.value.at_most(&zero) {
+            let noun = if name == "annulus" { "disc".into() } else { format!("full {name}") };
+            let message = format!("a {noun} has no inner face");
+            self.refuse_claims(&[Face::Inner], &message, "`inner` is 0");
+        }
+        self.ascending(&format!("the {name} is empty"), "the inner radius is", inner, outer);
+    }
+
+    fn angles(&mut self, first: &Bound<'_>, last: &Bound<'_>) {
+        self.ascending("the sector is empty", "its first angle is", first, last);
+        let turn = Precise::from_f64(2.0) * Precise::pi();
+        let length = last.value.clone() - first.value.clone();
+        // Angles that differ by a turn do so to 60 digits of 77 at least.
+        let rounding = turn.clone() * Precise::from_f64(1e-60);
+        if !length.at_most(&(turn.clone() + rounding.clone())) {
+            let label = format!("{} from the first angle, more than {TAU}", digits(&length));
+            let message = "the sector is longer than a full turn";
+            let diagnostic = Diagnostic::error(last.formula.span, message).label(label);
+            let diagnostic = self.with_parameters(diagnostic, &[first.expr, last.expr]);
+            self.report(diagnostic.help("angles are in radians"));
+        } else if (turn - rounding).at_most(&length) {
+            let edges = [Face::ThetaMin, Face::ThetaMax];
+            let noun = match self.field.dimension {
+                2 => "ring has no edges",
+                _ => "turn has no faces at its ends",
+            };
+            self.refuse_claims(&edges, &format!("a full {noun}"), "`theta` is a full turn");
+        }
+    }
+
+    /// The angles of a sphere from +Z lie between 0 and pi; where they are those, the axis is no face.
+    fn polar_angles(&mut self, first: &Bound<'_>, last: &Bound<'_>) {
+        self.ascending("the part of the sphere is empty", "its first angle is", first, last);
+        let (zero, half) = (Precise::from_f64(0.0), Precise::pi());
+        let rounding = half.clone() * Precise::from_f64(1e-60);
+        let below = Precise::from_f64(0.0) - rounding.clone();
+        let above = half.clone() + rounding.clone();
+        for bound in [first, last] {
+            if below.at_most(&bound.value) && bound.value.at_most(&above) {
+                continue;
+            }
+            let message = "an angle from +Z is not between 0 and pi";
+            let diagnostic = Diagnostic::error(bound.formula.span, message)
+                .label(format!("this is {}", digits(&bound.value)));
+            let diagnostic = self.with_parameters(diagnostic, &[bound.expr]);
+            self.report(
+                diagnostic.help("`phi` is the angle from +Z, in radians; `theta` goes around"),
+            );
+        }
+        let message = "the axis of a sphere is no face";
+        if first.value.at_most(&(zero + rounding.clone())) {
+            self.refuse_claims(&[Face::PhiMin], message, "`phi` starts at 0");
+        }
+        if (half - rounding).at_most(&last.value) {
+            self.refuse_claims(&[Face::PhiMax], message, "`phi` ends at pi");
+        }
+    }
+
+    fn polygon(&mut self, polygon: &'a Polygon, vertices: &[[Expr; 2]]) -> Option<Extent<Precise>> {
+        let mut found = Vec::new();
+        for (formulas, exprs) in polygon.vertices.iter().zip(vertices) {
+            found.push(self.bounds(formulas.each_ref(), *exprs));
+        }
+        let found: Vec<[Bound<'a>; 2]> = found.into_iter().collect::<Option<_>>()?;
+        let near: Vec<[f64; 2]> =
+            found.iter().map(|vertex| vertex.each_ref().map(|it| it.value.to_f64())).collect();
+        let (message, [first, second], label) = match polygon::mistake(&near) {
+            None => {
+                let vertices = found.into_iter().map(|vertex| vertex.map(|bound| bound.value));
+                return Some(Region::Polygon(vertices.collect()));
+            }
+            Some(Mistake::Repeated(first, second)) => {
+                let label = format!("the same point as vertex {}", first + 1);
+                ("a vertex of the polygon is repeated".to_string(), [first, second], label)
+            }
+            Some(Mistake::Crossing(first, second)) => {
+                let names = [first, second].map(|edge| polygon.names[edge]);
+                let message = format!("the edges `{}` and `{}` meet", names[0], names[1]);
+                (message, [first, second], format!("`{}` starts here", names[1]))
+            }
+        };
+        let span = polygon.vertices[second][0].span;
+        let exprs = [vertices[first], vertices[second]].concat();
+        let diagnostic = Diagnostic::error(span, message).label(label);
+        let diagnostic = self.with_parameters(diagnostic, &exprs);
+        self.report(
+            diagnostic.help(
+                "edges of a polygon meet in its vertices alone, each of which is another point",
+            ),
+        );
+        None
+    }
+}

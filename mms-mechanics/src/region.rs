@@ -1,0 +1,100 @@
+//! Reference bodies, in formulas or in numbers: one description, which positions, faces and bounds follow from.
+
+use mms_math::coordinates::System;
+
+use mms_spec::Face;
+
+/// A body, in terms of values of a type.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Region<V> {
+    /// What lies between bounds of coordinates.
+    Block(Block<V>),
+    /// A polygon in the plane, by its vertices.
+    Polygon(Vec<[V; 2]>),
+    /// No body, in a space of that dimension.
+    Nothing(usize),
+}
+
+/// What lies between bounds of coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block<V> {
+    /// The coordinates.
+    pub system: System,
+    /// Their least and greatest values, one pair per dimension.
+    pub bounds: Vec<[V; 2]>,
+}
+
+impl<V: Clone> Region<V> {
+    /// A box with edges along the axes.
+    pub fn cuboid(lower: Vec<V>, upper: Vec<V>) -> Self {
+        let bounds = lower.into_iter().zip(upper).map(|(lower, upper)| [lower, upper]).collect();
+        Region::Block(Block { system: System::Cartesian, bounds })
+    }
+
+    /// The dimension of its space.
+    pub fn dimension(&self) -> usize {
+        match self {
+            Region::Block(block) => block.bounds.len(),
+            Region::Polygon(_) => 2,
+            Region::Nothing(dimension) => *dimension,
+        }
+    }
+
+    /// The bounds of a box with edges along the axes.
+    pub fn box_bounds(&self) -> Option<&[[V; 2]]> {
+        match self {
+            Region::Block(Block { system: System::Cartesian, bounds }) => Some(bounds),
+            _ => None,
+        }
+    }
+
+    /// The numbers that say where it is, in a fixed order.
+    pub fn values(&self) -> Vec<V> {
+        match self {
+            Region::Block(block) => block.bounds.iter().flatten().cloned().collect(),
+            Region::Polygon(vertices) => vertices.iter().flatten().cloned().collect(),
+            Region::Nothing(_) => Vec::new(),
+        }
+    }
+
+    /// The same kind of body with other numbers in this order.
+    pub fn with<W: Clone>(&self, values: Vec<W>) -> Region<W> {
+        let pairs = || values.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]);
+        match self {
+            Region::Block(block) => {
+                Region::Block(Block { system: block.system, bounds: pairs().collect() })
+            }
+            Region::Polygon(_) => Region::Polygon(pairs().collect()),
+            Region::Nothing(dimension) => Region::Nothing(*dimension),
+        }
+    }
+
+    /// The same body in terms of another type.
+    pub fn map<W: Clone>(&self, of: impl Fn(&V) -> W) -> Region<W> {
+        self.with(self.values().iter().map(of).collect())
+    }
+}
+
+impl<V> Block<V> {
+    /// What is constant on a face, and that it is: the bound of one of the coordinates.
+    pub fn fixed(&self, face: Face) -> (usize, &V) {
+        let (axis, is_upper) = fixed_coordinate(face);
+        (axis, &self.bounds[axis][usize::from(is_upper)])
+    }
+}
+
+/// The coordinate that is constant on a face of a block, and whether it is at its upper bound.
+pub fn fixed_coordinate(face: Face) -> (usize, bool) {
+    match face {
+        Face::Min(axis) => (axis, false),
+        Face::Max(axis) => (axis, true),
+        Face::Inner => (0, false),
+        Face::Outer => (0, true),
+        Face::ThetaMin => (1, false),
+        Face::ThetaMax => (1, true),
+        Face::PhiMin => (2, false),
+        Face::PhiMax => (2, true),
+        // An edge is no bound of a coordinate of space; along it one varies.
+        Face::Edge(..) => (1, false),
+    }
+}
