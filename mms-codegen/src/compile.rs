@@ -30,6 +30,7 @@ use mms_spec::quantity::Quantity;
 use mms_spec::source::Sources;
 use mms_spec::suggest::advice;
 use mms_spec::syntax;
+use mms_spec::units::{Unit, system};
 use mms_spec::{Face, FieldSpec, Formula, MaterialSpec};
 use mms_symbolic::expr::{DEFAULT_MAX_NODES, Graph, Rational};
 use mms_symbolic::sorted::SortedMap;
@@ -247,9 +248,19 @@ impl Compiled {
     /// One sentence on what a quantity is here: at small strain there is one stress and one configuration.
     pub fn doc(&self, quantity: Quantity) -> &'static str {
         match self.model.kind {
+            _ if quantity == Quantity::Displacement && self.field.is_static() => {
+                "Displacement u(X)."
+            }
             Kind::SmallStrain => quantity.doc_at_small_strain(),
             Kind::Isotropic | Kind::Fibrous(_) => quantity.doc(),
         }
+    }
+
+    /// The unit of what is in this one where a field's units are those of the SI, by the units of its parameters.
+    pub fn unit(&self, si: &str) -> String {
+        let units = self.model.parameters.iter().filter_map(|it| Unit::known(it.unit.as_deref()?));
+        let own = system::own(&units.collect::<Vec<_>>(), si);
+        own.unwrap_or_else(|| "that of the field's own system".into())
     }
 
     /// Path and text of the material's file, where it is the user's own.

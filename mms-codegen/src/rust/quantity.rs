@@ -55,7 +55,7 @@ impl Emitter<'_> {
     fn quantity(&self, quantity: Quantity) -> TokenStream {
         let (name, at) = (format_ident!("{}", quantity.name()), at(quantity));
         let doc = self.compiled.doc(quantity);
-        let doc = format!(" {doc} Unit: {}.", quantity.unit());
+        let doc = format!(" {doc} Unit: {}.", self.compiled.unit(quantity.unit()));
         let cached = format!(" As `{}`, from what was kept of the point.", quantity.name());
         let own: &[Stage] = &[Stage::Point, Stage::PointTime];
         let place = |own| Context::at_points(quote!(self.field), own);
