@@ -307,17 +307,26 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
         size: &[f64],
         by: fn(&System<'a, D>, &Changed<'_, D>) -> Option<DVector<f64>>,
     ) -> Option<DVector<f64>> {
+        self.made(hypothesis, size, by).filter(|it| it.norm() > 0.0)
+    }
+
+    /// The parts of the functions that a mistake makes, none where it changes nothing at rest; `None` without an equilibrium.
+    fn made(
+        &self,
+        hypothesis: &Hypothesis<D>,
+        size: &[f64],
+        by: fn(&System<'a, D>, &Changed<'_, D>) -> Option<DVector<f64>>,
+    ) -> Option<DVector<f64>> {
         let field = Changed::with(self.exact, Without::default(), hypothesis, size);
-        let found = match hypothesis.change {
+        match hypothesis.change {
             Change::Force(_) | Change::Stress(..) | Change::Surface(_) => by(&self.system, &field),
             Change::Loads(..) | Change::Density => by(&self.system, &field),
             Change::Condition(Condition::Free) => {
                 by(&System::new(self.exact, self.system.weak.time, &field.domain())?, &field)
             }
             // At rest the others change nothing that is computed.
-            _ => None,
-        };
-        found.filter(|it| it.norm() > 0.0)
+            _ => Some(DVector::zeros(self.system.weak.count())),
+        }
     }
 }
 
@@ -334,6 +343,11 @@ pub struct Statics<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Statics<'a, D> {
+    /// What a mistake adds to the errors of a right solver; `None` where it has no equilibrium near the exact one.
+    pub fn added(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
+        self.errors(&self.equilibrium.made(hypothesis, size, System::balance)?)
+    }
+
     /// The errors at the user's points, of each time and quantity.
     fn errors(&self, parts: &DVector<f64>) -> Option<Vec<Vec<f64>>> {
         let weak = &self.equilibrium.system.weak;
