@@ -38,12 +38,15 @@ const OF_FIBRES: &[Part] =
     &[Scalar("I1"), COMMA, Scalar("I2"), COMMA, Scalar("J"), COMMA, Scalar("I4")];
 const SMALL: &[Part] = &[Tensor("epsilon")];
 
-/// The definition of a quantity, for a density of that kind.
-pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
+/// The definition of a quantity, for a density of that kind, of a field that moves or is static.
+pub fn relation(quantity: Quantity, kind: &Kind, is_static: bool) -> &'static [Part] {
     if let (Kind::SmallStrain, Some(relation)) = (kind, of_small_strain(quantity)) {
         return relation;
     }
     match quantity {
+        Quantity::Displacement if is_static => {
+            &[Tensor("u"), EQUALS, Function("u", &[Tensor("X")])]
+        }
         Quantity::Displacement => {
             const ARGUMENTS: &[Part] = &[Tensor("X"), Sign(","), Scalar("t")];
             &[Tensor("u"), EQUALS, Function("u", ARGUMENTS)]

@@ -173,6 +173,15 @@ fn what_an_equilibrium_has_not_is_refused_with_relax() {
 }
 
 #[test]
+fn the_displacement_is_shown_as_one_of_places_alone() {
+    let folder = folder();
+    folder.mms("show static.toml --quantity u").exits(0).prints("displacement  u = u(X)  (");
+    folder.mms("show bar_1d --quantity u").exits(0).prints("displacement  u = u(X, t)  (");
+    folder.mms("emit static.toml --target c -o c").exits(0);
+    assert!(folder.read("c/static_.h").contains("Displacement u(X)."));
+}
+
+#[test]
 fn all_that_is_offered_leaves_out_what_needs_a_density() {
     let folder = folder();
     let point = folder.mms("eval static.toml --at 0.3,0.2 --json").exits(0).json();
