@@ -493,11 +493,14 @@ fn the_gallery_leaves_no_term_unseen() {
 
 /// Every `[[study]]` of the file, interpreted: to the bits of compiled code, which is not optimised here.
 fn studies<K: Kernel>() {
-    for study in &compiled(K::NAME).field.studies {
+    let field = &compiled(K::NAME).field;
+    for study in &field.studies {
+        let mut method = method(study);
+        method.setup.relax = field.is_static();
         let levels = if study.precision.as_deref() == Some("f32") {
-            levels(scene::<f32>(K::NAME, study), study)
+            levels(scene::<f32>(K::NAME, study), study, &method)
         } else {
-            levels(scene::<f64>(K::NAME, study), study)
+            levels(scene::<f64>(K::NAME, study), study, &method)
         };
         let tolerance = study.tolerance.unwrap_or(TOLERANCE);
         let judgement = judge(&levels, Expected::new(study.order, tolerance));
@@ -544,11 +547,11 @@ fn method(study: &StudySpec) -> Method {
     method
 }
 
-fn levels<T: Solvable>(scene: Scene<T>, study: &StudySpec) -> Vec<Level> {
+fn levels<T: Solvable>(scene: Scene<T>, study: &StudySpec, method: &Method) -> Vec<Level> {
     let cells = if study.cells.is_empty() { scene.default_cells() } else { &study.cells };
     let level = |&cells: &usize| {
         let progress = &mut ();
-        scene.run_level(&method(study), &cells.into(), progress).expect("a scene for the solver")
+        scene.run_level(method, &cells.into(), progress).expect("a scene for the solver")
     };
     cells.iter().map(level).collect()
 }

@@ -9,6 +9,7 @@ use mms_spec::source::{Sources, Span, Spanned};
 use toml::de::{DeTable, DeValue};
 
 use crate::can::{self, Can, hold};
+use crate::set::{self, Step};
 use crate::table::{Reader, Table, digits, number};
 use crate::template::{Placeholder, Template, Wrong};
 
@@ -31,7 +32,7 @@ pub struct Campaign {
     pub sources: Sources,
     /// How the solver is run.
     pub solver: Solver,
-    /// What it is run on, each by a name of its own.
+    /// What it is run on, each by a name of its own; of a study whose parameters are stepped, each step.
     pub studies: Vec<Study>,
 }
 
@@ -65,8 +66,10 @@ pub struct Solver {
 /// A field, and the meshes that a solver is run on.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// Its name.
+    /// Its name; of a step, with the parameters that are stepped.
     pub name: String,
+    /// What the file calls it.
+    pub family: String,
     /// A gallery name, or the path of a field file.
     pub field: Spanned<String>,
     /// Cells along the longest edge of the body, on each level.
@@ -120,6 +123,15 @@ impl Study {
             true => self.cells.len() * self.steps(),
             false => self.cells.len().max(self.steps()),
         }
+    }
+
+    /// With the parameters of a step.
+    fn at(self, step: Step) -> Self {
+        let name = match step.name.is_empty() {
+            true => self.name,
+            false => format!("{}@{}", self.name, step.name),
+        };
+        Study { name, set: step.set, ..self }
     }
 
     /// How many time steps are given.
@@ -361,7 +373,8 @@ fn wrong_template(reader: &mut Reader, span: Span, key: &str, wrong: &Wrong) {
     let known: Vec<_> = Placeholder::ALL.iter().map(|it| it.name()).collect();
     let help = match wrong {
         Wrong::Unknown(name) => {
-            let all = |all: &str| format!("the placeholders are {all}");
+            let all =
+                |all: &str| format!("the placeholders are {all}, and {{set.NAME}} of a parameter");
             let near = mms_spec::suggest::did_you_mean(name, known.iter().copied());
             let near = near.map_or(String::new(), |it| format!("did you mean `{{{it}}}`? "));
             near + &all(&known.join(", "))
@@ -412,18 +425,19 @@ fn studies(reader: &mut Reader, root: &Table<'_>) -> Vec<Study> {
             reader.expect(span, "study", "a table, [[study]]");
             continue;
         };
-        let Some(study) = study(reader, entries, span) else { continue };
-        if studies.iter().any(|other| other.name == study.name) {
-            let message = format!("two studies are called {}", quoted(&study.name));
+        let Some((study, steps)) = study(reader, entries, span) else { continue };
+        if studies.iter().any(|other| other.family == study.family) {
+            let message = format!("two studies are called {}", quoted(&study.family));
             let found = Diagnostic::error(span, message).label("the second of them");
             reader.report(found.help("give it a `name` of its own"));
         }
-        studies.push(study);
+        studies.extend(steps.into_iter().map(|step| study.clone().at(step)));
     }
     studies
 }
 
-fn study(reader: &mut Reader, entries: &DeTable<'_>, span: Span) -> Option<Study> {
+/// A study, and the steps of its parameters.
+fn study(reader: &mut Reader, entries: &DeTable<'_>, span: Span) -> Option<(Study, Vec<Step>)> {
     let table = reader.table(entries, "[[study]]", span, STUDY);
     let field = reader.text(&table, "field");
     if table.get("field").is_none() {
@@ -436,8 +450,10 @@ fn study(reader: &mut Reader, entries: &DeTable<'_>, span: Span) -> Option<Study
     let h = reader.numbers(&table, "h", positive, is_positive);
     let time = reader.numbers(&table, "time", "an array of numbers", f64::is_finite);
     let name = name(reader, &table, field.as_ref());
+    let name = name?;
     let study = Study {
-        name: name?,
+        family: name.clone(),
+        name,
         field: field?,
         cells: cells?,
         time_steps,
@@ -458,11 +474,11 @@ fn study(reader: &mut Reader, entries: &DeTable<'_>, span: Span) -> Option<Study
         start: reader.text(&table, "start"),
         part: reader.flag(&table, "part", false),
         max_memory: reader.positive(&table, "max_memory").map(|it| it.ceil() as u64),
-        set: settings(reader, &table),
+        set: Vec::new(),
         span,
     };
     hold_levels(reader, &table, &study);
-    Some(study)
+    Some((study, set::steps(reader, &table)))
 }
 
 /// The name of a study, which is that of a folder too: its own, or that of its field.
@@ -562,19 +578,4 @@ fn orders(reader: &mut Reader, table: &Table<'_>) -> Vec<Spanned<String>> {
         Some((value, value_text)) => vec![Spanned { value: value_text, span: reader.span(value) }],
         None => reader.texts(table, "order"),
     }
-}
-
-/// Parameters by their names.
-fn settings(reader: &mut Reader, table: &Table<'_>) -> Vec<String> {
-    let Some(value) = table.get("set") else { return Vec::new() };
-    let found = value.get_ref().as_table().and_then(|table| {
-        let pairs = table
-            .iter()
-            .map(|(name, value)| Some(format!("{}={}", name.get_ref(), digits(value)?)));
-        pairs.collect()
-    });
-    found.unwrap_or_else(|| {
-        reader.expect(reader.span(value), "set", "a table of numbers, as in { young = 1e6 }");
-        Vec::new()
-    })
 }

@@ -2,7 +2,7 @@
 //!
 //! [`read`] makes a [`Campaign`] of a TOML file, and finds every mistake of form in it, each at its place. Commands are
 //! [`template`]s: a text is split into words once, as POSIX does, and what stands for a placeholder is never split
-//! again; there is no shell. [`process`] runs such words in a folder of their own, with a limit of time, under a
+//! again; there is no shell. A study whose parameters are lists (`set`) is a study for each step. [`process`] runs such words in a folder of their own, with a limit of time, under a
 //! [`supervisor`] that keeps what they print and ends all that they start. [`cover`] finds the fewest fields that show all that any of them shows.
 //!
 //! What a field is, what its name means, and what comes of results is not known here.
@@ -14,6 +14,7 @@ mod file;
 pub mod printed;
 pub mod process;
 pub mod profile;
+mod set;
 pub mod supervisor;
 mod table;
 pub mod template;

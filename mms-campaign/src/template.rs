@@ -19,6 +19,12 @@ macro_rules! placeholders {
                 match self { $(Placeholder::$variant => $name,)* }
             }
 
+            /// Whether it is a time, or of steps in time.
+            pub fn is_time(self) -> bool {
+                use Placeholder::{End, Start, Steps, TimeStep};
+                matches!(self, TimeStep | Steps | Start | End)
+            }
+
             /// Whether it is a path, which is no part of what a run is.
             pub fn is_path(self) -> bool {
                 match self { $(Placeholder::$variant => $is_path,)* }
@@ -52,7 +58,11 @@ pub struct Template(Vec<Piece>);
 enum Piece {
     Text(String),
     Value(Placeholder),
+    Parameter(String),
 }
+
+/// The beginning of the name of a placeholder that is the value of a parameter.
+pub const PARAMETER: &str = "set.";
 
 /// Why a text is no template.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,7 +91,7 @@ impl fmt::Display for Wrong {
 }
 
 impl Template {
-    /// Reads `{name}` as a placeholder, and `{{` and `}}` as braces.
+    /// Reads `{name}` as a placeholder, `{set.name}` as that of a parameter, and `{{` and `}}` as braces.
     ///
     /// # Errors
     /// A name that is none, a brace alone.
@@ -98,9 +108,13 @@ impl Template {
                 [b'{', ..] => {
                     let (name, rest) = behind[1..].split_once('}').ok_or(Wrong::Unpaired('{'))?;
                     let found = Placeholder::ALL.iter().find(|it| it.name() == name);
-                    let found = found.ok_or_else(|| Wrong::Unknown(name.to_owned()))?;
+                    let parameter = name.strip_prefix(PARAMETER).filter(|it| !it.is_empty());
                     pieces.push(Piece::Text(std::mem::take(&mut plain)));
-                    pieces.push(Piece::Value(*found));
+                    pieces.push(match (found, parameter) {
+                        (Some(found), _) => Piece::Value(*found),
+                        (None, Some(parameter)) => Piece::Parameter(parameter.to_owned()),
+                        (None, None) => return Err(Wrong::Unknown(name.to_owned())),
+                    });
                     rest
                 }
                 _ => return Err(Wrong::Unpaired('}')),
@@ -125,16 +139,29 @@ impl Template {
     /// The placeholders in it.
     pub fn placeholders(&self) -> impl Iterator<Item = Placeholder> {
         self.0.iter().filter_map(|piece| match piece {
-            Piece::Text(_) => None,
+            Piece::Text(_) | Piece::Parameter(_) => None,
             Piece::Value(placeholder) => Some(*placeholder),
         })
     }
 
-    /// The text, with values in the place of placeholders.
-    pub fn fill(&self, value: impl Fn(Placeholder) -> String) -> String {
+    /// The parameters whose values are in it.
+    pub fn parameters(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().filter_map(|piece| match piece {
+            Piece::Parameter(name) => Some(name.as_str()),
+            Piece::Text(_) | Piece::Value(_) => None,
+        })
+    }
+
+    /// The text, with values in the place of placeholders and of parameters.
+    pub fn fill(
+        &self,
+        value: impl Fn(Placeholder) -> String,
+        parameter: impl Fn(&str) -> String,
+    ) -> String {
         let text = |piece: &Piece| match piece {
             Piece::Text(text) => text.clone(),
             Piece::Value(placeholder) => value(*placeholder),
+            Piece::Parameter(name) => parameter(name),
         };
         self.0.iter().map(text).collect()
     }
@@ -150,7 +177,8 @@ mod tests {
             Placeholder::Output => "a b/it's \"$HOME\"".to_owned(),
             other => other.name().to_uppercase(),
         };
-        Ok(Template::words(text)?.iter().map(|word| word.fill(value)).collect())
+        let parameter = |name: &str| format!("<{name}>");
+        Ok(Template::words(text)?.iter().map(|word| word.fill(value, parameter)).collect())
     }
 
     #[test]
@@ -163,6 +191,7 @@ mod tests {
             (r#"run "a b"\ c '$HOME' ''"#, vec!["run", "a b c", "$HOME", ""]),
             ("run {{cells}} }}{cells}{{", vec!["run", "{cells}", "}8{"]),
             ("echo $HOME; rm *", vec!["echo", "$HOME;", "rm", "*"]),
+            ("run -p={set.load} {{set.a}}", vec!["run", "-p=<load>", "{set.a}"]),
         ] {
             assert_eq!(filled(text).unwrap(), words, "{text}");
         }
@@ -175,6 +204,7 @@ mod tests {
             ("run {", Wrong::Unpaired('{')),
             ("run }", Wrong::Unpaired('}')),
             ("run {}", Wrong::Unknown(String::new())),
+            ("run {set.}", Wrong::Unknown("set.".into())),
             ("run 'x", Wrong::Unclosed),
             ("run x\\", Wrong::Unclosed),
             (" ", Wrong::Empty),

@@ -76,8 +76,12 @@ fn all_keys_are_read() {
         cells = [1, 2]
         "#,
     );
-    let words: Vec<_> =
-        campaign.solver.run.iter().map(|word| word.fill(|it| it.name().into())).collect();
+    let words: Vec<_> = campaign
+        .solver
+        .run
+        .iter()
+        .map(|word| word.fill(|it| it.name().into(), str::to_owned))
+        .collect();
     assert_eq!(words, ["a b", "{cells}", ""]);
     assert_eq!(campaign.solver.state(), Some("npz"));
     let study = &campaign.studies[0];
@@ -211,6 +215,23 @@ fn each_mistake_is_told_at_its_place() {
             "the name of a folder",
         ),
         (&format!("{solver}{study}set = [1]\n"), "c.toml:7:7", "a table of numbers"),
+        (&format!("{solver}{study}set = {{ load = [] }}\n"), "c.toml:7:16", "a list of one number"),
+        (
+            &format!("{solver}{study}set = {{ load = [[1]] }}\n"),
+            "c.toml:7:16",
+            "a list of one number",
+        ),
+        (&format!("{solver}{study}set = {{ load = true }}\n"), "c.toml:7:16", "expected a number"),
+        (
+            &format!("{solver}{study}set = {{ a = [1, 2], c = 1, load = [1, 2, 3] }}\n"),
+            "c.toml:7:35",
+            "`load` has 3 values, and `a` 2",
+        ),
+        (
+            &format!("{solver}{study}set = {{ load = [1, 2, 1] }}\n"),
+            "c.toml:7:16",
+            "two steps are `load=1`",
+        ),
         (&format!("{solver}{study}order = true\n"), "c.toml:7:9", "a text in quotes"),
         (&format!("{solver}[study]\n"), "c.toml:4:1", "an array of tables"),
     ] {
@@ -220,6 +241,27 @@ fn each_mistake_is_told_at_its_place() {
         };
         assert!(said.contains(place) && said.contains(words), "{place} `{words}`:\n{said}");
     }
+}
+
+#[test]
+fn lists_of_parameters_are_studies_of_their_own() {
+    let text = FILE.to_owned()
+        + "set = { load = [0.25, \"1/2\"], nu = 0.3, a = [1, -2e-3] }\n[[study]]\nfield = \"x\"\ncells = [1]\n";
+    let campaign = parsed(&text);
+    let found: Vec<_> = campaign.studies.iter().map(|it| (it.name.as_str(), &it.set[..])).collect();
+    let set = |words: [&str; 3]| words.map(str::to_owned);
+    let [first, second] =
+        [set(["a=1", "load=0.25", "nu=0.3"]), set(["a=-2e-3", "load=1/2", "nu=0.3"])];
+    assert_eq!(
+        found,
+        [
+            ("axis_aligned_2d@a=1,load=0.25", &first[..]),
+            ("axis_aligned_2d@a=-2e-3,load=1_2", &second[..]),
+            ("x", &[])
+        ]
+    );
+    let families: Vec<_> = campaign.studies.iter().map(|it| it.family.as_str()).collect();
+    assert_eq!(families, ["axis_aligned_2d", "axis_aligned_2d", "x"]);
 }
 
 /// No text makes the reader panic.

@@ -26,11 +26,12 @@ use mms_program::schedule::schedule;
 use mms_spec::Form;
 use mms_spec::diagnostic;
 use mms_spec::diagnostic::Diagnostic;
-use mms_spec::own::Own;
+use mms_spec::own::{Own, Part};
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Sources;
 use mms_spec::suggest::advice;
 use mms_spec::syntax;
+use mms_spec::units::{Unit, system};
 use mms_spec::{Face, FieldSpec, Formula, MaterialSpec};
 use mms_symbolic::expr::{DEFAULT_MAX_NODES, Graph, Rational};
 use mms_symbolic::sorted::SortedMap;
@@ -268,8 +269,29 @@ impl Compiled {
     /// One sentence on what a quantity is here: at small strain there is one stress and one configuration.
     pub fn doc(&self, quantity: Quantity) -> &'static str {
         match self.model.kind {
+            _ if quantity == Quantity::Displacement && self.field.is_static() => {
+                "Displacement u(X)."
+            }
             Kind::SmallStrain => quantity.doc_at_small_strain(),
             Kind::Isotropic | Kind::Fibrous(_) => quantity.doc(),
+        }
+    }
+
+    /// The unit of what is in this one where a field's units are those of the SI, by the units of its parameters.
+    pub fn unit(&self, si: &str) -> String {
+        let units = self.model.parameters.iter().filter_map(|it| Unit::known(it.unit.as_deref()?));
+        let own = system::own(&units.collect::<Vec<_>>(), si);
+        own.unwrap_or_else(|| "that of the field's own system".into())
+    }
+
+    /// The unit of a quantity in the field's own system; empty if the file states none for one of its own.
+    pub fn unit_of(&self, quantity: Quantity) -> String {
+        let unit = quantity.unit();
+        let Quantity::Own(own) = quantity else { return self.unit(unit) };
+        match own.part {
+            Part::Gradient => over(unit, "/m", &self.unit("m")),
+            Part::Rate => over(unit, "/s", &self.unit("s")),
+            _ => unit.to_owned(),
         }
     }
 
@@ -349,4 +371,9 @@ impl Compiled {
         graph.work().allow(STEPS_OF_SCHEDULE);
         schedule(&graph, &outputs)
     }
+}
+
+/// A unit over an SI unit, over another in its place.
+fn over(unit: &str, si: &str, own: &str) -> String {
+    unit.strip_suffix(si).map_or_else(String::new, |whole| format!("{whole}/{own}"))
 }

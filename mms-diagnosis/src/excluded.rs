@@ -1,7 +1,10 @@
 //! Mistakes that results with a small error exclude, since they would have made one that is twice as large.
 //!
 //! The error of a mistake is that which it adds to a run of this project's own solver, on a grid no finer than that of the results: a
-//! root mean square over the body, the largest over times, as that of the results is.
+//! root mean square over the body, the largest over times, as that of the results is. Of a field without time it is what the mistake
+//! adds [at equilibrium](crate::statics).
+
+use std::sync::Arc;
 
 use mms_runtime::Fill;
 use mms_runtime::body::{Filling, bounding_box};
@@ -14,6 +17,7 @@ use crate::hypothesis::{Hypothesis, Kind, Size, title};
 use crate::level::on_all_processors;
 use crate::run::{Obstacle, Plan, Responses as _, written};
 use crate::smooth::{Smooth, less};
+use crate::statics::{Equilibrium, Statics};
 
 /// Results whose errors are known.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +30,8 @@ pub struct Study {
     pub times: Vec<f64>,
     /// The quantities, each with its root mean square error on the finest mesh, the largest over the times.
     pub errors: Vec<(Quantity, f64)>,
+    /// Whether the results are of an equilibrium, and not of a motion.
+    pub is_static: bool,
 }
 
 /// Which mistakes of a kind the results would have shown.
@@ -80,9 +86,48 @@ struct Runs<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     frame: &'a Frame<D>,
     mesh: &'a Mesh,
-    plan: Plan<'a, D>,
-    right: Vec<Vec<f64>>,
+    solvers: Solvers<'a, D>,
     errors: &'a [(Quantity, f64)],
+}
+
+/// Who tells what a mistake adds.
+enum Solvers<'a, const D: usize> {
+    /// A run with the mistake, and one without.
+    Runs { plan: Plan<'a, D>, right: Vec<Vec<f64>> },
+    /// Equilibrium with the mistake.
+    Rest(Statics<'a, D>),
+}
+
+impl<'a, const D: usize> Solvers<'a, D>
+where
+    f64: Solve<D>,
+{
+    fn new(
+        exact: &'a Exact<'a, D>,
+        frame: &'a Frame<D>,
+        mesh: &'a Mesh,
+        is_static: bool,
+    ) -> Result<Self, Obstacle> {
+        if is_static {
+            let equilibrium = Equilibrium::new(exact, frame)?.ok_or(Obstacle::NotHeld)?;
+            let (equilibrium, cell_size) = (Arc::new(equilibrium), mesh.cell_size);
+            return Ok(Solvers::Rest(Statics { equilibrium, frame, mesh, cell_size }));
+        }
+        let plan = Plan::new(exact, frame, mesh, Without::default(), None, MOST_WORK)?;
+        let right = plan.right(0).ok_or(Obstacle::NotFinite)?;
+        Ok(Solvers::Runs { plan, right })
+    }
+
+    /// What a mistake adds to each time and quantity; `None` where it stops the solver.
+    fn added(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
+        match self {
+            Solvers::Runs { plan, right } => {
+                let wrong = plan.wrong(0, hypothesis, size)?;
+                Some(wrong.iter().zip(right).map(|(a, b)| less(a, 1.0, b)).collect())
+            }
+            Solvers::Rest(statics) => statics.added(hypothesis, size),
+        }
+    }
 }
 
 /// What a study of a field excludes, of each hypothesis.
@@ -105,9 +150,8 @@ where
     if frame.times.is_empty() {
         return Err(Obstacle::AtStart);
     }
-    let plan = Plan::new(exact, &frame, &mesh, Without::default(), None, MOST_WORK)?;
-    let right = plan.right(0).ok_or(Obstacle::NotFinite)?;
-    let runs = Runs { exact, frame: &frame, mesh: &mesh, plan, right, errors: &study.errors };
+    let solvers = Solvers::new(exact, &frame, &mesh, study.is_static)?;
+    let runs = Runs { exact, frame: &frame, mesh: &mesh, solvers, errors: &study.errors };
     // Large sizes of a mistake have a hypothesis of their own, which excludes nothing more.
     let own: Vec<_> = study.errors.iter().map(|(quantity, _)| *quantity).collect();
     let is_own = |it: &&Hypothesis<D>| it.also.is_empty() && it.is_of(&own);
@@ -165,6 +209,8 @@ where
         let farthest = hypothesis.farthest();
         match least < farthest {
             true => Shown::From { right: right[0], least },
+            // It adds nothing, however large it is.
+            false if least.is_infinite() => Shown::Never(0.0),
             false => Shown::Never(NOTICED * farthest / least),
         }
     }
@@ -201,10 +247,7 @@ where
     fn times(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<f64> {
         let own = match written(self.exact, self.frame, self.mesh, hypothesis, size) {
             Some(errors) => errors,
-            None => {
-                let wrong = self.plan.wrong(0, hypothesis, size)?;
-                wrong.iter().zip(&self.right).map(|(a, b)| less(a, 1.0, b)).collect()
-            }
+            None => self.solvers.added(hypothesis, size)?,
         };
         let each = self.frame.each().zip(&own).zip(self.frame.quantities.iter().cycle());
         let times = each.map(|(((_, quantity), added), (_, size))| {

@@ -35,6 +35,8 @@ const FOUND: f64 = 1e-6;
 const BITS: u32 = 6;
 /// The step of differences of P.
 const STEP: f64 = 1e-6;
+/// What is less out of balance than this part of the stress is so by rounding.
+const ROUNDING: f64 = 1e-12;
 /// A step that leads to a singular F is halved so often at most.
 const HALVES: usize = 6;
 
@@ -133,6 +135,14 @@ impl<'a, const D: usize> System<'a, D> {
         let changed = stress.iter().zip(&self.stress).map(|(own, right)| own - right);
         let sums = loads + DVector::from_vec(weak.resisted(changed));
         sums.iter().all(|it| it.is_finite()).then_some(sums)
+    }
+
+    /// Whether a mistake puts anything out of balance at the exact motion, but for rounding.
+    fn sees(&self, field: &Changed<'_, D>) -> bool {
+        let none = DVector::zeros(self.weak.count());
+        let own = DVector::from_vec(self.weak.resisted(self.stress.iter().copied()));
+        let out = self.unbalanced(field, &self.loads(field), &none);
+        out.is_none_or(|out| out.norm() > ROUNDING * own.norm())
     }
 
     /// The parts of the functions that bring a mistake into balance if it is small, and it is scaled.
@@ -307,17 +317,32 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
         size: &[f64],
         by: fn(&System<'a, D>, &Changed<'_, D>) -> Option<DVector<f64>>,
     ) -> Option<DVector<f64>> {
+        self.made(hypothesis, size, by).filter(|it| it.norm() > 0.0)
+    }
+
+    /// The parts of the functions that a mistake makes, none where it changes nothing at rest; `None` without an equilibrium.
+    fn made(
+        &self,
+        hypothesis: &Hypothesis<D>,
+        size: &[f64],
+        by: fn(&System<'a, D>, &Changed<'_, D>) -> Option<DVector<f64>>,
+    ) -> Option<DVector<f64>> {
         let field = Changed::with(self.exact, Without::default(), hypothesis, size);
-        let found = match hypothesis.change {
+        let nothing = || Some(DVector::zeros(self.system.weak.count()));
+        match hypothesis.change {
+            Change::Condition(_) => {}
+            _ if !self.system.sees(&field) => return nothing(),
+            _ => {}
+        }
+        match hypothesis.change {
             Change::Force(_) | Change::Stress(..) | Change::Surface(_) => by(&self.system, &field),
             Change::Loads(..) | Change::Density => by(&self.system, &field),
             Change::Condition(Condition::Free) => {
                 by(&System::new(self.exact, self.system.weak.time, &field.domain())?, &field)
             }
             // At rest the others change nothing that is computed.
-            _ => None,
-        };
-        found.filter(|it| it.norm() > 0.0)
+            _ => nothing(),
+        }
     }
 }
 
@@ -334,6 +359,11 @@ pub struct Statics<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Statics<'a, D> {
+    /// What a mistake adds to the errors of a right solver; `None` where it has no equilibrium near the exact one.
+    pub fn added(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
+        self.errors(&self.equilibrium.made(hypothesis, size, System::balance)?)
+    }
+
     /// The errors at the user's points, of each time and quantity.
     fn errors(&self, parts: &DVector<f64>) -> Option<Vec<Vec<f64>>> {
         let weak = &self.equilibrium.system.weak;

@@ -46,6 +46,15 @@ pub enum Refusal {
         /// The name of the shape function.
         shape: &'static str,
     },
+    /// An integrator that moves particles and deforms them by different velocities.
+    #[error(
+        "integrator `{integrator}` moves particles by one velocity and deforms them by another, and each halt of a \
+         relaxation would part u from F: use `leapfrog`"
+    )]
+    PartsInRelaxation {
+        /// The name of the integrator.
+        integrator: &'static str,
+    },
     /// Threads that the system does not give.
     #[error("cannot run on {threads} thread(s): {reason}; use fewer")]
     NoThreads {
@@ -300,6 +309,16 @@ pub enum Cause {
         /// The node's position.
         position: Vec<f64>,
     },
+    /// A body that does not come to rest.
+    #[error(
+        "the body has not come to equilibrium: its residual is {residual:.2e}, and has to be below {tolerance:.2e}"
+    )]
+    NotRelaxed {
+        /// The forces that are out of balance over those of the stress.
+        residual: f64,
+        /// What it has to be below.
+        tolerance: f64,
+    },
     /// Who follows the run could not go on.
     #[error("{reason}")]
     Stopped {
@@ -335,6 +354,10 @@ impl Cause {
             Cause::NoReferencePosition { .. } => {
                 "the field may not continue smoothly beyond its body: use more cells, or claim `fixed`, \
                  `roller` or `free` on that face where it holds and is not claimed yet"
+            }
+            Cause::NotRelaxed { .. } => {
+                "the equilibrium may be unstable, which `mms check` tells, or lower frequencies make the way long: try fewer cells, \
+                 another shape function or a smaller load"
             }
             Cause::Stopped { .. } => "what was written before is whole",
         }

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use crate::body::Fill;
 use crate::failure::Refusal;
 use crate::formulation::FormulationName;
-use crate::integrator::IntegratorName;
+use crate::integrator::{Integrator, IntegratorName, IntegratorVisitor};
 use crate::shape::ShapeName;
 use crate::shape::{Shape, ShapeVisitor};
 use crate::transfer::Transfer;
@@ -105,6 +105,9 @@ pub struct Setup {
     pub fastest_wave: Option<f64>,
     /// When the run ends, instead of at the end of the field's time window.
     pub end_time: Option<f64>,
+    /// Whether the run goes to the equilibrium of a field that does not move, by dynamic relaxation, however long that takes:
+    /// its end and its parts mean nothing then.
+    pub relax: bool,
     /// How many threads work on one run, from 1. Its results do not depend on it.
     pub threads: usize,
     /// How many bytes of memory a run may take; without it as many as it does.
@@ -143,6 +146,7 @@ impl Default for Setup {
             parts: 1,
             fastest_wave: None,
             end_time: None,
+            relax: false,
             threads: 1,
             memory: None,
         }
@@ -166,7 +170,7 @@ impl Method {
     /// Refuses what makes no sense together, and names the nearest that does.
     ///
     /// # Errors
-    /// A domain that follows the deformation, where nothing moves.
+    /// A domain that follows the deformation, where nothing moves; a relaxation whose integrator has several velocities.
     pub fn validate(&self) -> Result<(), Refusal> {
         struct Follows;
         impl ShapeVisitor for Follows {
@@ -178,6 +182,16 @@ impl Method {
         let follows = self.shape.visit(Follows);
         if self.formulation == FormulationName::Total && follows {
             return Err(Refusal::NothingToFollow { shape: self.shape.name() });
+        }
+        struct Together;
+        impl IntegratorVisitor for Together {
+            type Output = bool;
+            fn visit<I: Integrator>(self) -> bool {
+                !I::KEEPS_WEIGHTS
+            }
+        }
+        if self.setup.relax && !self.integrator.visit(Together) {
+            return Err(Refusal::PartsInRelaxation { integrator: self.integrator.name() });
         }
         Ok(())
     }

@@ -57,6 +57,7 @@ mod operations;
 mod order;
 mod p2g;
 mod present;
+mod relaxation;
 mod setup;
 mod slabs;
 mod state;
@@ -82,6 +83,7 @@ pub use any::AnySolver;
 pub(crate) use any::of_method;
 pub use clock::Seconds;
 pub use present::Present;
+pub use relaxation::{Ramp, Residual};
 pub use setup::{cell_size, filling};
 pub use state::State;
 

@@ -73,6 +73,8 @@ pub struct Document {
     pub reference: Option<Foreign>,
     /// The dimension of space.
     pub dimension: usize,
+    /// Whether the field has no time.
+    pub is_static: bool,
     /// The material.
     pub material: Material,
     /// The definitions of the field file, in order.
@@ -122,6 +124,7 @@ impl Document {
             title: field.title.clone(),
             reference: field.reference.clone(),
             dimension: field.dimension,
+            is_static: field.is_static(),
             material,
             definitions,
             sections,

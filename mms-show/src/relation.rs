@@ -41,19 +41,19 @@ const OF_FIBRES: &[Part] =
 const SMALL: &[Part] = &[Tensor("epsilon")];
 const ARGUMENTS: &[Part] = &[Tensor("X"), COMMA, Scalar("t")];
 
-/// The definition of a quantity, for a density of that kind.
-pub fn relation(quantity: Quantity, kind: &Kind) -> Vec<Part> {
+/// The definition of a quantity, for a density of that kind, of a field that moves or is static.
+pub fn relation(quantity: Quantity, kind: &Kind, is_static: bool) -> Vec<Part> {
     match quantity {
-        Quantity::Own(own) => of_own(own.described()),
-        quantity => of_every_field(quantity, kind).to_vec(),
+        Quantity::Own(own) => of_own(own.described(), is_static),
+        quantity => of_every_field(quantity, kind, is_static).to_vec(),
     }
 }
 
 /// The definition of a quantity that the field file defines.
-fn of_own(own: &'static Described) -> Vec<Part> {
+fn of_own(own: &'static Described, is_static: bool) -> Vec<Part> {
     let left = Scalar(&own.symbol);
     match own.part {
-        Value => vec![left, EQUALS, Function(&own.symbol, ARGUMENTS)],
+        Value => vec![left, EQUALS, Function(&own.symbol, arguments(is_static))],
         Gradient => vec![Word("Grad"), Scalar(&own.of)],
         Rate => vec![left, EQUALS, Word("d"), Scalar(&own.of), Sign("/"), Word("d"), Scalar("t")],
         Source => {
@@ -65,11 +65,18 @@ fn of_own(own: &'static Described) -> Vec<Part> {
     }
 }
 
-fn of_every_field(quantity: Quantity, kind: &Kind) -> &'static [Part] {
+fn arguments(is_static: bool) -> &'static [Part] {
+    if is_static { &ARGUMENTS[..1] } else { ARGUMENTS }
+}
+
+fn of_every_field(quantity: Quantity, kind: &Kind, is_static: bool) -> &'static [Part] {
     if let (Kind::SmallStrain, Some(relation)) = (kind, of_small_strain(quantity)) {
         return relation;
     }
     match quantity {
+        Quantity::Displacement if is_static => {
+            &[Tensor("u"), EQUALS, Function("u", &[Tensor("X")])]
+        }
         Quantity::Displacement => &[Tensor("u"), EQUALS, Function("u", ARGUMENTS)],
         Quantity::Position => &[Tensor("x"), EQUALS, Tensor("X"), Sign("+"), Tensor("u")],
         Quantity::Velocity => &[Tensor("v"), EQUALS, Partial(&Tensor("u"), &Scalar("t"))],

@@ -59,7 +59,7 @@ impl<'a> Judged<'a> {
                 judged.warnings = measurement.warnings.clone();
                 stopped(&mut measurement.measured, planned, &jobs);
                 let provenance = provenance(planned);
-                let time_step = jobs.iter().map(|job| job.time_step).reduce(f64::min);
+                let time_step = jobs.iter().filter_map(|job| job.time_step).reduce(f64::min);
                 match Judgements::of_results(&exact, &files, measurement, time_step, provenance) {
                     Ok(judgements) => judged.judgements = Some(judgements),
                     Err(error) => judged.mistake = Some(format!("{error:#}")),
@@ -99,7 +99,7 @@ fn measured(
     let mut measurement = measure(all, &reading, exact, comparison)?;
     if study.time_steps.is_some() {
         let runs = measurement.measured.runs.iter_mut().zip(jobs);
-        runs.for_each(|(run, job)| run.time_step = Some(job.time_step));
+        runs.for_each(|(run, job)| run.time_step = job.time_step);
     }
     Ok(measurement)
 }
@@ -108,7 +108,7 @@ fn measured(
 fn stopped(measured: &mut Measured, planned: &Planned, finished: &[&Job]) {
     let is_missing = |job: &&Job| finished.iter().all(|other| other.level != job.level);
     for job in planned.jobs.iter().filter(is_missing) {
-        let time_step = planned.study.time_steps.as_ref().map(|_| job.time_step);
+        let time_step = planned.study.time_steps.as_ref().and(job.time_step);
         measured.runs.push(crate::judge::Run { cell_size: planned.size(job), time_step });
         for norm in measured.quantities.iter_mut().flat_map(|it| &mut it.norms) {
             norm.errors.push(None);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
-use mms_campaign::template::{Placeholder, Template};
+use mms_campaign::template::{PARAMETER, Placeholder, Template};
 use mms_campaign::{Campaign, Study};
 use mms_emit::{TARGETS, Target};
 use mms_mechanics::sample::domain;
@@ -90,10 +90,10 @@ pub struct Job {
     pub cells: usize,
     /// h.
     pub cell_size: f64,
-    /// dt.
-    pub time_step: f64,
-    /// How many there are.
-    pub steps: u64,
+    /// dt; none of a static field.
+    pub time_step: Option<f64>,
+    /// How many there are; none of a static field.
+    pub steps: Option<u64>,
     /// What its result depends on.
     pub key: Key,
     /// The files among that.
@@ -144,7 +144,7 @@ impl Start {
     }
 }
 
-/// Which runs are asked for: a study, or a level of one.
+/// Which runs are asked for: a study, all steps of one, or a level of these.
 pub struct Only(String);
 
 impl Only {
@@ -152,8 +152,13 @@ impl Only {
         self.0.rsplit_once('/').map_or(&self.0, |(study, _)| study)
     }
 
-    fn takes(&self, study: &str, level: usize) -> bool {
-        self.0 == study || self.0 == format!("{study}/{level}")
+    fn names(&self, study: &Study) -> bool {
+        [&study.name, &study.family].into_iter().any(|name| self.study() == name)
+    }
+
+    fn takes(&self, study: &Study, level: usize) -> bool {
+        let names = [&study.name, &study.family];
+        names.into_iter().any(|name| self.0 == *name || self.0 == format!("{name}/{level}"))
     }
 }
 
@@ -176,9 +181,8 @@ impl Plan {
         let sources = sources(&campaign, &here, &digests)?;
         let mut studies = Vec::new();
         for study in &campaign.studies {
-            let is_asked = |level: &usize| {
-                only.is_empty() || only.iter().any(|it| it.takes(&study.name, *level))
-            };
+            let is_asked =
+                |level: &usize| only.is_empty() || only.iter().any(|it| it.takes(study, *level));
             let levels: Vec<usize> = (1..=study.levels()).filter(is_asked).collect();
             if !levels.is_empty() {
                 let (campaign, here) = (&campaign, here.as_path());
@@ -200,10 +204,9 @@ fn folder_of(path: &Path) -> anyhow::Result<PathBuf> {
 /// Refuses names of what is not there.
 fn hold_only(campaign: &Campaign, only: &[Only]) -> anyhow::Result<()> {
     for it in only {
-        let study = campaign.studies.iter().find(|study| study.name == it.study());
-        let known = study.is_some_and(|study| {
-            it.0 == study.name || (1..=study.levels()).any(|level| it.takes(&study.name, level))
-        });
+        let study = campaign.studies.iter().find(|study| it.names(study));
+        let known =
+            study.is_some_and(|study| (1..=study.levels()).any(|level| it.takes(study, level)));
         if !known {
             let names = campaign.studies.iter().map(|study| study.name.as_str());
             let levels =
@@ -296,6 +299,8 @@ impl Setting<'_> {
         let settings = input.settings(&study.set)?;
         let parameters = input.compiled.parameters::<f64>(&settings);
         let (_, [first, last]) = domain(&input.compiled.program, &parameters);
+        self.hold_static(study, &input)?;
+        self.hold_parameters(study, &input)?;
         let end = study.end.unwrap_or(last);
         if !(end > first && end <= last) {
             let message = format!("`end`: the time window of the field is {first:?} to {last:?}");
@@ -307,6 +312,50 @@ impl Setting<'_> {
         let jobs = levels.iter().map(|&level| place.job(level)).collect::<Result<_, _>>()?;
         let options = self.judging(study, &input.own_quantities())?;
         Ok(Planned { study: study.clone(), window, options, per_cell, jobs, input })
+    }
+
+    /// The texts of the file that are filled in for each run.
+    fn templates(&self) -> impl Iterator<Item = &Template> {
+        let solver = &self.campaign.solver;
+        solver.run.iter().chain(&solver.directory).chain([&solver.output])
+    }
+
+    /// Refuses times of a field that has none.
+    fn hold_static(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
+        if !input.is_static() {
+            return Ok(());
+        }
+        let keys = [
+            ("time_steps", study.time_steps.is_some()),
+            ("end", study.end.is_some()),
+            ("time", !study.time.is_empty()),
+        ];
+        let key = keys.into_iter().find(|(_, is_given)| *is_given).map(|(key, _)| key.to_owned());
+        let timed = self.templates().flat_map(Template::placeholders).find(|it| it.is_time());
+        let Some(found) = key.or_else(|| Some(format!("{{{}}}", timed?.name()))) else {
+            return Ok(());
+        };
+        let message = format!("`{found}`: `{}` is static, and has no time", input.name.shown());
+        let label = "leave it out; the last result of each run counts";
+        Err(self.campaign.mistake(study.field.span, message, label).into())
+    }
+
+    /// Refuses placeholders of parameters that the field of a study does not have.
+    fn hold_parameters(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
+        let parameters = &input.compiled.model.parameters;
+        let known = |name: &str| parameters.iter().any(|it| it.name == name);
+        let Some(unknown) = self.templates().flat_map(Template::parameters).find(|it| !known(it))
+        else {
+            return Ok(());
+        };
+        let names = parameters.iter().map(|it| it.name.as_str());
+        let help = advice(unknown, names, |all| format!("it has {all}"));
+        let message = format!(
+            "`{{{PARAMETER}{}}}`: `{}` has no such parameter; {help}",
+            foreign::shown(unknown),
+            input.name.shown()
+        );
+        Err(self.campaign.mistake(study.field.span, message, "this field").into())
     }
 
     /// Particles in each direction of a cell, as the file says it or as usual.
@@ -367,7 +416,10 @@ impl Place<'_> {
         let cells = study.cells_of(level);
         let scene = self.input.scene::<f64>(&study.set, |code| code.double)?;
         let cell_size = scene.cell_size(&Division::Uniform(cells));
-        let (time_step, steps) = self.steps(level, cell_size)?;
+        let (time_step, steps) = match self.input.is_static() {
+            true => (None, None),
+            false => self.steps(level, cell_size).map(|(step, steps)| (Some(step), Some(steps)))?,
+        };
         let name = format!("{}/{level}", study.name);
         let key = Key {
             version: env!("CARGO_PKG_VERSION"),
@@ -417,9 +469,10 @@ impl Place<'_> {
             true => format!("{{{}}}", it.name()),
             false => self.value(&job, it),
         };
-        let command: Vec<String> = solver.run.iter().map(|word| word.fill(value)).collect();
-        let directory = solver.directory.as_ref().map_or("{here}".to_owned(), |it| it.fill(value));
-        let output = solver.output.fill(value);
+        let fill = |template: &Template| template.fill(value, |name| self.parameter(name));
+        let command: Vec<String> = solver.run.iter().map(fill).collect();
+        let directory = solver.directory.as_ref().map_or("{here}".to_owned(), fill);
+        let output = fill(&solver.output);
         let found = self.dependencies(&job);
         job.key.folder = (!found.is_complete).then(|| here.to_string_lossy().into_owned());
         job.dependencies =
@@ -440,8 +493,9 @@ impl Place<'_> {
             it => self.value(job, it),
         };
         let solver = &campaign.solver;
-        let words: Vec<String> = solver.run.iter().map(|word| word.fill(value)).collect();
-        let directory = solver.directory.as_ref().map_or(String::new(), |it| it.fill(value));
+        let fill = |template: &Template| template.fill(value, |name| self.parameter(name));
+        let words: Vec<String> = solver.run.iter().map(fill).collect();
+        let directory = solver.directory.as_ref().map_or(String::new(), fill);
         let directory = (!directory.contains(UNKNOWN)).then(|| here.join(directory));
         dependencies::Place { here, directory: directory.as_deref(), digests }.dependencies(&words)
     }
@@ -450,6 +504,18 @@ impl Place<'_> {
         let of = (self.study, self.input, self.per_cell);
         value(of, self.window, job, placeholder)
     }
+
+    fn parameter(&self, name: &str) -> String {
+        parameter(self.study, self.input, name)
+    }
+}
+
+/// The value of a parameter of a study, in the digits of a double.
+fn parameter(study: &Study, input: &Input, name: &str) -> String {
+    let set = input.settings(&study.set).unwrap_or_default();
+    let values = input.compiled.parameters::<f64>(&set);
+    let at = input.compiled.model.parameters.iter().position(|it| it.name == name);
+    at.and_then(|at| values.get(at)).map_or_else(String::new, |value| format!("{value:?}"))
 }
 
 /// What stands for a placeholder that is no path.
@@ -466,8 +532,8 @@ fn value(
         Placeholder::Cells => job.cells.to_string(),
         Placeholder::ParticlesPerCell => per_cell.to_string(),
         Placeholder::CellSize => format!("{:?}", job.cell_size),
-        Placeholder::TimeStep => format!("{:?}", job.time_step),
-        Placeholder::Steps => job.steps.to_string(),
+        Placeholder::TimeStep => job.time_step.map_or_else(String::new, |it| format!("{it:?}")),
+        Placeholder::Steps => job.steps.map_or_else(String::new, |it| it.to_string()),
         Placeholder::Start => format!("{start:?}"),
         Placeholder::End => format!("{end:?}"),
         Placeholder::Output | Placeholder::Emitted | Placeholder::State | Placeholder::Here => {
@@ -491,17 +557,24 @@ pub struct Paths {
 impl Planned {
     /// A text of the file for one of the runs.
     pub fn fill(&self, template: &Template, job: &Job, paths: &Paths) -> String {
-        template.fill(|it| self.value(job, paths, it))
+        template.fill(|it| self.value(job, paths, it), |name| self.parameter(name))
     }
 
     /// The same, where what is put in is taken literally in a pattern.
     pub fn pattern(&self, template: &Template, job: &Job, paths: &Paths) -> String {
         let plain = self.fill(template, job, paths);
-        let own = template.fill(|_| String::new());
+        let own = template.fill(|_| String::new(), |_| String::new());
         if !own.contains(['*', '?', '[']) {
             return plain;
         }
-        template.fill(|it| glob::Pattern::escape(&self.value(job, paths, it)))
+        template.fill(
+            |it| glob::Pattern::escape(&self.value(job, paths, it)),
+            |name| glob::Pattern::escape(&self.parameter(name)),
+        )
+    }
+
+    fn parameter(&self, name: &str) -> String {
+        parameter(&self.study, &self.input, name)
     }
 
     fn value(&self, job: &Job, paths: &Paths, placeholder: Placeholder) -> String {

@@ -160,6 +160,8 @@ impl Judged<'_> {
         let runs = jobs.iter().zip(&self.outcomes).map(|(job, outcome)| run(job, outcome));
         json!({
             "name": study.name,
+            "study": study.family,
+            "set": study.set,
             "field": input.name,
             "runs": runs.collect::<Vec<_>>(),
             "mistake": self.mistake,

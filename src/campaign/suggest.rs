@@ -154,7 +154,8 @@ fn needs(field: &FieldSpec, visibility: &Visibility, can: &Can) -> Vec<&'static 
         ("start_moving", !can.dynamics || can.start_moving || !sees(Term::InitialVelocity)),
         ("start_deformed", !can.dynamics || can.start_deformed || !sees(Term::InitialDisplacement)),
         ("graded", can.graded || !(sees(Term::GradedModuli) || sees(Term::GradedDensity))),
-        ("dynamics", can.dynamics || !sees(Term::Velocity)),
+        // Who follows motions takes no field without time, and who does not takes none that moves.
+        ("dynamics", if can.dynamics { !field.is_static() } else { !sees(Term::Velocity) }),
     ]
     .into_iter()
     .filter(|(_, is_met)| !is_met)

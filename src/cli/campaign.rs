@@ -28,7 +28,7 @@ use crate::store::Store;
 ///
 /// FILE says how the solver is run ([solver]: run, output) and on what ([[study]]: field, cells, order). There is no
 /// shell. Placeholders of `run`, `directory` and `output` are {name}, {field}, {level}, {cells}, {cell_size},
-/// {time_step}, {steps}, {start}, {end}, {output}, {emitted}, {state} and {here}; docs/guide/campaign.md has them all.
+/// {time_step}, {steps}, {start}, {end}, {output}, {emitted}, {state} and {here}, and {set.NAME} of a parameter; docs/guide/campaign.md has them all.
 /// Before a run `emit` writes the source of the field, and `state`, or {state}, the exact state at the start.
 ///
 /// Each run has a folder of its own in the store, with what it printed. It is done when its command has ended well and its
@@ -158,11 +158,14 @@ impl Campaign {
         let describe = |planned: &Planned, job: &Job, is_done: bool, words: Vec<String>| {
             let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
             let state = if is_done { "done" } else { "to do" };
-            let Job { name, cells, time_step, steps, .. } = job;
+            let Job { name, cells, .. } = job;
+            let steps = job.time_step.zip(job.steps);
+            let steps = steps.map(|(step, count)| format!(", dt {step:.3e}, {count} steps"));
             let text = format!(
-                "{}: {state}; {cells} cells, h {:.3e}, dt {time_step:.3e}, {steps} steps\n  {line}",
+                "{}: {state}; {cells} cells, h {:.3e}{}\n  {line}",
                 foreign::shown(name),
-                planned.size(job)
+                planned.size(job),
+                steps.unwrap_or_default()
             );
             (text, listed(job, is_done, &words))
         };

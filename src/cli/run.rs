@@ -77,6 +77,7 @@ impl Run {
         let cells = self.cells.unwrap_or(Division::Uniform(usual_cells(dimension)));
         hold_division("--cells", &cells, dimension)?;
         self.output.as_deref().map_or(Ok(()), hold_output)?;
+        self.hold_way()?;
         self.hold_files(&input)?;
         let progress = Progress::new();
         let provenance = Provenance::new("run", &from_the_start(), input.provenance(&self.set));
@@ -135,6 +136,21 @@ impl Run {
                 Outcome::RunFailed
             }
         })
+    }
+
+    /// Refuses files about the way of a run that has none.
+    fn hold_way(&self) -> anyhow::Result<()> {
+        let given = [
+            ("--history", &self.history),
+            ("--checkpoint", &self.checkpoint),
+            ("--resume", &self.resume),
+        ];
+        match given.into_iter().find(|(_, path)| path.is_some() && self.method.relax) {
+            Some((option, _)) => bail!(
+                "`{option}`: the way of a relaxation to its equilibrium means nothing; leave it out, `--vtk` shows the end"
+            ),
+            None => Ok(()),
+        }
     }
 
     /// Refuses files to write that are read, or are one.

@@ -286,7 +286,7 @@ impl Study {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
             arithmetic: options.arithmetic,
-            refinement: self.refine,
+            refinement: if method.setup.relax { Refinement::Space } else { self.refine },
             judgement,
             verdict,
             uncertainty: series.uncertainty(),
@@ -316,6 +316,7 @@ impl Study {
             domain(&input.compiled.program, &input.compiled.parameters::<f64>(&set));
         let last = method.setup.end_time.unwrap_or(last);
         let times = LOOKED_AT.map(|part| first + part * (last - first)).to_vec();
+        let times = (!input.is_static()).then_some(times);
         let scene = input.scene_with(&set, |code| code.double)?;
         let largest = finest.details.as_ref().map(|it| run::quantities(&it.largest));
         let error =
@@ -361,6 +362,16 @@ impl Study {
                  `--refine time`"
             );
         }
+        if self.methods.each().iter().any(|method| method.relax) {
+            let told = [
+                ("--refine time", self.refine == Refinement::Time),
+                ("--fit", self.fit),
+                ("--periods", !self.periods.is_empty()),
+            ];
+            if let Some((option, _)) = told.into_iter().find(|(_, is_given)| *is_given) {
+                bail!("`{option}`: an equilibrium has no time; leave it out, or `--relax`");
+            }
+        }
         if self.refine == Refinement::Time && self.cells.len() > 1 {
             bail!("`--cells`: a study in time has one grid");
         }
@@ -392,11 +403,14 @@ impl Study {
             run.map(|run| (run, phases)).map_err(|reason| Refused { cells, reason })
         };
         let planned = self.planned(scene, method);
-        announce(planned.len(), self.refine == Refinement::Space, |run, trial| {
-            let (method, cells, watch) = &planned[run];
-            // It ends before the run does, or is not started, which the run says.
-            let _ = scene.run(method, cells, *watch, trial);
-        });
+        // How many steps lead to an equilibrium is not known before.
+        if !method.setup.relax {
+            announce(planned.len(), self.refine == Refinement::Space, |run, trial| {
+                let (method, cells, watch) = &planned[run];
+                // It ends before the run does, or is not started, which the run says.
+                let _ = scene.run(method, cells, *watch, trial);
+            });
+        }
         let levels = self.levels(scene, method, &run);
         let mut all: Vec<_> = levels.iter().flatten().map(|(run, _)| run.level.clone()).collect();
         if self.fit {
@@ -462,6 +476,10 @@ impl Study {
         run: &dyn Fn(&Method, Division, Watch) -> Solved,
     ) -> Vec<Solved> {
         match self.refine {
+            _ if method.setup.relax => {
+                let cells = self.grids(scene).into_iter();
+                cells.map(|cells| run(method, cells, Watch::Everything)).collect()
+            }
             Refinement::Time => {
                 let cells = self.grid_of_time(scene);
                 let levels = (0..self.levels_in_time()).map(|level| halved(method, level));

@@ -49,7 +49,7 @@ impl Diagnosis {
             Cause::HalfWidth { .. } => Diagnosis::HalfWidth,
             Cause::FlatDomain => Diagnosis::FlatDomain,
             Cause::NoReferencePosition { .. } => Diagnosis::NoReferencePosition,
-            Cause::Stopped { .. } => Diagnosis::Stopped,
+            Cause::NotRelaxed { .. } | Cause::Stopped { .. } => Diagnosis::Stopped,
         }
     }
 

@@ -38,7 +38,7 @@ struct Run {
     level: usize,
     cells: usize,
     cell_size: f64,
-    time_step: f64,
+    time_step: Option<f64>,
     status: String,
     reason: Option<String>,
     last_words: Option<Vec<String>>,
@@ -158,7 +158,7 @@ fn runs(study: &Study) -> Markup {
             count(Some(run.level)),
             count(Some(run.cells)),
             small(Some(run.cell_size)),
-            small(Some(run.time_step)),
+            small(run.time_step),
             seconds(run.seconds),
             html! {
                 (run.reason.as_ref().unwrap_or(&run.status))

@@ -19,7 +19,7 @@ pub fn page(entry: &Entry) -> anyhow::Result<Page> {
     let title = format!("{}: {}", field.name.shown(), field.title.shown());
     let mut results = Vec::new();
     for (number, study) in field.studies.iter().enumerate() {
-        let report = Study::anywhere(&command(field.name.raw(), study))?;
+        let report = Study::anywhere(&command(&field, study))?;
         let mut document = report.map(|report| report.document()).unwrap_or_default();
         for level in document["levels"].as_array_mut().into_iter().flatten() {
             level["seconds"] = Value::Null;
@@ -37,7 +37,7 @@ pub fn page(entry: &Entry) -> anyhow::Result<Page> {
 }
 
 /// The command that runs a study of a field file.
-fn command(name: &str, study: &StudySpec) -> Vec<String> {
+fn command(field: &FieldSpec, study: &StudySpec) -> Vec<String> {
     let cells = study.cells.iter().map(usize::to_string).collect::<Vec<_>>().join(",");
     let options = [
         ("shape", Some(study.shape.clone())),
@@ -52,7 +52,9 @@ fn command(name: &str, study: &StudySpec) -> Vec<String> {
         ("cells", (!cells.is_empty()).then_some(cells)),
     ];
     let given = options.into_iter().filter_map(|(name, value)| Some([format!("--{name}"), value?]));
-    ["study".to_owned(), name.to_owned()].into_iter().chain(given.flatten()).collect()
+    let relaxes = field.is_static().then(|| "--relax".to_owned());
+    let head = ["study".to_owned(), field.name.raw().to_owned()];
+    head.into_iter().chain(given.flatten()).chain(relaxes).collect()
 }
 
 /// The page that lists all pages, each with what is said on it.

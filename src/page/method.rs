@@ -46,6 +46,11 @@ impl Method {
         name
     }
 
+    /// Whether its runs go to an equilibrium.
+    pub fn relaxes(&self) -> bool {
+        self.0.get("relax").and_then(Value::as_bool).unwrap_or_default()
+    }
+
     /// All of it, to be opened.
     pub fn html(&self) -> Markup {
         html! {

@@ -231,6 +231,8 @@ impl Study {
         };
         let what = if self.differences.is_some() {
             "difference to the next level"
+        } else if self.method.relaxes() {
+            "error of u at equilibrium"
         } else {
             "largest error of u over time"
         };
@@ -298,7 +300,8 @@ impl Study {
             cells.push(html! { (remark) });
             cells
         });
-        table("Errors of the displacement, the largest over time", &columns, rows)
+        let when = if self.method.relaxes() { "at equilibrium" } else { "the largest over time" };
+        table(&format!("Errors of the displacement, {when}"), &columns, rows)
     }
 
     /// The errors of v, F and P.

@@ -31,6 +31,7 @@ pub fn document(method: &Method, arithmetic: Arithmetic) -> Value {
         "courant": method.setup.courant,
         "time_step": method.setup.time_step,
         "end_time": method.setup.end_time,
+        "relax": method.setup.relax,
     })
 }
 
@@ -68,6 +69,9 @@ pub fn line(method: &Method, arithmetic: Arithmetic) -> String {
     }
     if method.setup.periodic != [false; 3] {
         words.push("periodic".to_owned());
+    }
+    if method.setup.relax {
+        words.push("relaxed".to_owned());
     }
     words.push(match method.setup.time_step {
         Some(step) => format!("time step {step:e}"),

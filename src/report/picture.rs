@@ -94,6 +94,7 @@ impl Picture {
                 over(refinement),
                 match studies[0].differences {
                     Some(_) => "largest difference of displacements to the next level",
+                    None if studies[0].method.setup.relax => "displacement error at equilibrium",
                     None => "largest displacement error over time",
                 },
             ],

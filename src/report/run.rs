@@ -2,6 +2,7 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use mms_runtime::solver::Residual;
 use mms_runtime::study::{Balance, Details, Deviations};
 use mms_runtime::{Division, Errors, Method};
 use mms_spec::foreign::Foreign;
@@ -90,6 +91,7 @@ impl Run {
                 "grid": seconds.grid,
                 "stress": seconds.stress,
             })),
+            "residual_ratio": details.and_then(|details| Some(details.residual?.relative)),
             "failure": self.failure(),
         }))
     }
@@ -111,6 +113,7 @@ impl Run {
             return format!("{head}\nstopped after {}", duration(level.seconds));
         };
         let state = &details.diagnostics;
+        let head = head + &details.residual.map_or_else(String::new, balanced);
         format!(
             "{head}\n\n{}\n\nat the end: J from {:.4} to {:.4}, kinetic energy {:.4e}, mass {:.4e}\n{}",
             table(details),
@@ -121,6 +124,13 @@ impl Run {
             times(run)
         )
     }
+}
+
+/// How near to equilibrium a run has come.
+fn balanced(Residual { relative, tolerance }: Residual) -> String {
+    format!(
+        "\nin equilibrium: {relative:.1e} of the forces are out of balance, below {tolerance:.1e}"
+    )
 }
 
 /// What the parts of a step took.
@@ -154,7 +164,12 @@ fn table(details: &Details) -> Table {
         "linf",
     ]);
     let rows = quantities(&details.largest).into_iter().zip(quantities(&details.last));
+    // A body in equilibrium is at rest.
+    let moves = details.residual.is_none();
     for ((symbol, _, largest), (_, _, last)) in rows {
+        if symbol == "v" && !moves {
+            continue;
+        }
         let norms = [largest, last].map(|errors| [errors.l1, errors.l2, errors.linf]);
         let numbers = norms.concat().into_iter().map(|error| format!("{error:.2e}"));
         table.add_row(std::iter::once(symbol.to_owned()).chain(numbers));

@@ -89,6 +89,7 @@ struct Row {
     seconds: Option<f64>,
     failure: Option<String>,
     round_off: Option<f64>,
+    residual_ratio: Option<f64>,
 }
 
 impl Row {
@@ -111,6 +112,7 @@ impl Row {
             seconds: Some(level.seconds),
             failure: level.errors.as_ref().err().map(ToString::to_string),
             round_off: details.map(|details| details.round_off),
+            residual_ratio: details.and_then(|details| Some(details.residual?.relative)),
         }
     }
 
@@ -331,25 +333,20 @@ impl Study {
     }
 
     fn levels_table(&self) -> Table {
-        let mut table = plain([
-            "cells",
-            "particles",
-            "steps",
-            "l1",
-            "order",
-            "l2",
-            "order",
-            "linf",
-            "order",
-            "time",
-        ]);
+        let heads =
+            ["cells", "particles", "steps", "l1", "order", "l2", "order", "linf", "order", "time"];
+        let relaxes = self.method.setup.relax;
+        let mut table = plain(heads);
+        if relaxes {
+            table.set_header(heads.into_iter().chain(["residual"]));
+        }
         for row in self.rows() {
             let dead = if row.steps.is_some() { "stopped" } else { "not started" };
             let error = |error: Option<f64>| error.map_or(dead.into(), |e| format!("{e:.2e}"));
             let noise = if row.is_noise() { "~" } else { "" };
             let order = |order: Option<f64>| order.map_or("-".into(), |o| format!("{noise}{o:.2}"));
             let count = |count: Option<usize>| count.map_or("-".into(), |c| c.to_string());
-            table.add_row([
+            let mut cells = vec![
                 row.cells.to_string().replace('"', ""),
                 count(row.particles),
                 count(row.steps),
@@ -360,7 +357,11 @@ impl Study {
                 error(row.linf),
                 order(row.order_linf),
                 row.seconds.map_or("-".into(), duration),
-            ]);
+            ];
+            if relaxes {
+                cells.push(row.residual_ratio.map_or("-".into(), |it| format!("{it:.1e}")));
+            }
+            table.add_row(cells);
         }
         to_the_right(table)
     }
@@ -368,7 +369,9 @@ impl Study {
     /// The orders of every quantity between the two finest levels.
     fn quantities_table(&self) -> Table {
         let mut table = plain(["finest pair", "l1", "l2", "linf"]);
-        for (symbol, _, levels) in self.quantities() {
+        // A body in equilibrium is at rest.
+        let is_shown = |symbol: &str| symbol != "v" || !self.method.setup.relax;
+        for (symbol, _, levels) in self.quantities().into_iter().filter(|it| is_shown(it.0)) {
             let finest = levels.last().map_or_else(Orders::default, |(_, observed)| *observed);
             let cells = [finest.l1, finest.l2, finest.linf];
             let cells = cells.map(|order| order.map_or("-".into(), |o| format!("{o:.2}")));

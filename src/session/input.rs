@@ -487,8 +487,23 @@ impl Input {
         self.hold_body("a solver has nothing to fill with particles")?;
         ensure!(
             !self.is_static(),
-            "`{}` is static: the explicit solver of this project follows motions; `mms emit` and `mms state` give your \
-             solver what it needs, and `mms judge` and `mms diagnose` take its results",
+            "`{}` is static: the explicit solver of this project follows motions, and goes to an equilibrium where `mms run` \
+             and `mms study` are given `--relax`; `mms emit` and `mms state` give your solver what it needs, and `mms judge` \
+             and `mms diagnose` take its results",
+            self.name.shown()
+        );
+        Ok(())
+    }
+
+    /// Refuses a field that moves for a solver that goes to an equilibrium.
+    ///
+    /// # Errors
+    /// The field moves.
+    pub fn hold_static(&self) -> anyhow::Result<()> {
+        ensure!(
+            self.is_static(),
+            "`--relax`: `{}` moves, and has an equilibrium at no time but by chance; leave `--relax` out to follow it, or give a \
+             field without `time` under [domain]",
             self.name.shown()
         );
         Ok(())

@@ -117,6 +117,10 @@ pub struct MethodOptions {
     /// The time step, shortened to fill the time window, instead of that of the Courant number.
     #[arg(long, value_name = "DT", conflicts_with = "courant", value_parser = positive)]
     time_step: Option<f64>,
+    /// Take a static field to its equilibrium, by dynamic relaxation: from rest along a ramp of its loads, with a fictitious
+    /// mass and kinetic damping, until what is out of balance at the nodes is below 1e-9 of the forces. Errors are those of the end.
+    #[arg(long, conflicts_with = "end_time")]
+    pub relax: bool,
     /// Run with a time step above the stable one, in which a wave may cross a cell.
     #[arg(long)]
     pub allow_unstable: bool,
@@ -213,7 +217,10 @@ impl MethodOptions {
 
     /// The method for a field with some parameters set, its time step held to the stable one.
     pub fn method_for(&self, input: &Input, settings: &[String]) -> anyhow::Result<Method> {
-        input.hold_moving()?;
+        match self.relax {
+            true => input.hold_static()?,
+            false => input.hold_moving()?,
+        }
         input.hold(settings)?;
         let mut method = self.method(input.compiled.field.dimension)?;
         self.hold_end(input, settings)?;
@@ -293,6 +300,7 @@ impl MethodOptions {
             parts: 1,
             fastest_wave: None,
             end_time: self.end_time,
+            relax: self.relax,
             threads: self.threads.map_or_else(processors, usize::from),
             memory: None,
         };

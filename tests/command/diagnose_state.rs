@@ -11,7 +11,7 @@ const SHARE: usize = 9;
 /// Cells along an edge of the square that is diagnosed.
 const CELLS: usize = 20;
 
-/// The fields of the gallery, each with a time within its window.
+/// The fields of the gallery that move or may, each with a time within its window.
 const FIELDS: [(&str, f64); 28] = [
     ("axis_aligned_1d", 0.01),
     ("axis_aligned_2d", 0.01),

@@ -251,3 +251,55 @@ fn modules_tell_the_claims_of_faces() {
     folder.mms("emit sheared_block_2d --target c --quantity b -o one").exits(0);
     assert!(!folder.read("one/sheared_block_2d.h").contains("FACE_"));
 }
+
+/// A bar in millimetres, tonnes and megapascals.
+const TONNES: &str = r#"[field]
+title     = "A bar in millimetres"
+dimension = 1
+[parameters]
+length = { value = 1000, unit = "mm" }
+young  = { value = 200000, unit = "MPa" }
+rho0   = { value = 7.8e-9, unit = "t/mm^3" }
+rate   = { value = 1e-3, unit = "1/s" }
+last   = { value = 1, unit = "s" }
+[displacement]
+u = ["X*(2*length - X)/length*rate*t"]
+[material]
+model   = "neo_hookean"
+lambda  = 0
+mu      = "young/2"
+density = "rho0"
+[domain]
+shape = "box"
+lower = [0]
+upper = ["length"]
+time  = [0, "last"]
+"#;
+
+#[test]
+fn units_of_functions_are_those_of_the_field() {
+    let folder = Folder::new();
+    folder.write("tonnes.toml", TONNES);
+    let targets = mms_emit::TARGETS.iter().map(|it| it.name).chain(["rust-mms-math"]);
+    let mut documented = 0;
+    for target in targets {
+        folder.mms(&format!("emit tonnes.toml --target {target} -o {target}")).exits(0);
+        let files = std::fs::read_dir(folder.path(target)).expect("a folder");
+        let text: String = files
+            .map(|it| std::fs::read_to_string(it.expect("a file").path()).expect("a text"))
+            .collect();
+        for si in ["m.", "m/s.", "Pa.", "kg/m^3.", "N/m^3."] {
+            assert!(!text.contains(&format!("Unit: {si}")), "{target}: {si}");
+        }
+        if text.contains("Unit: ") {
+            documented += 1;
+            for own in ["mm.", "mm/s.", "mm/s^2.", "MPa.", "t/mm^3.", "N/mm^3.", "MPa/mm.", "1."] {
+                assert!(text.contains(&format!("Unit: {own}")), "{target}: {own}");
+            }
+        }
+    }
+    assert!(documented >= 8, "{documented}");
+    // Of the SI, and where nothing is said.
+    folder.mms("emit bar_1d --target c -o si").exits(0);
+    assert!(folder.read("si/bar_1d.h").contains("Unit: kg/m^3."));
+}

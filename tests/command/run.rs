@@ -29,6 +29,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
         "diagnostics",
         "ns_per_particle_step",
         "seconds",
+        "residual_ratio",
         "failure",
         "provenance",
     ];

@@ -107,6 +107,81 @@ fn what_needs_a_density_or_a_time_is_refused_by_name() {
 }
 
 #[test]
+fn a_relaxed_study_has_the_order_of_its_method() {
+    let folder = folder();
+    let command = "study static.toml --relax --formulation total --shape linear --cells 4,8,16,32";
+    let run = folder.mms(command).exits(0);
+    run.prints("residual").prints("pass: observed order 1.99").prints("order of P");
+    let text = &run.stdout;
+    assert!(!text.contains("order of v"), "{text}");
+    let study = folder.mms(&format!("{command} --json")).exits(0).json();
+    assert_eq!(study["refinement"], "space");
+    assert_eq!(study["method"]["relax"], true);
+    for level in study["levels"].as_array().expect("levels") {
+        let residual = level["residual_ratio"].as_f64().expect("a residual");
+        assert!(residual > 0.0 && residual <= 1e-9, "{level}");
+        // It leaves less than the grid does.
+        let of = |key: &str| level[key].as_f64().expect("a number");
+        assert!(of("round_off") < 1e-4 * of("l2"), "{level}");
+    }
+    // Of hat functions P is of first order, and u of second.
+    let fine = &study["quantities"]["first_piola_kirchhoff"][3]["order_l2"];
+    assert!((fine.as_f64().expect("an order") - 1.0).abs() < 0.1, "{fine}");
+    let excluded = folder.mms(&format!("{command} --excluded")).exits(0);
+    excluded.prints("mistakes, by what they add to the finest error").prints("excluded: ");
+    // Saved, and of several methods.
+    folder.write("s.toml", "field = \"static.toml\"\nrelax = true\ncells = [4, 8]\n");
+    folder.mms("study --study s.toml --shape cpgimp,cpdi").complains("relaxed");
+}
+
+#[test]
+fn a_relaxed_run_says_how_near_it_came() {
+    let folder = folder();
+    let command = "run static.toml --relax --cells 8 --vtk states";
+    folder.mms(command).exits(0).prints("in equilibrium: ").prints("below 1.0e-9");
+    let list = folder.read("states/static.pvd");
+    assert_eq!(list.matches("<DataSet").count(), 2, "the start and the end: {list}");
+    let run = folder.mms("run static.toml --relax --cells 8 --json").exits(0).json();
+    assert!(run["residual_ratio"].as_f64().is_some_and(|it| it <= 1e-9), "{run}");
+    let errors = &run["errors"]["displacement"];
+    assert_eq!(errors["over_time"], errors["at_end"]);
+    // Twice the density is twice the mass, and the same equilibrium.
+    let dense = STATIC.replace("a     =", "rho0 = { value = 4, unit = \"kg/m^3\" }\na     =");
+    folder.write("dense.toml", &dense.replace("nu = \"nu\"", "nu = \"nu\"\ndensity = \"rho0\""));
+    let dense = folder.mms("run dense.toml --relax --cells 8 --json").exits(0).json();
+    let of = |run: &serde_json::Value| run["errors"]["displacement"]["at_end"]["l2"].as_f64();
+    let (one, other) = (of(&run).expect("an error"), of(&dense).expect("an error"));
+    assert!((one / other - 1.0).abs() < 1e-6, "{one} {other}");
+    assert_eq!(run["steps"], dense["steps"]);
+}
+
+#[test]
+fn what_an_equilibrium_has_not_is_refused_with_relax() {
+    let folder = folder();
+    for (command, said) in [
+        ("run bar_1d --relax", "`bar_1d` moves, and has an equilibrium at no time but by chance"),
+        ("run static.toml --relax --time 1", "cannot be used with"),
+        ("run static.toml --relax --history h.csv", "`--history`: the way of a relaxation"),
+        ("run static.toml --relax --checkpoint c", "`--checkpoint`: the way of a relaxation"),
+        ("study static.toml --relax --refine time", "`--refine time`: an equilibrium has no time"),
+        ("study static.toml --relax --fit", "`--fit`: an equilibrium has no time"),
+        ("study static.toml --relax --periods 1", "`--periods`: an equilibrium has no time"),
+        ("run static.toml --relax --integrator usf", "use `leapfrog`"),
+    ] {
+        folder.mms(command).exits(2).complains(said);
+    }
+}
+
+#[test]
+fn the_displacement_is_shown_as_one_of_places_alone() {
+    let folder = folder();
+    folder.mms("show static.toml --quantity u").exits(0).prints("displacement  u = u(X)  (");
+    folder.mms("show bar_1d --quantity u").exits(0).prints("displacement  u = u(X, t)  (");
+    folder.mms("emit static.toml --target c -o c").exits(0);
+    assert!(folder.read("c/static_.h").contains("Displacement u(X)."));
+}
+
+#[test]
 fn all_that_is_offered_leaves_out_what_needs_a_density() {
     let folder = folder();
     let point = folder.mms("eval static.toml --at 0.3,0.2 --json").exits(0).json();
@@ -161,4 +236,124 @@ fn results_are_judged_without_a_time_and_by_their_last_step() {
     folder.write("bare.csv", &bare);
     judged("bare.csv").prints("exact to round-off");
     folder.mms("diagnose static.toml bare.csv").exits(0).prints("nothing");
+}
+
+/// A bar whose displacement grows with its load.
+const LOADED: &str = r#"[field]
+title     = "Loaded bar"
+dimension = 1
+[parameters]
+load  = { value = 1, unit = "1" }
+young = { value = 1e6, unit = "Pa" }
+side  = { value = 1, unit = "m" }
+[displacement]
+u = ["load*X*(2*side - X)/(10*side)"]
+[material]
+model  = "neo_hookean"
+lambda = 0
+mu     = "young/2"
+[domain]
+shape = "box"
+lower = [0]
+upper = ["side"]
+[boundary]
+x_min = "fixed"
+x_max = "free"
+"#;
+
+/// Writes u with an error of second order; of first order at the whole load.
+#[cfg(unix)]
+const SOLVER: &str = r#"
+awk -v n="$2" -v load="$3" 'BEGIN {
+    print "X,u"
+    p = load < 1 ? 2 : 1
+    for (i = 0; i < n; i++) { X = (i + 0.5) / n; printf "%.17g,%.17g\n", X, load * X * (2 - X) / 10 + load / n ^ p }
+}' > "$1/u.csv"
+"#;
+
+#[cfg(unix)]
+fn loaded(words: &str, study: &str) -> Folder {
+    let folder = Folder::new();
+    folder.write("loaded.toml", LOADED);
+    folder.write("solver.sh", SOLVER);
+    folder.write(
+        "c.toml",
+        &format!(
+            "[solver]\nrun = \"sh solver.sh {{output}} {{cells}} {words}\"\noutput = \"{{output}}/*.csv\"\n\
+             [[study]]\nfield = \"loaded.toml\"\ncells = [8, 16, 32]\n{study}"
+        ),
+    );
+    folder
+}
+
+#[cfg(unix)]
+#[test]
+fn a_campaign_steps_a_load_and_judges_each_step() {
+    let folder = loaded("{set.load}", "set = { load = [0.25, \"1/2\", 1] }\n");
+    let listed = folder.mms("campaign c.toml --dry-run").exits(0);
+    listed.prints("loaded@load=0.25/1: to do; 8 cells, h 1.250e-1\n");
+    listed.prints("/output 8 0.5").prints("loaded@load=1/3");
+    let run = folder.mms("campaign c.toml --json --output out").exits(1);
+    let document = run.json();
+    let studies = document["studies"].as_array().expect("studies");
+    let steps = [
+        ("loaded@load=0.25", "load=0.25", "pass"),
+        ("loaded@load=1_2", "load=1/2", "pass"),
+        ("loaded@load=1", "load=1", "fail"),
+    ];
+    assert_eq!(studies.len(), steps.len());
+    for (study, (name, set, verdict)) in studies.iter().zip(steps) {
+        assert_eq!(study["name"], name);
+        assert_eq!((&study["study"], &study["set"][0]), (&"loaded".into(), &set.into()));
+        assert_eq!(study["verdict"], verdict);
+        assert_eq!(
+            (&study["runs"][0]["time_step"], &study["runs"][2]["level"]),
+            (&serde_json::Value::Null, &3.into())
+        );
+        // load/n^2, or at the whole load 1/n.
+        let load = [0.25, 0.5, 1.0][steps.iter().position(|it| it.0 == name).expect("a step")];
+        let error = if load < 1.0 { load / 64.0 } else { 1.0 / 8.0 };
+        let found = study["judgement"]["levels"][0]["l2"].as_f64().expect("an error");
+        assert!((found / error - 1.0).abs() < 1e-9, "{found} {error}");
+    }
+    // What a pass excludes is told by what a mistake adds at equilibrium: b is none of this bar's loads with the other sign.
+    let shown = |study: usize, name: &str| {
+        let all = studies[study]["judgement"]["excluded"].as_array();
+        all.and_then(|all| all.iter().find(|it| it["hypothesis"] == name)).cloned()
+    };
+    let sign = shown(0, "force_sign").expect("a mistake");
+    assert!(sign["times"].as_f64().is_some_and(|times| times > 10.0), "{sign}");
+    assert_eq!(shown(2, "force_sign"), None, "no pass excludes nothing");
+    assert!(document["excluded"].as_array().is_some_and(|all| all.len() > 10), "{document}");
+    let again = folder.mms("campaign c.toml --only loaded@load=0.25").exits(0);
+    again.prints("1 of 1 studies pass").prints("study loaded@load=0.25");
+    let all = folder.mms("campaign c.toml --only loaded/2 --dry-run").exits(0);
+    all.prints("loaded@load=0.25/2: done").prints("loaded@load=1/2: done");
+    folder.mms("campaign c.toml --only loaded@load=2").exits(2).complains("no such study or level");
+    folder.mms("report out").exits(1).prints("1 of 3 verdicts is not as expected");
+    let page = folder.read("out/report.html");
+    assert!(
+        page.contains("loaded@load=0.25") && page.contains("loaded@load=1_2"),
+        "names of steps"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn what_a_static_campaign_has_not_is_refused_at_its_place() {
+    let refused = |words: &str, study: &str, said: &str| {
+        let folder = loaded(words, study);
+        folder.mms("campaign c.toml --dry-run").exits(2).complains("c.toml:5:9").complains(said);
+    };
+    refused("{time_step}", "", "`{time_step}`: `loaded` is static, and has no time");
+    refused("{set.load} {end}", "", "`{end}`: `loaded` is static");
+    refused("{set.load}", "end = 1\n", "`end`: `loaded` is static");
+    refused("{set.load}", "time_steps = [1, 2, 3]\n", "`time_steps`: `loaded` is static");
+    refused("{set.lode}", "", "`{set.lode}`: `loaded` has no such parameter; it has load");
+    let folder = loaded("{set.load}", "set = { load = [1, 2], young = [1e6] }\n");
+    folder
+        .mms("campaign c.toml")
+        .exits(2)
+        .complains("c.toml:7:32")
+        .complains("`young` has 1 values");
 }

@@ -60,6 +60,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
             "courant",
             "time_step",
             "end_time",
+            "relax",
         ]
     );
     let level = [
@@ -77,6 +78,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
         "seconds",
         "failure",
         "round_off",
+        "residual_ratio",
     ];
     assert_eq!(keys(&document["levels"][0]), level);
     assert_eq!(keys(&document["levels"][1]), level);

@@ -42,6 +42,7 @@ fn options_choose_the_method_and_the_levels() {
         "courant": 0.2,
         "time_step": null,
         "end_time": null,
+        "relax": false,
     });
     assert_eq!(document["method"], method);
     assert_eq!(column(&document, "cells"), [4, 10]);

@@ -37,6 +37,7 @@ mod starting_bar;
 mod starting_cube_3d;
 mod starting_square_2d;
 mod static_bulge_3d;
+mod static_square;
 mod support;
 mod travelling_wave_2d;
 mod twisted_column;

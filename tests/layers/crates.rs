@@ -186,7 +186,7 @@ pub const CRATES: &[Crate] = &[
         knows: &["mms-spec"],
         layers: &[
             "cover descendants printed table template",
-            "can supervisor",
+            "can set supervisor",
             "file process",
             "profile",
         ],

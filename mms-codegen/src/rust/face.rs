@@ -23,7 +23,7 @@ impl Emitter<'_> {
         let name = format_ident!("{}_{}", face.name(), datum.name());
         let what = match datum {
             Datum::Normal => "Outward reference unit normal N",
-            Datum::Displacement => Quantity::Displacement.doc().trim_end_matches('.'),
+            Datum::Displacement => self.compiled.doc(Quantity::Displacement).trim_end_matches('.'),
             Datum::Traction => "Traction P N on reference area",
         };
         let unit = match datum {
@@ -31,6 +31,7 @@ impl Emitter<'_> {
             Datum::Displacement => Quantity::Displacement.unit(),
             Datum::Traction => Quantity::Traction.unit(),
         };
+        let unit = self.compiled.unit(unit);
         let doc = format!(" {what} on the face `{}`, at a point of it. Unit: {unit}.", face.name());
         let own: &[Stage] = &[Stage::Point, Stage::PointTime];
         let place = Context::at_points(quote!(self.field), own);

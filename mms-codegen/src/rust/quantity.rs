@@ -86,7 +86,7 @@ impl Emitter<'_> {
     fn quantity(&self, quantity: Quantity) -> TokenStream {
         let (name, at) = (function(quantity), at(quantity));
         let doc = self.compiled.doc(quantity);
-        let doc = match quantity.unit() {
+        let doc = match self.compiled.unit_of(quantity).as_str() {
             "" => format!(" {doc}"),
             unit => format!(" {doc} Unit: {unit}."),
         };

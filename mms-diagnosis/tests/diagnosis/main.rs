@@ -467,6 +467,7 @@ fn what_a_small_error_excludes_would_make_a_larger_one() {
         time_step: None,
         times: vec![0.03],
         errors: vec![(Quantity::Displacement, error)],
+        is_static: false,
     };
     let all = excluded(&exact, &study, &all(&exact)).unwrap();
     let shown = |title: &str| all.iter().find(|it| it.title == title).unwrap().shown;

@@ -3,6 +3,7 @@
 
 use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity};
+use mms_diagnosis::excluded::{Shown, Study, excluded};
 use mms_diagnosis::hypothesis::{Hypothesis, all};
 use mms_diagnosis::ordinary;
 use mms_diagnosis::run::Responses as _;
@@ -197,4 +198,47 @@ fn right_results_at_rest_are_nothing() {
     let found =
         ordinary::diagnose(&exact, &frame, &meshes, &all(&exact), &Solver::default()).unwrap();
     assert_eq!(name(&found), "nothing", "{:?}", found.ranked[0]);
+}
+
+#[test]
+fn what_a_pass_excludes_adds_twice_its_error_on_paper() {
+    let error = 2e-4;
+    let exact = Exact::new(&Rod, 1.0 / 32.0, 1e-3);
+    let study = Study {
+        cell_size: 1.0 / 32.0,
+        time_step: None,
+        times: vec![0.5],
+        errors: vec![(Quantity::Displacement, error)],
+        is_static: true,
+    };
+    let found = excluded(&exact, &study, &all(&exact)).unwrap();
+    let of = |name: &str| found.iter().find(|it| it.title.starts_with(name)).unwrap();
+    let middles: Vec<f64> = (0..64).map(|k| (f64::from(k) + 0.5) / 64.0).collect();
+    let mean = |factors| {
+        let moved = moved(factors, &middles);
+        (moved.iter().map(|it| it * it).sum::<f64>() / 64.0).sqrt()
+    };
+    let with = |name: &str, factor: f64| match name {
+        "force_factor" => [factor, 1.0, 1.0],
+        "traction_factor" => [1.0, factor, 1.0],
+        _ => [1.0, 1.0, factor],
+    };
+    for name in ["force_factor", "traction_factor", "moduli_factor"] {
+        let Shown::From { right, least } = of(name).shown else { panic!("{:?}", of(name)) };
+        assert_eq!(right, 1.0);
+        let [less, more] = [1.0 - least, 1.0 + least].map(|factor| mean(with(name, factor)));
+        // It is found in steps of a fifth at most.
+        let nearest = (less / (2.0 * error) - 1.0).abs().min((more / (2.0 * error) - 1.0).abs());
+        assert!(nearest < 0.2, "{name} {least:e}: {less:e} {more:e}");
+    }
+    // The sign of b is a mistake without a size.
+    let Shown::Always(Some(times)) = of("force_sign").shown else {
+        panic!("{:?}", of("force_sign"))
+    };
+    let expected = mean([-1.0, 1.0, 1.0]) / error;
+    assert!((times / expected - 1.0).abs() < 1e-3, "{times} {expected}");
+    // Without motion there is none, and in one dimension no stress that is transposed.
+    for name in ["damping", "start_at_rest", "force_late", "stress_transposed"] {
+        assert_eq!(of(name).shown, Shown::Never(0.0), "{name}");
+    }
 }

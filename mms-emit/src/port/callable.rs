@@ -19,8 +19,8 @@ pub struct Callable {
     pub output: Output,
     /// One sentence on what that is.
     pub doc: String,
-    /// Its unit, where the field's own are SI.
-    pub unit: &'static str,
+    /// Its unit, by the units of the field's parameters; of the SI where these have none.
+    pub unit: String,
     /// Scalar, vector or tensor; none for a list of another length.
     pub shape: Option<Shape>,
     /// The names of its components, rows first.
@@ -56,7 +56,7 @@ impl Callable {
             (None, 1) => "1 number".into(),
             (None, count) => format!("{count} numbers"),
         };
-        match self.unit {
+        match self.unit.as_str() {
             "" => format!("{} {shape}.", self.doc),
             unit => format!("{} {shape}. Unit: {unit}.", self.doc),
         }
@@ -142,12 +142,11 @@ pub fn callables(compiled: &Compiled) -> Vec<Callable> {
         }
         output => compiled.program.outputs.contains_key(&output),
     };
-    let dimension = compiled.field.dimension;
     let mut all: Vec<Callable> = Bound::ALL.iter().map(|it| bound(*it, compiled)).collect();
     all.extend(RESPONSES.iter().map(|it| response(*it, compiled)));
     all.extend(compiled.quantities().map(|it| quantity(it, compiled)));
     all.extend(compiled.program.outputs.keys().filter_map(|output| match *output {
-        Output::Face(face, datum) => Some(on_face(face.name(), datum, *output, dimension)),
+        Output::Face(face, datum) => Some(on_face(face.name(), datum, *output, compiled)),
         _ => None,
     }));
     all.retain(wanted);
@@ -182,7 +181,7 @@ fn bound(bound: Bound, compiled: &Compiled) -> Callable {
         name: bound.name().into(),
         output,
         doc: doc.into(),
-        unit,
+        unit: compiled.unit(unit),
         shape,
         components: match shape {
             Some(_) => vec![symbol.into()],
@@ -247,7 +246,7 @@ fn response(response: Response, compiled: &Compiled) -> Callable {
         name: name.into(),
         output,
         doc: doc.into(),
-        unit,
+        unit: compiled.unit(unit),
         shape: Some(shape),
         components: components(symbol, shape, dimension),
         time: changes_with_time(&compiled.program, output),
@@ -270,7 +269,7 @@ fn quantity(quantity: Quantity, compiled: &Compiled) -> Callable {
         name: quantity.name().into(),
         output: Output::Quantity(quantity),
         doc: compiled.doc(quantity).into(),
-        unit: quantity.unit(),
+        unit: compiled.unit_of(quantity),
         shape: Some(quantity.shape()),
         components: components(symbol, quantity.shape(), dimension),
         time: true,
@@ -284,17 +283,20 @@ fn changes_with_time(program: &Program, output: Output) -> bool {
     needed.any(|(instr, needed)| needed && matches!(instr.op, Op::Input(Symbol::Time)))
 }
 
-fn on_face(face: &str, datum: Datum, output: Output, dimension: usize) -> Callable {
+fn on_face(face: &str, datum: Datum, output: Output, compiled: &Compiled) -> Callable {
+    let dimension = compiled.field.dimension;
     let (what, symbol, unit) = match datum {
         Datum::Normal => ("Outward reference unit normal N", "N", "1"),
-        Datum::Displacement => ("Displacement u(X, t)", "u", "m"),
+        Datum::Displacement => {
+            (compiled.doc(Quantity::Displacement).trim_end_matches('.'), "u", "m")
+        }
         Datum::Traction => ("Traction P N on reference area", "T", "Pa"),
     };
     Callable {
         name: format!("{face}_{}", datum.name()),
         output,
         doc: format!("{what} on the face {face}, at a point of it."),
-        unit,
+        unit: compiled.unit(unit),
         shape: Some(Shape::Vector),
         components: components(symbol, Shape::Vector, dimension),
         time: true,

@@ -34,7 +34,8 @@ pub trait Integrator: 'static {
     /// done.
     const LAG: f64 = 0.0;
 
-    /// Whether a step asks for weights after it has moved or deformed the particles: they are those at t^n, and
+    /// Whether a step asks for weights after it has moved or deformed the particles, which it does one after the other, by
+    /// different velocities: they are those at t^n, and
     /// so what they follow has to be kept. Weights themselves are computed where they are used, which takes less
     /// time than to read them.
     const KEEPS_WEIGHTS: bool = false;

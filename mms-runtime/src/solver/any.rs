@@ -1,6 +1,6 @@
 //! A solver whose shape function and integrator are chosen by name.
 
-use super::{Present, Seconds, Solver, State};
+use super::{Present, Residual, Seconds, Solver, State};
 use crate::failure::{Failure, Refusal};
 use crate::field::ManufacturedField;
 use crate::grid::Grid;
@@ -42,6 +42,18 @@ pub trait AnySolver<'f, T: Real, const D: usize>: Send {
 
     /// How many time steps the particles' velocities are behind their positions, once the first step is done.
     fn lag(&self) -> f64;
+
+    /// sum m v.v/2 of the nodes, as the last step moved particles with it.
+    fn kinetic_energy(&self) -> f64;
+
+    /// Halts every particle where it is.
+    fn halt(&mut self);
+
+    /// How far the body is from equilibrium where it is now.
+    ///
+    /// # Errors
+    /// As of a step.
+    fn out_of_balance(&mut self) -> Result<Residual, Failure>;
 
     /// What the parts of the steps so far have taken.
     fn seconds(&self) -> Seconds;
@@ -117,6 +129,18 @@ impl<'f, T: Real, const D: usize> AnySolver<'f, T, D> for Chosen<'f, T, D> {
 
     fn lag(&self) -> f64 {
         self.integrator.visit(Lag)
+    }
+
+    fn kinetic_energy(&self) -> f64 {
+        self.solver.kinetic_energy()
+    }
+
+    fn halt(&mut self) {
+        self.solver.halt();
+    }
+
+    fn out_of_balance(&mut self) -> Result<Residual, Failure> {
+        self.solver.out_of_balance()
     }
 
     fn seconds(&self) -> Seconds {

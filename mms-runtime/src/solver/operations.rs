@@ -7,6 +7,7 @@ use super::clock::{Seconds, timed};
 use super::g2p::{Advance, Residual, Sound, Source, Steps};
 use super::order::When;
 use super::p2g::{Added, Map, Stop};
+use super::relaxation::norm;
 use super::weights::Scene;
 use crate::boundary::traction::Place;
 use crate::column::BUNCH;
@@ -117,6 +118,15 @@ where
     }
 }
 
+/// The forces at nodes that are asked for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Forces {
+    /// All that act on a component which nothing holds.
+    Free,
+    /// Those of the stress.
+    OfStress,
+}
+
 fn both_sound(
     first: Result<Sound, (usize, Cause)>,
     second: Result<Sound, (usize, Cause)>,
@@ -177,7 +187,7 @@ where
         let nodes: [&mut [Nodal<T>]; 2] = match added {
             Added::Momentum | Added::Kicked(_) => [momentum, &mut []],
             Added::Residual => [&mut self.residual[0], &mut []],
-            Added::Force => [&mut [], force],
+            Added::Force | Added::Stress => [&mut [], force],
             Added::Both => [momentum, force],
         };
         let seconds = &mut self.seconds;
@@ -332,5 +342,24 @@ where
             grid.kick(time_step);
             boundary.velocity(*field, time, &mut grid.velocity);
         });
+    }
+
+    /// The norm of forces at the nodes, of the particles where they are now.
+    pub(super) fn forces(&mut self, asked: Forces) -> Result<f64, Failure> {
+        if asked == Forces::OfStress {
+            self.add_to_nodes(Added::Stress)?;
+            return Ok(norm::<T, D>(&self.grid.force));
+        }
+        let time = self.time();
+        (self.keeps_weights, self.time_of_force) = (false, time);
+        self.keep();
+        self.add_to_nodes(Added::Momentum)?;
+        self.complete_momentum(true)?;
+        self.add_to_nodes(Added::Force)?;
+        self.add_tractions(time, None)?;
+        let Self { grid, boundary, .. } = self;
+        boundary.fold(&mut grid.force);
+        boundary.residual(&mut grid.force);
+        Ok(norm::<T, D>(&grid.force))
     }
 }

@@ -41,6 +41,8 @@ pub(super) enum Added<T> {
     Residual,
     /// - V0 S grad w + w m b.
     Force,
+    /// - V0 S grad w.
+    Stress,
     /// Momentum without a linear velocity, and force, each to nodes of its own.
     Both,
     /// Momentum, and force times this time, in one sum.
@@ -50,7 +52,7 @@ pub(super) enum Added<T> {
 impl<T> Added<T> {
     /// Whether forces are.
     fn has_force(&self) -> bool {
-        matches!(self, Added::Force | Added::Both | Added::Kicked(_))
+        !matches!(self, Added::Momentum | Added::Residual)
     }
 }
 
@@ -290,7 +292,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
             stencil.scatter(machine, lattice, &carried, members, momentum.reborrow());
         }
         let (share, with_momentum) = match added {
-            Added::Force | Added::Both => (T::one(), false),
+            Added::Force | Added::Stress | Added::Both => (T::one(), false),
             Added::Kicked(time_step) => (time_step, true),
             // Its slopes are 0.
             Added::Momentum if affine.is_some() => (T::zero(), true),
@@ -305,7 +307,9 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
                 moments = Some(scaled(machine, columns(machine, &affine[k]), mass));
             }
         }
-        self.add_body_force(machine, machine.splat(share), &mut numbers);
+        if !matches!(added, Added::Stress) {
+            self.add_body_force(machine, machine.splat(share), &mut numbers);
+        }
         let slopes = Some(self.stress(machine, machine.splat(share), rest));
         let carried = Carried { value: machine.transposed(numbers), slopes, moments };
         let nodes = if with_momentum { momentum } else { force };

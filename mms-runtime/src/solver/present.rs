@@ -40,13 +40,13 @@ impl<T: Real, const D: usize, F: ?Sized> Present<'_, T, D, F> {
     }
 
     /// A failure of nobody in particular, now.
+    pub(crate) fn failed(&self, cause: Cause) -> Failure {
+        let (step, time) = (self.step, self.time);
+        Failure { step, time, particle: None, reference_position: Vec::new(), cause }
+    }
+
+    /// A run that somebody stopped, now.
     pub(crate) fn stopped(&self, reason: String) -> Failure {
-        Failure {
-            step: self.step,
-            time: self.time,
-            particle: None,
-            reference_position: Vec::new(),
-            cause: Cause::Stopped { reason },
-        }
+        self.failed(Cause::Stopped { reason })
     }
 }

@@ -69,7 +69,7 @@ where
         let filling = fill(&domain.body, setup, &spacing)?;
 
         let mut particles = Particles::new(&filling, setup.transfer);
-        let speed = largest_wave_speed(field, &particles)?;
+        let speed = largest_wave_speed(field, &particles.reference_position)?;
         let [start, end] = domain.time.map(|time| time.to_f64());
         let courant = positive("the Courant number", setup.courant)?;
         let time_step = setup.time_step.unwrap_or(courant * cell_size.min() / speed);
@@ -282,13 +282,13 @@ fn repeats<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     Ok(())
 }
 
-/// c0, the largest over the particles.
-fn largest_wave_speed<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
+/// c0, the largest at some X.
+pub(super) fn largest_wave_speed<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field: &F,
-    particles: &Particles<T, D>,
+    reference: &[Vector<T, D>],
 ) -> Result<f64, Refusal> {
-    let mut speed = vec![T::zero(); particles.len()];
-    field.wave_speed(&particles.reference_position, &mut speed);
+    let mut speed = vec![T::zero(); reference.len()];
+    field.wave_speed(reference, &mut speed);
     let mut largest = 0.0;
     for speed in speed {
         largest = positive("the wave speed", speed.to_f64())?.max(largest);

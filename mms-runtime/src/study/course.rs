@@ -12,7 +12,7 @@ use super::{Checkpoint, Details, Diagnostics, Frame, Observer, Record, Snapshots
 use crate::failure::{Failure, Refusal};
 use crate::field::ManufacturedField;
 use crate::real::Real;
-use crate::solver::{Present, State};
+use crate::solver::{Present, Residual, State};
 
 /// What is known of a run so far, the solver's state among it.
 #[derive(Serialize, Deserialize)]
@@ -216,6 +216,36 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         self.show(present)
     }
 
+    /// After each step of a run whose way does not matter.
+    pub fn pass<F: ?Sized>(&mut self, present: &Present<'_, T, D, F>) {
+        self.observer.step(present.step, self.steps);
+    }
+
+    /// What was measured of a run whose way does not matter: the errors of its end, with this residual.
+    ///
+    /// # Errors
+    /// An error that is not finite; an observer that cannot go on.
+    pub fn settle<F>(
+        mut self,
+        present: &Present<'_, T, D, F>,
+        residual: Residual,
+    ) -> Result<(Details, Snapshots), Failure>
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        self.steps = present.step;
+        self.account = None;
+        self.last = self.watcher.measure(present)?;
+        self.largest = self.last;
+        self.observer.step(self.steps, self.steps);
+        self.show(present)?;
+        // Forces that are out of balance displace a body by about as much of its displacement.
+        let left = residual.relative * self.watcher.size();
+        let (details, snapshots) = self.close(present);
+        let round_off = details.round_off.hypot(left);
+        Ok((Details { residual: Some(residual), round_off, ..details }, snapshots))
+    }
+
     /// Lets an observer keep a checkpoint, if it wants one after this step.
     ///
     /// # Errors
@@ -251,7 +281,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         let round_off = self.watcher.round_off(self.steps);
         let diagnostics = self.diagnostics(present);
         let Self { largest, last, snapshots, .. } = self;
-        (Details { largest, last, round_off, diagnostics }, snapshots)
+        (Details { largest, last, round_off, residual: None, diagnostics }, snapshots)
     }
 
     fn looks_at(&self, step: usize) -> bool {

@@ -10,6 +10,7 @@ mod order;
 mod phase;
 mod range;
 mod refinement;
+mod relax;
 mod run;
 mod series;
 mod snapshots;

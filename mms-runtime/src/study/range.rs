@@ -12,7 +12,7 @@ pub(super) fn explained<T: Real, const D: usize>(
     failure: Failure,
 ) -> Failure {
     match failure.cause {
-        Cause::UnstableStep { .. } | Cause::Stopped { .. } => failure,
+        Cause::UnstableStep { .. } | Cause::NotRelaxed { .. } | Cause::Stopped { .. } => failure,
         _ => match beyond(&sizes(present, cell_size), range::<T>()) {
             Some(cause) => Failure { cause, ..failure },
             None => failure,

@@ -2,13 +2,14 @@
 
 use super::course::{Course, Saved, SavedCourse, Stopwatch};
 use super::range::explained;
+use super::relax::relax;
 use super::{Balance, Deviations, Errors, Level, Observer, Snapshots};
 use crate::failure::{Failure, Refusal};
 use crate::field::ManufacturedField;
 use crate::method::{Division, Method};
 use crate::particle::Particles;
 use crate::real::{Real, Vector};
-use crate::solver::{AnySolver, Seconds, of_method};
+use crate::solver::{AnySolver, Ramp, Residual, Seconds, of_method};
 use crate::tensor::jacobian;
 
 /// Which errors are measured in a run.
@@ -43,11 +44,17 @@ pub struct Details {
     pub largest: Deviations,
     /// The errors at the end.
     pub last: Deviations,
-    /// What round-off alone is predicted to leave of the displacement's error in l2.
+    /// What round-off alone is predicted to leave of the displacement's error in l2; with what is out of balance, of a run that
+    /// goes to an equilibrium.
     pub round_off: f64,
+    /// How far from equilibrium it ended, of a run that goes there.
+    pub residual: Option<Residual>,
     /// The state at the end.
     pub diagnostics: Diagnostics,
 }
+
+/// What a run ends with.
+pub(super) type Ended = (Details, Seconds, Snapshots);
 
 /// Sums over the particles at the end of a run, in double precision.
 #[derive(Clone, Debug, PartialEq)]
@@ -152,10 +159,16 @@ fn run<T: Solve<D>, const D: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Run, Refusal> {
     let mut stopwatch = Stopwatch::default();
+    let relaxes = method.setup.relax;
+    let ramp = relaxes.then(|| Ramp::new(field)).transpose()?;
+    let field = ramp.as_ref().map_or(field, |ramp| ramp as &dyn ManufacturedField<T, D>);
     let mut solver = T::solver(field, method, cells)?;
     let saved = observer.resume().map(Saved::<T, D>::read).transpose()?;
     let saved = match saved {
         None => None,
+        Some(_) if relaxes => {
+            return Err(Refusal::NoState { reason: "a relaxation begins at its beginning".into() });
+        }
         Some(Saved { state, course }) => {
             solver.restore(state)?;
             stopwatch.before = course.elapsed;
@@ -174,12 +187,22 @@ fn run<T: Solve<D>, const D: usize>(
     let (details, seconds, snapshots) = Default::default();
     let mut run = Run { level, details, seconds, snapshots };
     let fastest_wave = method.setup.fastest_wave;
-    let go = || take_steps(&mut *solver, fastest_wave, watch, saved, stopwatch, observer);
+    let go = || {
+        fastest_wave.map_or(Ok(()), |fastest| solver.check_time_step(fastest))?;
+        solver.check()?;
+        match relaxes {
+            true => relax(&mut *solver, watch, stopwatch, observer),
+            false => take_steps(&mut *solver, watch, saved, stopwatch, observer),
+        }
+    };
     let result = match method.setup.threads {
         1 => go(),
         threads => pool(threads)?.install(go),
     };
     run.level.seconds = stopwatch.seconds();
+    if relaxes {
+        run.level.steps = solver.present().step;
+    }
     run.level.errors = match result {
         Ok((details, seconds, snapshots)) => {
             let errors = details.largest.displacement;
@@ -200,15 +223,12 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, Refusal> {
 /// Takes a solver through its steps, from where it is.
 fn take_steps<T: Real, const D: usize>(
     solver: &mut dyn AnySolver<'_, T, D>,
-    fastest_wave: Option<f64>,
     watch: Watch,
     saved: Option<SavedCourse<'_>>,
     stopwatch: Stopwatch,
     observer: &mut dyn Observer,
-) -> Result<(Details, Seconds, Snapshots), Failure> {
+) -> Result<Ended, Failure> {
     let (steps, behind) = (solver.steps(), solver.lag() > 0.0);
-    fastest_wave.map_or(Ok(()), |fastest| solver.check_time_step(fastest))?;
-    solver.check()?;
     let mut course = Course::begin(watch, &solver.present(), steps, saved, stopwatch, observer)?;
     while solver.present().step < steps {
         course.before_step(&solver.present(), behind);

@@ -120,6 +120,21 @@ pub fn find(symbol: &str) -> Option<(Dimension, Size)> {
     Some((Dimension::new(unit.exponents), size))
 }
 
+/// The symbol of the unit of a dimension that is this large: the SI's own, or else with a prefix.
+pub fn name(dimension: &Dimension, size: Size) -> Option<String> {
+    let of = |unit: &&Plain| Dimension::new(unit.exponents) == *dimension;
+    if let Some(unit) = UNITS.iter().filter(of).find(|unit| unit.size == size) {
+        return Some(unit.symbol.to_owned());
+    }
+    let prefixed = UNITS.iter().filter(of).filter(|unit| unit.prefixed);
+    prefixed.flat_map(|unit| PREFIXES.iter().map(move |prefix| (unit, prefix))).find_map(
+        |(unit, (prefix, tens))| {
+            let own = Size { tens: unit.size.tens + tens, ..unit.size };
+            (own == size).then(|| format!("{prefix}{}", unit.symbol))
+        },
+    )
+}
+
 /// What to do about a symbol that is no unit.
 pub fn advice(symbol: &str) -> String {
     if let Some((_, advice)) = REFUSED.iter().find(|(name, _)| is_word(name, symbol)) {

@@ -8,11 +8,14 @@
 //!
 //! The time t belongs to the system too: it is in seconds, unless a symbol of the file is a unit
 //! of time, such as `ms`.
+//!
+//! What follows from parameters is then in units of the same system ([`own`]): the sizes of all units whose dimension is a
+//! product of theirs are known.
 
 use std::collections::BTreeMap;
 
 use super::dimension::{BASE, Dimension};
-use super::known::Size;
+use super::known::{self, Size};
 use super::parse::{Symbol, Unit};
 use crate::diagnostic::Diagnostic;
 use dashu_ratio::RBig as Rational;
@@ -103,6 +106,54 @@ pub fn consistent<'a>(units: impl IntoIterator<Item = &'a Unit>) -> Option<Diagn
         }
     }
     None
+}
+
+/// What is in `si` where units are of the SI, in the system of these units: of `mm` and `MPa` that of `Pa/m` is `MPa/mm`.
+/// None where they leave it open, or have no name for it. Units that are none, or all of the SI, leave it as it is.
+pub fn own(units: &[Unit], si: &str) -> Option<String> {
+    let symbols: Vec<&Symbol> = units.iter().flat_map(|unit| &unit.symbols).collect();
+    if symbols.iter().all(|symbol| symbol.size == Size::SI) {
+        return Some(si.to_owned());
+    }
+    let mut equations: Vec<Equation> = Vec::new();
+    if !symbols.iter().any(|symbol| is_of_time(symbol)) {
+        equations.push(Equation::seconds());
+    }
+    for (position, symbol) in symbols.iter().enumerate() {
+        let mut equation = Equation::of(symbol, position);
+        equations.iter().for_each(|known| equation.eliminate(known));
+        if equation.pivot().is_some() {
+            equations.push(equation);
+        }
+    }
+    let mut own = si.to_owned();
+    // From behind, so that places in front stay where they are.
+    for symbol in Unit::known(si)?.symbols.iter().rev() {
+        let size = size(&equations, &symbol.dimension)?;
+        let is_it = |other: &&&Symbol| other.dimension == symbol.dimension && other.size == size;
+        let of_file = symbols.iter().find(is_it).map(|it| it.symbol.value.clone());
+        let name = of_file.or_else(|| known::name(&symbol.dimension, size))?;
+        let text = &symbol.symbol.value;
+        let at = own.find(text.as_str())?;
+        own.replace_range(at..at + text.len(), &name);
+    }
+    Some(own)
+}
+
+/// How large the unit of a dimension is in a system, if that follows from it.
+fn size(equations: &[Equation], dimension: &Dimension) -> Option<Size> {
+    let mut wanted = Equation {
+        dimensions: dimension.exponents().clone(),
+        sizes: [Rational::ZERO; SIZES],
+        origin: BTreeMap::new(),
+    };
+    equations.iter().for_each(|known| wanted.eliminate(known));
+    if wanted.pivot().is_some() {
+        return None;
+    }
+    let whole = |size: &Rational| i16::try_from(-size.clone()).ok();
+    let [tens, sixties] = &wanted.sizes;
+    Some(Size { tens: whole(tens)?, sixties: whole(sixties)? })
 }
 
 /// Whether a symbol is a unit of time, or of a power of it.
@@ -198,6 +249,43 @@ mod tests {
             assert!(message.contains(names), "{units:?}: {message}");
             assert_eq!(message.is_empty(), names.is_empty(), "{units:?}: {message}");
         }
+    }
+
+    #[test]
+    fn quantities_have_the_units_of_their_system() {
+        let own = |units: &[&str], si: &str| {
+            let units: Vec<Unit> =
+                units.iter().map(|it| Unit::known(it).expect("a unit")).collect();
+            own(&units, si)
+        };
+        let tonnes = ["mm", "t/mm^3", "MPa", "1"];
+        for (si, expected) in [
+            ("m", "mm"),
+            ("kg/m^3", "t/mm^3"),
+            ("Pa", "MPa"),
+            ("Pa/m", "MPa/mm"),
+            ("m/s^2", "mm/s^2"),
+            ("N/m^3", "N/mm^3"),
+            ("s", "s"),
+            ("1", "1"),
+        ] {
+            assert_eq!(own(&tonnes, si).as_deref(), Some(expected), "{si}");
+        }
+        // kg mm/ms^2 = kN, kN/mm^2 = GPa
+        let milliseconds = ["mm", "kg", "ms"];
+        let of = |si| own(&milliseconds, si);
+        assert_eq!(
+            [of("Pa"), of("N/m^3"), of("m/s")].map(Option::unwrap),
+            ["GPa", "kN/mm^3", "mm/ms"]
+        );
+        // MPa and s leave lengths open.
+        assert_eq!(own(&["MPa"], "Pa").as_deref(), Some("MPa"));
+        assert_eq!(own(&["MPa"], "m"), None);
+        for units in [&[][..], &["m", "Pa", "1"], &["rad"]] {
+            assert_eq!(own(units, "kg/m^3").as_deref(), Some("kg/m^3"), "{units:?}");
+        }
+        // g/(cm s^2) is 0.1 Pa.
+        assert_eq!(own(&["cm", "g"], "Pa").as_deref(), Some("dPa"));
     }
 
     /// A kilopascal is the product of no powers of metres and newtons alone.

@@ -23,29 +23,35 @@ const QUANTITIES: [(&str, Quantity); 3] = [
     ("deformation_gradient", Quantity::DisplacementGradient),
 ];
 
+/// The time at which a static field is evaluated, the same as at any other.
+const AT_REST: f64 = 1.0;
+
 impl Exclusions {
     /// What the finest errors of u, v or F at some times exclude, root mean squares by the name of the quantity; nothing without
-    /// one.
+    /// one. Times that are none are of a field which is static, and so is at rest.
     pub fn new(
         scene: &Scene<f64>,
         error: impl Fn(&str) -> Option<f64>,
         (cell_size, time_step): (f64, Option<f64>),
-        times: Vec<f64>,
+        times: Option<Vec<f64>>,
     ) -> Option<Exclusions> {
-        let errors = QUANTITIES.iter().filter_map(|(name, it)| Some((*name, *it, error(name)?)));
+        let is_static = times.is_none();
+        let moving = QUANTITIES.iter().filter(|(_, it)| !is_static || *it != Quantity::Velocity);
+        let errors = moving.filter_map(|(name, it)| Some((*name, *it, error(name)?)));
         let (names, errors): (Vec<_>, Vec<_>) =
             errors.map(|(name, it, e)| (format!("{e:.1e} of {name}"), (it, e))).unzip();
         if errors.is_empty() {
             return None;
         }
-        let study = Study { cell_size, time_step, times, errors };
+        let times = times.unwrap_or_else(|| vec![AT_REST]);
+        let study = Study { cell_size, time_step, times, errors, is_static };
         let all = excludes(scene, &study).map_err(|obstacle| obstacle.to_string());
         Some(Exclusions { of: names.join(", "), all })
     }
 }
 
 /// The mistakes that results with these errors at some times exclude, whose finest has this time step; none without errors of the
-/// motion. Only motions find them, so none of a static field is known.
+/// motion or, of a static field, of its equilibrium.
 ///
 /// # Errors
 /// The field cannot be run.
@@ -55,9 +61,7 @@ pub fn exclusions(
     times: Vec<f64>,
     time_step: Option<f64>,
 ) -> anyhow::Result<Option<Exclusions>> {
-    if exact.input().is_static() {
-        return Ok(None);
-    }
+    let times = (!exact.input().is_static()).then_some(times);
     let finest = measured.runs.iter().map(|run| run.cell_size).fold(f64::INFINITY, f64::min);
     let error = |name: &str| error(measured, name, finest);
     Ok(Exclusions::new(&exact.scene()?, error, (finest, time_step), times))

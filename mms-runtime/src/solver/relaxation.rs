@@ -1,0 +1,252 @@
+//! Dynamic relaxation: the way to an equilibrium, for a field that does not move.
+//!
+//! # Loads
+//!
+//! The body starts undeformed and at rest. Along a ramp the field is g(t) u(X), with g = t/T: faces move to their exact
+//! places at constant speeds, so that their particles arrive there in any number of steps; b is g b, and tractions are those
+//! of g H. T is the time in which the fastest wave crosses the longest edge of the body. From then on nothing changes but
+//! what is out of balance. A body that follows its loads overshoots little, and in the updated formulation an error of the
+//! way is one of the end.
+//!
+//! # Damping
+//!
+//! Kinetic: wherever the kinetic energy of the nodes has passed a peak, all particles are halted (Cundall 1976; Barnes, "Form
+//! finding and analysis of tension structures by dynamic relaxation", Int. J. Space Struct. 14 (1999) 89-104). Viscous damping
+//! needs a coefficient that follows the lowest frequency (Underwood 1983), which has to be estimated of every body as it
+//! stiffens, and misleads where it is wrong. Peaks need no number, are found for every shape function and transfer alike, and
+//! halting acts on particles alone: it is one place, between two steps. Integrators that move particles by one velocity and
+//! deform them by another are refused: each halt would part u from F.
+//!
+//! # Mass
+//!
+//! It is fictitious, for an equilibrium has none: rho0 of the field, or 1 where it gives none, with b = -Div P/rho0 by the same
+//! number. The time step is that of the Courant number with it, so that a wave needs as many steps for a cell as ever.
+//!
+//! # The end
+//!
+//! The residual is the norm of the forces that are out of balance at the nodes, over that of the forces of the stress.
+//! Held components have none: their reactions are whatever they have to be. The run ends below [`SMALL`], far below what a
+//! grid leaves; or where the rounding of H, and in the updated formulation that of x, is all that is out of balance.
+
+use super::Solver;
+use super::operations::Forces;
+use super::setup::largest_wave_speed;
+use crate::body::{Fill, Filling, bounding_box};
+use crate::column::{BUNCH, Matrices};
+use crate::failure::{Failure, Refusal};
+use crate::field::{Domain, ManufacturedField};
+use crate::grid::Grid;
+use crate::material::Material;
+use crate::nodal::Nodal;
+use crate::real::{Matrix, Real, Vector};
+
+/// The residual at which a run ends.
+const SMALL: f64 = 1e-9;
+
+/// As much as this of the rounding that is expected may be out of balance.
+const ROUNDINGS: f64 = 4.0;
+
+/// At so many places along each edge of a body it is asked for its fastest wave.
+const SAMPLES: f64 = 8.0;
+
+/// A field whose loads grow from nothing to all along a ramp, its time window.
+pub struct Ramp<'f, T: Real, const D: usize> {
+    field: &'f dyn ManufacturedField<T, D>,
+    /// T.
+    length: T,
+}
+
+impl<'f, T: Real, const D: usize> Ramp<'f, T, D> {
+    /// Of a field that does not move.
+    ///
+    /// # Errors
+    /// A body without extent; a wave speed that is none.
+    pub fn new(field: &'f dyn ManufacturedField<T, D>) -> Result<Self, Refusal> {
+        let body = field.domain().body;
+        let [lower, upper] = bounding_box(&body)?;
+        let edges = upper - lower;
+        let filling = Filling::new(&body, Fill::Fitted, &(edges / SAMPLES))?;
+        let samples: Vec<Vector<T, D>> = filling.position.iter().map(|x| x.map(T::of)).collect();
+        let length = edges.max() / largest_wave_speed(field, &samples)?;
+        Ok(Self { field, length: T::of(length) })
+    }
+
+    /// g.
+    fn share(&self, time: T) -> T {
+        if time < self.length { time / self.length } else { T::one() }
+    }
+
+    /// dg/dt, for steps that end at a time; integrators ask for it at the end of a step, or half a step before.
+    fn rate(&self, time: T) -> T {
+        let round_off = self.length * T::of(1e-6);
+        let is_on = time > round_off && time < self.length + round_off;
+        if is_on { T::one() / self.length } else { T::zero() }
+    }
+
+    fn scale(out: &mut [Vector<T, D>], factor: T) {
+        out.iter_mut().for_each(|it| *it *= factor);
+    }
+}
+
+impl<T: Real, const D: usize> Material<T, D> for Ramp<'_, T, D> {
+    fn density(&self, reference: &[Vector<T, D>], density: &mut [T]) {
+        self.field.density(reference, density);
+    }
+
+    fn wave_speed(&self, reference: &[Vector<T, D>], speed: &mut [T]) {
+        self.field.wave_speed(reference, speed);
+    }
+
+    fn is_small_strain(&self) -> bool {
+        self.field.is_small_strain()
+    }
+
+    fn kirchhoff_stress(
+        &self,
+        time: T,
+        reference: &[Vector<T, D>],
+        displacement_gradient: &[Matrix<T, D>],
+        stress: &mut [Matrix<T, D>],
+    ) {
+        self.field.kirchhoff_stress(time, reference, displacement_gradient, stress);
+    }
+
+    fn kirchhoff_stress_of_bunches(
+        &self,
+        time: T,
+        reference: &[[Vector<T, D>; BUNCH]],
+        displacement_gradient: &[Matrices<T, D>],
+        stress: &mut [Matrices<T, D>],
+    ) {
+        self.field.kirchhoff_stress_of_bunches(time, reference, displacement_gradient, stress);
+    }
+
+    fn strain_energy(
+        &self,
+        time: T,
+        reference: &[Vector<T, D>],
+        displacement_gradient: &[Matrix<T, D>],
+        energy: &mut [T],
+    ) -> bool {
+        self.field.strain_energy(time, reference, displacement_gradient, energy)
+    }
+}
+
+impl<T: Real, const D: usize> ManufacturedField<T, D> for Ramp<'_, T, D> {
+    fn domain(&self) -> Domain<T, D> {
+        Domain { time: [T::zero(), self.length], ..self.field.domain() }
+    }
+
+    fn displacement(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
+        self.field.displacement(T::zero(), reference, out);
+        Self::scale(out, self.share(time));
+    }
+
+    fn velocity(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
+        self.field.displacement(T::zero(), reference, out);
+        Self::scale(out, self.rate(time));
+    }
+
+    fn acceleration(&self, _: T, _: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
+        out.fill(Vector::zeros());
+    }
+
+    fn body_force(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
+        self.field.body_force(T::zero(), reference, out);
+        Self::scale(out, self.share(time));
+    }
+
+    fn displacement_gradient(&self, time: T, reference: &[Vector<T, D>], out: &mut [Matrix<T, D>]) {
+        self.field.displacement_gradient(T::zero(), reference, out);
+        let share = self.share(time);
+        out.iter_mut().for_each(|h| *h *= share);
+    }
+
+    fn surface_stress(
+        &self,
+        time: T,
+        reference: &[Vector<T, D>],
+        displacement_gradient: &[Matrix<T, D>],
+        stress: &mut [Matrix<T, D>],
+    ) {
+        self.field.surface_stress(time, reference, displacement_gradient, stress);
+    }
+}
+
+/// How far a body is from equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual {
+    /// The norm of the forces that are out of balance over that of the forces of the stress.
+    pub relative: f64,
+    /// Below this a run ends.
+    pub tolerance: f64,
+}
+
+impl Residual {
+    /// Of the norms of all forces at free components, of those of the stress, and of what rounding makes of them.
+    fn of(force: f64, internal: f64, rounding: f64) -> Self {
+        // Where there is no stress, as of a body that is not deformed, all of what is there is out of balance.
+        let relative = |norm: f64| if norm == 0.0 { 0.0 } else { norm / internal };
+        Self { relative: relative(force), tolerance: SMALL.max(ROUNDINGS * relative(rounding)) }
+    }
+
+    /// Whether nothing is out of balance but what a run may leave.
+    pub fn is_small(&self) -> bool {
+        self.relative <= self.tolerance
+    }
+}
+
+impl<T: Real, const D: usize, F> Solver<'_, T, D, F>
+where
+    F: ManufacturedField<T, D> + ?Sized,
+{
+    /// sum m v.v/2 of the nodes, as the last step moved particles with it.
+    pub fn kinetic_energy(&self) -> f64 {
+        let Grid { momentum, velocity, .. } = &self.grid;
+        let of = |(momentum, v): (&Nodal<T>, &Nodal<T>)| {
+            momentum.last().to_f64() * v.vector::<D>().map(Real::to_f64).norm_squared() / 2.0
+        };
+        momentum.iter().zip(velocity).map(of).sum()
+    }
+
+    /// Halts every particle where it is.
+    pub fn halt(&mut self) {
+        let count = self.particles.len();
+        let affine = self.particles.affine.len();
+        self.particles.velocity = std::iter::repeat_n(Vector::zeros(), count).collect();
+        self.particles.affine = std::iter::repeat_n(Matrix::zeros(), affine).collect();
+    }
+
+    /// How far the body is from equilibrium where it is now.
+    ///
+    /// # Errors
+    /// A particle, or a piece of a face, that the grid does not hold; a particle without stress.
+    pub fn out_of_balance(&mut self) -> Result<Residual, Failure> {
+        let force = self.forces(Forces::Free)?;
+        let internal = self.forces(Forces::OfStress)?;
+        Ok(Residual::of(force, internal, self.rounding()))
+    }
+
+    /// The norm of the forces that one rounding of H of each particle makes, and of x where weights follow it.
+    fn rounding(&self) -> f64 {
+        let particles = &self.particles;
+        let mut speeds = vec![T::zero(); particles.len()];
+        self.field.wave_speed(&particles.reference_position, &mut speeds);
+        let edge = self.grid.lattice.cell_size.min().to_f64();
+        let gradients = particles.displacement_gradient.iter();
+        let square = |(p, h): (usize, Matrix<T, D>)| {
+            // m c0^2 = V0 (lambda + 2 mu)
+            let stiffness = particles.mass[p].to_f64() * speeds[p].to_f64().powi(2);
+            let position = particles.position(p).map(Real::to_f64).norm() / edge;
+            let weights = if self.formulation.moves { 1.0 + position } else { 1.0 };
+            (stiffness * h.map(Real::to_f64).norm() / edge * weights).powi(2)
+        };
+        T::default_epsilon().to_f64() * gradients.enumerate().map(square).sum::<f64>().sqrt()
+    }
+}
+
+/// The norm of the vectors of some nodes.
+pub(super) fn norm<T: Real, const D: usize>(nodes: &[Nodal<T>]) -> f64 {
+    let square = |node: &Nodal<T>| node.vector::<D>().map(Real::to_f64).norm_squared();
+    nodes.iter().map(square).sum::<f64>().sqrt()
+}

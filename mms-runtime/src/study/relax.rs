@@ -1,0 +1,63 @@
+//! A run to the equilibrium of a field that does not move, by dynamic relaxation: how is said where
+//! [`Ramp`](crate::solver::Ramp) is.
+
+use super::course::{Course, Stopwatch};
+use super::run::Ended;
+use super::{Observer, Watch};
+use crate::failure::{Cause, Failure};
+use crate::real::Real;
+use crate::solver::{AnySolver, Residual};
+
+/// A run has so many times the steps of its ramp, at most.
+const MOST: usize = 1000;
+
+/// The residual is looked at after so many steps.
+const BETWEEN: usize = 32;
+
+/// Takes a solver along its ramp, and on until the body is in equilibrium. Errors are those of the end.
+pub(super) fn relax<T: Real, const D: usize>(
+    solver: &mut dyn AnySolver<'_, T, D>,
+    watch: Watch,
+    stopwatch: Stopwatch,
+    observer: &mut dyn Observer,
+) -> Result<Ended, Failure> {
+    let ramp = solver.steps();
+    let most = ramp.saturating_mul(MOST);
+    let mut course = Course::begin(watch, &solver.present(), most, None, stopwatch, observer)?;
+    let mut energy = 0.0;
+    advance(solver, ramp, &mut energy, &mut course)?;
+    // All faces have arrived.
+    solver.halt();
+    let mut residual = solver.out_of_balance()?;
+    while !residual.is_small() {
+        if solver.present().step >= most {
+            let Residual { relative: residual, tolerance } = residual;
+            return Err(solver.present().failed(Cause::NotRelaxed { residual, tolerance }));
+        }
+        advance(solver, BETWEEN, &mut energy, &mut course)?;
+        residual = solver.out_of_balance()?;
+    }
+    solver.halt();
+    let (details, snapshots) = course.settle(&solver.present(), residual)?;
+    Ok((details, solver.seconds(), snapshots))
+}
+
+/// Takes so many steps, and halts the body wherever its kinetic energy falls below that of the step before.
+fn advance<T: Real, const D: usize>(
+    solver: &mut dyn AnySolver<'_, T, D>,
+    steps: usize,
+    energy: &mut f64,
+    course: &mut Course<'_, T, D>,
+) -> Result<(), Failure> {
+    for _ in 0..steps {
+        solver.step()?;
+        course.pass(&solver.present());
+        course.keep(&solver.present(), &|| solver.state())?;
+        let now = solver.kinetic_energy();
+        *energy = if now < *energy { 0.0 } else { now };
+        if *energy == 0.0 {
+            solver.halt();
+        }
+    }
+    Ok(())
+}
