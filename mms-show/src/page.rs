@@ -57,11 +57,7 @@ pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
     for section in &document.sections {
         blocks.push(Block::Heading {
             name: section.quantity.name(),
-            relation: Some(relation(
-                section.quantity,
-                &document.material.kind,
-                document.is_static,
-            )),
+            relation: Some(relation(section.quantity, &document.material.kind, document.is_static)),
             note: None,
             operations: Some(operations(section)),
         });
