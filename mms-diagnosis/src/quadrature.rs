@@ -218,6 +218,10 @@ mod tests {
             Body::Annulus { inner: 1.0, outer: 2.0, theta: [0.3, 2.9] },
             Body::Annulus { inner: 0.5, outer: 2.0, theta: [0.0, std::f64::consts::TAU] },
             Body::Box { lower: Vector::from([1.0, -1.0]), upper: Vector::from([3.0, 2.0]) },
+            Body::Polygon {
+                vertices: vec![[0.0, 0.0], [2.0, 0.0], [1.0, 1.0], [1.5, 2.0], [0.0, 2.0]],
+                names: vec!["a", "b", "c", "d", "e"],
+            },
         ];
         for body in bodies {
             let Quadrature { points, volumes, pieces } = Quadrature::<2>::new(&body, 14);
@@ -226,6 +230,24 @@ mod tests {
                 let slope = |x: &Vector<f64, 2>| f64::from(a) * x[0].powi(a - 1) * x[1].powi(b);
                 let inside: f64 = points.iter().zip(&volumes).map(|(x, v)| v * slope(x)).sum();
                 let through: f64 = pieces.iter().map(|it| it.area[0] * value(&it.position)).sum();
+                assert!((inside - through).abs() < 1e-11, "{body:?}: {inside}, {through}");
+            }
+        }
+        let turn = std::f64::consts::TAU;
+        let in_space = [
+            Body::Cylinder { inner: 0.0, outer: 1.5, theta: [0.0, turn], z: [-1.0, 0.5] },
+            Body::Cylinder { inner: 0.5, outer: 1.5, theta: [0.3, 2.9], z: [-1.0, 0.5] },
+            Body::Sphere { inner: 0.0, outer: 1.5, theta: [0.0, turn], phi: [0.0, turn / 2.0] },
+            Body::Sphere { inner: 0.5, outer: 1.5, theta: [0.3, 2.9], phi: [0.4, 2.0] },
+        ];
+        for body in in_space {
+            let Quadrature { points, volumes, pieces } = Quadrature::<3>::new(&body, 14);
+            for axis in 0..3 {
+                let value = |x: &Vector<f64, 3>| x[axis].powi(3) * x[(axis + 1) % 3];
+                let slope = |x: &Vector<f64, 3>| 3.0 * x[axis].powi(2) * x[(axis + 1) % 3];
+                let inside: f64 = points.iter().zip(&volumes).map(|(x, v)| v * slope(x)).sum();
+                let through: f64 =
+                    pieces.iter().map(|it| it.area[axis] * value(&it.position)).sum();
                 assert!((inside - through).abs() < 1e-11, "{body:?}: {inside}, {through}");
             }
         }

@@ -151,10 +151,9 @@ impl System {
         // The ends, and of an angle the quarters of a turn between them.
         let places = |own: usize| {
             let [first, last] = axis(own);
-            let quarters = match self.is_angle(own) {
-                true => (first / FRAC_PI_2).ceil() as i64..=(last / FRAC_PI_2).floor() as i64,
-                false => 1..=0,
-            };
+            // A length has none, however large it is.
+            let [from, to] = if self.is_angle(own) { [first, last] } else { [0.5, 0.0] };
+            let quarters = (from / FRAC_PI_2).ceil() as i64..=(to / FRAC_PI_2).floor() as i64;
             quarters.map(|k| k as f64 * FRAC_PI_2).chain([first, last])
         };
         let mut corners = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];

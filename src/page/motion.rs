@@ -157,7 +157,7 @@ fn cells(body: &Extent<f64>) -> Vec<Cell> {
             }
             // Radius, theta and phi are left-handed, so that seen from outside they run the other way.
             let is_mirrored = block.system == System::Spherical;
-            let along = |axis: usize| faces(axis, block.bounds[axis], &parts_along);
+            let along = |axis: usize| faces(axis, block.bounds[axis], parts_along);
             let all = (0..3).flat_map(along).map(|cell| {
                 let corners = cell.iter().map(|at| place([at[0], at[1], at[2]]));
                 if is_mirrored { corners.rev().collect() } else { corners.collect() }
