@@ -487,7 +487,7 @@ fn no_shipped_material_has_a_stress_at_rest() {
             true => match found {
                 Rest::Pressed(stress, names) => {
                     let is_spherical = |(k, it): (usize, &f64)| {
-                        (*it == 0.0) == !k.is_multiple_of(compiled.field.dimension + 1)
+                        (*it == 0.0) != k.is_multiple_of(compiled.field.dimension + 1)
                     };
                     assert!(stress.iter().enumerate().all(is_spherical), "{name}: {stress:?}");
                     assert_eq!(names, ["p"]);

@@ -118,7 +118,7 @@ impl Strain {
         let deformation = identity.add(graph, &plain);
         let mend = |graph: &mut Graph, plain: &Tensor| {
             let settled = plain.settle(graph, relations);
-            settled.mend(graph, plain, amplitude)
+            mended_tensor(graph, plain, &settled, amplitude)
         };
         let gradient = mend(graph, &gradient);
         let transposed = gradient.transpose();
@@ -341,8 +341,9 @@ impl Motion {
         };
         let [velocity, acceleration] =
             [velocity, acceleration].map(|rate| mended(graph, amplitude, &rate, &rate));
-        let second_gradient: Vec<Tensor> =
-            second_gradient.iter().map(|second| second.mend(graph, second, amplitude)).collect();
+        let second_gradient: Vec<Tensor> = (second_gradient.iter())
+            .map(|second| mended_tensor(graph, second, second, amplitude))
+            .collect();
         let mut motion = Motion {
             displacement,
             velocity,
@@ -488,6 +489,17 @@ pub(super) fn traceless(graph: &mut Graph, model: &Model, gradient: Tensor) -> T
         true => rest,
         false => gradient.at(row, column),
     })
+}
+
+/// The settled tensor, with forms that keep their digits for components that lose them: see [`Amplitude::mend`].
+fn mended_tensor(
+    graph: &mut Graph,
+    plain: &Tensor,
+    settled: &Tensor,
+    amplitude: Option<&Amplitude>,
+) -> Tensor {
+    let mended = mended(graph, amplitude, plain.components(), settled.components());
+    Tensor::from_components(settled.dimension(), mended)
 }
 
 /// A_K,J of a vector field A.

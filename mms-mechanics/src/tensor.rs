@@ -1,6 +1,5 @@
 //! Small square matrices of expressions.
 
-use crate::amplitude::{Amplitude, mended};
 use mms_symbolic::expr::{Expr, Graph, Rational};
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
@@ -63,17 +62,6 @@ impl Tensor {
         let halved = relations.halve(graph, &self.components);
         let reduced = reduce(graph, &halved, relations);
         Self::from_components(self.dimension, settle(graph, &reduced))
-    }
-
-    /// The same matrix, with forms that keep their digits for components that lose them: see [`Amplitude::mend`].
-    pub(super) fn mend(
-        &self,
-        graph: &mut Graph,
-        plain: &Tensor,
-        amplitude: Option<&Amplitude>,
-    ) -> Self {
-        let mended = mended(graph, amplitude, &plain.components, &self.components);
-        Self::from_components(self.dimension, mended)
     }
 
     /// `A + B`.

@@ -2,6 +2,7 @@
 
 use crate::balance::{BalanceSpec, balances};
 use crate::check::{CheckSpec, ExtremeSpec, check, extremes};
+use crate::defined::{own_quantities, possible_quantities};
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::domain::{BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported};
@@ -11,7 +12,6 @@ use crate::formula::Formula;
 use crate::given::{GivenSpec, givens};
 use crate::material::{MaterialUse, material_use};
 use crate::names::{Keeper, Names};
-use crate::own::{own_quantities, possible_quantities};
 use crate::rigid::{RigidSpec, rigid};
 use crate::source::{SourceId, Sources, Span};
 use crate::study::{StudySpec, studies};

@@ -13,6 +13,7 @@
 mod balance;
 mod brackets;
 mod check;
+mod defined;
 pub mod diagnostic;
 mod document;
 mod domain;
@@ -44,6 +45,7 @@ mod value;
 
 pub use balance::{BalanceLaw, BalanceSpec};
 pub use check::{CheckSpec, ExtremeSpec, REGIMES};
+pub use defined::{own_quantities, settle_checks};
 pub use document::MAX_FILE;
 pub use domain::{
     BODIES, BODY_KEYS, Body, BoundarySpec, Claim, DomainSpec, Face, MAX_VERTICES, Polygon, Round,

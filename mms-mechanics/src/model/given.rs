@@ -1,13 +1,12 @@
 //! Given fields and further balances of a field file, as expressions of X and t.
 
 use super::{Reader, RigidMotion};
-use crate::kinematics::gradient_of;
 use crate::tensor::{Tensor, dot};
 use mms_spec::diagnostic::Diagnostic;
-use mms_spec::own::{Own, Part, own_quantities};
+use mms_spec::own::{Own, Part};
 use mms_spec::source::Span;
 use mms_spec::syntax::{self, Kind};
-use mms_spec::{BalanceLaw, BalanceSpec, FieldSpec, Formula, MaterialSpec};
+use mms_spec::{BalanceLaw, BalanceSpec, FieldSpec, Formula, MaterialSpec, own_quantities};
 use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Expr, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
@@ -123,8 +122,16 @@ impl Reader<'_> {
         axes.map(|axis| differentiate(self.graph, &[value], Symbol::Coordinate(axis))[0]).collect()
     }
 
+    /// H of a displacement.
+    fn gradient(&mut self, displacement: &[Expr]) -> Tensor {
+        let slopes =
+            displacement.iter().map(|component| self.slopes(*component, displacement.len()));
+        let slopes: Vec<_> = slopes.collect();
+        Tensor::from_fn(displacement.len(), |row, column| slopes[row][column])
+    }
+
     fn moved(&mut self, displacement: &[Expr], rigid: Option<&RigidMotion>) -> Moved {
-        let inner = gradient_of(self.graph, displacement);
+        let inner = self.gradient(displacement);
         let identity = Tensor::identity(self.graph, displacement.len());
         let jacobian = identity.add(self.graph, &inner).determinant(self.graph);
         let stretched = inner.transpose().mul(self.graph, &inner);
@@ -137,7 +144,7 @@ impl Reader<'_> {
             None => displacement.to_vec(),
         };
         let gradient = match rigid {
-            Some(_) => gradient_of(self.graph, &displacement),
+            Some(_) => self.gradient(&displacement),
             None => inner,
         };
         Moved { gradient: padded(self, &gradient, false), displacement, right, jacobian }
@@ -236,7 +243,7 @@ impl Reader<'_> {
             return Some(differentiate(self.graph, &[component], Symbol::Time)[0]);
         }
         let letters = name.trim_end_matches(|it: char| it.is_ascii_digit());
-        let [row, column] = name[letters.len()..].as_bytes() else { return None };
+        let [row, column] = &name.as_bytes()[letters.len()..] else { return None };
         let place =
             |digit: u8| usize::from(digit).checked_sub(usize::from(b'1')).filter(|it| *it < 3);
         let (row, column) = (place(*row)?, place(*column)?);
