@@ -131,6 +131,28 @@ fn the_bar_is_the_bar() {
 }
 
 #[test]
+fn a_field_names_the_quantities_of_its_own() {
+    let square = Handle::new(c"given_pressure_2d");
+    // SAFETY: the field is good.
+    let names: Vec<_> = unsafe {
+        (0..mms_field_own_quantity_count(square.0))
+            .map(|index| owned(mms_field_own_quantity_name(square.0, index)).expect("a name"))
+            .collect()
+    };
+    assert_eq!(names, ["p", "p_gradient", "p_rate", "volume_residual"]);
+    // SAFETY: as above.
+    assert!(unsafe { mms_field_own_quantity_name(square.0, names.len()) }.is_null());
+    // p0 k cos(k X) cos(k Y) sin(w t) and its slopes at X = 0 and Y = 1/3.
+    let (time, point) = (0.01, [0.0, 1.0 / 3.0]);
+    let wave = (400.0_f64.sqrt() * std::f64::consts::PI * time).sin();
+    let p = square.evaluate(c"p", time, &point, None, 1).expect("values");
+    assert!((p[0] - 0.5e5 * wave).abs() < 1e-10, "{p:?}");
+    let slope = square.evaluate(c"p_gradient", time, &point, None, 2).expect("values");
+    let expected = -1e5 * std::f64::consts::PI * 0.75_f64.sqrt() * wave;
+    assert!(slope[0].abs() < 1e-9 && (slope[1] - expected).abs() < 1e-9, "{slope:?}");
+}
+
+#[test]
 fn a_quantity_has_its_components_side_by_side() {
     let cube = Handle::new(c"cyclic_shear_3d");
     let points = [0.1, 0.2, 0.3, 0.7, 0.6, 0.5];

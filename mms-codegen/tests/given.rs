@@ -152,12 +152,12 @@ fn the_source_of_a_balance_is_the_rate_of_its_storage_and_the_divergence_of_its_
             &format!(
                 "[parameters]\nk = {{ value = 0.7 }}\n[given]\nT = {{ value = \"3 + X^2*sin(t + X)\" }}\n{SOLID}\
                  [[balance]]\nname = \"heat\"\nstorage = \"2*J*T + T_t*u_x\"\nflux = [{}]\n\
-                 [[balance]]\nname = \"stored\"\nresidual = \"2*J*T + T_t*u_x\"\n",
+                 [[balance]]\nname = \"heat\"\nresidual = \"2*J*T + T_t*u_x\"\n",
                 flux.join(", ")
             ),
         ));
         let at = place(dimension);
-        let rate = slope(&compiled, "stored_residual", &at, None).remove(0);
+        let rate = slope(&compiled, "heat_residual", &at, None).remove(0);
         let slopes = (0..dimension)
             .map(|axis| slope(&compiled, "heat_flux", &at, Some(axis)).swap_remove(axis));
         let source = sum(slopes.chain([rate]));

@@ -6,6 +6,7 @@ mod coverage;
 mod faces;
 mod fuzz;
 mod gallery;
+mod given;
 mod literals;
 mod motion;
 mod names;

@@ -87,16 +87,15 @@ impl Reader<'_> {
         displacement: &[Expr],
         rigid: Option<&RigidMotion>,
     ) -> Option<OwnQuantities> {
-        let mut own = OwnQuantities::new();
-        let balances: Vec<_> = field.balances.iter().collect();
-        let mut flows = Vec::new();
-        if !balances.is_empty() {
+        let mut parts = Vec::new();
+        if !field.balances.is_empty() {
             let moved = self.moved(displacement, rigid);
-            for balance in balances {
-                flows.push(self.balance(field, material, balance, &moved));
+            for balance in &field.balances {
+                parts.push(self.balance(field, material, balance, &moved));
             }
         }
-        let flows = flows.into_iter().collect::<Option<Vec<_>>>();
+        let parts = parts.into_iter().collect::<Option<Vec<_>>>();
+        let mut own = OwnQuantities::new();
         for quantity in own_quantities(field, material) {
             let value = || self.scope.known(&quantity.of);
             let components = match quantity.part {
@@ -107,9 +106,9 @@ impl Reader<'_> {
                 }
                 Part::Rate => differentiate(self.graph, &[value()?], Symbol::Time),
                 part => {
-                    let of = |balance: &BalanceSpec| balance.name.value == quantity.of;
-                    let place = field.balances.iter().position(of)?;
-                    flows.as_ref()?[place].get(&part)?.clone()
+                    let balances = field.balances.iter().zip(parts.as_ref()?);
+                    let mut of_name = balances.filter(|(it, _)| it.name.value == quantity.of);
+                    of_name.find_map(|(_, parts)| parts.get(&part))?.clone()
                 }
             };
             own.insert(quantity, components);
