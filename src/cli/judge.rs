@@ -60,8 +60,8 @@ pub struct Judge {
     results: results::Options,
     /// The order to judge against: without it 2, and of results one more than the degree of their cells. H1 has the degree of
     /// the cells at most, or one less than this order in a table. Stresses and strains in cells have that of H1 at least, and v
-    /// and a what --start says. NAME is a norm, a quantity, QUANTITY:NORM or a column, whose order is then this one; `time` is
-    /// the order in dt where h and dt are refined each by itself.
+    /// and a what --start says. NAME is a norm, a quantity, QUANTITY:NORM or a column, whose order is then this one; H1 of a
+    /// quantity follows from it as above. `time` is the order in dt where h and dt are refined each by itself.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',')]
     expected_order: Vec<Order>,
     /// How far the observed order may be from the expected one.

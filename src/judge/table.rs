@@ -72,20 +72,25 @@ impl Orders {
         Self { usual: own.unwrap_or(self.usual), degree, ..self }
     }
 
-    /// The order of gradients: the degree of the cells, if nothing else limits the order; else one less than the usual one.
+    /// The usual order of gradients.
     pub(super) fn of_gradients(&self) -> f64 {
-        self.degree.map_or(self.usual - 1.0, |degree| self.usual.min(degree.into()))
+        self.of_gradient(self.usual)
     }
 
-    fn find(&self, names: &[&str]) -> Option<f64> {
-        self.named.iter().find(|(name, _)| names.contains(&name.as_str())).map(|(_, order)| *order)
+    /// The order of the gradient of what has an order: the degree of the cells, if nothing else limits the order; else one less.
+    fn of_gradient(&self, order: f64) -> f64 {
+        self.degree.map_or(order - 1.0, |degree| order.min(degree.into()))
+    }
+
+    fn find(&self, names: &[&str]) -> Option<&(String, f64)> {
+        self.named.iter().find(|(name, _)| names.contains(&name.as_str()))
     }
 
     /// Of a norm of a quantity in this column, in h and in dt.
     pub(super) fn of(&self, column: &str, quantity: &str, norm: &str) -> [Expected; 2] {
         let usual = if norm == "h1" { self.of_gradients() } else { self.usual };
         let space = self.given(column, quantity, norm).unwrap_or(usual);
-        let time = self.find(&[TIME]).unwrap_or(self.usual);
+        let time = self.find(&[TIME]).map_or(self.usual, |(_, order)| *order);
         [space, time].map(|order| self.expected(order))
     }
 
@@ -94,11 +99,15 @@ impl Orders {
         Expected::new(order, self.tolerance)
     }
 
-    /// The order that is given of a norm of a quantity: of both, of the column, or of one of the two.
+    /// The order that is given of a norm of a quantity: of both, of the column, or of one of the two. The order of a quantity is
+    /// that of its values; in H1 it has the order of their gradient.
     pub(super) fn given(&self, column: &str, quantity: &str, norm: &str) -> Option<f64> {
         let both = [column, quantity].map(|it| format!("{it}{OF}{norm}"));
         let of_both = self.find(&[&both[0], &both[1]]);
-        of_both.or_else(|| self.find(&[column])).or_else(|| self.find(&[quantity, norm]))
+        let (name, order) =
+            of_both.or_else(|| self.find(&[column])).or_else(|| self.find(&[quantity, norm]))?;
+        let says_h1 = || matches!(Column::named(name), Column::Error { norm, .. } if norm == "h1");
+        Some(if norm == "h1" && !says_h1() { self.of_gradient(*order) } else { *order })
     }
 
     /// Refuses orders of what is not in the table.

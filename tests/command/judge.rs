@@ -138,6 +138,19 @@ fn quantities_are_judged_each_by_itself() {
     folder.run(&arguments).exits(0).prints("pass: 3 of 3 quantities pass");
 }
 
+/// Of a quantity that is named, H1 has one order less, unless its own is named as well.
+#[test]
+fn the_order_of_a_quantity_is_that_of_its_values() {
+    let rows = [1.0, 0.5, 0.25].map(|h: f64| format!("{h},{},{}\n", h.powi(3), h * h));
+    let table = format!("h,u_l2,u_h1\n{}", rows.concat());
+    for good in ["u=3", "u=3,u_h1=2", "u=1,u_l2=3,u_h1=2"] {
+        judge(&table, &format!("--expected-order {good}")).exits(0).prints("pass");
+    }
+    for bad in ["u=4", "u=3,u_h1=3"] {
+        judge(&table, &format!("--expected-order {bad}")).exits(1).prints("fail");
+    }
+}
+
 /// Replicates, in a table between blanks: three rows of each h.
 #[test]
 fn rows_of_one_h_are_replicates() {

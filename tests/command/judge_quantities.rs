@@ -347,6 +347,9 @@ fn elements_of_degree_2_have_an_order_more() {
     run.prints("expected order: 3, one more than the degree of the cells");
     run.prints("pass: observed order 3.0").prints("expected 3");
     folder.mms(&format!("{judge} --expected-order 2")).exits(1).prints("expected 2");
+    // An order of u is that of its values, and not that of its gradient.
+    folder.mms(&format!("{judge} --expected-order u=3")).exits(0).prints("expected 3");
+    folder.mms(&format!("{judge} --expected-order u=3,u:H1=3")).exits(1).prints("(h1;");
 }
 
 /// A table of the bar with errors of second order, and of a solver's tolerance that is the same on all meshes.

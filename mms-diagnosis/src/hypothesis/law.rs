@@ -137,11 +137,12 @@ fn other_laws<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
 fn of_law<const D: usize, const K: usize>(at: &Given<'_, D>, tau: &mut [Matrix<f64, D>]) {
     let Some(moduli) = at.exact.moduli(at.reference) else { return };
     for ((tau, h), moduli) in tau.iter_mut().zip(at.gradient).zip(moduli) {
-        *tau = LAWS[K].stress(moduli, h);
+        let own = at.exact.law.map_or(*tau, |law| law.stress(moduli, h));
+        *tau += LAWS[K].stress(moduli, h) - own;
     }
 }
 
-/// Computes each tau with other moduli.
+/// Computes each tau with other moduli. What given fields add to it, as a temperature does, stays.
 fn with_moduli<const D: usize>(
     at: &Given<'_, D>,
     tau: &mut [Matrix<f64, D>],
@@ -150,7 +151,7 @@ fn with_moduli<const D: usize>(
     let (Some(law), Some(moduli)) = (at.exact.law, at.exact.moduli(at.reference)) else { return };
     let size = at.size.first().copied().unwrap_or(1.0);
     for ((tau, h), moduli) in tau.iter_mut().zip(at.gradient).zip(moduli) {
-        *tau = law.stress(other(moduli, size), h);
+        *tau += law.stress(other(moduli, size), h) - law.stress(moduli, h);
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod evidence;
 mod field;
+mod given;
 mod nodal;
 #[path = "../../../tests/support/sampled.rs"]
 mod sampled;
