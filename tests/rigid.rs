@@ -111,8 +111,15 @@ impl Field {
         interpreter.output(output)
     }
 
-    fn response(&self, response: Response, at: &[Precise], gradient: &[Precise]) -> Vec<Precise> {
+    fn response(
+        &self,
+        response: Response,
+        time: &Precise,
+        at: &[Precise],
+        gradient: &[Precise],
+    ) -> Vec<Precise> {
         let mut interpreter = Interpreter::new(&self.compiled.program, &self.parameters);
+        interpreter.set_time(time);
         let output = Output::Response(response);
         let plan = interpreter.plan(&[output]);
         interpreter.set_point(&plan, Point { coordinates: at, normal: &[], gradient });
@@ -256,7 +263,8 @@ fn composed(inner: &Field, quantity: Quantity, at: &Sample<Precise>) -> Vec<Prec
         Quantity::Velocity => plus(&plus(&applied(q, &value), &applied(q1, &x())), d1),
         Quantity::Acceleration | Quantity::BodyForce => plus(&applied(q, &value), &apparent()),
         Quantity::BodyForceDensity => {
-            let density = inner.response(Response::Density, &at.coordinates, &[]).remove(0);
+            let density =
+                inner.response(Response::Density, &at.time, &at.coordinates, &[]).remove(0);
             plus(&applied(q, &value), &scaled(&apparent(), &density))
         }
         Quantity::CurrentBodyForceDensity => {
@@ -350,11 +358,11 @@ fn compare_with_differences(twin: &Field, point: &Sample<Precise>, pairs: &mut P
     let stress = of(Quantity::FirstPiolaKirchhoff);
     for (entry, stress) in stress.into_iter().enumerate() {
         let energy = slope(&number(1e-20), |step| {
-            twin.response(Response::StrainEnergy, at, &moved(&gradient, entry, step))
+            twin.response(Response::StrainEnergy, time, at, &moved(&gradient, entry, step))
         });
         pairs.add("P", &[stress], &energy);
     }
-    let density = twin.response(Response::Density, at, &[]).remove(0);
+    let density = twin.response(Response::Density, time, at, &[]).remove(0);
     let inertia = scaled(&of(Quantity::Acceleration), &density);
     let force = scaled(&of(Quantity::BodyForce), &density);
     pairs.add("rho0 a", &plus(&force, &divergence), &inertia);

@@ -105,7 +105,7 @@ size_t mms_gallery_size(void);
 // order, and are never freed.
 const char *mms_gallery_name(size_t index);
 
-// How many quantities there are. Every field has all of them.
+// How many quantities every field has.
 size_t mms_quantity_count(void);
 
 // The name of a quantity, such as "body_force"; NULL from `mms_quantity_count()` on. Names are never
@@ -181,6 +181,13 @@ size_t mms_field_face_count(const struct mms_field *field);
 
 // The name of a face, such as "x_max" or "inner"; NULL beyond the last.
 const char *mms_field_face_name(const struct mms_field *field, size_t index);
+
+// How many quantities the file of a field defines beside those of every field: of given fields and of balances; 0 for NULL.
+size_t mms_field_own_quantity_count(const struct mms_field *field);
+
+// The name of a quantity that the file of a field defines, such as "p_gradient"; NULL beyond the last.
+const char *mms_field_own_quantity_name(const struct mms_field *field,
+                                        size_t index);
 
 // Writes the value of a parameter to `*value`.
 //

@@ -38,6 +38,8 @@ pub enum Holds {
     Positive,
     /// The cells of each level, coarse to fine: at least two increasing whole numbers.
     Levels,
+    /// The name of a quantity: one of every field, or of the file's own.
+    Quantity,
     /// One of these words.
     Word(fn() -> Vec<&'static str>),
     /// A shipped material's name, or the path of a material file.
@@ -277,7 +279,7 @@ pub const DOMAIN: &[Key] = &[
 
 /// `[[check]]`.
 pub const CHECK: &[Key] = &[
-    required("quantity", Holds::Word(quantities), "The quantity that the closed form is of."),
+    required("quantity", Holds::Quantity, "The quantity that the closed form is of."),
     required(
         "equals",
         Holds::Formulas(Length::Quantity),

@@ -16,7 +16,7 @@ use crate::gallery;
 pub fn of_field() -> Value {
     let dimensions = (1..=3).flat_map(|dimension| [in_dimension(dimension), box_faces(dimension)]);
     let bodies = BODIES.iter().map(keys_of).chain(round_faces()).chain([edges(), nothing()]);
-    let conditions = dimensions.chain(bodies).chain([rigid(), motions()]);
+    let conditions = dimensions.chain(bodies).chain([rigid(), motions(), balances()]);
     conditions.chain(materials()).collect()
 }
 
@@ -67,6 +67,7 @@ fn in_dimension(dimension: usize) -> Value {
     let shapes: Vec<_> = BODIES.iter().filter(fits).map(|shape| shape.name).collect();
     asked.push(at("domain.shape", json!({ "enum": shapes })));
     asked.push(at("rigid.rotation", rotation(dimension)));
+    asked.push(at("balance", json!({ "items": at("flux", count(dimension)) })));
     asked.push(at("check", json!({ "items": all(components(dimension)) })));
     if_then(has(&[dimension_is(dimension)]), all(asked))
 }
@@ -173,6 +174,15 @@ fn nothing() -> Value {
     if_then(has(&[shape_is("none")]), refused)
 }
 
+/// A balance has a storage, a flux or both; a constraint has a residual alone.
+fn balances() -> Value {
+    let one_of = json!([{ "required": ["storage"] }, { "required": ["flux"] }]);
+    let flow = json!({ "anyOf": one_of, "properties": { "residual": false } });
+    let constraint =
+        json!({ "required": ["residual"], "properties": { "storage": false, "flux": false } });
+    at("balance", json!({ "items": { "anyOf": [flow, constraint] } }))
+}
+
 /// A rigid motion has a rotation, a translation or both.
 fn rigid() -> Value {
     at("rigid", json!({ "minProperties": 1 }))
@@ -201,7 +211,10 @@ fn keys(spec: &MaterialSpec) -> Value {
     let mut known = format::names(MATERIAL);
     known.retain(|key| *key != "fibre" || spec.has_fibres());
     known.extend(parameters.iter().chain(&moduli).copied());
+    let givens = spec.givens.iter().map(|given| given.name.value.as_str());
+    known.extend(givens.clone());
     let mut required = parameters;
+    required.extend(givens);
     required.extend(spec.has_fibres().then_some("fibre"));
     let mut asked = json!({ "required": required, "propertyNames": { "enum": known } });
     if !pairs.is_empty() {

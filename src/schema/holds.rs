@@ -1,10 +1,10 @@
 //! What a key holds, as a schema of its value.
 
 use mms_codegen::materials::MATERIALS;
-use mms_spec::format;
-use mms_spec::format::{Holds, Key, Length};
+use mms_spec::format::{self, Holds, Key, Length, quantities};
 use mms_spec::language::FUNCTIONS;
 use mms_spec::names::{COORDINATES, INVARIANTS, Keeper, MAX_NAME};
+use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Face, MAX_COUNT, MAX_VERTICES};
 use serde_json::{Map, Value, json};
 
@@ -56,6 +56,7 @@ fn value(holds: &Holds) -> Value {
             "minItems": 2,
             "uniqueItems": true,
         }),
+        Holds::Quantity => quantity(),
         Holds::Word(words) => json!({ "enum": words() }),
         Holds::Model => model(),
         Holds::Formula => formula(),
@@ -92,6 +93,20 @@ fn value(holds: &Holds) -> Value {
             schema
         }
     }
+}
+
+/// A quantity that may have a closed form: one of every field, or any name that no quantity of every field has.
+fn quantity() -> Value {
+    let known = quantities();
+    let is_other = |quantity: &Quantity| !known.contains(&quantity.name());
+    let all = Quantity::ALL.iter().chain(Quantity::ON_REQUEST);
+    let others: Vec<_> = all.filter(|it| is_other(it)).map(|it| it.name()).collect();
+    json!({
+        "anyOf": [
+            { "enum": known },
+            { "type": "string", "pattern": "^[A-Za-z_][A-Za-z0-9_]*$", "not": { "enum": others } },
+        ]
+    })
 }
 
 fn whole_number() -> Value {

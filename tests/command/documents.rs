@@ -252,6 +252,7 @@ fn documents_have_the_keys_of_the_page() {
         ("accuracy", "accuracy bar.toml --quantity u --points 2", 0),
         ("accuracy", "accuracy axis_aligned_1d --quantity u --regime jacobian_1e3 --points 2", 1),
         ("run", "run bar.toml --cells 4", 0),
+        ("run", "run heated_square_2d --cells 4", 0),
         ("run", "run bar.toml --cells 8 --courant 3 --allow-unstable", 3),
         ("study", "study bar.toml --cells 4,8,16 --fit --excluded", 0),
         ("study", "study bar.toml --cells 8 --refine time --levels 2", 1),

@@ -14,6 +14,7 @@ use verdict::{Kind, json_of, reader_accepts};
 const BEYOND: &[(&str, &str)] = &[
     ("duplicate_name", "parameters and definitions share one set of names"),
     ("study_orders", "studies of one method are compared"),
+    ("given_checks", "closed forms are about quantities that the file defines"),
     ("extreme", "a set names parameters of the same file, and names of extremes differ"),
 ];
 

@@ -22,7 +22,8 @@ fn the_checks_of_every_target_see_the_gradient_of_a_given_pressure() {
         largest = force.iter().fold(largest, |largest, it| largest.max(it.abs()));
         lost = pressed.iter().fold(lost, |lost, it| lost.max(it.abs()));
     }
-    let accepted = f64::from(vectors.accepted[place("body_force_density")]) * f64::EPSILON * largest;
+    let accepted =
+        f64::from(vectors.accepted[place("body_force_density")]) * f64::EPSILON * largest;
     assert!(lost > 1e6 * accepted, "{lost:e}, {accepted:e}");
     for name in ["p", "p_gradient", "p_rate", "volume_residual"] {
         assert!(of(name).iter().flatten().any(|it| *it != 0.0), "{name}");
