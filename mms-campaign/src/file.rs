@@ -32,7 +32,7 @@ pub struct Campaign {
     pub sources: Sources,
     /// How the solver is run.
     pub solver: Solver,
-    /// What it is run on, each by a name of its own; of a study whose parameters are stepped, each step.
+    /// The studies to run, each of its own name. A study whose parameters are stepped stands here once per step.
     pub studies: Vec<Study>,
 }
 
@@ -68,7 +68,7 @@ pub struct Solver {
 pub struct Study {
     /// Its name; of a step, with the parameters that are stepped.
     pub name: String,
-    /// What the file calls it.
+    /// The name of the study in the file, which its steps share.
     pub family: String,
     /// A gallery name, or the path of a field file.
     pub field: Spanned<String>,

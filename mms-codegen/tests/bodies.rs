@@ -177,7 +177,7 @@ fn false_claims_on_curved_faces_are_refuted_there() {
     assert!(failure.is_err(), "u is not 0 on the slope");
 }
 
-/// What is given on a face, against the normal that geometry says and the quantities at a point of the face.
+/// Compares the functions of each face with the normal of its geometry and the quantities at a point of it.
 #[test]
 fn each_face_of_each_body_has_its_own_normal() {
     let plane = "\"sin(X + 2*Y)*t/9\", \"X*Y^2*t^2/40\"";

@@ -73,7 +73,7 @@ fn arguments(spec: &MaterialSpec, given: &str) -> String {
 static FIELDS: LazyLock<Vec<(MaterialSpec, Compiled)>> =
     LazyLock::new(|| specs().iter().flat_map(|spec| of(spec, "1/3 + X*sin(1 + t)/5")).collect());
 
-/// The same with given fields at rest.
+/// The materials with their given fields at rest.
 static RESTING: LazyLock<Vec<(MaterialSpec, Compiled)>> = LazyLock::new(|| {
     let is_given = |it: &&(MaterialSpec, Compiled)| !it.0.givens.is_empty();
     let others = FIELDS.iter().filter(|it| !is_given(it)).cloned();

@@ -90,7 +90,7 @@ struct Runs<'a, const D: usize> {
     errors: &'a [(Quantity, f64)],
 }
 
-/// Who tells what a mistake adds.
+/// The two ways to compute the errors that a mistake adds.
 enum Solvers<'a, const D: usize> {
     /// A run with the mistake, and one without.
     Runs { plan: Plan<'a, D>, right: Vec<Vec<f64>> },
@@ -118,7 +118,7 @@ where
         Ok(Solvers::Runs { plan, right })
     }
 
-    /// What a mistake adds to each time and quantity; `None` where it stops the solver.
+    /// The errors that a mistake adds, per time and quantity; `None` if it stops the solver.
     fn added(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
         match self {
             Solvers::Runs { plan, right } => {

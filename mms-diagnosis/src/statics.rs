@@ -35,7 +35,7 @@ const FOUND: f64 = 1e-6;
 const BITS: u32 = 6;
 /// The step of differences of P.
 const STEP: f64 = 1e-6;
-/// What is less out of balance than this part of the stress is so by rounding.
+/// The part of the stress below which forces that are out of balance are of rounding.
 const ROUNDING: f64 = 1e-12;
 /// A step that leads to a singular F is halved so often at most.
 const HALVES: usize = 6;
@@ -359,7 +359,7 @@ pub struct Statics<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Statics<'a, D> {
-    /// What a mistake adds to the errors of a right solver; `None` where it has no equilibrium near the exact one.
+    /// The errors that a mistake adds to those of a right solver; `None` if it has no equilibrium near the exact one.
     pub fn added(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
         self.errors(&self.equilibrium.made(hypothesis, size, System::balance)?)
     }

@@ -21,7 +21,7 @@ pub struct Request {
     pub path: LitStr,
     /// The name of the module, where it is not the file's.
     pub name: Option<Ident>,
-    /// What of the field is wanted, but for the quantities.
+    /// The wanted parts of the field, without the quantities.
     selection: Selection,
     /// The names of the quantities that are wanted; `None` stands for all.
     quantities: Option<Vec<Ident>>,

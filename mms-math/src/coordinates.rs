@@ -15,7 +15,7 @@ pub enum System {
 
 /// The arithmetic that positions are computed in: of numbers, or of formulas.
 pub trait Arithmetic {
-    /// What it computes with.
+    /// The type of the values, such as a number or a formula.
     type Value: Clone;
 
     /// A whole number.
@@ -204,12 +204,12 @@ impl System {
     }
 }
 
-/// What a coordinate is in a part of a body.
+/// The extent of one coordinate over a part of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Side {
-    /// It varies between bounds.
+    /// The coordinate varies between these bounds.
     Between([f64; 2]),
-    /// It is a number, as on a face.
+    /// The coordinate is this number, as on a face.
     At(f64),
 }
 

@@ -114,9 +114,9 @@ fn radius(graph: &mut Graph, count: usize) -> Expr {
     graph.power(square, HALF)
 }
 
-/// What X is in terms of coordinates between whose bounds the body is a block: of themselves for a box (nothing is
-/// replaced), else of those of its system, which take the places of X, Y and Z. On an edge of a polygon X and Y are
-/// given by the fraction of the way along it, in the place of X.
+/// The formulas of X, Y and Z in the coordinates in which the body is a block. A box replaces nothing. Another body
+/// has the coordinates of its system in the places of X, Y and Z. On an edge of a polygon the fraction of the way along
+/// it gives X and Y, and takes the place of X.
 pub fn places(graph: &mut Graph, body: &Body, face: Option<Face>) -> SortedMap<Symbol, Expr> {
     let symbols = coordinates(graph);
     let place = match (body, face) {
@@ -138,7 +138,7 @@ pub fn places(graph: &mut Graph, body: &Body, face: Option<Face>) -> SortedMap<S
     (0..place.len()).map(Symbol::Coordinate).zip(place).collect()
 }
 
-/// What the coordinates of [`places`] lie between on the body or on a face, but for those that are constant there.
+/// The bounds of the coordinates of [`places`] on the body or on a face, without those that are constant there.
 pub fn ranges(graph: &mut Graph, body: &Body, face: Option<Face>) -> Vec<(Symbol, [Expr; 2])> {
     match (body, face) {
         (Region::Block(block), _) => {

@@ -18,13 +18,12 @@ use mms_spec::quantity::Quantity;
 use mms_spec::source::{Span, Spanned};
 use mms_spec::syntax;
 use mms_spec::{FieldSpec, Formula, LetSpec, MaterialSpec, RigidSpec};
-use mms_symbolic::expr::print::Names;
+use mms_symbolic::expr::print::{AXES, Names};
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 
 use energy::Givens;
 pub use given::OwnQuantities;
-use mms_symbolic::expr::print::AXES;
 use mms_symbolic::sorted::SortedMap;
 use written::Read;
 pub use written::{Part, Written};

@@ -92,7 +92,7 @@ impl Bound {
         }
     }
 
-    /// What it is, in a sentence.
+    /// The sentence that describes it.
     pub fn doc(self) -> &'static str {
         match self {
             Bound::Lower => "The body's least reference coordinates, m.",

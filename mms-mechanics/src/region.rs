@@ -7,7 +7,7 @@ use mms_spec::Face;
 /// A body, in terms of values of a type.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region<V> {
-    /// What lies between bounds of coordinates.
+    /// A body between bounds of coordinates.
     Block(Block<V>),
     /// A polygon in the plane, by its vertices.
     Polygon(Vec<[V; 2]>),
@@ -15,7 +15,7 @@ pub enum Region<V> {
     Nothing(usize),
 }
 
-/// What lies between bounds of coordinates.
+/// A body between bounds of coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block<V> {
     /// The coordinates.
@@ -57,7 +57,7 @@ impl<V: Clone> Region<V> {
         }
     }
 
-    /// The same kind of body with other numbers in this order.
+    /// Makes a body of this kind from other values, in the order of [`Self::values`].
     pub fn with<W: Clone>(&self, values: Vec<W>) -> Region<W> {
         let pairs = || values.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]);
         match self {
@@ -69,14 +69,14 @@ impl<V: Clone> Region<V> {
         }
     }
 
-    /// The same body in terms of another type.
+    /// Applies a function to all values of the body.
     pub fn map<W: Clone>(&self, of: impl Fn(&V) -> W) -> Region<W> {
         self.with(self.values().iter().map(of).collect())
     }
 }
 
 impl<V> Block<V> {
-    /// What is constant on a face, and that it is: the bound of one of the coordinates.
+    /// The coordinate that is constant on a face, by its index, and its value there.
     pub fn fixed(&self, face: Face) -> (usize, &V) {
         let (axis, is_upper) = fixed_coordinate(face);
         (axis, &self.bounds[axis][usize::from(is_upper)])

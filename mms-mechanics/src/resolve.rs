@@ -47,7 +47,7 @@ pub struct Scope {
     positive: SortedSet<Symbol>,
     /// A part of the file could not be read: a name may be defined there.
     incomplete: bool,
-    /// What else formulas of this kind know, for whoever uses an unknown name.
+    /// The help for an unknown name: the further names that formulas of this kind know.
     hint: Option<&'static str>,
 }
 

@@ -163,7 +163,7 @@ impl<'a> Region<'a> {
     }
 }
 
-/// What lies between bounds of radius and angles, of a body that is round.
+/// The bounds of a round body in radius and angles; `None` for other bodies.
 pub fn block<T: Real, const D: usize>(body: &Body<T, D>) -> Option<Block> {
     match Region::of(body) {
         Ok(Region::Round(block)) => Some(block),

@@ -316,7 +316,7 @@ pub enum Cause {
     NotRelaxed {
         /// The forces that are out of balance over those of the stress.
         residual: f64,
-        /// What it has to be below.
+        /// The residual below which the run ends.
         tolerance: f64,
     },
     /// Who follows the run could not go on.

@@ -57,7 +57,7 @@ pub struct Material {
     pub energy: Vec<Line>,
     /// What the arguments and the density use that is no definition of the field.
     pub whereby: Vec<Line>,
-    /// What the field sets the parameters and the given fields of the material to.
+    /// The values that the field gives to the parameters and the given fields of the material.
     pub arguments: Vec<Line>,
     /// The density `rho0`.
     pub density: Vec<Line>,

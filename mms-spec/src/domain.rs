@@ -19,7 +19,7 @@ pub enum Body {
         /// The greatest coordinates, one per dimension.
         upper: Vec<Formula>,
     },
-    /// What lies between two circles, cylinders or spheres around the origin, or a sector of it.
+    /// A body between two circles, cylinders or spheres around the origin, or a sector of it.
     Round(Box<Round>),
     /// A polygon in the plane.
     Polygon(Polygon),

@@ -1,4 +1,4 @@
-//! What Lame's tube and sphere share: radial displacements u(R) under an inner pressure, at small strain.
+//! Radial displacements u(R) under an inner pressure, at small strain, for Lame's tube and sphere.
 //!
 //! ```text
 //! eps_RR = u',  eps_TT = u/R;  P = lambda tr(eps) I + 2 mu eps

@@ -1,9 +1,9 @@
 //! What a field depends on, as a box: parameters with a range, the time, and coordinates between
 //! whose bounds the body lies.
 //!
-//! What is round is a box in radius and angles; a face is a box of one variable less. A polygon is a row of triangles,
+//! A round body is a box in radius and angles; a face is a box of one variable less. A polygon is a row of triangles,
 //! each the image of a square, one side of which is a corner. So everything that is proved over a domain is proved over
-//! a box. Where all angles are one place, as on an axis, nothing is lost: what is bounded is bounded at places.
+//! a box. Where all angles are one place, as on an axis, nothing is lost: bounds hold at places, not at angles.
 
 use super::search::{Cell, Limit};
 use mms_math::coordinates::System;
@@ -198,7 +198,7 @@ impl Chart {
         changes
     }
 
-    /// The same for the fractions of a polygon, each of which moves X and Y.
+    /// Computes the changes of X and Y over a cell of fractions of a polygon's triangle, each of which moves both.
     fn changes_in_triangles(&self, cell: &Cell, slopes: &[f64], changes: &mut [f64]) {
         let first = cell.0.len() - 2;
         let centre = cell.centre();

@@ -15,7 +15,7 @@ use mms_symbolic::sorted::SortedMap;
 /// The quantities that a field file defines.
 pub type OwnQuantities = SortedMap<Own, Vec<Expr>>;
 
-/// What the formulas of balances know beside the names of the file.
+/// The names that formulas of balances know beside those of the file, for the help of a message.
 const LANGUAGE: &str = "a balance also knows u_x, v_x, H11, F11, Finv11, C11, Cinv11 and their like, J, and derivatives \
                         such as T_X and T_t of what [let] and [given] define";
 

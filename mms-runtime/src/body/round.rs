@@ -13,7 +13,7 @@ use crate::defect::{Defect, on};
 use crate::field::Face;
 use crate::real::{Matrix, Vector};
 
-/// What lies between bounds of radius, angle and, in space, height or angle from the axis.
+/// A body between bounds of radius, angle and, in space, height or angle from the axis.
 pub struct Block {
     /// The coordinates.
     pub system: System,

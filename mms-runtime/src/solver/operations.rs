@@ -123,7 +123,7 @@ where
 pub(super) enum Forces {
     /// All that act on a component which nothing holds.
     Free,
-    /// Those of the stress.
+    /// The forces of the stress alone.
     OfStress,
 }
 

@@ -4,9 +4,9 @@
 //!
 //! The body starts undeformed and at rest. Along a ramp the field is g(t) u(X), with g = t/T: faces move to their exact
 //! places at constant speeds, so that their particles arrive there in any number of steps; b is g b, and tractions are those
-//! of g H. T is the time in which the fastest wave crosses the longest edge of the body. From then on nothing changes but
-//! what is out of balance. A body that follows its loads overshoots little, and in the updated formulation an error of the
-//! way is one of the end.
+//! of g H. T is the time in which the fastest wave crosses the longest edge of the body. From then on the loads stay, and
+//! forces out of balance alone move the body. A body that follows its loads overshoots little. That matters in the updated
+//! formulation, where an error on the way remains at the end.
 //!
 //! # Damping
 //!

@@ -44,7 +44,7 @@ pub(super) struct Account<T, const D: usize> {
     tally: Tally,
 }
 
-/// What W is a function of: X and H, with the volume and the time.
+/// The arguments of W at the particles, X and H, with their volumes and the time.
 struct Strained<T, const D: usize> {
     time: f64,
     reference: Vec<Vector<T, D>>,

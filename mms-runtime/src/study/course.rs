@@ -221,7 +221,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         self.observer.step(present.step, self.steps);
     }
 
-    /// What was measured of a run whose way does not matter: the errors of its end, with this residual.
+    /// Measures a run whose end alone matters: the errors there, with this residual.
     ///
     /// # Errors
     /// An error that is not finite; an observer that cannot go on.

@@ -44,16 +44,16 @@ pub struct Details {
     pub largest: Deviations,
     /// The errors at the end.
     pub last: Deviations,
-    /// What round-off alone is predicted to leave of the displacement's error in l2; with what is out of balance, of a run that
-    /// goes to an equilibrium.
+    /// The predicted part of round-off in the l2 error of the displacement. If the run goes to an equilibrium, its
+    /// residual adds to it.
     pub round_off: f64,
-    /// How far from equilibrium it ended, of a run that goes there.
+    /// The residual at the end of a run that goes to an equilibrium.
     pub residual: Option<Residual>,
     /// The state at the end.
     pub diagnostics: Diagnostics,
 }
 
-/// What a run ends with.
+/// The results of a run that ended.
 pub(super) type Ended = (Details, Seconds, Snapshots);
 
 /// Sums over the particles at the end of a run, in double precision.

@@ -9,8 +9,8 @@
 //! The time t belongs to the system too: it is in seconds, unless a symbol of the file is a unit
 //! of time, such as `ms`.
 //!
-//! What follows from parameters is then in units of the same system ([`own`]): the sizes of all units whose dimension is a
-//! product of theirs are known.
+//! Derived values are then in units of the same system ([`own`]), for the size of each unit follows whose dimension is a
+//! product of those of the parameters.
 
 use std::collections::BTreeMap;
 
@@ -108,8 +108,8 @@ pub fn consistent<'a>(units: impl IntoIterator<Item = &'a Unit>) -> Option<Diagn
     None
 }
 
-/// What is in `si` where units are of the SI, in the system of these units: of `mm` and `MPa` that of `Pa/m` is `MPa/mm`.
-/// None where they leave it open, or have no name for it. Units that are none, or all of the SI, leave it as it is.
+/// The unit of the system of `units` in the place of the SI unit `si`: with `mm` and `MPa`, `Pa/m` becomes `MPa/mm`.
+/// `None` if the units do not determine its size, or have no name for it. Without units, or with those of the SI, it stays `si`.
 pub fn own(units: &[Unit], si: &str) -> Option<String> {
     let symbols: Vec<&Symbol> = units.iter().flat_map(|unit| &unit.symbols).collect();
     if symbols.iter().all(|symbol| symbol.size == Size::SI) {
