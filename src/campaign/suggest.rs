@@ -81,14 +81,15 @@ struct Shown {
     cells: &'static [usize],
 }
 
-/// Proposes studies.
+/// Proposes studies, of fields whose law the solver has. Only these are derived.
 ///
 /// # Errors
 /// A field of the gallery does not compile.
 pub fn suggest(can: &Can) -> anyhow::Result<Suggestion> {
     let mut shown = Vec::new();
-    for entry in gallery::FIELDS {
-        shown.push(Shown::new(entry.name, can)?);
+    let is_known = |field: &FieldSpec| can.materials.iter().any(|it| it == material(field));
+    for field in gallery::fields().iter().filter(|field| is_known(field)) {
+        shown.push(Shown::new(field.name.raw(), can)?);
     }
     let allowed: Vec<&Shown> = shown.iter().filter(|it| it.needs.is_empty()).collect();
     let candidates: Vec<Candidate> = allowed.iter().map(|it| it.candidate()).collect();
@@ -123,6 +124,11 @@ impl Shown {
     }
 }
 
+/// The name of a field's law.
+fn material(field: &FieldSpec) -> &str {
+    field.material.model.value.raw()
+}
+
 /// The names of what a field shows, each with what its absence means.
 fn terms(field: &FieldSpec, visibility: &Visibility) -> BTreeMap<String, &'static str> {
     let name = |term: &Term| match term {
@@ -133,7 +139,7 @@ fn terms(field: &FieldSpec, visibility: &Visibility) -> BTreeMap<String, &'stati
         visibility.with(Status::Present).map(|term| (name(term), term.absence())).collect();
     let mut add = |name: String, means| terms.insert(name, means);
     add(format!("dimension.{}", field.dimension), "no body of that dimension");
-    add(format!("material.{}", field.material.model.value.raw()), "that law is not tested");
+    add(format!("material.{}", material(field)), "that law is not tested");
     add(format!("body.{}", field.domain.body.name()), "no body of that shape");
     for face in &field.boundary {
         add(format!("face.{}", face.claim.value.name()), "no such condition on a face");
@@ -147,7 +153,6 @@ fn needs(field: &FieldSpec, visibility: &Visibility, can: &Can) -> Vec<&'static 
     let sees = |term: Term| !visibility.lacks(&term);
     [
         ("dimensions", can.dimensions.contains(&field.dimension)),
-        ("materials", can.materials.iter().any(|it| it == field.material.model.value.raw())),
         ("bodies", can.bodies.iter().any(|it| it == field.domain.body.name())),
         ("loads", can.tractions || !claims(Claim::Traction)),
         ("moving_walls", can.moving_walls || !claims(Claim::Prescribed)),
@@ -184,10 +189,10 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-/// Terms that some field shows, of the materials that the solver knows, and none that it can run.
+/// The terms of fields that the solver cannot run, and of no field that it can.
 fn unseen(shown: &[Shown], seen: &BTreeSet<String>, can: &Can) -> Vec<Unseen> {
     let mut unseen: BTreeMap<String, Unseen> = BTreeMap::new();
-    for it in shown.iter().filter(|it| !it.needs.contains(&"materials")) {
+    for it in shown {
         let by = Needing { field: it.input.name.raw().to_owned(), keys: it.needs.clone() };
         let own =
             it.terms.iter().filter(|(term, _)| !seen.contains(*term) && is_possible(term, can));

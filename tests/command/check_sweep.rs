@@ -4,7 +4,7 @@ use super::mms::Folder;
 use crate::sampled::sampled;
 
 /// One in so many combinations is tried.
-const SHARE: usize = 12;
+const SHARE: usize = 24;
 
 /// The shipped materials with stable moduli; the last twice, for fibres along an axis and oblique to all.
 const MATERIALS: [(&str, &str, bool); 8] = [

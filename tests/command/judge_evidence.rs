@@ -98,13 +98,13 @@ fn the_start_is_no_evidence() {
 fn walls_and_loads_are_no_evidence_alone() {
     let folder = Folder::new();
     let is_wall = |x: f64, y: f64| [x, y].iter().any(|it| [0.0, 1.0].contains(it));
-    for n in [8, 16, 32] {
+    for n in [4, 8, 16] {
         wave(&folder, &format!("walls{n}"), n, is_wall);
         wave(&folder, &n.to_string(), n, |_, _| true);
     }
-    let walls = "walls8.csv walls16.csv walls32.csv --part";
+    let walls = "walls4.csv walls8.csv walls16.csv --part";
     folder.mms(&format!("{WAVE} {walls} --quantity u")).exits(2).prints("no evidence");
-    let all = "8.csv 16.csv 32.csv";
+    let all = "4.csv 8.csv 16.csv";
     folder.mms(&format!("{WAVE} {all} --quantity b")).exits(2).prints("no evidence");
     folder.mms(&format!("{WAVE} {all}")).exits(0);
     // A judgement of nothing is no baseline either.
@@ -172,13 +172,13 @@ fn sides_that_are_curved_are_covered_by_straight_edges() {
 fn points_fill_the_body_or_a_part_that_is_asked_for() {
     let folder = Folder::new();
     let judged = |name: &str, options: &str| {
-        let files = [8, 16, 32].map(|n| format!("{name}{n}.csv")).join(" ");
-        folder.mms(&format!("{WAVE} {files} --quantity u --h 1/8,1/16,1/32 {options}"))
+        let files = [4, 8, 16].map(|n| format!("{name}{n}.csv")).join(" ");
+        folder.mms(&format!("{WAVE} {files} --quantity u --h 1/4,1/8,1/16 {options}"))
     };
     let half = |x: f64, _: f64| x <= 0.5;
     let line = |_: f64, y: f64| y == 0.5;
     let probe = |x: f64, y: f64| (x, y) == (0.25, 0.5);
-    for n in [8, 16, 32] {
+    for n in [4, 8, 16] {
         wave(&folder, &format!("half{n}"), n, half);
         wave(&folder, &format!("line{n}"), n, line);
         wave(&folder, &format!("probe{n}"), n, probe);
@@ -191,7 +191,7 @@ fn points_fill_the_body_or_a_part_that_is_asked_for() {
         run.prints("pass: observed order 2.00").prints("this is of a part of the body");
     }
     // A mistake is one in a part, too.
-    let run = folder.mms(&format!("{WAVE} half8.csv half32.csv --quantity u --h 1/8,1/16"));
+    let run = folder.mms(&format!("{WAVE} half4.csv half16.csv --quantity u --h 1/4,1/8"));
     run.exits(1);
 }
 

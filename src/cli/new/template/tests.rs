@@ -8,6 +8,9 @@ use mms_spec::{format, read_material};
 use super::*;
 use crate::sampled::sampled;
 
+/// One in so many texts is compiled.
+const SHARE: usize = 12;
+
 /// What `mms new` can be asked for.
 const BODIES: [(Body, usize); 4] =
     [(Body::Box, 1), (Body::Box, 2), (Body::Box, 3), (Body::Annulus, 2)];
@@ -74,7 +77,7 @@ fn uncommented(text: &str) -> String {
 
 #[test]
 fn every_text_compiles_and_its_closed_forms_hold() {
-    for text in sampled(texts(), 4) {
+    for text in sampled(texts(), SHARE) {
         let compiled = compiled(&text).unwrap_or_else(|failure| panic!("{failure}"));
         let comparisons = compare(&compiled);
         let expected = if compiled.material.name == NEO_HOOKEAN { 2 } else { 1 };
@@ -87,7 +90,7 @@ fn every_text_compiles_and_its_closed_forms_hold() {
 
 #[test]
 fn every_example_works_when_it_is_uncommented() {
-    for text in sampled(texts(), 4) {
+    for text in sampled(texts(), SHARE) {
         let whole = uncommented(&text);
         assert_ne!(whole, text);
         let compiled = compiled(&whole).unwrap_or_else(|failure| panic!("{failure}"));
