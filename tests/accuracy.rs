@@ -81,7 +81,7 @@ fn every_row_of_the_page_holds() {
     let page = std::fs::read_to_string(PAGE).expect("the page");
     let request = Request { points: POINTS, quantities: QUANTITIES.to_vec(), ..Request::default() };
     let mut beyond = Vec::new();
-    for file in sampled(sample::files(), 14) {
+    for file in sampled(sample::files(), 24) {
         let field = sample::stem(&file);
         let accuracy = sample::measured(&file, &request);
         let rows = committed(&page, &field);

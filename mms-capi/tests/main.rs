@@ -2,3 +2,5 @@
 
 mod header;
 mod programs;
+#[path = "../../tests/support/sampled.rs"]
+mod sampled;

@@ -2,6 +2,11 @@
 
 use mms_convergence::{Basis, Expected, Finding, Sample, Sequence, Verdict};
 
+use crate::sampled::sampled;
+
+/// One in so many kinds of studies is tried.
+const SHARE: usize = 4;
+
 const SECOND: Expected = Expected::new(2.0, 0.15);
 const STUDIES: usize = 2000;
 
@@ -30,7 +35,7 @@ fn share(findings: &[Finding], is: impl Fn(&Finding) -> bool) -> f64 {
 /// approach the expected one may take 1 % more.
 #[test]
 fn intervals_of_95_percent_hold_the_true_order_in_as_many_studies() {
-    for (levels, runs) in [(4, 1), (5, 1), (7, 1), (3, 4), (4, 3)] {
+    for (levels, runs) in sampled([(4, 1), (5, 1), (7, 1), (3, 4), (4, 3)], SHARE) {
         for order in [1.0, 2.0] {
             let found = studies(levels, runs, order, 0.15);
             let held = share(&found, |it| it.estimate.is_some_and(|it| it.holds(order)));
@@ -41,7 +46,7 @@ fn intervals_of_95_percent_hold_the_true_order_in_as_many_studies() {
 
 #[test]
 fn scatter_of_a_percent_lets_what_is_right_pass_and_what_is_wrong_fail() {
-    for levels in 4..7 {
+    for levels in sampled(4..7, SHARE) {
         let right = studies(levels, 1, 2.0, 0.01);
         assert!(share(&right, |it| it.verdict == Verdict::Pass) > 0.94, "{levels}");
         let wrong = studies(levels, 1, 1.8, 0.01);
@@ -72,12 +77,13 @@ fn passed_and_failed(levels: i32, noise: f64, first: f64) -> [f64; 2] {
 
 #[test]
 fn right_methods_pass_and_a_fifth_of_first_order_does_not() {
-    for (levels, noise, least_passes, most_fails, most_passes) in [
+    let kinds = [
         (5, 0.03, 95.0, 2.0, 6.0),
         (4, 0.03, 85.0, 2.0, 10.0),
         (5, 0.01, 98.0, 1.0, 1.0),
         (4, 0.01, 98.0, 1.0, 1.0),
-    ] {
+    ];
+    for (levels, noise, least_passes, most_fails, most_passes) in sampled(kinds, SHARE) {
         let [passes, fails] = passed_and_failed(levels, noise, 0.0);
         let [wrong, _] = passed_and_failed(levels, noise, 0.2);
         println!(
@@ -92,11 +98,10 @@ fn right_methods_pass_and_a_fifth_of_first_order_does_not() {
 /// Noise alone shows a second term in no more than 5 % of all studies; three standard deviations are 1.5 %.
 #[test]
 fn noise_is_seldom_taken_for_a_second_term() {
-    for levels in 3..7 {
-        for noise in [0.003, 0.03, 0.1] {
-            let shown = share(&studies(levels, 1, 2.0, noise), |it| it.term.is_some());
-            assert!(shown < 0.065, "{levels}, {noise}: {shown}");
-        }
+    let kinds = (3..7).flat_map(|levels| [0.003, 0.03, 0.1].map(|noise| (levels, noise)));
+    for (levels, noise) in sampled(kinds, SHARE) {
+        let shown = share(&studies(levels, 1, 2.0, noise), |it| it.term.is_some());
+        assert!(shown < 0.065, "{levels}, {noise}: {shown}");
     }
 }
 

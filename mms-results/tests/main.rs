@@ -12,6 +12,8 @@ mod memory;
 mod norms;
 mod over_cells;
 mod pairing;
+#[path = "../../tests/support/sampled.rs"]
+mod sampled;
 mod series;
 mod shared;
 mod tables;

@@ -174,7 +174,7 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 48,
+        cases: crate::sampled::sampled_count(48, 4) as u32,
         failure_persistence: None,
         ..ProptestConfig::default()
     })]

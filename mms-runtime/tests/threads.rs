@@ -25,7 +25,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         (ShapeName::Linear, total, Transfer::Xpic { order: 2 }, traction),
         (ShapeName::Cpdi, updated, Transfer::Pic, prescribed),
     ];
-    for (shape, formulation, transfer, faces) in sampled(methods, 2) {
+    for (shape, formulation, transfer, faces) in sampled(methods, 4) {
         for integrator in [IntegratorName::Leapfrog, IntegratorName::Musl] {
             let setup = Setup { transfer, ..Setup::default() };
             let method = Method { shape, formulation, integrator, setup };

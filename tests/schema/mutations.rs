@@ -4,6 +4,10 @@ use mms_spec::quantity::Quantity;
 use toml::{Table, Value};
 
 use super::verdict::{Kind, json, reader_accepts};
+use crate::sampled::{all_is_tried, sampled};
+
+/// One in so many places of each file gets its slips.
+const SHARE: usize = 4;
 
 /// Files with all keys, between them.
 const FULL: &[(Kind, &str)] = &[
@@ -209,7 +213,7 @@ fn one_slip_is_refused_by_the_schema_where_the_reader_refuses_it() {
     let (mut accepted, mut refused, mut reasons) = (0, 0, Vec::new());
     for (kind, text) in FULL {
         let file = Value::Table(text.parse().expect("valid TOML"));
-        for place in places(&file) {
+        for place in sampled(places(&file), SHARE) {
             for slip in slips(&file, &place) {
                 let Some(changed) = changed(&file, &place, &slip) else { continue };
                 let text = toml::to_string(&changed).expect("TOML");
@@ -230,9 +234,13 @@ fn one_slip_is_refused_by_the_schema_where_the_reader_refuses_it() {
             }
         }
     }
-    assert!(accepted > 1000 && refused > 5000, "{accepted} and {refused} files were compared");
+    let [least_accepted, least_refused] = if all_is_tried() { [1000, 5000] } else { [150, 750] };
+    assert!(
+        accepted > least_accepted && refused > least_refused,
+        "{accepted} and {refused} files were compared"
+    );
     assert!(reasons.len() < refused / 20, "{} files are beyond the schema", reasons.len());
     reasons.sort_unstable();
     reasons.dedup();
-    assert_eq!(reasons.len(), 6, "{reasons:?} are the only reasons that are needed");
+    assert!(reasons.len() == 6 || !all_is_tried(), "{reasons:?} are the only reasons that are needed");
 }

@@ -3,6 +3,7 @@
 //! random`.
 
 use super::{PREFIX, is_installed, quoted, root, run, scratch};
+use crate::sampled::sampled_count;
 
 /// Of so many random calls valgrind makes one: it is fifty times as slow.
 const SHARE_OF_VALGRIND: u32 = 16;
@@ -43,8 +44,9 @@ fn what_can_be_seen_to_be_wrong_is_refused() {
 
 #[test]
 fn random_calls_touch_nothing_that_is_not_theirs() {
-    let calls = std::env::var("MMS_RANDOM_CALLS").map_or(Ok(4000), |calls| calls.parse());
-    let calls: u32 = calls.expect("MMS_RANDOM_CALLS is a number");
+    let number = |calls: String| calls.parse().expect("MMS_RANDOM_CALLS is a number");
+    let calls =
+        std::env::var("MMS_RANDOM_CALLS").map_or_else(|_| sampled_count(4000, 4) as u32, number);
     for said in every_way("random", |share| format!("{} 1", calls / share)) {
         println!("{said}");
         assert!(said.ends_with(" did what they are for\n"), "{said}");
