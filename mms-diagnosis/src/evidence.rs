@@ -1,9 +1,11 @@
 //! What a solver wrote, and its errors as coefficients of smooth functions.
 
+use std::sync::Arc;
+
 use mms_runtime::Vector;
 
 use crate::exact::{Exact, Quantity, vectors};
-use crate::smooth::{Smooth, less};
+use crate::smooth::{Fitting, Smooth, less};
 
 /// What a solver wrote on one mesh, at one time or more.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -119,24 +121,17 @@ impl<const D: usize> Frame<D> {
         (0..self.times.len()).flat_map(quantities)
     }
 
-    /// What is seen of errors at the points of a mesh, of each time and quantity; `None` where one is not finite.
-    pub fn see(&self, mesh: &Mesh, errors: &[Vec<f64>]) -> Option<Seen> {
-        let mut seen = Seen { coefficients: Vec::new(), share: 0.0 };
-        let (mut all, mut held) = (0.0, 0.0);
-        let sizes = self.quantities.iter().map(|(_, size)| size).cycle();
-        for (((at, _), errors), size) in self.each().zip(errors).zip(sizes) {
-            let points = vectors(&nearest(mesh, self.times[at])?.reference);
-            let scaled: Vec<f64> = errors.iter().map(|error| error / size).collect();
-            if scaled.iter().any(|it| !it.is_finite()) {
-                return None;
-            }
-            let (coefficients, share) = self.smooth.fit(&points, &scaled);
-            let square = scaled.iter().map(|it| it * it).sum::<f64>() / points.len().max(1) as f64;
-            (all, held) = (all + square, held + share * square);
-            seen.coefficients.extend(coefficients);
+    /// What sees errors at the points of a mesh; `None` without a result.
+    pub fn sight<'a>(&'a self, mesh: &'a Mesh) -> Option<Sight<'a, D>> {
+        let mut points: Vec<(&[f64], Arc<Fitting>)> = Vec::new();
+        for time in &self.times {
+            let own = &*nearest(mesh, *time)?.reference;
+            // Most results of a mesh have the same points at all times.
+            let known = points.iter().find(|(it, _)| *it == own).map(|(_, it)| it.clone());
+            let fitting = || Arc::new(self.smooth.fitting(&vectors(own)));
+            points.push((own, known.unwrap_or_else(fitting)));
         }
-        seen.share = if all > 0.0 { held / all } else { 1.0 };
-        Some(seen)
+        Some(Sight { frame: self, mesh, points })
     }
 
     /// The values of coefficients at points, of what is seen first, at the last time.
@@ -156,16 +151,47 @@ impl<const D: usize> Frame<D> {
         };
         Some(points.iter().map(at).collect())
     }
+}
 
-    /// The errors of a mesh; `None` where one is not finite.
-    pub fn errors_of(&self, exact: &Exact<'_, D>, mesh: &Mesh) -> Option<Seen> {
+/// Sees the errors of one mesh in a frame.
+pub struct Sight<'a, const D: usize> {
+    frame: &'a Frame<D>,
+    mesh: &'a Mesh,
+    /// X of the points at each time, and what finds functions there.
+    points: Vec<(&'a [f64], Arc<Fitting>)>,
+}
+
+impl<const D: usize> Sight<'_, D> {
+    /// What is seen of errors at the points, of each time and quantity; `None` where one is not finite.
+    pub fn see(&self, errors: &[Vec<f64>]) -> Option<Seen> {
+        let mut seen = Seen { coefficients: Vec::new(), share: 0.0 };
+        let (mut all, mut held) = (0.0, 0.0);
+        let sizes = self.frame.quantities.iter().map(|(_, size)| size).cycle();
+        for (((at, _), errors), size) in self.frame.each().zip(errors).zip(sizes) {
+            let (points, fitting) = &self.points[at];
+            let scaled: Vec<f64> = errors.iter().map(|error| error / size).collect();
+            if scaled.iter().any(|it| !it.is_finite()) {
+                return None;
+            }
+            let (coefficients, share) = fitting.fit(&scaled);
+            let count = points.len() / D;
+            let square = scaled.iter().map(|it| it * it).sum::<f64>() / count.max(1) as f64;
+            (all, held) = (all + square, held + share * square);
+            seen.coefficients.extend(coefficients);
+        }
+        seen.share = if all > 0.0 { held / all } else { 1.0 };
+        Some(seen)
+    }
+
+    /// The errors of the mesh; `None` where one is not finite.
+    pub fn errors_of(&self, exact: &Exact<'_, D>) -> Option<Seen> {
         let one = |(at, quantity): (usize, Quantity)| {
-            let snapshot = nearest(mesh, self.times[at])?;
+            let snapshot = nearest(self.mesh, self.frame.times[at])?;
             let (_, values) = snapshot.values.iter().find(|(it, _)| *it == quantity)?;
             let right = exact.values(quantity, snapshot.time, &vectors(&snapshot.reference));
             Some(less(values, 1.0, &right))
         };
-        self.see(mesh, &self.each().map(one).collect::<Option<Vec<_>>>()?)
+        self.see(&self.frame.each().map(one).collect::<Option<Vec<_>>>()?)
     }
 }
 

@@ -110,8 +110,7 @@ where
     ) -> Result<Self, Obstacle> {
         if is_static {
             let equilibrium = Equilibrium::new(exact, frame)?.ok_or(Obstacle::NotHeld)?;
-            let (equilibrium, cell_size) = (Arc::new(equilibrium), mesh.cell_size);
-            return Ok(Solvers::Rest(Statics { equilibrium, frame, mesh, cell_size }));
+            return Ok(Solvers::Rest(Statics::new(Arc::new(equilibrium), frame, mesh)));
         }
         let plan = Plan::new(exact, frame, mesh, Without::default(), None, MOST_WORK)?;
         let right = plan.right(0).ok_or(Obstacle::NotFinite)?;

@@ -100,7 +100,11 @@ fn identity(factor: f64) -> Tensor {
 }
 
 fn left(f: &Tensor) -> Tensor {
-    f * f.transpose()
+    // Term by term: a product of matrices is a call for each of its columns.
+    let entry =
+        |i: usize, j: usize| f[(i, 0)] * f[(j, 0)] + f[(i, 1)] * f[(j, 1)] + f[(i, 2)] * f[(j, 2)];
+    let [xy, xz, yz] = [entry(0, 1), entry(0, 2), entry(1, 2)];
+    Tensor::new(entry(0, 0), xy, xz, xy, entry(1, 1), yz, xz, yz, entry(2, 2))
 }
 
 /// The parts of mu J^(-2/3) dev(B) + kappa v I, with kappa = lambda + 2 mu/3.
@@ -131,11 +135,21 @@ impl Law {
     /// tau.
     pub fn stress<const D: usize>(
         &self,
-        [lambda, mu]: [f64; 2],
+        moduli: [f64; 2],
         gradient: &Matrix<f64, D>,
     ) -> Matrix<f64, D> {
+        let [stress] = self.stresses([moduli], gradient);
+        stress
+    }
+
+    /// tau with some moduli each.
+    pub fn stresses<const D: usize, const N: usize>(
+        &self,
+        moduli: [[f64; 2]; N],
+        gradient: &Matrix<f64, D>,
+    ) -> [Matrix<f64, D>; N] {
         let [of_lambda, of_mu] = self.in_dimension(gradient);
-        of_lambda * lambda + of_mu * mu
+        moduli.map(|[lambda, mu]| of_lambda * lambda + of_mu * mu)
     }
 }
 

@@ -8,7 +8,7 @@ use mms_runtime::Method;
 use mms_runtime::study::Solve;
 
 use crate::changed::Without;
-use crate::evidence::{Frame, Mesh, Seen};
+use crate::evidence::{Frame, Mesh, Seen, Sight};
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Hypothesis};
 use crate::run::{Obstacle, Plan, Responses, written};
@@ -26,6 +26,8 @@ const FALLING: f64 = 0.25;
 pub struct Level<'a, const D: usize> {
     /// The results.
     pub mesh: &'a Mesh,
+    /// What sees errors at their points.
+    sight: Sight<'a, D>,
     /// Their errors.
     pub seen: Seen,
     /// The solvers that its errors are compared with.
@@ -36,11 +38,10 @@ pub struct Level<'a, const D: usize> {
 
 /// The errors that right methods make.
 fn of_methods<const D: usize>(
-    frame: &Frame<D>,
-    mesh: &Mesh,
+    sight: &Sight<'_, D>,
     solvers: &dyn Responses<'_, D>,
 ) -> Vec<Option<Vec<f64>>> {
-    let right = |method| Some(frame.see(mesh, &solvers.right(method)?)?.coefficients);
+    let right = |method| Some(sight.see(&solvers.right(method)?)?.coefficients);
     on_all_processors(solvers.methods(), right)
 }
 
@@ -51,9 +52,10 @@ impl<'a, const D: usize> Level<'a, D> {
         mesh: &'a Mesh,
         solvers: Box<dyn Responses<'a, D> + 'a>,
     ) -> Result<Self, Obstacle> {
-        let seen = frame.errors_of(exact, mesh).ok_or(Obstacle::NotFinite)?;
-        let right = of_methods(frame, mesh, &*solvers);
-        Ok(Level { mesh, seen, solvers, right })
+        let sight = frame.sight(mesh).ok_or(Obstacle::NotFinite)?;
+        let seen = sight.errors_of(exact).ok_or(Obstacle::NotFinite)?;
+        let right = of_methods(&sight, &*solvers);
+        Ok(Level { mesh, sight, seen, solvers, right })
     }
 
     /// The errors that a right method would make on the mesh.
@@ -96,10 +98,7 @@ impl<'a, const D: usize> Levels<'a, D> {
         };
         let level = |mesh: &'a Mesh| {
             let solvers: Box<dyn Responses<'a, D> + 'a> = match &equilibrium {
-                Some(equilibrium) => {
-                    let (equilibrium, cell_size) = (equilibrium.clone(), mesh.cell_size);
-                    Box::new(Statics { equilibrium, frame, mesh, cell_size })
-                }
+                Some(equilibrium) => Box::new(Statics::new(equilibrium.clone(), frame, mesh)),
                 None => {
                     Box::new(Plan::new(exact, frame, mesh, Without::default(), like, MOST_WORK)?)
                 }
@@ -117,7 +116,7 @@ impl<'a, const D: usize> Levels<'a, D> {
             }
             _ => {
                 let solvers = fine.solvers.coarser();
-                orders(&fine, &*solvers, &of_methods(frame, mesh, &*solvers))
+                orders(&fine, &*solvers, &of_methods(&fine.sight, &*solvers))
             }
         };
         Ok(Levels { exact, frame, fine, coarse, orders })
@@ -170,7 +169,7 @@ impl<'a, const D: usize> Levels<'a, D> {
         let size = self.on_mesh(level, hypothesis, size);
         if let Change::Output(_) = hypothesis.change {
             let errors = written(self.exact, self.frame, level.mesh, hypothesis, &size)?;
-            return Some(self.frame.see(level.mesh, &errors)?.coefficients);
+            return Some(level.sight.see(&errors)?.coefficients);
         }
         self.beyond(level, method, &level.solvers.wrong(method, hypothesis, &size)?)
     }
@@ -197,7 +196,7 @@ impl<'a, const D: usize> Levels<'a, D> {
 
     /// Coefficients of the errors of a method, less those of a right one.
     fn beyond(&self, level: &Level<'a, D>, method: usize, errors: &[Vec<f64>]) -> Option<Vec<f64>> {
-        let wrong = self.frame.see(level.mesh, errors)?.coefficients;
+        let wrong = level.sight.see(errors)?.coefficients;
         Some(less(&wrong, 1.0, level.right[method].as_ref()?))
     }
 }

@@ -2,7 +2,7 @@
 
 use mms_runtime::Vector;
 use mms_runtime::body::bounding_box;
-use mms_runtime::nalgebra::{DMatrix, DVector};
+use mms_runtime::nalgebra::{DMatrix, DVector, Dyn, SVD};
 use mms_runtime::{Body, Refusal};
 
 /// Polynomials on the box around a body.
@@ -69,19 +69,39 @@ impl<const D: usize> Smooth<D> {
         })
     }
 
-    /// The coefficients of the functions nearest to values at points, of each component one after the other; and
-    /// which part of their squares these functions hold.
-    pub fn fit(&self, points: &[Vector<f64, D>], values: &[f64]) -> (Vec<f64>, f64) {
-        let components = values.len() / points.len().max(1);
+    /// What finds the functions nearest to values at points.
+    pub fn fitting(&self, points: &[Vector<f64, D>]) -> Fitting {
         let rows: Vec<f64> = points.iter().flat_map(|x| self.values(x)).collect();
         let matrix = DMatrix::from_row_slice(points.len(), self.count(), &rows);
-        let right = DMatrix::from_row_slice(points.len(), components, values);
+        let transposed = matrix.transpose();
         // By the normal equations, whose size is that of the functions.
-        let normal = matrix.transpose() * &matrix;
-        let projected = matrix.transpose() * &right;
-        let solved = normal.clone().svd(true, true).solve(&projected, RANK * RANK * normal.norm());
-        let coefficients = solved.unwrap_or(DMatrix::zeros(self.count(), components));
-        let missed = (&right - matrix * &coefficients).norm_squared();
+        let normal = &transposed * &matrix;
+        let rank = RANK * RANK * normal.norm();
+        Fitting { matrix, transposed, normal: normal.svd(true, true), rank }
+    }
+}
+
+/// Finds the functions nearest to values at some points.
+pub struct Fitting {
+    /// The values of the functions at the points, and the same transposed.
+    matrix: DMatrix<f64>,
+    transposed: DMatrix<f64>,
+    /// The product of both.
+    normal: SVD<f64, Dyn, Dyn>,
+    /// Its singular values that are taken for 0.
+    rank: f64,
+}
+
+impl Fitting {
+    /// The coefficients of the functions nearest to values at the points, of each component one after the other; and
+    /// which part of their squares these functions hold.
+    pub fn fit(&self, values: &[f64]) -> (Vec<f64>, f64) {
+        let (points, count) = self.matrix.shape();
+        let components = values.len() / points.max(1);
+        let right = DMatrix::from_row_slice(points, components, values);
+        let solved = self.normal.solve(&(&self.transposed * &right), self.rank);
+        let coefficients = solved.unwrap_or(DMatrix::zeros(count, components));
+        let missed = (&right - &self.matrix * &coefficients).norm_squared();
         let all = right.norm_squared();
         let share = if all > 0.0 { 1.0 - missed / all } else { 1.0 };
         (coefficients.as_slice().to_vec(), share)

@@ -7,7 +7,7 @@
 //! Numer. Anal. 49 (2011)).
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use mms_runtime::nalgebra::{DMatrix, DVector, Dyn, LU};
 use mms_runtime::{
@@ -50,9 +50,22 @@ struct System<'a, const D: usize> {
     force: Vec<Vector<f64, D>>,
     /// H and P N of the exact motion on the pieces of faces without given motion.
     faces: Vec<OnFace<D>>,
+    /// The size of the forces of the stress of the exact motion.
+    resisted: f64,
     /// The tangent of the right law.
     tangent: LU<f64, Dyn, Dyn>,
 }
+
+/// What a mistake puts out of balance at the exact motion.
+struct Put {
+    /// What of it does not depend on the motion.
+    loads: DVector<f64>,
+    /// All of it; `None` where it is not finite.
+    all: Option<DVector<f64>>,
+}
+
+/// How the parts of the functions are found that bring a mistake into balance.
+type By<'a, const D: usize> = fn(&System<'a, D>, &Changed<'_, D>, &Put) -> Option<DVector<f64>>;
 
 /// A piece of a face.
 struct OnFace<const D: usize> {
@@ -94,7 +107,9 @@ impl<'a, const D: usize> System<'a, D> {
         });
         let faces = faces.collect();
         let tangent = tangent(exact, &weak, &gradient)?.lu();
-        tangent.is_invertible().then_some(System { weak, gradient, stress, force, faces, tangent })
+        let resisted = DVector::from_vec(weak.resisted(stress.iter().copied())).norm();
+        let system = System { weak, gradient, stress, force, faces, resisted, tangent };
+        system.tangent.is_invertible().then_some(system)
     }
 
     /// The sums that b and tractions of a mistake put out of balance, whatever the motion.
@@ -137,50 +152,53 @@ impl<'a, const D: usize> System<'a, D> {
         sums.iter().all(|it| it.is_finite()).then_some(sums)
     }
 
+    /// What a mistake puts out of balance at the exact motion.
+    fn put(&self, field: &Changed<'_, D>) -> Put {
+        let loads = self.loads(field);
+        let all = self.unbalanced(field, &loads, &DVector::zeros(self.weak.count()));
+        Put { loads, all }
+    }
+
     /// Whether a mistake puts anything out of balance at the exact motion, but for rounding.
-    fn sees(&self, field: &Changed<'_, D>) -> bool {
-        let none = DVector::zeros(self.weak.count());
-        let own = DVector::from_vec(self.weak.resisted(self.stress.iter().copied()));
-        let out = self.unbalanced(field, &self.loads(field), &none);
-        out.is_none_or(|out| out.norm() > ROUNDING * own.norm())
+    fn sees(&self, put: &Put) -> bool {
+        put.all.as_ref().is_none_or(|all| all.norm() > ROUNDING * self.resisted)
     }
 
     /// The parts of the functions that bring a mistake into balance if it is small, and it is scaled.
-    fn linear(&self, field: &Changed<'_, D>) -> Option<DVector<f64>> {
-        let none = DVector::zeros(self.weak.count());
-        self.tangent.solve(&self.unbalanced(field, &self.loads(field), &none)?)
+    fn linear(&self, _: &Changed<'_, D>, put: &Put) -> Option<DVector<f64>> {
+        self.tangent.solve(put.all.as_ref()?)
     }
 
     /// The parts of the functions at which a mistake is in balance; `None` if there are none. A large mistake is made bit by bit.
-    fn balance(&self, field: &Changed<'_, D>) -> Option<DVector<f64>> {
-        let none = DVector::zeros(self.weak.count());
-        let loads = self.loads(field);
-        if let Some(found) = self.near(field, &self.tangent, &none, &loads) {
+    fn balance(&self, field: &Changed<'_, D>, Put { loads, all }: &Put) -> Option<DVector<f64>> {
+        let (none, all) = (DVector::zeros(self.weak.count()), all.as_ref()?);
+        if let Some(found) = self.near(field, &self.tangent, (&none, all), loads) {
             return Some(found);
         }
-        let all = self.unbalanced(field, &loads, &none)?;
         let mut parts = none;
         for made in 1..=BITS {
-            let left = &all * (1.0 - f64::from(made) / f64::from(BITS));
+            let left = all * (1.0 - f64::from(made) / f64::from(BITS));
             let slopes = self.weak.slopes_at_points.chunks(self.weak.count());
             let moved = self.gradient.iter().zip(slopes).map(|(h, of)| h + gradient(of, &parts));
             let tangent = tangent(self.weak.exact, &self.weak, &moved.collect::<Vec<_>>())?.lu();
-            parts = self.near(field, &tangent, &parts, &(&loads - left))?;
+            let loads = loads - left;
+            let out = self.unbalanced(field, &loads, &parts)?;
+            parts = self.near(field, &tangent, (&parts, &out), &loads)?;
         }
         Some(parts)
     }
 
-    /// Finds the parts of the functions in balance with loads, from parts that are near.
+    /// Finds the parts of the functions in balance with loads, from parts that are near, each with what is out of balance there.
     fn near(
         &self,
         field: &Changed<'_, D>,
         tangent: &LU<f64, Dyn, Dyn>,
-        from: &DVector<f64>,
+        (from, out): (&DVector<f64>, &DVector<f64>),
         loads: &DVector<f64>,
     ) -> Option<DVector<f64>> {
         let step = |parts: &DVector<f64>| tangent.solve(&self.unbalanced(field, loads, parts)?);
         let mut parts = from.clone();
-        let mut last = step(&parts)?;
+        let mut last = tangent.solve(out)?;
         let mut history: Vec<[DVector<f64>; 2]> = Vec::new();
         for _ in 0..ROUNDS {
             let own = accelerated(&history, &last);
@@ -215,9 +233,13 @@ fn accelerated(history: &[[DVector<f64>; 2]], last: &DVector<f64>) -> DVector<f6
 fn gradient<const D: usize>(slopes: &[Vector<f64, D>], parts: &DVector<f64>) -> Matrix<f64, D> {
     let count = slopes.len() / D;
     let mut h = Matrix::zeros();
-    for (at, (slope, part)) in slopes.iter().zip(parts.iter()).enumerate() {
-        let i = at / count;
-        (0..D).for_each(|axis| h[(i, axis)] += part * slope[axis]);
+    let each = slopes.chunks_exact(count).zip(parts.as_slice().chunks_exact(count));
+    for (i, (slopes, parts)) in each.enumerate() {
+        let mut row = [0.0; D];
+        for (slope, part) in slopes.iter().zip(parts) {
+            (0..D).for_each(|axis| row[axis] += part * slope[axis]);
+        }
+        (0..D).for_each(|axis| h[(i, axis)] = row[axis]);
     }
     h
 }
@@ -243,24 +265,30 @@ fn tangent<const D: usize>(
             })
         })
         .collect();
+    let transposed: Vec<DMatrix<f64>> = slopes.iter().map(DMatrix::transpose).collect();
     let mut tangent = DMatrix::zeros(all, all);
     for (j, of_j) in slopes.iter().enumerate() {
         let mut made = vec![DMatrix::zeros(D * x.len(), count); D];
         for b in 0..D {
             let [before, after] = [-STEP, STEP].map(|step| stress((j, b), step));
-            for (q, volume) in weak.quadrature.volumes.iter().enumerate() {
-                let slope = (after[q] - before[q]) * (volume / (2.0 * STEP));
-                for i in 0..D {
-                    for a in 0..D {
-                        for n in 0..count {
-                            made[i][(D * q + a, n)] += slope[(i, a)] * of_j[(D * q + b, n)];
-                        }
+            let changes = before.iter().zip(&after).zip(&weak.quadrature.volumes);
+            let changes: Vec<Matrix<f64, D>> = changes
+                .map(|((before, after), volume)| (after - before) * (volume / (2.0 * STEP)))
+                .collect();
+            for (i, made) in made.iter_mut().enumerate() {
+                // The rows of a column are those of the points, D of each.
+                let rows = changes.len() * D;
+                let columns = made.as_mut_slice().chunks_exact_mut(rows);
+                for (made, of_j) in columns.zip(of_j.as_slice().chunks_exact(rows)) {
+                    let points = made.chunks_exact_mut(D).zip(of_j.chunks_exact(D));
+                    for ((made, of_j), change) in points.zip(&changes) {
+                        (0..D).for_each(|a| made[a] += change[(i, a)] * of_j[b]);
                     }
                 }
             }
         }
         for (i, made) in made.iter().enumerate() {
-            let block = slopes[i].transpose() * made;
+            let block = &transposed[i] * made;
             tangent.view_mut((i * count, j * count), (count, count)).copy_from(&block);
         }
     }
@@ -276,7 +304,8 @@ pub struct Equilibrium<'a, const D: usize> {
     system: System<'a, D>,
     /// The error of elements of degree 1, for the cell size of the exact solution.
     of_elements: DVector<f64>,
-    found: Mutex<Found>,
+    /// What mistakes make, and what they make if they are small.
+    found: [Mutex<Found>; 2],
 }
 
 impl<'a, const D: usize> Equilibrium<'a, D> {
@@ -294,30 +323,28 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
             exact,
             system,
             of_elements,
-            found: Mutex::default(),
+            found: Default::default(),
         }))
     }
 
-    /// The parts of the functions that a mistake makes; found once.
-    fn response(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<DVector<f64>> {
-        let bits = size.iter().map(|it| it.to_bits()).collect();
-        let key = (std::ptr::from_ref(hypothesis).addr(), bits);
-        let found = || self.found.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = found().get(&key) {
-            return known.clone();
-        }
-        let own = self.solved(hypothesis, size, System::balance);
-        found().insert(key, own.clone());
-        own
-    }
-
-    fn solved(
+    /// The parts of the functions that a mistake makes, be it as if it were small; found once.
+    fn response(
         &self,
         hypothesis: &Hypothesis<D>,
         size: &[f64],
-        by: fn(&System<'a, D>, &Changed<'_, D>) -> Option<DVector<f64>>,
+        is_small: bool,
     ) -> Option<DVector<f64>> {
-        self.made(hypothesis, size, by).filter(|it| it.norm() > 0.0)
+        let bits = size.iter().map(|it| it.to_bits()).collect();
+        let key = (std::ptr::from_ref(hypothesis).addr(), bits);
+        let found =
+            || self.found[usize::from(is_small)].lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = found().get(&key) {
+            return known.clone();
+        }
+        let by = if is_small { System::linear } else { System::balance };
+        let own = self.made(hypothesis, size, by).filter(|it| it.norm() > 0.0);
+        found().insert(key, own.clone());
+        own
     }
 
     /// The parts of the functions that a mistake makes, none where it changes nothing at rest; `None` without an equilibrium.
@@ -325,20 +352,22 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
         &self,
         hypothesis: &Hypothesis<D>,
         size: &[f64],
-        by: fn(&System<'a, D>, &Changed<'_, D>) -> Option<DVector<f64>>,
+        by: By<'a, D>,
     ) -> Option<DVector<f64>> {
         let field = Changed::with(self.exact, Without::default(), hypothesis, size);
         let nothing = || Some(DVector::zeros(self.system.weak.count()));
         match hypothesis.change {
-            Change::Condition(_) => {}
-            _ if !self.system.sees(&field) => return nothing(),
-            _ => {}
-        }
-        match hypothesis.change {
-            Change::Force(_) | Change::Stress(..) | Change::Surface(_) => by(&self.system, &field),
-            Change::Loads(..) | Change::Density => by(&self.system, &field),
+            Change::Force(_)
+            | Change::Stress(..)
+            | Change::Surface(_)
+            | Change::Loads(..)
+            | Change::Density => {
+                let put = self.system.put(&field);
+                if self.system.sees(&put) { by(&self.system, &field, &put) } else { nothing() }
+            }
             Change::Condition(Condition::Free) => {
-                by(&System::new(self.exact, self.system.weak.time, &field.domain())?, &field)
+                let own = System::new(self.exact, self.system.weak.time, &field.domain())?;
+                by(&own, &field, &own.put(&field))
             }
             // At rest the others change nothing that is computed.
             _ => nothing(),
@@ -349,16 +378,24 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
 /// The errors of results of one mesh at equilibrium.
 pub struct Statics<'a, const D: usize> {
     /// Shared by all meshes.
-    pub equilibrium: Arc<Equilibrium<'a, D>>,
+    equilibrium: Arc<Equilibrium<'a, D>>,
     /// The frame in which errors are compared.
-    pub frame: &'a Frame<D>,
+    frame: &'a Frame<D>,
     /// The mesh.
-    pub mesh: &'a Mesh,
+    mesh: &'a Mesh,
     /// Its h, or a larger one.
-    pub cell_size: f64,
+    cell_size: f64,
+    /// The functions at its points, of each time and quantity; `None` without results.
+    functions: OnceLock<Option<Vec<AtPoints<D>>>>,
 }
 
 impl<'a, const D: usize> Statics<'a, D> {
+    /// Of one mesh.
+    pub fn new(equilibrium: Arc<Equilibrium<'a, D>>, frame: &'a Frame<D>, mesh: &'a Mesh) -> Self {
+        let (cell_size, functions) = (mesh.cell_size, OnceLock::new());
+        Statics { equilibrium, frame, mesh, cell_size, functions }
+    }
+
     /// The errors that a mistake adds to those of a right solver; `None` if it has no equilibrium near the exact one.
     pub fn added(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
         self.errors(&self.equilibrium.made(hypothesis, size, System::balance)?)
@@ -366,34 +403,54 @@ impl<'a, const D: usize> Statics<'a, D> {
 
     /// The errors at the user's points, of each time and quantity.
     fn errors(&self, parts: &DVector<f64>) -> Option<Vec<Vec<f64>>> {
-        let weak = &self.equilibrium.system.weak;
-        let one = |(at, quantity): (usize, Quantity)| {
-            let points = vectors::<D>(&nearest(self.mesh, self.frame.times[at])?.reference);
-            Some(points.iter().flat_map(|x| value(weak, quantity, x, parts)).collect())
-        };
-        self.frame.each().map(one).collect()
+        let own = self.functions.get_or_init(|| {
+            let weak = &self.equilibrium.system.weak;
+            let one = |(at, quantity): (usize, Quantity)| {
+                let points = vectors::<D>(&nearest(self.mesh, self.frame.times[at])?.reference);
+                Some(AtPoints::new(weak, quantity, &points))
+            };
+            self.frame.each().map(one).collect()
+        });
+        Some(own.as_ref()?.iter().map(|it| it.values(parts)).collect())
     }
 }
 
-/// A quantity of a sum of functions at X.
-fn value<const D: usize>(
-    weak: &Weak<'_, D>,
-    quantity: Quantity,
-    x: &Vector<f64, D>,
-    parts: &DVector<f64>,
-) -> Vec<f64> {
-    match quantity {
-        Quantity::Displacement => {
-            let functions = weak.functions(x);
-            let own = functions
-                .chunks(functions.len() / D)
-                .zip(parts.as_slice().chunks(functions.len() / D));
-            own.map(|(of, parts)| of.iter().zip(parts).map(|(a, b)| a * b).sum()).collect()
+/// What makes a quantity at some points of parts of the functions.
+enum AtPoints<const D: usize> {
+    /// The functions, point by point.
+    Displacement(Vec<f64>),
+    /// The number of points, in which nothing moves.
+    Velocity(usize),
+    /// The gradients of the functions, point by point.
+    DisplacementGradient(Vec<Vector<f64, D>>),
+}
+
+impl<const D: usize> AtPoints<D> {
+    fn new(weak: &Weak<'_, D>, quantity: Quantity, points: &[Vector<f64, D>]) -> Self {
+        match quantity {
+            Quantity::Displacement => {
+                AtPoints::Displacement(points.iter().flat_map(|x| weak.functions(x)).collect())
+            }
+            Quantity::Velocity => AtPoints::Velocity(points.len()),
+            Quantity::DisplacementGradient => AtPoints::DisplacementGradient(
+                points.iter().flat_map(|x| weak.gradients(x)).collect(),
+            ),
         }
-        Quantity::Velocity => vec![0.0; D],
-        Quantity::DisplacementGradient => {
-            let h = gradient(&weak.gradients(x), parts);
-            h.transpose().as_slice().to_vec()
+    }
+
+    /// The quantity of a sum of functions, at the points.
+    fn values(&self, parts: &DVector<f64>) -> Vec<f64> {
+        let count = parts.len() / D;
+        match self {
+            AtPoints::Displacement(functions) => {
+                let own = functions.chunks(count).zip(parts.as_slice().chunks(count).cycle());
+                own.map(|(of, parts)| of.iter().zip(parts).map(|(a, b)| a * b).sum()).collect()
+            }
+            AtPoints::Velocity(points) => vec![0.0; D * points],
+            AtPoints::DisplacementGradient(slopes) => {
+                let own = slopes.chunks(parts.len()).map(|slopes| gradient(slopes, parts));
+                own.flat_map(|h| h.transpose().iter().copied().collect::<Vec<_>>()).collect()
+            }
         }
     }
 }
@@ -424,21 +481,19 @@ impl<'a, const D: usize> Responses<'a, D> for Statics<'a, D> {
     fn wrong(&self, _: usize, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
         let Equilibrium { exact, of_elements, .. } = &*self.equilibrium;
         let ratio = (self.cell_size / exact.cell_size).powi(2);
-        self.errors(&(self.equilibrium.response(hypothesis, size)? + of_elements * ratio))
+        self.errors(&(self.equilibrium.response(hypothesis, size, false)? + of_elements * ratio))
     }
 
     fn roughly(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
         let Equilibrium { exact, of_elements, .. } = &*self.equilibrium;
         let ratio = (self.cell_size / exact.cell_size).powi(2);
-        let linear = self.equilibrium.solved(hypothesis, size, System::linear)?;
-        self.errors(&(linear + of_elements * ratio))
+        self.errors(&(self.equilibrium.response(hypothesis, size, true)? + of_elements * ratio))
     }
 
     fn coarser(&self) -> Box<dyn Responses<'a, D> + 'a> {
         Box::new(Statics {
-            equilibrium: self.equilibrium.clone(),
             cell_size: 2.0 * self.cell_size,
-            ..*self
+            ..Statics::new(self.equilibrium.clone(), self.frame, self.mesh)
         })
     }
 }

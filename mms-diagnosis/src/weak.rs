@@ -242,9 +242,17 @@ impl<'a, const D: usize> Weak<'a, D> {
         let slopes = self.slopes_at_points.chunks(self.count());
         for ((gradients, volume), p) in slopes.zip(&self.quadrature.volumes).zip(stress) {
             let p = p * *volume;
-            let each = gradients.chunks(self.smooth.count()).enumerate();
-            let terms = each.flat_map(|(i, of)| of.iter().map(move |slope| (p.row(i) * slope)[0]));
-            sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum -= term);
+            let count = self.smooth.count();
+            for (i, (sums, of)) in
+                sums.chunks_exact_mut(count).zip(gradients.chunks_exact(count)).enumerate()
+            {
+                let row: [f64; D] = std::array::from_fn(|axis| p[(i, axis)]);
+                for (sum, slope) in sums.iter_mut().zip(of) {
+                    let mut term = row[0] * slope[0];
+                    (1..D).for_each(|axis| term += row[axis] * slope[axis]);
+                    *sum -= term;
+                }
+            }
         }
         sums
     }
@@ -477,7 +485,8 @@ pub fn first<const D: usize>(tau: &Matrix<f64, D>, h: &Matrix<f64, D>) -> Matrix
 /// Adds q.w for all functions, whose components come one after the other.
 pub fn add<const D: usize>(sums: &mut [f64], functions: &[f64], q: &Vector<f64, D>) {
     let count = functions.len() / D;
-    for (at, (sum, value)) in sums.iter_mut().zip(functions).enumerate() {
-        *sum += value * q[at / count];
+    let each = sums.chunks_exact_mut(count).zip(functions.chunks_exact(count));
+    for ((sums, functions), q) in each.zip(q.iter()) {
+        sums.iter_mut().zip(functions).for_each(|(sum, value)| *sum += value * q);
     }
 }

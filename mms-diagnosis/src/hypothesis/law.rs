@@ -151,7 +151,8 @@ fn with_moduli<const D: usize>(
     let (Some(law), Some(moduli)) = (at.exact.law, at.exact.moduli(at.reference)) else { return };
     let size = at.size.first().copied().unwrap_or(1.0);
     for ((tau, h), moduli) in tau.iter_mut().zip(at.gradient).zip(moduli) {
-        *tau += law.stress(other(moduli, size), h) - law.stress(moduli, h);
+        let [other, own] = law.stresses([other(moduli, size), moduli], h);
+        *tau += other - own;
     }
 }
 

@@ -1,5 +1,8 @@
 //! A field typed by hand, whose b is found by differences: nothing of it is shared with the compiler.
 
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+
 use mms_runtime::{Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Vector};
 
 /// A square of neo-Hookean material, whose motion is given on its sides, but for the right one if that has a load.
@@ -85,6 +88,24 @@ pub fn body_force(time: f64, x: &Point) -> Point {
     acceleration(time, x) - divergence(time, x, |h| first(h, [LAMBDA, MU])) / DENSITY
 }
 
+/// Times and places, bit by bit, with b there.
+type Known = Mutex<HashMap<Vec<u64>, Arc<[Point]>>>;
+
+/// b at some places, which is found once: the runs of all hypotheses ask for it at the same times and places, and its
+/// differences take longer than all that the runs do besides.
+fn known(time: f64, x: &[Point]) -> Arc<[Point]> {
+    static KNOWN: LazyLock<Known> = LazyLock::new(Mutex::default);
+    let bits = x.iter().flat_map(|x| x.iter().map(|it| it.to_bits()));
+    let key: Vec<u64> = std::iter::once(time.to_bits()).chain(bits).collect();
+    let all = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let before = all().get(&key).cloned();
+    before.unwrap_or_else(|| {
+        let found: Arc<[Point]> = x.iter().map(|x| body_force(time, x)).collect();
+        all().insert(key, found.clone());
+        found
+    })
+}
+
 impl Material<f64, 2> for Square {
     fn density(&self, _: &[Point], density: &mut [f64]) {
         density.fill(DENSITY);
@@ -121,7 +142,7 @@ impl ManufacturedField<f64, 2> for Square {
     }
 
     fn body_force(&self, time: f64, x: &[Point], out: &mut [Point]) {
-        x.iter().zip(out).for_each(|(x, out)| *out = body_force(time, x));
+        out.copy_from_slice(&known(time, x));
     }
 
     fn displacement_gradient(&self, time: f64, x: &[Point], out: &mut [Tensor]) {

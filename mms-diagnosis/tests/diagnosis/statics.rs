@@ -149,7 +149,7 @@ fn responses_are_those_of_paper() {
     let mesh = mesh(32, &vec![0.0; 33]);
     let frame = frame(&exact, &mesh);
     let equilibrium = Arc::new(Equilibrium::new(&exact, &frame).unwrap().unwrap());
-    let solver = Statics { equilibrium, frame: &frame, mesh: &mesh, cell_size: 1.0 / 32.0 };
+    let solver = Statics::new(equilibrium, &frame, &mesh);
     let right = solver.right(0).unwrap();
     let hypotheses = all(&exact);
     for (name, size, factors) in MISTAKES {
