@@ -7,7 +7,7 @@
 //! operation.
 
 use std::cmp::Reverse;
-use std::collections::BTreeSet;
+use std::collections::BinaryHeap;
 use std::collections::hash_map::Entry;
 
 use rustc_hash::FxHashMap;
@@ -17,20 +17,26 @@ use mms_symbolic::expr::{Rational, is_unit, reachable};
 use mms_symbolic::work::Work;
 
 /// What can be shared.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 enum Pair {
     /// a + ratio b, a before b.
-    Sum(Item, Item, Rational),
+    Sum(Item, Item, Ratio),
     /// a b, a before b or the same.
     Product(Item, Item),
     /// a / b.
     Quotient(Item, Item),
 }
 
+/// The position of a ratio among [`Ratios`]: their order is that in which they were met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+struct Ratio(u32);
+
 impl Pair {
-    fn form(&self) -> Operation {
-        match self.clone() {
-            Pair::Sum(a, b, ratio) => Operation::Sum(vec![(a, Rational::ONE), (b, ratio)]),
+    fn form(self, ratios: &Ratios) -> Operation {
+        match self {
+            Pair::Sum(a, b, ratio) => {
+                Operation::Sum(vec![(a, Rational::ONE), (b, ratios.all[ratio.0 as usize].clone())])
+            }
             Pair::Product(a, b) if a == b => Operation::Product(vec![(a, 2)]),
             Pair::Product(a, b) => Operation::Product(vec![(a, 1), (b, 1)]),
             Pair::Quotient(a, b) if a < b => Operation::Product(vec![(a, 1), (b, -1)]),
@@ -38,25 +44,25 @@ impl Pair {
         }
     }
 
-    fn operands(&self) -> (Item, Item) {
+    fn operands(self) -> (Item, Item) {
         let (Pair::Sum(a, b, _) | Pair::Product(a, b) | Pair::Quotient(a, b)) = self;
-        (*a, *b)
+        (a, b)
     }
 
     /// A form that contains the pair, with `whole` in its place.
-    fn replace(&self, form: &Operation, whole: Item) -> Operation {
+    fn replace(self, form: &Operation, whole: Item) -> Operation {
         match (self, form) {
             (Pair::Sum(a, b, _), Operation::Sum(terms)) => {
                 let mut rest = terms.clone();
-                let first = rest.iter_mut().find(|(item, _)| item == a);
+                let first = rest.iter_mut().find(|(item, _)| *item == a);
                 let coefficient = first.map(|(_, own)| std::mem::take(own)).unwrap_or_default();
-                rest.retain(|(item, _)| item != a && item != b);
+                rest.retain(|(item, _)| *item != a && *item != b);
                 rest.push((whole, coefficient));
                 Operation::Sum(collected(rest, Rational::is_zero))
             }
             (Pair::Product(a, b) | Pair::Quotient(a, b), Operation::Product(factors)) => {
-                let power = |item: &Item| {
-                    let found = factors.iter().find(|(base, _)| base == item);
+                let power = |item: Item| {
+                    let found = factors.iter().find(|(base, _)| *base == item);
                     found.map_or(0, |(_, exponent)| *exponent)
                 };
                 let (first, second) = (power(a), power(b));
@@ -65,12 +71,53 @@ impl Pair {
                 let opposite = if matches!(self, Pair::Quotient(..)) { -1 } else { 1 };
                 let count = if a == b { first.abs() / 2 } else { first.abs().min(second.abs()) };
                 let mut rest = factors.clone();
-                rest.push((*a, -sign * count));
-                rest.push((*b, -sign * opposite * count));
+                rest.push((a, -sign * count));
+                rest.push((b, -sign * opposite * count));
                 rest.push((whole, sign * count));
                 Operation::Product(collected(rest, |exponent| *exponent == 0))
             }
             _ => form.clone(),
+        }
+    }
+}
+
+/// The ratios of coefficients that were met, each once.
+struct Ratios {
+    all: Vec<Rational>,
+    places: FxHashMap<Rational, Ratio>,
+}
+
+impl Default for Ratios {
+    /// With 1 and -1, which most ratios are.
+    fn default() -> Self {
+        Ratios { all: vec![Rational::ONE, Rational::NEG_ONE], places: FxHashMap::default() }
+    }
+}
+
+impl Ratios {
+    const ONE: Ratio = Ratio(0);
+    const NEG_ONE: Ratio = Ratio(1);
+
+    /// a/b.
+    fn of(&mut self, a: &Rational, b: &Rational) -> Ratio {
+        if a == b {
+            return Self::ONE;
+        }
+        let ratio = match is_unit(b) {
+            true if b.is_one() => a.clone(),
+            true => -a.clone(),
+            false => a / b,
+        };
+        if ratio == self.all[1] {
+            return Self::NEG_ONE;
+        }
+        match self.places.entry(ratio) {
+            Entry::Occupied(entry) => *entry.get(),
+            Entry::Vacant(entry) => {
+                let new = Ratio(self.all.len() as u32);
+                self.all.push(entry.key().clone());
+                *entry.insert(new)
+            }
         }
     }
 }
@@ -103,7 +150,7 @@ pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope, work: &Work) 
     }
     table.rank();
     while let Some(pair) = table.best().filter(|_| !work.is_over()) {
-        work.spend(table.extract(flat, &pair));
+        work.spend(table.extract(flat, pair));
     }
 }
 
@@ -128,22 +175,41 @@ fn common(flat: &Flat, counted: &[Item]) -> Vec<bool> {
 struct Table {
     /// Of the operations before sharing.
     common: Vec<bool>,
+    ratios: Ratios,
     /// How often a pair occurs, and how often in which operation. Their order here matters to nobody.
     places: FxHashMap<Pair, Places>,
-    /// Pairs that occur more than once. The most frequent is last; of equals, the first in order.
-    ranked: BTreeSet<(u64, Reverse<Pair>)>,
+    /// Pairs that occur more than once, each as often as it does or more often. The most frequent is first; of equals, the
+    /// first in order, but for ratios.
+    ranked: BinaryHeap<(u64, Reverse<Pair>)>,
+    /// The pairs of one operation, while they are counted.
+    pairs: Vec<(Pair, u64)>,
 }
 
-/// How often a pair occurs, and how often in which operation, which are in order.
+/// How often a pair occurs, and how often in which operation.
 #[derive(Default)]
 struct Places {
     total: u64,
+    /// As how frequent it is ranked, which is no less; 0 where it is not.
+    ranked: u64,
+    /// The one operation, of most pairs, while there were no others.
+    only: Option<(Item, u64)>,
+    /// All operations, in order, where there is not only one.
     each: Vec<(Item, u64)>,
 }
 
 impl Places {
     /// Sets how often the pair occurs in an operation.
     fn set(&mut self, item: Item, count: u64) {
+        if self.each.is_empty() {
+            match self.only {
+                Some((only, _)) if only != item => self.each.extend(self.only.take()),
+                _ => {
+                    self.only = Some((item, count));
+                    self.total = count;
+                    return;
+                }
+            }
+        }
         match self.each.binary_search_by_key(&item, |(item, _)| *item) {
             Ok(at) => self.total -= std::mem::replace(&mut self.each[at].1, count),
             Err(at) => self.each.insert(at, (item, count)),
@@ -152,60 +218,107 @@ impl Places {
     }
 
     fn remove(&mut self, item: Item) {
-        if let Ok(at) = self.each.binary_search_by_key(&item, |(item, _)| *item) {
+        if let Some((_, count)) = self.only.take_if(|(only, _)| *only == item) {
+            self.total -= count;
+        } else if let Ok(at) = self.each.binary_search_by_key(&item, |(item, _)| *item) {
             self.total -= self.each.remove(at).1;
         }
+    }
+
+    /// The operations, in order.
+    fn items(&self) -> Vec<Item> {
+        self.only.iter().chain(&self.each).map(|(item, _)| *item).collect()
     }
 }
 
 impl Table {
     /// Counts the pairs of an operation before any is ranked.
     fn count(&mut self, flat: &Flat, item: Item) {
-        for (pair, count) in self.pairs(flat.form(item), |_| true) {
-            self.places.entry(pair).or_default().set(item, count);
+        let pairs = self.take_pairs(flat.form(item), None);
+        for (pair, count) in &pairs {
+            self.places.entry(*pair).or_default().set(item, *count);
         }
+        self.pairs = pairs;
     }
 
     fn rank(&mut self) {
-        let frequent = self.places.iter().filter(|(_, places)| places.total > 1);
-        self.ranked =
-            frequent.map(|(pair, places)| (places.total, Reverse(pair.clone()))).collect();
+        let frequent = self.places.iter_mut().filter(|(_, places)| places.total > 1);
+        let ranked = frequent.map(|(pair, places)| {
+            places.ranked = places.total;
+            (places.total, Reverse(*pair))
+        });
+        self.ranked = ranked.collect::<Vec<_>>().into();
     }
 
-    fn enter(&mut self, flat: &Flat, item: Item, concerned: impl Fn(Item) -> bool) {
-        for (pair, count) in self.pairs(flat.form(item), concerned) {
-            self.change(pair, |places| places.set(item, count));
+    fn enter(&mut self, flat: &Flat, item: Item, concerned: [Item; 3]) {
+        let pairs = self.take_pairs(flat.form(item), Some(concerned));
+        for (pair, count) in &pairs {
+            let places = self.places.entry(*pair).or_default();
+            places.set(item, *count);
+            if places.total > places.ranked.max(1) {
+                places.ranked = places.total;
+                self.ranked.push((places.total, Reverse(*pair)));
+            }
         }
+        self.pairs = pairs;
     }
 
-    fn withdraw(&mut self, flat: &Flat, item: Item, concerned: impl Fn(Item) -> bool) {
-        for (pair, _) in self.pairs(flat.form(item), concerned) {
-            self.change(pair, |places| places.remove(item));
+    /// Whoever occurs less often stays where it is ranked until its turn comes.
+    fn withdraw(&mut self, flat: &Flat, item: Item, concerned: [Item; 3]) {
+        let pairs = self.take_pairs(flat.form(item), Some(concerned));
+        for (pair, _) in &pairs {
+            if let Entry::Occupied(mut entry) = self.places.entry(*pair) {
+                entry.get_mut().remove(item);
+                if entry.get().total == 0 {
+                    entry.remove();
+                }
+            }
         }
+        self.pairs = pairs;
     }
 
-    /// Changes the places of a pair, and its rank with them.
-    fn change(&mut self, pair: Pair, change: impl FnOnce(&mut Places)) {
-        let mut entry = match self.places.entry(pair) {
-            Entry::Occupied(entry) => entry,
-            Entry::Vacant(entry) => entry.insert_entry(Places::default()),
+    /// The pair that occurs most often; of equals, the first in order.
+    fn best(&mut self) -> Option<Pair> {
+        let (total, best) = self.next()?;
+        let Pair::Sum(a, b, _) = best else { return Some(best) };
+        // Those that differ in their ratio alone are next to each other, but not in the order of their ratios.
+        let mut equals = vec![best];
+        while let Some((next, Reverse(Pair::Sum(c, d, _)))) = self.ranked.peek()
+            && (*next, *c, *d) == (total, a, b)
+        {
+            // Another one may have come in its place.
+            let Some((next, pair)) = self.next() else { break };
+            match pair {
+                Pair::Sum(c, d, _) if (next, c, d) == (total, a, b) => equals.push(pair),
+                _ => {
+                    self.ranked.push((next, Reverse(pair)));
+                    break;
+                }
+            }
+        }
+        self.ranked.extend(equals.iter().map(|pair| (total, Reverse(*pair))));
+        let value = |pair: &Pair| match pair {
+            Pair::Sum(.., ratio) => &self.ratios.all[ratio.0 as usize],
+            _ => &self.ratios.all[0],
         };
-        let before = entry.get().total;
-        change(entry.get_mut());
-        let after = entry.get().total;
-        if before != after && before > 1 {
-            self.ranked.remove(&(before, Reverse(entry.key().clone())));
-        }
-        if before != after && after > 1 {
-            self.ranked.insert((after, Reverse(entry.key().clone())));
-        }
-        if after == 0 {
-            entry.remove();
-        }
+        equals.into_iter().min_by(|a, b| value(a).cmp(value(b)))
     }
 
-    fn best(&self) -> Option<Pair> {
-        self.ranked.last().map(|(_, pair)| pair.0.clone())
+    /// Takes out the first pair of the ranks that occurs as often as they say.
+    fn next(&mut self) -> Option<(u64, Pair)> {
+        while let Some((ranked, Reverse(pair))) = self.ranked.pop() {
+            let Some(places) = self.places.get_mut(&pair).filter(|it| it.ranked == ranked) else {
+                continue;
+            };
+            if places.total == ranked {
+                return Some((ranked, pair));
+            }
+            places.ranked = if places.total > 1 { places.total } else { 0 };
+            if places.ranked > 0 {
+                self.ranked.push((places.ranked, Reverse(pair)));
+            }
+        }
+        None
     }
 
     /// What it takes to count the pairs of an operation.
@@ -215,14 +328,14 @@ impl Table {
     }
 
     /// Makes the pair an operation, and puts it in its places; says what that took.
-    fn extract(&mut self, flat: &mut Flat, pair: &Pair) -> u64 {
+    fn extract(&mut self, flat: &mut Flat, pair: Pair) -> u64 {
         let mut steps = 0;
-        let form = pair.form();
-        let places: Vec<Item> = self.places[pair].each.iter().map(|(item, _)| *item).collect();
+        let form = pair.form(&self.ratios);
+        let places = self.places[&pair].items();
         let existing = places.iter().copied().find(|place| *flat.form(*place) == form);
         let whole = existing.unwrap_or_else(|| flat.push(form));
         let (a, b) = pair.operands();
-        let concerned = |item: Item| item == a || item == b || item == whole;
+        let concerned = [a, b, whole];
         for place in places {
             // With each of the pair, and with what takes its place.
             steps += 3 * STEPS_OF_PAIR * flat.form(place).size() as u64;
@@ -240,47 +353,62 @@ impl Table {
         self.common.get(item.index()).copied().unwrap_or(true)
     }
 
-    /// The pairs of an operation with a concerned operand, and how often each occurs in it.
-    fn pairs(&self, form: &Operation, concerned: impl Fn(Item) -> bool) -> Vec<(Pair, u64)> {
-        let is_common = |item: Item| self.is_common(item);
-        let mut pairs = Vec::new();
+    /// The pairs of an operation, of those with a concerned operand if some are named, and how often each occurs in it; in
+    /// the place that is kept for them.
+    fn take_pairs(&mut self, form: &Operation, concerned: Option<[Item; 3]>) -> Vec<(Pair, u64)> {
+        let mut pairs = std::mem::take(&mut self.pairs);
+        pairs.clear();
         match form {
             Operation::Sum(terms) => {
-                let terms: Vec<_> = terms.iter().filter(|(item, _)| is_common(*item)).collect();
-                for (index, (a, first)) in terms.iter().enumerate() {
-                    for (b, second) in &terms[index + 1..] {
-                        if concerned(*a) || concerned(*b) {
-                            pairs.push((Pair::Sum(*a, *b, ratio(second, first)), 1));
-                        }
-                    }
-                }
+                let item = |at: usize| terms[at].0;
+                self.each_two(terms.len(), item, concerned, |ratios, first, second| {
+                    let ((a, first), (b, second)) = (&terms[first], &terms[second]);
+                    pairs.push((Pair::Sum(*a, *b, ratios.of(second, first)), 1));
+                });
             }
             Operation::Product(factors) => {
-                let factors: Vec<_> = factors.iter().filter(|(item, _)| is_common(*item)).collect();
-                for (index, (a, first)) in factors.iter().enumerate() {
-                    let squares = u64::from(first.unsigned_abs() / 2);
-                    if squares > 0 && concerned(*a) {
-                        pairs.push((Pair::Product(*a, *a), squares));
-                    }
-                    for (b, second) in &factors[index + 1..] {
-                        if concerned(*a) || concerned(*b) {
-                            pairs.push(factor_pair((*a, *first), (*b, *second)));
-                        }
+                let is_concerned =
+                    |item: Item| concerned.is_none_or(|concerned| concerned.contains(&item));
+                for (item, exponent) in factors {
+                    let squares = u64::from(exponent.unsigned_abs() / 2);
+                    if squares > 0 && self.is_common(*item) && is_concerned(*item) {
+                        pairs.push((Pair::Product(*item, *item), squares));
                     }
                 }
+                let item = |at: usize| factors[at].0;
+                self.each_two(factors.len(), item, concerned, |_, first, second| {
+                    pairs.push(factor_pair(factors[first], factors[second]));
+                });
             }
             Operation::Constant(_) | Operation::Pi | Operation::Input(_) | Operation::Call(..) => {}
         }
         pairs
     }
-}
 
-/// a/b.
-fn ratio(a: &Rational, b: &Rational) -> Rational {
-    match is_unit(b) {
-        true if b.is_one() => a.clone(),
-        true => -a.clone(),
-        false => a / b,
+    /// Names every two operands that can be shared, the first one first, by their positions; of those with a concerned one
+    /// among them if some are named.
+    fn each_two(
+        &mut self,
+        count: usize,
+        item: impl Fn(usize) -> Item,
+        concerned: Option<[Item; 3]>,
+        mut with: impl FnMut(&mut Ratios, usize, usize),
+    ) {
+        let shared: Vec<usize> = (0..count).filter(|at| self.is_common(item(*at))).collect();
+        let ratios = &mut self.ratios;
+        for (index, first) in shared.iter().enumerate() {
+            match concerned {
+                Some(concerned) if !concerned.contains(&item(*first)) => {}
+                // Pairs of two that are concerned are those of the first one.
+                Some(concerned) => {
+                    let others =
+                        shared[..index].iter().filter(|at| !concerned.contains(&item(**at)));
+                    others.for_each(|other| with(ratios, *other, *first));
+                    shared[index + 1..].iter().for_each(|other| with(ratios, *first, *other));
+                }
+                None => shared[index + 1..].iter().for_each(|other| with(ratios, *first, *other)),
+            }
+        }
     }
 }
 
