@@ -1,4 +1,10 @@
 //! The tests of this crate, as one program, so that what they share is compiled and linked once.
 
+mod block;
 mod double;
+mod dual;
+mod fan;
 mod functions;
+mod interval;
+mod precise;
+mod schedule;

@@ -13,8 +13,6 @@
 mod column;
 mod plan;
 mod steps;
-#[cfg(test)]
-mod tests;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};

@@ -499,3 +499,52 @@ fn parts(steps: &[Step]) -> Vec<Range<usize>> {
     });
     parts.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::Value;
+    use mms_symbolic::expr::Stage;
+    use mms_symbolic::sorted::SortedMap;
+
+    /// The plan of a program whose last value is what is asked for.
+    fn plan(ops: Vec<Op>) -> Plan {
+        let stage = |op: &Op| match op {
+            Op::Input(symbol) => Stage::of(*symbol),
+            _ => Stage::Point,
+        };
+        let last = Value(ops.len() as u32 - 1);
+        let instrs = ops.into_iter().map(|op| Instr { stage: stage(&op), op }).collect();
+        let program = Program { instrs, outputs: SortedMap::from([(0, vec![last])]) };
+        Plan::new(&program, &[0], |_| false)
+    }
+
+    #[test]
+    fn registers_are_used_again() {
+        // A long chain of functions has two at a time.
+        let chain = (0..100).map(|k| Op::Unary(Function::Sin, None, Value(k)));
+        let plan = plan([Op::Input(Symbol::Coordinate(0))].into_iter().chain(chain).collect());
+        assert_eq!((plan.steps.len(), plan.registers), (100, 3));
+    }
+
+    /// Of sums of a product, each operand may be the same at all points.
+    #[test]
+    fn a_product_that_is_added_is_no_step_of_its_own() {
+        let [x, y] = [0, 1].map(|axis| Op::Input(Symbol::Coordinate(axis)));
+        let [a, b] = [0, 1].map(|index| Op::Input(Symbol::Parameter(index)));
+        for factors in [[2, 3], [2, 0], [0, 3]] {
+            for term in [0, 1, 2, 3] {
+                let [first, second] = factors.map(Value);
+                for sum in [
+                    Op::Add(Value(4), Value(term)),
+                    Op::Subtract(Value(4), Value(term)),
+                    Op::Subtract(Value(term), Value(4)),
+                ] {
+                    let product = Op::Multiply(first, second);
+                    let plan = plan(vec![a.clone(), b.clone(), x.clone(), y.clone(), product, sum]);
+                    assert_eq!(plan.steps.len(), 1, "{:?}", plan.steps);
+                }
+            }
+        }
+    }
+}

@@ -367,81 +367,9 @@ impl Scalar for Interval {
 mod tests {
     use super::*;
 
-    fn assert_tight(interval: Interval, value: f64, steps: u64) {
-        assert!(interval.is_defined() && interval.lower < interval.upper, "{interval:?}");
-        let apart = interval.upper.to_bits().abs_diff(interval.lower.to_bits());
-        assert!(apart <= steps, "{interval:?} is {apart} steps wide");
-        assert!(interval.contains(value), "{interval:?} lacks {value:e}");
-    }
-
     #[test]
-    fn a_point_gives_two_neighbouring_numbers() {
-        let of = |value: f64| Interval::new(value, value);
-        // Values from the tables of Abramowitz & Stegun, to all digits of a double.
-        assert_tight(of(1.0).exp(), core::f64::consts::E, 1);
-        assert_tight(of(2.0).ln(), core::f64::consts::LN_2, 1);
-        assert_tight(of(2.0).sqrt(), core::f64::consts::SQRT_2, 1);
-        assert_tight(of(1.0).atan(), core::f64::consts::FRAC_PI_4, 1);
-        assert_tight(of(1.0).sin(), 0.841_470_984_807_896_5, 1);
-        assert_tight(of(1.0).cosh(), 1.543_080_634_815_243_8, 1);
-        assert_tight(of(2.0).powf(of(0.5)), core::f64::consts::SQRT_2, 2);
-        assert_tight(of(1.0).atan2(of(-1.0)), 2.356_194_490_192_345, 4);
-        assert_eq!(of(4.0).sqrt(), of(2.0));
-        assert_eq!(of(27.0).cbrt(), of(3.0));
-        assert_eq!(of(0.0).exp(), of(1.0));
-    }
-
-    #[test]
-    fn waves_reach_their_extrema() {
-        let sin = |lower, upper| Interval::new(lower, upper).sin();
-        assert_eq!(sin(1.0, 2.0).upper, 1.0);
-        assert!(sin(1.0, 1.5).upper < 1.0);
-        assert_eq!(sin(4.0, 5.0).lower, -1.0);
-        assert_eq!((sin(1.0, 5.0).lower, sin(1.0, 5.0).upper), (-1.0, 1.0));
-        assert_eq!(sin(-2.0, -1.0).lower, -1.0);
-        assert_eq!((sin(0.0, 100.0).lower, sin(0.0, 100.0).upper), (-1.0, 1.0));
-        let cos = Interval::new(-0.5, 0.25).cos();
-        assert_eq!(cos.upper, 1.0);
-        assert!(cos.lower > 0.87, "{cos:?}");
-        assert_eq!(Interval::new(3.0, 3.5).cos().lower, -1.0);
-        assert_eq!(Interval::new(0.0, f64::INFINITY).cos(), Interval::new(-1.0, 1.0));
-        // 1e22 is far from 0, but no more than its double is known.
-        assert!(Interval::new(1e22, 1e22).sin().width() < 1e-15);
-    }
-
-    #[test]
-    fn poles_and_domains_are_told() {
-        assert_eq!(Interval::new(1.5, 1.6).tan(), Interval::UNDEFINED);
-        assert!(Interval::new(-1.5, 1.5).tan().is_defined());
-        let root = Interval::new(-1.0, 4.0).sqrt();
-        assert_eq!((root.lower, root.upper, root.defined), (0.0, 2.0, false));
-        assert_eq!(Interval::new(-2.0, -1.0).sqrt(), Interval::UNDEFINED);
-        let ln = Interval::new(0.0, 1.0).ln();
-        assert_eq!((ln.lower, ln.upper, ln.defined), (f64::NEG_INFINITY, 0.0, false));
-        assert!(!Interval::new(-1.0, 0.0).ln_1p().is_defined());
-        assert!(!Interval::new(0.5, 1.5).asin().is_defined());
-        assert!(!Interval::new(-1.0, 1.0).atan2(Interval::new(-1.0, 1.0)).is_defined());
-        assert!(Interval::new(-1.0, 1.0).atan2(Interval::new(-2.0, -1.0)).is_defined());
-        assert!(!Interval::new(-1.0, 1.0).powf(Interval::new(1.0, 2.0)).is_defined());
-        let power = Interval::new(0.0, 2.0).powf(Interval::new(1.0, 2.0));
-        assert_eq!((power.lower, power.defined), (0.0, true));
-        assert!((4.0..4.1).contains(&power.upper), "{power:?}");
-        assert!(!Interval::new(0.0, 2.0).powf(Interval::new(-1.0, 2.0)).is_defined());
-    }
-
-    #[test]
-    fn extremes_are_bounded() {
-        let huge = Interval::new(-1e300, 1e300);
-        assert_eq!((huge.exp().lower, huge.exp().upper), (0.0, f64::INFINITY));
-        assert_eq!((huge.tanh().lower, huge.tanh().upper), (-1.0, 1.0));
-        assert_eq!(huge.cosh().lower, 1.0);
-        assert_eq!(Interval::new(710.0, 711.0).exp().upper, f64::INFINITY);
-        assert!(Interval::new(709.0, 709.0).exp().upper.is_finite());
-        assert!(Interval::new(-745.0, -745.0).exp().upper > 0.0);
-        assert_eq!(huge.atan(), Interval::new(-QUARTER.1, QUARTER.1));
+    fn constants_lie_between_neighbours() {
         assert_eq!(QUARTER.0.next_up(), QUARTER.1);
         assert_eq!(UNIT.0, 1.0_f64.next_down());
-        let powers = Interval::new(0.5, f64::INFINITY).powf(Interval::new(-1.0, 1e300));
-        assert_eq!((powers.lower, powers.upper), (0.0, f64::INFINITY));
     }
 }
