@@ -23,7 +23,7 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
 
-use crate::sampled::is_in_depth;
+use crate::sampled::{all_is_tried, is_in_depth, sampled_count};
 
 /// What a certificate may take in the mean: some 0.2 ms a box in two dimensions, and 1 ms in three.
 const BOXES: usize = 1000;
@@ -214,7 +214,7 @@ fn amplitude() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 8, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: sampled_count(8, 2) as u32, ..ProptestConfig::default() })]
     #[test]
     fn no_value_exceeds_what_is_proved(
         a in [amplitude(), amplitude(), amplitude(), amplitude()],
@@ -445,7 +445,8 @@ fn a_graph_that_is_full_proves_nothing() {
     let (liar, honest) = (text(""), text(" - X*cos(1)"));
     let whole = judged(&honest, 100_000).expect("an ample graph");
     let [mut full, mut proved] = [0; 2];
-    for max_nodes in (100..6000).step_by(100) {
+    let step = if all_is_tried() { 100 } else { 300 };
+    for max_nodes in (100..6000).step_by(step) {
         let refusal = judged(&liar, max_nodes).expect_err("x_max moves");
         assert!(refusal.contains("too large") || refusal.contains("no `fixed` face"), "{refusal}");
         match judged(&honest, max_nodes) {

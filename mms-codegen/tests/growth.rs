@@ -13,7 +13,7 @@ fn compiled(family: Family, dimension: usize, terms: usize) -> Compiled {
     compile("x", "x.toml", &text, &load).unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-const FEW: [&[usize]; 3] = [&[1, 10, 100], &[1, 10, 100], &[1, 10]];
+const FEW: [&[usize]; 3] = [&[1, 10, 100], &[1, 10], &[1, 10]];
 
 /// Three components of 1000 terms would pass the bound of the graph.
 const MANY: [&[usize]; 3] = [&[100, 1000], &[10, 100], &[10, 100]];
@@ -54,14 +54,14 @@ fn so_they_do_for_as_many_terms_as_a_graph_holds() {
     hold(Family::Polynomial, MANY);
 }
 
-/// Each definition uses the one before it twice: what is walked again wherever it is used takes 2^60 steps.
+/// Each definition uses the one before it twice: what is walked again wherever it is used takes 2^45 steps.
 #[test]
 fn what_is_used_twice_is_walked_once() {
     let lines: String =
-        (1..60).map(|level| format!("p{level} = \"p{0} + p{0}*X\"\n", level - 1)).collect();
+        (1..45).map(|level| format!("p{level} = \"p{0} + p{0}*X\"\n", level - 1)).collect();
     let text = format!(
         "[field]\ntitle = \"x\"\ndimension = 1\n[let]\np0 = \"X + 1\"\n{lines}[displacement]\n\
-         u = [\"p59*1e-30\"]\n[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
+         u = [\"p44*1e-30\"]\n[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
          [domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n"
     );
     let load = |_: &str| Err("no files here".to_string());

@@ -26,7 +26,7 @@ fn repeated(count: usize, piece: impl Fn(usize) -> String) -> String {
 
 /// Asserts that no text of a sweep takes more than the bound; each has a name.
 fn hold(texts: &[(&str, String)]) {
-    for (what, text) in sampled(texts, 3) {
+    for (what, text) in sampled(texts, 5) {
         let taken = measure(|| survive(text, &Options::default())).bytes_max;
         println!("{what}: {} KiB for a text of {} KiB", taken >> 10, text.len() >> 10);
         assert!(taken < BOUND, "{what}: {taken} bytes");

@@ -1,6 +1,6 @@
 //! Fields of every kind of motion and material, as texts.
 
-use mms_codegen::{Compiled, compile};
+use mms_codegen::{Compiled, Selection, compile_with};
 
 /// A density that uses every invariant, so that no coefficient of the stress is zero.
 const EVERY_INVARIANT: &str = r#"
@@ -19,7 +19,19 @@ pub const NEO_HOOKEAN: &str = "model = \"neo_hookean\"\nlambda = 3\nmu = 2";
 pub const GRADED: &str =
     "model = \"./every.toml\"\nk1 = \"2 + X/3\"\nk2 = 1\nk3 = \"8 + 2*X/3\"\nk4 = 5";
 
+/// All that a solver needs of a field.
 pub fn field(dimension: usize, displacement: &str, material: &str, density: &str) -> Compiled {
+    field_of(dimension, displacement, material, density, Selection::default())
+}
+
+/// A part of it.
+pub fn field_of(
+    dimension: usize,
+    displacement: &str,
+    material: &str,
+    density: &str,
+    selection: Selection,
+) -> Compiled {
     let corner = |value: &str| vec![value; dimension].join(", ");
     let text = format!(
         "[field]\ntitle = \"a field\"\ndimension = {dimension}\n[displacement]\nu = {displacement}\n\
@@ -29,7 +41,8 @@ pub fn field(dimension: usize, displacement: &str, material: &str, density: &str
         corner("1"),
     );
     let load = |_: &str| Ok(EVERY_INVARIANT.to_string());
-    compile("field", "field.toml", &text, &load).unwrap_or_else(|failure| panic!("{failure}"))
+    compile_with("field", "field.toml", &text, &load, &selection.into())
+        .unwrap_or_else(|failure| panic!("{failure}"))
 }
 
 pub const PLANE: &str = "[\"0.1*sin(2*X + Y)*cos(t)\", \"0.2*X*Y^2*sin(t + X)\"]";
