@@ -17,6 +17,8 @@ use mms_spec::units::{Dimension, Formulas, Measure, Unit};
 use mms_symbolic::expr::{Graph, Rational, Symbol};
 use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
+
+use crate::sampled::sampled_count;
 use proptest::strategy::ValueTree as _;
 use proptest::test_runner::TestRunner;
 
@@ -136,6 +138,8 @@ fn agree(a: &Precise, b: &Precise) -> bool {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(sampled_count(256, 3) as u32))]
+
     /// Whatever stands in a unit: it is read or refused, at once.
     #[test]
     fn no_text_is_too_much_for_a_unit(text in "([a-zA-Z0-9*/^() .-]|kg|mm|MPa|\\^\\(1/2\\)|\\PC){0,60}") {
@@ -145,7 +149,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(sampled_count(400, 3) as u32))]
 
     #[test]
     fn values_follow_a_change_of_units_as_claimed(text in formulas(true)) {

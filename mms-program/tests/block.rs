@@ -6,6 +6,8 @@ use mms_math::Double;
 use mms_math::dispatch::Instructions;
 use proptest::prelude::*;
 
+use crate::sampled::sampled_count;
+
 use mms_program::block::{Blockwise, Plan, Prepared, Room, Rooms, Way};
 use mms_program::interpret::{Interpreter, Point};
 use mms_program::{Instr, Op, Value};
@@ -258,6 +260,8 @@ fn recipes() -> impl Strategy<Value = Vec<(u8, u16, u16)>> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(sampled_count(256, 3) as u32))]
+
     #[test]
     fn random_programs_have_the_bits_of_one_point(recipe in recipes(), count in 1_usize..300) {
         let program = program(&recipe);

@@ -7,4 +7,6 @@ mod fan;
 mod functions;
 mod interval;
 mod precise;
+#[path = "../../tests/support/sampled.rs"]
+mod sampled;
 mod schedule;

@@ -10,11 +10,15 @@ use mms_symbolic::pass::substitute::substitute;
 use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
 
+use crate::sampled::sampled_count;
+
 use super::evaluation::{Extent, close, place, places, value_and_extent, values};
 use super::read::read;
 use super::recipe::{X, any_recipe, build, built, evaluate, recipe, rewritten};
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(sampled_count(256, 3) as u32))]
+
     #[test]
     fn a_printed_expression_reads_back_as_itself(recipe in recipe()) {
         let mut graph = Graph::default();

@@ -9,6 +9,8 @@ use mms_symbolic::expr::{Expr, Function, Graph, Rational};
 use mms_symbolic::pass::differentiate::differentiate;
 use proptest::prelude::*;
 
+use crate::sampled::sampled_count;
+
 use super::evaluation::{close, place, places, power_of_ten, ratio, value_and_extent, values};
 use super::recipe::{Place, X, any_recipe, built, evaluate};
 
@@ -35,6 +37,8 @@ fn difference(at: &Place<Precise>, f: impl Fn(&Place<Precise>) -> Precise) -> Pr
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(sampled_count(256, 3) as u32))]
+
     #[test]
     fn derivatives_are_those_of_dual_numbers(recipe in any_recipe()) {
         let mut graph = Graph::default();

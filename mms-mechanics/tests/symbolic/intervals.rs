@@ -8,6 +8,8 @@ use mms_program::precise::Precise;
 use mms_symbolic::expr::Graph;
 use proptest::prelude::*;
 
+use crate::sampled::sampled_count;
+
 use super::evaluation::{place, values};
 use super::recipe::{Place, any_recipe, built, evaluate};
 
@@ -35,6 +37,8 @@ fn lies_within(value: &Precise, bounds: Interval) -> bool {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(sampled_count(256, 3) as u32))]
+
     #[test]
     fn no_value_is_outside_the_bounds(
         recipe in any_recipe(),

@@ -15,6 +15,8 @@ use mms_symbolic::pass::separate::separate;
 use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
 
+use crate::sampled::sampled_count;
+
 use super::evaluation::{close, places, run, same_value, value_and_extent, values};
 use super::read::read;
 use super::recipe::{any_recipe, built, recipe};
@@ -57,6 +59,8 @@ fn squares_are_written_as_such() -> Result<(), TestCaseError> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(sampled_count(256, 3) as u32))]
+
     #[test]
     fn no_pass_changes_a_value(recipe in any_recipe()) {
         let mut graph = Graph::default();

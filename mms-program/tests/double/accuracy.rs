@@ -10,6 +10,7 @@ use super::sample::Range::{
     self, Above, Around, Below, Between, Magnitudes, Positive, QuarterTurns, QuartersOfHalves,
 };
 use super::{COUNT, exact, rounded};
+use crate::sampled::sampled_count;
 
 /// The error in units of 2^-104 of the true value; infinite where one is 0 or undefined and the
 /// other is not.
@@ -47,7 +48,7 @@ struct Binary {
 fn worst<T: core::fmt::Debug>(mut sample: impl FnMut(&mut Random) -> (T, f64)) -> (f64, String) {
     let mut random = Random(2026);
     let mut largest = (0.0, String::new());
-    for _ in 0..COUNT {
+    for _ in 0..sampled_count(COUNT, 3) {
         let (argument, error) = sample(&mut random);
         if error > largest.0 {
             largest = (error, format!("{argument:?}"));

@@ -3,6 +3,8 @@
 use mms_math::{Lane, NEAR_ZERO, Scalar, WITHIN_ONE};
 use mms_program::precise::Precise;
 
+use crate::sampled::sampled_count;
+
 type Real = fn(f64) -> f64;
 
 /// A function of one argument in both formats, each value held in an `f64`.
@@ -203,7 +205,7 @@ const SPECIAL: [f64; 16] = [
 fn every_function_is_right_to_its_bound_or_not_a_number() {
     let mut random = Random(1);
     for function in functions() {
-        let random = (0..1500).map(|_| random.number());
+        let random = (0..sampled_count(1500, 3)).map(|_| random.number());
         for x in random.chain(SPECIAL).collect::<Vec<_>>() {
             for (index, format) in FORMATS.iter().enumerate() {
                 check(&function, index, (format.round)(x));
@@ -256,7 +258,7 @@ fn beyond_the_numbers_the_careful_functions_are_the_standard_ones() {
 #[test]
 fn functions_of_two_arguments_are_right_or_not_a_number() {
     let mut random = Random(2);
-    for _ in 0..2000 {
+    for _ in 0..sampled_count(2000, 3) {
         let scale = random.magnitude(-60.0, 60.0);
         let y = scale * random.signed();
         let x = random.signed() * if random.bits().is_multiple_of(2) { scale } else { 1.0 };
@@ -333,7 +335,7 @@ fn of_a_small_angle_no_reduction_is_needed() {
     let within_one: [Everywhere; 2] = everywhere!(sin_within_one, cos_within_one);
     let mut random = Random(3);
     for (limit, [sine, cosine]) in [(NEAR_ZERO, near_zero), (WITHIN_ONE, within_one)] {
-        for _ in 0..1000 {
+        for _ in 0..sampled_count(1000, 3) {
             let single = (random.signed() * limit) as f32;
             let x = f64::from(single) * (1.0 - f64::EPSILON);
             // An error of the cosine counts as one of a number near 1.

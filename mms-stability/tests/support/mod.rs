@@ -61,11 +61,14 @@ pub fn neo_hookean<const D: usize>(
 /// The zero of a function between two points where it has different signs.
 pub fn zero(mut from: f64, mut to: f64, value: impl Fn(f64) -> f64) -> f64 {
     let sign = value(from) > 0.0;
-    for _ in 0..80 {
+    loop {
         let middle = (from + to) / 2.0;
+        // No number is left between the two.
+        if middle == from || middle == to {
+            return middle;
+        }
         if (value(middle) > 0.0) == sign { from = middle } else { to = middle }
     }
-    (from + to) / 2.0
 }
 
 /// The fields of the gallery that are measured in depth, in the order of their names.
