@@ -166,6 +166,11 @@ pub fn quick(line: String) -> String {
     line.replace("-O2", "-O0").replace(" -O ", " ")
 }
 
+/// The same, but where everything is tried.
+pub fn mostly_quick(line: String) -> String {
+    if all_is_tried() { line } else { quick(line) }
+}
+
 /// Calls a function for every item, on two threads.
 pub fn in_pairs<T: Sync>(items: &[T], each: impl Fn(&T) + Sync) {
     let next = std::sync::atomic::AtomicUsize::new(0);

@@ -7,6 +7,7 @@ use mms_emit::{Subject, Target};
 
 use super::build::{is_installed, is_installed_optionally, scratch, shell, write};
 use super::gallery::field;
+use super::sampled::sampled;
 
 fn target(name: &str) -> &'static Target {
     Target::find(name).expect("a target of that name")
@@ -98,7 +99,7 @@ fn c_reads_fortran_at_many_points_as_it_reads_c() {
     if !is_installed("cc --version") || !is_installed("gfortran --version") {
         return;
     }
-    for name in ["conformal_sector_2d", "twisted_column"] {
+    for name in sampled(["conformal_sector_2d", "twisted_column"], 2) {
         let field = field(name);
         let subject = Subject::new(&field);
         let folder = scratch(&format!("faces/{name}"));

@@ -48,7 +48,7 @@ fn waves_after_many_periods_prove_themselves_in_every_language_of_two_precisions
         let subject = Subject::new(&field);
         let is_meant = |target: &&'static Target| !ONE_PRECISION.contains(&target.name);
         let targets = ports().filter(|target| can_prove(target)).filter(is_meant);
-        for target in sampled(targets, 3) {
+        for target in sampled(targets, 6) {
             let error = prove(target, &subject, &format!("late/{name}"), quick);
             println!("{} {name}: {error} eps", target.name);
         }
@@ -61,7 +61,7 @@ fn every_field_proves_itself_in_every_language() {
     let targets: Vec<_> = ports().filter(|target| can_prove(target)).collect();
     let pairs =
         (0..targets.len()).flat_map(|target| (0..fields.len()).map(move |field| (field, target)));
-    let pairs = sampled(pairs, 20);
+    let pairs = sampled(pairs, 40);
     let worst = Mutex::new(BTreeMap::new());
     in_pairs(&pairs, |(field, target)| {
         let (name, target) = (fields[*field].field.name.raw(), targets[*target]);

@@ -9,7 +9,8 @@ use mms_emit::port::callable::callables;
 use mms_emit::{Subject, Target};
 use mms_spec::Form;
 
-use super::build::{is_installed, prove, scratch, shell};
+use super::build::{is_installed, mostly_quick, prove, scratch, shell};
+use super::sampled::{all_is_tried, sampled};
 
 fn field(name: &str, options: &Options) -> Compiled {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
@@ -28,13 +29,19 @@ const MORE_WARNINGS: &str = "-Wpedantic -Wconversion -Wshadow -Wcast-qual -Wunde
 #[test]
 fn c_has_no_warning_in_two_compilers_and_two_precisions() {
     let field = field("generalized_vortex", &Options::default());
-    for compiler in ["gcc", "clang"] {
+    let precisions = ["", "-DGENERALIZED_VORTEX_FLOAT"];
+    for (at, compiler) in ["gcc", "clang"].into_iter().enumerate() {
         if !is_installed(&format!("{compiler} --version")) {
             continue;
         }
-        for precision in ["", "-DGENERALIZED_VORTEX_FLOAT"] {
+        // One precision of each compiler, unless everything is tried.
+        let is_meant = |it: &(usize, &str)| it.0 == at || all_is_tried();
+        for (_, precision) in precisions.into_iter().enumerate().filter(is_meant) {
             let line = |line: String| {
-                line.replacen("cc ", &format!("{compiler} {MORE_WARNINGS} {precision} "), 1)
+                let line =
+                    line.replacen("cc ", &format!("{compiler} {MORE_WARNINGS} {precision} "), 1);
+                // Some warnings of GCC come with its optimisation, those of Clang before it.
+                if compiler == "clang" { mostly_quick(line) } else { line }
             };
             let error = prove(
                 target("c"),
@@ -68,7 +75,8 @@ fn cpp_has_no_warning_in_two_compilers() {
     for compiler in ["g++", "clang++"] {
         if is_installed(&format!("{compiler} --version")) {
             prove(target("cpp"), &Subject::new(&field), &format!("strict/{compiler}"), |line| {
-                line.replacen("c++ ", &format!("{compiler} {MORE_CPP_WARNINGS} "), 1)
+                let line = line.replacen("c++ ", &format!("{compiler} {MORE_CPP_WARNINGS} "), 1);
+                if compiler == "clang++" { mostly_quick(line) } else { line }
             });
         }
     }
@@ -84,7 +92,7 @@ fn fortran_proves_itself_in_single_precision() {
     }
     let field = field("bar_1d", &Options::default());
     prove(target("fortran"), &Subject::new(&field), "strict/single", |line| {
-        format!("sed -i.bak 's/wp = real64/wp = kind(1.0)/' bar_1d.f90 && {line}")
+        format!("sed -i.bak 's/wp = real64/wp = kind(1.0)/' bar_1d.f90 && {}", mostly_quick(line))
     });
 }
 
@@ -210,10 +218,10 @@ fn moose_formulas_keep_their_digits_in_the_parser_of_moose() {
     }
     let folder = scratch("strict/fparser");
     fs::write(folder.join("parser.cc"), PARSER).expect("a written file");
-    let build = shell("g++ -O1 parser.cc -lfparser -o parser", &folder);
+    let build = shell("g++ -O0 parser.cc -lfparser -o parser", &folder);
     assert!(build.status.success(), "{}", String::from_utf8_lossy(&build.stderr));
     // Logarithms near 1, powers and half turns.
-    for name in ["plane_strain_gent", "conformal_sector_2d"] {
+    for name in sampled(["plane_strain_gent", "conformal_sector_2d"], 2) {
         let field = field(name, &Options::default());
         let subject = Subject::new(&field);
         let text = (target("moose").emit)(&subject).files.swap_remove(0).text;
