@@ -25,6 +25,8 @@ fn agrees<const D: usize>(name: &str, compiled: &Compiled) {
         let gradient = state.deformation - SMatrix::identity();
         let rows = gradient.transpose();
         let (coordinates, gradient) = (place.as_slice(), rows.as_slice());
+        // Given fields change in time.
+        interpreter.set_time(&time);
         interpreter.set_point(&plan, Point { coordinates, normal: &[], gradient });
         let tangent = interpreter.output(output);
         let largest = tangent.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
@@ -76,7 +78,9 @@ fn moduli_at_rest_are_those_that_a_field_gives() {
             Some(parameters[index])
         };
         let moduli = Material::of(compiled).expect("a material").middle.moduli();
-        if compiled.model.fibre.is_some() {
+        // Where a given pressure has to balance the stress at F = I, the tangent there is that of a stressed body.
+        let is_pressed = compiled.material.name.raw() == "neo_hookean_mixed";
+        if compiled.model.fibre.is_some() || is_pressed {
             assert_eq!(moduli, None, "{name}");
             continue;
         }
