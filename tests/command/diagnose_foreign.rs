@@ -8,7 +8,7 @@ use super::mms::Folder;
 use crate::sampled::sampled;
 
 /// One in so many runs is tried.
-const SHARE: usize = 40;
+const SHARE: usize = 77;
 
 /// A run; the names that say what was planted, or `nothing` if it is harmless; and the size, if it has one. Without a name the
 /// mistake is one of those that docs/diagnosis.md lists as missed: it must not be called another one, and not `nothing`.
