@@ -197,9 +197,10 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
     programs[3].extend(functions(&mut graph, xt, y));
     let mut seen = SortedSet::new();
     let targets: Vec<_> = ports().filter(|target| can_prove(target)).collect();
-    let all = 0..programs.len();
-    let pairs = all.flat_map(|index| targets.iter().map(move |target| (index, target)));
-    let pairs = sampled(pairs, 6);
+    // What a program has to give is found once, for all of its targets.
+    let tried = sampled(0..programs.len(), 2).into_iter();
+    let pairs = tried.flat_map(|index| targets.iter().map(move |target| (index, target)));
+    let pairs = sampled(pairs, 3);
     for (index, formulas) in programs.iter_mut().enumerate() {
         // Each component of each quantity has some formula.
         let room: usize = Quantity::pointwise().map(|it| it.shape().components(3)).sum();
