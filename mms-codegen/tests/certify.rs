@@ -28,8 +28,15 @@ use crate::sampled::{all_is_tried, is_in_depth, sampled_count};
 /// What a certificate may take in the mean: some 0.2 ms a box in two dimensions, and 1 ms in three.
 const BOXES: usize = 1000;
 
-/// How many honest fields are not proved to be strongly elliptic.
-const UNPROVED: usize = 5;
+/// The honest fields that are not proved to be strongly elliptic.
+const UNPROVED: [&str; 6] = [
+    "cyclic_shear_3d",
+    "plane_strain_transversely_isotropic",
+    "sliver_2d",
+    "starting_cube_3d",
+    "static_bulge_3d",
+    "twisted_tube",
+];
 
 /// The most cells that the proof about a program may take, for a field of the gallery.
 const MOST_CELLS: usize = 250;
@@ -90,8 +97,9 @@ fn honest_fields_are_proved_cheaply_and_sharply() {
         }
     }
     // Bounds of dP/dF are wide in three dimensions, and of fibres.
-    let (count, of) = (unproved.len(), HONEST.len());
-    assert!(count <= UNPROVED, "{count} of {of} are strongly elliptic unproved: {unproved:?}");
+    unproved
+        .retain(|file| !UNPROVED.iter().any(|name| file.file_stem().is_some_and(|it| it == *name)));
+    assert!(unproved.is_empty(), "not proved to be strongly elliptic: {unproved:?}");
     assert!(boxes <= BOXES * HONEST.len(), "{boxes} boxes for {} fields", HONEST.len());
     for (rate, most) in EXCESS.into_iter().enumerate() {
         let logarithms = gallery.iter().map(|excess| excess[rate].ln()).sum::<f64>();

@@ -1,23 +1,31 @@
-//! `mms schema`: the format of field files, for editors.
+//! `mms schema`: the formats of files and documents.
 
 use clap::Args;
 
 use super::{Outcome, print_json};
 use crate::schema;
 
-/// Print the JSON Schema of field files, by which editors explain, complete and check their keys.
+/// Print the JSON Schema of field files, of material files, or of a document of `--json`.
 ///
-/// Save it, and name it in the first line of a field file: #:schema ./field.schema.json
+/// Editors use the schema of field files to explain, complete and check keys. Save it, and name it
+/// in the first line of a field file: #:schema ./field.schema.json
 #[derive(Args)]
 pub struct Schema {
-    /// The schema of material files instead.
+    /// Print the schema of material files.
     #[arg(long)]
     material: bool,
+    /// Print the schema of a document: `study`, `judge`, `campaign` and so on; docs/reference/json.md lists them.
+    #[arg(long, value_name = "NAME", conflicts_with = "material")]
+    document: Option<String>,
 }
 
 impl Schema {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        print_json(&if self.material { schema::material() } else { schema::field() })?;
+        print_json(&match self.document {
+            Some(name) => schema::documents::document(&name)?,
+            None if self.material => schema::material(),
+            None => schema::field(),
+        })?;
         Ok(Outcome::AsExpected)
     }
 }

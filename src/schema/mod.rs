@@ -1,6 +1,6 @@
-//! The JSON Schemas of field files and of material files, for editors.
+//! The JSON Schemas of field files and of material files, for editors, and those of documents.
 //!
-//! They are made of the table that the reader takes its keys from
+//! Schemas of files are made of the table that the reader takes its keys from
 //! ([`mms_spec::format`]) and of the reader's own lists of words. What JSON Schema can
 //! say, they say as the reader does; what it cannot (what a formula means, whether a name is
 //! defined, whether cells increase) is left to `mms check`.
@@ -9,6 +9,7 @@
 //! same in draft 7, and no references.
 
 mod conditions;
+pub mod documents;
 mod holds;
 
 use mms_spec::format::{FIELD_FILE, Key, MATERIAL_FILE};

@@ -1,8 +1,12 @@
 //! docs/reference/json.md lists the keys of all documents. Here documents are made, and compared with its tables, key by
-//! key and type by type; and each key of a table must occur in one of them.
+//! key and type by type; and each key of a table must occur in one of them. Each document is read as its type of
+//! `mms-documents`, and written again: not a byte may change.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use mms_documents as types;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::mms::{BAR, Folder};
@@ -14,6 +18,44 @@ const OF_RARE_ERRORS: [&str; 2] = ["pair", "plane"];
 
 /// Tables that only a program with the feature `defects` fills.
 const OF_DEFECTS: [&str; 3] = ["verify-defects", "shown-defect", "shown-row"];
+
+/// Reads a document as a type, and writes it again.
+type Again = fn(&str) -> String;
+
+fn again<T: Serialize + DeserializeOwned>(text: &str) -> String {
+    let document: T = serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"));
+    serde_json::to_string_pretty(&document).expect("JSON") + "\n"
+}
+
+/// The type of each document.
+const TYPES: [(&str, Again); 26] = [
+    ("list", again::<types::list::List>),
+    ("show", again::<types::show::Show>),
+    ("check", again::<types::check::Check>),
+    ("eval", again::<types::eval::Eval>),
+    ("state", again::<types::state::State>),
+    ("emit", again::<types::emit::Emit>),
+    ("emit-all", again::<types::emit::EmitAll>),
+    ("accuracy", again::<types::accuracy::Accuracy>),
+    ("run", again::<types::run::Run>),
+    ("study", again::<types::study::Study>),
+    ("studies", again::<types::study::Studies>),
+    ("judge", again::<types::judge::Judge>),
+    ("judge-baseline", again::<types::judge::JudgeBaseline>),
+    ("judge-same", again::<types::judge::JudgeSame>),
+    ("judge-explained", again::<types::judge::JudgeExplained>),
+    ("diagnose", again::<types::diagnose::Diagnose>),
+    ("diagnose-plan", again::<types::diagnose::DiagnosePlan>),
+    ("hypotheses", again::<types::diagnose::Hypotheses>),
+    ("campaign", again::<types::campaign::Campaign>),
+    ("campaign-runs", again::<types::campaign::CampaignRuns>),
+    ("campaign-suggest", again::<types::campaign::CampaignSuggest>),
+    ("verify", again::<types::verify::Verify>),
+    ("verify-list", again::<types::verify::VerifyList>),
+    ("verify-defects", again::<types::verify::VerifyDefects>),
+    ("tradeoff", again::<types::tradeoff::Tradeoff>),
+    ("extremes", again::<types::extremes::Extremes>),
+];
 
 /// A key of a table, and what the page says that it holds.
 struct Key {
@@ -96,10 +138,16 @@ impl Reader<'_> {
         assert_eq!(own.next(), None, "{place}: not in the table `{heading}`, or in another order");
     }
 
-    /// Runs a command, and compares its document with a table.
+    /// Runs a command, and compares its document with a table, its type and its schema.
     fn document(&mut self, folder: &Folder, heading: &str, arguments: &str, code: i32) {
-        let document = folder.mms(&format!("{arguments} --json")).exits(code).json();
-        self.object(&document, heading, arguments);
+        let run = folder.mms(&format!("{arguments} --json")).exits(code);
+        self.object(&run.json(), heading, arguments);
+        let (_, again) = TYPES.iter().find(|(name, _)| *name == heading).expect("a type");
+        assert_eq!(again(&run.stdout), run.stdout, "{arguments}");
+        let schema = folder.mms(&format!("schema --document {heading}")).exits(0).json();
+        let schema = jsonschema::validator_for(&schema).expect("a schema");
+        let complaint = schema.validate(&run.json()).err().map(|it| it.to_string());
+        assert_eq!(complaint, None, "{arguments}");
     }
 }
 
@@ -221,6 +269,17 @@ const IRREGULAR: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/tests/command/data/scikit_fem/wave_P1_irregular_uv_16.vtu",
 );
+
+#[test]
+fn schemas_of_documents_have_names() {
+    let folder = Folder::new();
+    let level = folder.mms("schema --document level").exits(0).json();
+    assert_eq!(level["$ref"], "#/$defs/level");
+    assert_eq!(level["$defs"].as_object().map(|it| it.len()), Some(1));
+    folder.mms("schema --document studdy").exits(2).complains("did you mean `study`?");
+    folder.mms("schema --document zzzzzz").exits(2).complains("docs/reference/json.md");
+    folder.mms("schema --document study --material").exits(2);
+}
 
 #[test]
 fn documents_have_the_keys_of_the_page() {

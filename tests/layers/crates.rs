@@ -150,6 +150,17 @@ pub const CRATES: &[Crate] = &[
         ],
     },
     Crate {
+        name: "mms-documents",
+        knows: &[],
+        layers: &[
+            "provenance value",
+            "show",
+            "judge study",
+            "accuracy campaign check diagnose emit eval extremes list run state tradeoff verify",
+            "schema",
+        ],
+    },
+    Crate {
         name: "mms-diagnosis",
         knows: &["mms-runtime"],
         layers: &[

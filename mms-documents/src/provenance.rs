@@ -1,0 +1,45 @@
+//! The origin of a document.
+
+use serde::{Deserialize, Serialize};
+
+/// The origin of a document, and how to make it again.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Provenance {
+    /// The name of the command.
+    pub kind: String,
+    /// The version of `mms`.
+    pub version: String,
+    /// The command to type.
+    pub command: String,
+    /// The input.
+    pub input: Input,
+    /// The machine; null if the document is the same on every machine.
+    pub machine: Option<Machine>,
+}
+
+/// The input of a command.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Input {
+    /// The field as it was given; null for several fields.
+    pub field: Option<String>,
+    /// The rigid motion; empty for the standard one, null for none.
+    pub rigid: Option<String>,
+    /// The first and last time, if they were given in place of the file's.
+    pub window: Option<Vec<String>>,
+    /// The parameters that were set.
+    pub set: Vec<String>,
+    /// A hash of the texts of field and material.
+    pub hash: String,
+}
+
+/// The machine.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Machine {
+    /// The name of the processor.
+    pub processor: String,
+    /// The number of cores.
+    pub cores: usize,
+}
