@@ -242,5 +242,8 @@ fn one_slip_is_refused_by_the_schema_where_the_reader_refuses_it() {
     assert!(reasons.len() < refused / 20, "{} files are beyond the schema", reasons.len());
     reasons.sort_unstable();
     reasons.dedup();
-    assert!(reasons.len() == 6 || !all_is_tried(), "{reasons:?} are the only reasons that are needed");
+    assert!(
+        reasons.len() == 6 || !all_is_tried(),
+        "{reasons:?} are the only reasons that are needed"
+    );
 }
