@@ -243,7 +243,7 @@ where
     let smooth = Smooth::new(&exact.domain.body, points.min()?, DEGREE).ok()?;
     let snapshots: Vec<&Snapshot> = meshes.last()?.snapshots.iter().collect();
     let frame = Frame::new(&exact, &snapshots, smooth);
-    let error = |mesh: &Mesh| Some(size(&frame.errors_of(&exact, mesh)?.coefficients));
+    let error = |mesh: &Mesh| Some(size(&frame.sight(mesh)?.errors_of(&exact)?.coefficients));
     if case != Case::Right && error(meshes.last()?)? <= 3.0 * error(&right)? {
         return None;
     }

@@ -68,7 +68,7 @@ pub struct CampaignRun {
     /// The time step dt; null if the field is static.
     pub time_step: Option<f64>,
     /// The number of steps; null if the field is static.
-    pub steps: Option<usize>,
+    pub steps: Option<u64>,
     /// `done`, `failed` or `interrupted`.
     pub status: String,
     /// The reason why the run failed.
@@ -106,7 +106,7 @@ pub struct ListedRun {
     /// The time step dt; null if the field is static.
     pub time_step: Option<f64>,
     /// The number of steps; null if the field is static.
-    pub steps: Option<usize>,
+    pub steps: Option<u64>,
     /// True if the store has the run.
     pub done: bool,
     /// The words of the solver's command; with `--list` those of `mms`.

@@ -64,7 +64,7 @@ pub struct StabilityLimit {
     /// The largest stable Courant number on an endless grid.
     pub theory: Option<f64>,
     /// The largest stable Courant number that was found.
-    pub measured: Option<f64>,
+    pub measured: f64,
     /// The verdict.
     pub verdict: String,
     /// True if the verdict is the expected one.

@@ -34,7 +34,7 @@ pub struct Judge {
     /// The worst verdict: `no evidence`, `exact to round-off`, `pass`, `not asymptotic` or `fail`.
     pub verdict: String,
     /// The version of the [rule](../guide/judging.md#the-rule) that decided.
-    pub rule: usize,
+    pub rule: u32,
     /// Notes on the reading of the files: arrays that were recognised or left out, and why.
     pub notes: Vec<String>,
     /// The name of the field, if results were judged. The same holds for the next five keys.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// The origin of a document, and how to make it again.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Provenance {
     /// The name of the command.
@@ -19,7 +19,7 @@ pub struct Provenance {
 }
 
 /// The input of a command.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Input {
     /// The field as it was given; null for several fields.
@@ -27,7 +27,7 @@ pub struct Input {
     /// The rigid motion; empty for the standard one, null for none.
     pub rigid: Option<String>,
     /// The first and last time, if they were given in place of the file's.
-    pub window: Option<Vec<String>>,
+    pub window: Option<[String; 2]>,
     /// The parameters that were set.
     pub set: Vec<String>,
     /// A hash of the texts of field and material.
@@ -35,7 +35,7 @@ pub struct Input {
 }
 
 /// The machine.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Machine {
     /// The name of the processor.

@@ -88,8 +88,8 @@ pub struct Diagnostics {
     pub kinetic_energy: f64,
     /// The least and greatest J of the particles at the end.
     pub jacobian: [f64; 2],
-    /// The balance of energy.
-    pub balance: Balance,
+    /// The balance of energy; null if it was not kept.
+    pub balance: Option<Balance>,
 }
 
 /// The balance of energy over a run.
@@ -100,12 +100,12 @@ pub struct Balance {
     pub time: f64,
     /// The kinetic energy.
     pub kinetic_energy: f64,
-    /// The strain energy.
-    pub strain_energy: f64,
+    /// The strain energy; null if the material has none.
+    pub strain_energy: Option<f64>,
     /// The work of b.
     pub body_work: f64,
-    /// The energy that is missing.
-    pub energy_residual: f64,
+    /// The energy that is missing; null if the material has no strain energy.
+    pub energy_residual: Option<f64>,
     /// The force on the faces.
     pub surface_force: Vec<f64>,
     /// The work of given fields: the change of W with time at fixed F.

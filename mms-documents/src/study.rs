@@ -49,7 +49,7 @@ pub struct StudyOfMethod {
     /// The finding of each norm.
     pub norms: Vec<JudgedNorm>,
     /// The version of the [rule](../guide/judging.md#the-rule) that decided.
-    pub rule: usize,
+    pub rule: u32,
     /// The constant C of `l2` = C h^p.
     pub error_constant: Option<f64>,
     /// The value of `error_constant` that is expected.
@@ -154,8 +154,9 @@ pub struct JudgedLevel {
 }
 
 /// A method of the solver of this project.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(default)]
 pub struct Method {
     /// The shape function.
     pub shape: String,
@@ -178,7 +179,7 @@ pub struct Method {
     /// The random shift of the particles, in their spacing.
     pub jitter: f64,
     /// The seed of the random shifts.
-    pub seed: usize,
+    pub seed: u64,
     /// The offset of the grid, in cells.
     pub offset: Vec<f64>,
     /// The periodic axes.
@@ -194,7 +195,7 @@ pub struct Method {
 }
 
 /// A level of a study.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Level {
     /// The number of cells along the longest edge, or a text such as `32x16`.
@@ -241,7 +242,7 @@ pub struct StudyErrors {
 }
 
 /// The errors on a level, and their orders.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LevelErrors {
     /// The mean of the error.
@@ -263,7 +264,7 @@ pub struct LevelErrors {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LevelDifference {
     /// The longer time step of both.
-    pub time_step: Option<f64>,
+    pub time_step: f64,
     /// The errors, and their orders.
     #[serde(flatten)]
     pub errors: LevelErrors,

@@ -85,6 +85,21 @@ pub enum Division {
     ByAxis(String),
 }
 
+impl Default for Division {
+    fn default() -> Self {
+        Division::Uniform(0)
+    }
+}
+
+impl fmt::Display for Division {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Division::Uniform(number) => write!(f, "{number}"),
+            Division::ByAxis(numbers) => f.write_str(numbers),
+        }
+    }
+}
+
 /// Reads a key that may be missing, null or a value: `None`, `Some(None)` and `Some(Some(value))`.
 pub(crate) fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
     deserializer: D,

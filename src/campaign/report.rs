@@ -4,8 +4,8 @@ use std::path::Path;
 
 use anyhow::Context as _;
 use mms_convergence::Verdict;
+use mms_documents::campaign::{self as documents, CampaignRun, CampaignStudy};
 use mms_spec::foreign::{self, one_line, shown};
-use serde_json::{Value, json};
 
 use super::judged::Judged;
 use super::plan::{Job, Plan, Planned};
@@ -81,16 +81,17 @@ impl Report<'_> {
     }
 
     /// The JSON document.
-    pub fn document(&self) -> Value {
+    pub fn document(&self) -> documents::Campaign {
         let solver = &self.plan.campaign.solver;
-        let document = json!({
-            "solver": solver.name,
-            "solver_version": solver.version,
-            "studies": self.studies.iter().map(Judged::document).collect::<Vec<_>>(),
-            "excluded": self.excluded().map(|it| it.document()),
-            "passed": self.studies.iter().filter(|it| it.verdict().is_some_and(Verdict::is_good)).count(),
-        });
-        self.provenance.sign(document)
+        let passes = |it: &&Judged| it.verdict().is_some_and(Verdict::is_good);
+        documents::Campaign {
+            solver: solver.name.clone(),
+            solver_version: solver.version.clone(),
+            studies: self.studies.iter().map(Judged::document).collect(),
+            excluded: self.excluded().map(|it| it.document()),
+            passed: self.studies.iter().filter(passes).count(),
+            provenance: self.provenance.clone(),
+        }
     }
 
     /// Writes campaign.json, and for each study its picture and its table; returns their paths.
@@ -155,19 +156,19 @@ impl Judged<'_> {
         ]
     }
 
-    fn document(&self) -> Value {
+    fn document(&self) -> CampaignStudy {
         let Planned { study, input, jobs, .. } = self.planned;
         let runs = jobs.iter().zip(&self.outcomes).map(|(job, outcome)| run(job, outcome));
-        json!({
-            "name": study.name,
-            "study": study.family,
-            "set": study.set,
-            "field": input.name,
-            "runs": runs.collect::<Vec<_>>(),
-            "mistake": self.mistake,
-            "verdict": self.verdict().map(|it| it.to_string()),
-            "judgement": self.judgements.as_ref().map(|it| it.document()),
-        })
+        CampaignStudy {
+            name: study.name.clone(),
+            study: study.family.clone(),
+            set: study.set.clone(),
+            field: input.name.raw().to_owned(),
+            runs: runs.collect(),
+            mistake: self.mistake.clone(),
+            verdict: self.verdict().map(|it| it.to_string()),
+            judgement: self.judgements.as_ref().map(|it| it.document()),
+        }
     }
 }
 
@@ -208,7 +209,7 @@ pub fn line(job: &Job, outcome: &Outcome, is_new: bool) -> String {
     }
 }
 
-fn run(job: &Job, outcome: &Outcome) -> Value {
+fn run(job: &Job, outcome: &Outcome) -> CampaignRun {
     let (status, reason, last_words, folder) = match outcome {
         Outcome::Finished(it) => ("done", None, None, Some(&it.folder)),
         Outcome::Failed { reason, last_words, folder } => {
@@ -220,17 +221,17 @@ fn run(job: &Job, outcome: &Outcome) -> Value {
         Outcome::Finished(it) => (Some(it.seconds), Some(&it.left_behind)),
         _ => (None, None),
     };
-    json!({
-        "level": job.level,
-        "cells": job.cells,
-        "cell_size": job.cell_size,
-        "time_step": job.time_step,
-        "steps": job.steps,
-        "status": status,
-        "reason": reason,
-        "last_words": last_words,
-        "folder": folder,
-        "seconds": seconds,
-        "left_behind": left_behind,
-    })
+    CampaignRun {
+        level: job.level,
+        cells: job.cells,
+        cell_size: job.cell_size,
+        time_step: job.time_step,
+        steps: job.steps,
+        status: status.to_owned(),
+        reason: reason.cloned(),
+        last_words: last_words.cloned(),
+        folder: folder.cloned(),
+        seconds,
+        left_behind: left_behind.cloned(),
+    }
 }

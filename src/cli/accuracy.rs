@@ -15,7 +15,7 @@ use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::provenance::Input;
+use crate::provenance;
 use crate::report::accuracy::Report;
 use crate::session::input::{Motion, Text, hold_body, precision, quantities, settings};
 use crate::workbench::{Module, Time, Way, Workbench, time};
@@ -111,7 +111,7 @@ impl Accuracy {
             true => timed(&text, &request),
             false => None,
         };
-        let input = Input::new(&self.field, &options.selection, &self.set, &compiled);
+        let input = provenance::input(&self.field, &options.selection, &self.set, &compiled);
         let report = Report {
             field: text.name().clone(),
             points: request.points,

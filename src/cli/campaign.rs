@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use mms_campaign::Campaign as File;
+use mms_documents::campaign::{CampaignRuns, ListedRun};
 use mms_spec::foreign;
-use serde_json::{Value, json};
 
 use super::follow::Interrupted;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
@@ -192,7 +192,7 @@ impl Campaign {
         &self,
         work: &Work<'_>,
         none: &str,
-        say_of: impl Fn(&Planned, &Job, bool) -> anyhow::Result<Option<(String, Value)>>,
+        say_of: impl Fn(&Planned, &Job, bool) -> anyhow::Result<Option<(String, ListedRun)>>,
     ) -> anyhow::Result<Outcome> {
         let (mut lines, mut documents) = (Vec::new(), Vec::new());
         for planned in &work.plan.studies {
@@ -205,7 +205,7 @@ impl Campaign {
             }
         }
         match (self.json, lines.is_empty()) {
-            (true, _) => print_json(&json!({ "runs": documents }))?,
+            (true, _) => print_json(&CampaignRuns { runs: documents })?,
             (false, true) => say(none),
             (false, false) => print(&lines.join("\n"))?,
         }
@@ -228,17 +228,17 @@ fn signed(planned: &Planned) -> Provenance {
     this_command("judge", planned.input.provenance(&planned.study.set))
 }
 
-fn listed(job: &Job, is_done: bool, words: &[String]) -> Value {
-    json!({
-        "name": job.name,
-        "level": job.level,
-        "cells": job.cells,
-        "cell_size": job.cell_size,
-        "time_step": job.time_step,
-        "steps": job.steps,
-        "done": is_done,
-        "command": words,
-    })
+fn listed(job: &Job, is_done: bool, words: &[String]) -> ListedRun {
+    ListedRun {
+        name: job.name.clone(),
+        level: job.level,
+        cells: job.cells,
+        cell_size: job.cell_size,
+        time_step: job.time_step,
+        steps: job.steps,
+        done: is_done,
+        command: words.to_vec(),
+    }
 }
 
 /// A line on stderr for each run that ends.

@@ -8,7 +8,7 @@ use anyhow::Context as _;
 use clap::Args;
 use mms_convergence::{TOLERANCE, Verdict};
 use mms_spec::foreign;
-use serde_json::Value;
+use serde::Serialize;
 
 use super::{Outcome, hold_output, print, print_json, this_command};
 use crate::judge::table::{self, Order, Orders};
@@ -109,7 +109,7 @@ impl Judge {
     }
 
     /// Prints a text, or the document that says the same.
-    fn show(&self, (text, document): (String, Value)) -> anyhow::Result<()> {
+    fn show(&self, (text, document): (String, impl Serialize)) -> anyhow::Result<()> {
         if self.json { print_json(&document) } else { print(&text) }
     }
 

@@ -46,7 +46,7 @@ use mms_campaign::supervisor;
 use mms_runtime::math::dispatch::{Instructions, LIMIT};
 use mms_spec::foreign;
 
-use crate::provenance::{Input, Provenance};
+use crate::provenance::{self, Input, Provenance};
 use crate::report::file::{is_same, try_to_write};
 use crate::shell::words;
 use crate::terminal::{print, print_json, printed_to_the_end, say, say_styled};
@@ -189,7 +189,7 @@ fn with_signs(argument: Arg) -> Arg {
 
 /// What this command line makes of an input.
 fn this_command(kind: &str, input: Input) -> Provenance {
-    Provenance::new(kind, &words(std::env::args_os()), input)
+    provenance::new(kind, &words(std::env::args_os()), input)
 }
 
 /// Asks whether the folder of `--output` can be made and written to: what is wrong with it is said before any work is

@@ -13,7 +13,7 @@ use super::follow::{Followers, Interrupted};
 use super::{Outcome, hold_output, print, print_json, say, spare};
 use crate::checkpoint::{Found, Head, Keeper};
 use crate::history::History;
-use crate::provenance::Provenance;
+use crate::provenance;
 use crate::report::file::is_same;
 use crate::report::run::Run as Report;
 use crate::report::{Refused, pretty, write_files};
@@ -80,7 +80,7 @@ impl Run {
         self.hold_way()?;
         self.hold_files(&input)?;
         let progress = Progress::new();
-        let provenance = Provenance::new("run", &from_the_start(), input.provenance(&self.set));
+        let provenance = provenance::new("run", &from_the_start(), input.provenance(&self.set));
         let head = Head::new(self.key(&input, &method, cells)?, provenance.command.clone());
         let mut followers = self.followers(&input, cells, head, &progress)?;
         let run = match self.method.arithmetic.precision {

@@ -15,7 +15,7 @@ use mms_runtime::{Division, Method, Real, Run};
 use super::methods::Methods;
 use super::{Outcome, output_folder, print, print_json, say};
 use crate::judge::results::Exclusions;
-use crate::provenance::Provenance;
+use crate::provenance::{self, Provenance};
 use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method, run};
 use crate::session::effort::announce;
 use crate::session::input::{Input, Motion};
@@ -168,7 +168,7 @@ impl Study {
         let cases = self.cases()?;
         let input = &cases[0].input;
         let folder = output_folder(self.output.as_deref(), input.name.raw())?;
-        let provenance = Provenance::new("study", words, input.provenance(&self.set));
+        let provenance = provenance::new("study", words, input.provenance(&self.set));
         let studies = self.reports(&cases, &provenance)?;
         let is_started = studies.iter().any(Report::is_started);
         let report = Comparison { studies, provenance };
@@ -195,7 +195,7 @@ impl Study {
         let cases = study.cases()?;
         let command: Vec<_> = [&["mms".to_owned()], words].concat();
         let input = cases[0].input.provenance(&study.set);
-        let provenance = Provenance::new("study", &command, input);
+        let provenance = provenance::new("study", &command, input);
         let studies = study.reports(&cases, &Provenance { machine: None, ..provenance })?;
         Ok(studies.into_iter().next().filter(Report::is_started))
     }

@@ -1,73 +1,31 @@
 //! Campaigns: the verification matrix of somebody else's solver.
 
 use maud::{Markup, html};
-use serde::Deserialize;
+use mms_documents::campaign::{Campaign, CampaignRun, CampaignStudy, ExcludedTogether};
 
-use super::judge::Judgement;
+use super::judge::deciding;
 use super::mark::{count, is_good, numbers, seconds, small, table, verdict, words};
 use super::{Section, Verdicts};
 
-/// What `mms campaign` writes.
-#[derive(Deserialize)]
-pub struct Campaign {
-    solver: String,
-    solver_version: Option<String>,
-    studies: Vec<Study>,
-    excluded: Option<Vec<Excluded>>,
+fn word(study: &CampaignStudy) -> &str {
+    study.verdict.as_deref().unwrap_or("not judged")
 }
 
-/// A mistake, and the study that excludes it.
-#[derive(Deserialize)]
-struct Excluded {
-    hypothesis: String,
-    by: Option<String>,
+fn is_done(run: &CampaignRun) -> bool {
+    run.status == "done"
 }
 
-#[derive(Deserialize)]
-struct Study {
-    name: String,
-    field: String,
-    runs: Vec<Run>,
-    mistake: Option<String>,
-    verdict: Option<String>,
-    judgement: Option<Judgement>,
+fn is_passed(study: &CampaignStudy) -> bool {
+    study.verdict.as_deref().is_some_and(is_good) && study.runs.iter().all(is_done)
 }
 
-#[derive(Deserialize)]
-struct Run {
-    level: usize,
-    cells: usize,
-    cell_size: f64,
-    time_step: Option<f64>,
-    status: String,
-    reason: Option<String>,
-    last_words: Option<Vec<String>>,
-    seconds: Option<f64>,
+fn is_whole(study: &CampaignStudy) -> bool {
+    study.judgement.is_some() || study.mistake.is_some() || !study.runs.iter().all(is_done)
 }
 
-impl Study {
-    fn word(&self) -> &str {
-        self.verdict.as_deref().unwrap_or("not judged")
-    }
-
-    fn is_passed(&self) -> bool {
-        self.verdict.as_deref().is_some_and(is_good) && self.runs.iter().all(Run::is_done)
-    }
-
-    fn is_whole(&self) -> bool {
-        self.judgement.is_some() || self.mistake.is_some() || !self.runs.iter().all(Run::is_done)
-    }
-
-    fn done(&self) -> String {
-        let done = self.runs.iter().filter(|run| run.is_done()).count();
-        format!("{done} of {}", self.runs.len())
-    }
-}
-
-impl Run {
-    fn is_done(&self) -> bool {
-        self.status == "done"
-    }
+fn done(study: &CampaignStudy) -> String {
+    let done = study.runs.iter().filter(|run| is_done(run)).count();
+    format!("{done} of {}", study.runs.len())
 }
 
 impl Section for Campaign {
@@ -77,18 +35,18 @@ impl Section for Campaign {
     }
 
     fn verdicts(&self) -> Verdicts {
-        let judged = || self.studies.iter().filter(|study| study.is_whole());
-        Verdicts::several(judged().filter(|it| it.is_passed()).count(), judged().count(), "pass")
+        let judged = || self.studies.iter().filter(|study| is_whole(study));
+        Verdicts::several(judged().filter(|it| is_passed(it)).count(), judged().count(), "pass")
     }
 
     fn body(&self, id: &str) -> Markup {
         let place = |at: usize| format!("{id}-study-{}", at + 1);
         html! {
-            (self.matrix(&place))
+            (matrix(self, &place))
             @if let Some(all) = &self.excluded { (exclusions(all)) }
             @for (at, study) in self.studies.iter().enumerate() {
                 details id=(place(at)) {
-                    summary { (study.name) ": " (study.word()) }
+                    summary { (study.name) ": " (word(study)) }
                     @if let Some(mistake) = &study.mistake { p.alert { (mistake) } }
                     (runs(study))
                     @if let Some(judgement) = &study.judgement { (judgement.body(&place(at))) }
@@ -98,37 +56,34 @@ impl Section for Campaign {
     }
 }
 
-impl Campaign {
-    fn matrix(&self, place: &impl Fn(usize) -> String) -> Markup {
-        let columns = [
-            words("study"),
-            words("field"),
-            words("runs done"),
-            numbers("expected"),
-            numbers("observed"),
-            words("of"),
-            words("verdict"),
-        ];
-        let rows = self.studies.iter().enumerate().map(|(at, study)| {
-            let nothing = || [html! {}, html! {}, html! {}];
-            let [expected, observed, of] =
-                study.judgement.as_ref().map_or_else(nothing, Judgement::deciding);
-            vec![
-                html! { a href=(format!("#{}", place(at))) { (study.name) } },
-                html! { (study.field) },
-                html! { (study.done()) },
-                expected,
-                observed,
-                of,
-                verdict(study.word(), study.is_passed()),
-            ]
-        });
-        table("Studies", &columns, rows)
-    }
+fn matrix(campaign: &Campaign, place: &impl Fn(usize) -> String) -> Markup {
+    let columns = [
+        words("study"),
+        words("field"),
+        words("runs done"),
+        numbers("expected"),
+        numbers("observed"),
+        words("of"),
+        words("verdict"),
+    ];
+    let rows = campaign.studies.iter().enumerate().map(|(at, study)| {
+        let nothing = || [html! {}, html! {}, html! {}];
+        let [expected, observed, of] = study.judgement.as_ref().map_or_else(nothing, deciding);
+        vec![
+            html! { a href=(format!("#{}", place(at))) { (study.name) } },
+            html! { (study.field) },
+            html! { (done(study)) },
+            expected,
+            observed,
+            of,
+            verdict(word(study), is_passed(study)),
+        ]
+    });
+    table("Studies", &columns, rows)
 }
 
 /// The mistakes that no study excludes, and which excludes the others.
-fn exclusions(all: &[Excluded]) -> Markup {
+fn exclusions(all: &[ExcludedTogether]) -> Markup {
     let open = all.iter().filter(|it| it.by.is_none()).map(|it| it.hypothesis.as_str());
     let open: Vec<&str> = open.collect();
     let rows = all.iter().filter_map(|it| {
@@ -144,7 +99,7 @@ fn exclusions(all: &[Excluded]) -> Markup {
     }
 }
 
-fn runs(study: &Study) -> Markup {
+fn runs(study: &CampaignStudy) -> Markup {
     let columns = [
         numbers("level"),
         numbers("cells"),

@@ -1,32 +1,17 @@
 //! Several methods beside each other.
 
 use maud::{Markup, html};
-use serde::Deserialize;
+use mms_documents::study::Studies;
 
 use super::mark::{Column, numbers, order, small, table, verdict, words};
 use super::plot::{Curve, Line, Plot};
-use super::study::Study;
+use super::study::{l2, names_of_levels};
 use super::{Section, Verdicts};
-
-/// What `mms study` writes of more than one method.
-#[derive(Deserialize)]
-pub struct Comparison {
-    field: String,
-    refinement: String,
-    studies: Vec<Named>,
-}
-
-#[derive(Deserialize)]
-struct Named {
-    name: String,
-    #[serde(flatten)]
-    study: Study,
-}
 
 /// How many colours with their marks there are; then they come once more, hollow.
 const STYLES: usize = 3;
 
-impl Section for Comparison {
+impl Section for Studies {
     fn title(&self) -> String {
         let refined = match self.refinement.as_str() {
             "both" => "",
@@ -45,13 +30,13 @@ impl Section for Comparison {
 
     fn body(&self, id: &str) -> Markup {
         html! {
-            @if let Some(svg) = self.plot().svg(&format!("{id}-plot")) {
+            @if let Some(svg) = plot(self).svg(&format!("{id}-plot")) {
                 figure {
                     (svg)
                     figcaption { "A line for each method. Both axes are logarithmic; the triangle has the expected slope." }
                 }
             }
-            (self.table())
+            (methods(self))
             @for (at, it) in self.studies.iter().enumerate() {
                 details {
                     summary { (it.name) ": " (it.study.verdicts().word) }
@@ -62,57 +47,55 @@ impl Section for Comparison {
     }
 }
 
-impl Comparison {
-    fn plot(&self) -> Plot {
-        let curves: Vec<Curve> = self
-            .studies
-            .iter()
-            .enumerate()
-            .map(|(at, it)| Curve {
-                name: it.name.clone(),
-                points: it.study.l2().into_iter().filter_map(|(at, l2)| Some([at?, l2?])).collect(),
-                style: at % STYLES,
-                is_hollow: at / STYLES % 2 == 1,
-                line: Line::Solid,
-            })
-            .collect();
-        let described = curves.iter().map(|curve| {
-            let last = curve.points.last().map_or("no error".into(), |[_, l2]| format!("{l2:.2e}"));
-            format!("{}: {last} on the finest level", curve.name)
-        });
-        let in_time = self.refinement == "time";
-        Plot {
-            title: format!("Convergence of {}", self.title()),
-            description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
-            axes: match in_time {
-                true => ["time step dt", "difference to the next level, l2"],
-                false => ["cell size h", "largest l2 error of u over time"],
-            },
-            slope: self.studies.first().map(|it| it.study.expected_order()),
-            curves,
-            floor: Vec::new(),
-            marks_points: true,
-        }
+fn plot(studies: &Studies) -> Plot {
+    let curves: Vec<Curve> = studies
+        .studies
+        .iter()
+        .enumerate()
+        .map(|(at, it)| Curve {
+            name: it.name.clone(),
+            points: l2(&it.study).into_iter().filter_map(|(at, l2)| Some([at?, l2?])).collect(),
+            style: at % STYLES,
+            is_hollow: at / STYLES % 2 == 1,
+            line: Line::Solid,
+        })
+        .collect();
+    let described = curves.iter().map(|curve| {
+        let last = curve.points.last().map_or("no error".into(), |[_, l2]| format!("{l2:.2e}"));
+        format!("{}: {last} on the finest level", curve.name)
+    });
+    let in_time = studies.refinement == "time";
+    Plot {
+        title: format!("Convergence of {}", studies.title()),
+        description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
+        axes: match in_time {
+            true => ["time step dt", "difference to the next level, l2"],
+            false => ["cell size h", "largest l2 error of u over time"],
+        },
+        slope: studies.studies.first().map(|it| it.study.expected_order),
+        curves,
+        floor: Vec::new(),
+        marks_points: true,
     }
+}
 
-    fn table(&self) -> Markup {
-        let levels = self.studies.first().map(|it| it.study.names_of_levels()).unwrap_or_default();
-        let ends = [numbers("order"), numbers("constant"), words("verdict")];
-        let columns: Vec<Column> = std::iter::once(words("method"))
-            .chain(levels.into_iter().map(|name| Column::Number(name.into())))
-            .chain(ends)
-            .collect();
-        let rows = self.studies.iter().map(|it| {
-            let mut cells = vec![html! { (it.name) }];
-            cells.extend(it.study.l2().into_iter().map(|(_, l2)| small(l2)));
-            let verdicts = it.study.verdicts();
-            cells.extend([
-                order(it.study.observed_order()),
-                small(it.study.error_constant()),
-                verdict(&verdicts.word, verdicts.are_expected()),
-            ]);
-            cells
-        });
-        table("l2 of each method", &columns, rows)
-    }
+fn methods(studies: &Studies) -> Markup {
+    let levels = studies.studies.first().map(|it| names_of_levels(&it.study)).unwrap_or_default();
+    let ends = [numbers("order"), numbers("constant"), words("verdict")];
+    let columns: Vec<Column> = std::iter::once(words("method"))
+        .chain(levels.into_iter().map(|name| Column::Number(name.into())))
+        .chain(ends)
+        .collect();
+    let rows = studies.studies.iter().map(|it| {
+        let mut cells = vec![html! { (it.name) }];
+        cells.extend(l2(&it.study).into_iter().map(|(_, l2)| small(l2)));
+        let verdicts = it.study.verdicts();
+        cells.extend([
+            order(it.study.observed_order),
+            small(it.study.error_constant),
+            verdict(&verdicts.word, verdicts.are_expected()),
+        ]);
+        cells
+    });
+    table("l2 of each method", &columns, rows)
 }

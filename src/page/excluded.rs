@@ -1,21 +1,10 @@
 //! The mistakes that a pass excludes.
 
 use maud::{Markup, html};
-use serde::Deserialize;
+use mms_documents::judge::Excluded;
 
 use super::mark::{number, numbers, table, words};
 use crate::report::excluded::size;
-
-/// A mistake, and whether results exclude it.
-#[derive(Deserialize)]
-pub struct Excluded {
-    hypothesis: String,
-    says: String,
-    excluded: bool,
-    times: Option<f64>,
-    right: Option<f64>,
-    from: Option<f64>,
-}
 
 /// The mistakes that results exclude, and those that they do not.
 pub fn exclusions(all: &[Excluded]) -> Markup {

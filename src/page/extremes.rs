@@ -1,48 +1,15 @@
 //! The solver at its limits.
 
 use maud::{Markup, html};
-use serde::Deserialize;
+use mms_documents::extremes::Extremes;
 
 use super::mark::{number, numbers, small, table, verdict, words};
-use super::method::Method;
+use super::method::method;
 use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
 
 /// The verdict on a row that was not run.
 const LEFT_OUT: &str = "left out";
-
-/// What `mms extremes` writes.
-#[derive(Deserialize)]
-pub struct Extremes {
-    field: String,
-    method: Method,
-    declared_l2: f64,
-    rows: Vec<Row>,
-    stability: Vec<Stability>,
-}
-
-#[derive(Deserialize)]
-struct Row {
-    name: String,
-    setting: String,
-    theory: String,
-    allowed_diagnoses: Vec<String>,
-    l2: Option<f64>,
-    bound: Option<f64>,
-    diagnosis: Option<String>,
-    reason: Option<String>,
-    verdict: String,
-    expected: bool,
-}
-
-#[derive(Deserialize)]
-struct Stability {
-    method: String,
-    theory: Option<f64>,
-    measured: f64,
-    verdict: String,
-    expected: bool,
-}
 
 impl Section for Extremes {
     fn title(&self) -> String {
@@ -69,84 +36,82 @@ impl Section for Extremes {
             @for row in self.rows.iter().filter(|row| !row.expected) {
                 p.alert { strong { (row.name) } ": " (row.verdict) ": " (row.reason.as_deref().unwrap_or(&row.theory)) }
             }
-            @if !self.rows.is_empty() { (self.rows()) }
-            @if let Some(svg) = self.errors().svg(&format!("{id}-errors")) {
+            @if !self.rows.is_empty() { (rows(self)) }
+            @if let Some(svg) = errors(self).svg(&format!("{id}-errors")) {
                 figure { (svg) figcaption { "A mark for each run that ended; below the dashed line it is within its bound." } }
             }
-            @if !self.stability.is_empty() { (self.stability()) }
-            @if let Some(svg) = self.limits().svg(&format!("{id}-limits")) {
+            @if !self.stability.is_empty() { (stability(self)) }
+            @if let Some(svg) = limits(self).svg(&format!("{id}-limits")) {
                 figure { (svg) figcaption { "A mark for each method; below the dashed line the faces are less stable than the interior." } }
             }
-            (self.method.html())
+            (method(&self.method))
         }
     }
 }
 
-impl Extremes {
-    fn rows(&self) -> Markup {
-        let columns = [
-            words("extreme"),
-            numbers("l2"),
-            numbers("bound"),
-            words("diagnosis"),
-            words("may stop with"),
-            words("verdict"),
-        ];
-        let rows = self.rows.iter().map(|row| {
-            vec![
-                html! {
-                    div.mode {
-                        (row.name)
-                        p { (row.theory) }
-                        p { (row.setting) }
-                        @if let Some(reason) = &row.reason { p { (reason) } }
-                    }
-                },
-                small(row.l2),
-                small(row.bound),
-                html! { (row.diagnosis.as_deref().unwrap_or_default()) },
-                html! { (row.allowed_diagnoses.join(", ")) },
-                verdict(&row.verdict, row.expected),
-            ]
-        });
-        table("Extremes, errors relative to the largest displacement", &columns, rows)
-    }
+fn rows(extremes: &Extremes) -> Markup {
+    let columns = [
+        words("extreme"),
+        numbers("l2"),
+        numbers("bound"),
+        words("diagnosis"),
+        words("may stop with"),
+        words("verdict"),
+    ];
+    let rows = extremes.rows.iter().map(|row| {
+        vec![
+            html! {
+                div.mode {
+                    (row.name)
+                    p { (row.theory) }
+                    p { (row.setting) }
+                    @if let Some(reason) = &row.reason { p { (reason) } }
+                }
+            },
+            small(row.l2),
+            small(row.bound),
+            html! { (row.diagnosis.as_deref().unwrap_or_default()) },
+            html! { (row.allowed_diagnoses.join(", ")) },
+            verdict(&row.verdict, row.expected),
+        ]
+    });
+    table("Extremes, errors relative to the largest displacement", &columns, rows)
+}
 
-    fn stability(&self) -> Markup {
-        let columns = [words("method"), numbers("theory"), numbers("measured"), words("verdict")];
-        let courant = |value| number(value, |value| format!("{value:.3}"));
-        let rows = self.stability.iter().map(|it| {
-            vec![
-                html! { (it.method) },
-                courant(it.theory),
-                courant(Some(it.measured)),
-                verdict(&it.verdict, it.expected),
-            ]
-        });
-        table("The largest stable Courant number", &columns, rows)
-    }
+fn stability(extremes: &Extremes) -> Markup {
+    let columns = [words("method"), numbers("theory"), numbers("measured"), words("verdict")];
+    let courant = |value| number(value, |value| format!("{value:.3}"));
+    let rows = extremes.stability.iter().map(|it| {
+        vec![
+            html! { (it.method) },
+            courant(it.theory),
+            courant(Some(it.measured)),
+            verdict(&it.verdict, it.expected),
+        ]
+    });
+    table("The largest stable Courant number", &columns, rows)
+}
 
-    /// Errors over their bounds.
-    fn errors(&self) -> Plot {
-        let points = self.rows.iter().filter_map(|row| Some((&row.name, [row.bound?, row.l2?])));
-        compared(
-            &format!("Errors of {} at its extremes", self.field),
-            ["bound of l2", "l2"],
-            "run",
-            points.map(|(name, point)| (name.as_str(), point)).collect(),
-        )
-    }
+/// Errors over their bounds.
+fn errors(extremes: &Extremes) -> Plot {
+    let points = extremes.rows.iter().filter_map(|row| Some((&row.name, [row.bound?, row.l2?])));
+    compared(
+        &format!("Errors of {} at its extremes", extremes.field),
+        ["bound of l2", "l2"],
+        "run",
+        points.map(|(name, point)| (name.as_str(), point)).collect(),
+    )
+}
 
-    /// Measured limits over those of theory.
-    fn limits(&self) -> Plot {
-        let points = self.stability.iter();
-        compared(
-            &format!("Largest stable Courant numbers on {}", self.field),
-            ["theory", "measured"],
-            "method",
-            points.filter_map(|it| Some((it.method.as_str(), [it.theory?, it.measured]))).collect(),
-        )
-    }
+/// Measured limits over those of theory.
+fn limits(extremes: &Extremes) -> Plot {
+    let points = extremes.stability.iter();
+    compared(
+        &format!("Largest stable Courant numbers on {}", extremes.field),
+        ["theory", "measured"],
+        "method",
+        points.filter_map(|it| Some((it.method.as_str(), [it.theory?, it.measured]))).collect(),
+    )
 }
 
 /// A number over the one that it is held to, and a line where both are the same.

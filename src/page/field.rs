@@ -9,7 +9,7 @@ use mms_spec::quantity::Quantity;
 
 use super::motion::Motion;
 use crate::gallery::Entry;
-use crate::provenance::{Input, Provenance};
+use crate::provenance::{Input, Provenance, twin};
 use crate::session::input;
 
 /// The quantities that lead from u to b.
@@ -54,7 +54,7 @@ pub fn fields<'a>(provenances: impl Iterator<Item = &'a Provenance>) -> Vec<Show
 fn content(input: &Input) -> Result<Content, String> {
     let field = input.field.as_deref().unwrap_or_default();
     let window = input.window.clone();
-    let selection = Selection { twin: input.twin(), window, ..Selection::default() };
+    let selection = Selection { twin: twin(input), window, ..Selection::default() };
     let options = Options { selection, ..Options::default() };
     let found = input::Input::find_with(field, &options)
         .map_err(|error| format!("{error:#}").lines().next().unwrap_or_default().to_owned())?;

@@ -3,7 +3,6 @@
 
 use maud::html;
 use mms_spec::{FieldSpec, StudySpec};
-use serde_json::Value;
 
 use super::mark::{table, words};
 use super::{Page, Verdicts, field, frame};
@@ -20,10 +19,9 @@ pub fn page(entry: &Entry) -> anyhow::Result<Page> {
     let mut results = Vec::new();
     for (number, study) in field.studies.iter().enumerate() {
         let report = Study::anywhere(&command(&field, study))?;
-        let mut document = report.map(|report| report.document()).unwrap_or_default();
-        for level in document["levels"].as_array_mut().into_iter().flatten() {
-            level["seconds"] = Value::Null;
-        }
+        let Some(mut document) = report.map(|report| report.document()) else { continue };
+        document.study.levels.iter_mut().for_each(|level| level.seconds = None);
+        let document = serde_json::to_value(document)?;
         results.push(
             super::entry(&format!("[[study]] {}", number + 1), &document)
                 .map_err(anyhow::Error::msg)?,

@@ -1,60 +1,18 @@
 //! Judged results and errors of any solver.
 
 use maud::{Markup, html};
-use serde::Deserialize;
+use mms_documents::judge::{Judge, JudgedQuantity};
+use mms_documents::study::{JudgedLevel, JudgedNorm};
 
-use super::excluded::{Excluded, exclusions};
+use super::excluded::exclusions;
 use super::mark::{Column, count, is_good, number, numbers, order, small, table, verdict};
 use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
 
-/// What `mms judge` writes.
-#[derive(Deserialize)]
-pub struct Judgement {
-    source: String,
-    refinement: String,
-    quantity: Option<String>,
-    norm: Option<String>,
-    expected_order: Option<f64>,
-    observed_order: Option<f64>,
-    order_interval: Option<[f64; 2]>,
-    quantities: Vec<Quantity>,
-    verdict: String,
-    /// How results were measured; a table of errors has none.
-    #[serde(default)]
-    notes: Vec<String>,
-    #[serde(default)]
-    warnings: Vec<String>,
-    #[serde(default)]
-    excluded: Option<Vec<Excluded>>,
-}
-
-#[derive(Deserialize)]
-struct Quantity {
-    name: String,
-    verdict: String,
-    norms: Vec<Norm>,
-    says: Vec<String>,
-}
-
-#[derive(Deserialize)]
-struct Norm {
-    norm: String,
-    levels: Vec<Level>,
-}
-
-#[derive(Deserialize)]
-struct Level {
-    length: f64,
-    runs: Vec<f64>,
-    error: Option<f64>,
-    order: Option<f64>,
-}
-
 /// How many colours with their marks there are.
 const STYLES: usize = 3;
 
-impl Section for Judgement {
+impl Section for Judge {
     fn title(&self) -> String {
         match self.refinement.as_str() {
             "space" => self.source.clone(),
@@ -70,7 +28,7 @@ impl Section for Judgement {
         html! {
             p {
                 @match (&self.quantity, &self.norm) {
-                    (Some(quantity), Some(norm)) if self.is_of_several() => {
+                    (Some(quantity), Some(norm)) if is_of_several(self) => {
                         "The " (norm) " of " (quantity) " decides: "
                     }
                     (_, Some(norm)) => { (norm) " decides: " }
@@ -88,99 +46,99 @@ impl Section for Judgement {
                 "; expected is " (number(self.expected_order, |it| it.to_string())) "."
             }
             @if !self.notes.is_empty() { ul { @for note in &self.notes { li { (note) } } } }
-            @for warning in &self.warnings { p.alert { (warning) } }
+            @for warning in self.warnings.iter().flatten() { p.alert { (warning) } }
             @for (at, quantity) in self.quantities.iter().enumerate() {
-                (self.quantity(quantity, &format!("{id}-{}", at + 1)))
+                (one(self, quantity, &format!("{id}-{}", at + 1)))
             }
-            @if let Some(all) = &self.excluded { (exclusions(all)) }
+            @if let Some(Some(all)) = &self.excluded { (exclusions(all)) }
         }
     }
 }
 
-impl Judgement {
-    /// What decides, for a row of a table: its expected order, its observed one, and of what.
-    pub fn deciding(&self) -> [Markup; 3] {
-        let name = |it: &Option<String>| it.clone().unwrap_or_default();
-        [
-            number(self.expected_order, |it| it.to_string()),
-            order(self.observed_order),
-            html! { (name(&self.quantity)) " " (name(&self.norm)) },
-        ]
-    }
+/// The levels of a norm; none of a grid of h and dt.
+fn known(norm: &JudgedNorm) -> &[JudgedLevel] {
+    norm.levels.as_ref().and_then(Option::as_deref).unwrap_or_default()
+}
 
-    fn is_of_several(&self) -> bool {
-        self.quantities.len() > 1
-    }
+/// What decides, for a row of a table: its expected order, its observed one, and of what.
+pub fn deciding(judge: &Judge) -> [Markup; 3] {
+    let name = |it: &Option<String>| it.clone().unwrap_or_default();
+    [
+        number(judge.expected_order, |it| it.to_string()),
+        order(judge.observed_order),
+        html! { (name(&judge.quantity)) " " (name(&judge.norm)) },
+    ]
+}
 
-    /// What a table is of; a quantity alone may have no name of its own.
-    fn errors_of(&self, quantity: &Quantity) -> String {
-        match self.is_of_several() {
-            true => format!("Errors of {}", quantity.name),
-            false => "Errors".to_owned(),
+fn is_of_several(judge: &Judge) -> bool {
+    judge.quantities.len() > 1
+}
+
+/// What a table is of; a quantity alone may have no name of its own.
+fn errors_of(judge: &Judge, quantity: &JudgedQuantity) -> String {
+    match is_of_several(judge) {
+        true => format!("Errors of {}", quantity.name),
+        false => "Errors".to_owned(),
+    }
+}
+
+fn length(judge: &Judge) -> &'static str {
+    if judge.refinement == "time" { "dt" } else { "h" }
+}
+
+fn one(judge: &Judge, quantity: &JudgedQuantity, id: &str) -> Markup {
+    html! {
+        @if is_of_several(judge) {
+            h4 { (quantity.name) }
+            p { (verdict(&quantity.verdict, is_good(&quantity.verdict))) }
         }
-    }
-
-    fn length(&self) -> &'static str {
-        if self.refinement == "time" { "dt" } else { "h" }
-    }
-
-    fn quantity(&self, quantity: &Quantity, id: &str) -> Markup {
-        html! {
-            @if self.is_of_several() {
-                h4 { (quantity.name) }
-                p { (verdict(&quantity.verdict, is_good(&quantity.verdict))) }
-            }
-            @for sentence in &quantity.says { p { (sentence) } }
-            @if let Some(svg) = self.plot(quantity).svg(&format!("{id}-plot")) {
-                figure { (svg) figcaption { "Both axes are logarithmic; the triangle has the expected slope." } }
-            }
-            @if quantity.norms.iter().any(|norm| !norm.levels.is_empty()) { (self.levels(quantity)) }
+        @for sentence in &quantity.says { p { (sentence) } }
+        @if let Some(svg) = plot(judge, quantity).svg(&format!("{id}-plot")) {
+            figure { (svg) figcaption { "Both axes are logarithmic; the triangle has the expected slope." } }
         }
+        @if quantity.norms.iter().any(|norm| !known(norm).is_empty()) { (levels(judge, quantity)) }
     }
+}
 
-    fn levels(&self, quantity: &Quantity) -> Markup {
-        let mut columns = vec![numbers(self.length()), numbers("runs")];
+fn levels(judge: &Judge, quantity: &JudgedQuantity) -> Markup {
+    let mut columns = vec![numbers(length(judge)), numbers("runs")];
+    for norm in &quantity.norms {
+        columns.extend([Column::Number(norm.norm.clone().into()), numbers("order")]);
+    }
+    let longest = quantity.norms.iter().max_by_key(|norm| known(norm).len());
+    let levels = longest.map_or(&[][..], known);
+    let rows = levels.iter().enumerate().map(|(at, level)| {
+        let mut cells = vec![small(Some(level.length)), count(Some(level.runs.len()))];
         for norm in &quantity.norms {
-            columns.extend([Column::Number(norm.norm.clone().into()), numbers("order")]);
+            let own = known(norm).get(at);
+            cells.extend([small(own.and_then(|it| it.error)), order(own.and_then(|it| it.order))]);
         }
-        let longest = quantity.norms.iter().max_by_key(|norm| norm.levels.len());
-        let levels = longest.map_or(&[][..], |norm| norm.levels.as_slice());
-        let rows = levels.iter().enumerate().map(|(at, level)| {
-            let mut cells = vec![small(Some(level.length)), count(Some(level.runs.len()))];
-            for norm in &quantity.norms {
-                let own = norm.levels.get(at);
-                cells.extend([
-                    small(own.and_then(|it| it.error)),
-                    order(own.and_then(|it| it.order)),
-                ]);
-            }
-            cells
-        });
-        table(&self.errors_of(quantity), &columns, rows)
-    }
+        cells
+    });
+    table(&errors_of(judge, quantity), &columns, rows)
+}
 
-    fn plot(&self, quantity: &Quantity) -> Plot {
-        let curve = |(at, norm): (usize, &Norm)| Curve {
-            name: norm.norm.clone(),
-            points: norm.levels.iter().filter_map(|it| Some([it.length, it.error?])).collect(),
-            style: at % STYLES,
-            is_hollow: at / STYLES % 2 == 1,
-            line: Line::Solid,
-        };
-        let curves: Vec<Curve> = quantity.norms.iter().enumerate().map(curve).collect();
-        let described = curves.iter().flat_map(|curve| {
-            let of = |[at, error]: &[f64; 2]| format!("{} {} {error:.2e}", curve.name, short(*at));
-            curve.points.iter().map(of)
-        });
-        let what = if self.refinement == "time" { "time step dt" } else { "cell size h" };
-        Plot {
-            title: format!("Convergence of {} of {}", quantity.name, self.source),
-            description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
-            axes: [what, "error"],
-            curves,
-            slope: self.expected_order,
-            floor: Vec::new(),
-            marks_points: true,
-        }
+fn plot(judge: &Judge, quantity: &JudgedQuantity) -> Plot {
+    let curve = |(at, norm): (usize, &JudgedNorm)| Curve {
+        name: norm.norm.clone(),
+        points: known(norm).iter().filter_map(|it| Some([it.length, it.error?])).collect(),
+        style: at % STYLES,
+        is_hollow: at / STYLES % 2 == 1,
+        line: Line::Solid,
+    };
+    let curves: Vec<Curve> = quantity.norms.iter().enumerate().map(curve).collect();
+    let described = curves.iter().flat_map(|curve| {
+        let of = |[at, error]: &[f64; 2]| format!("{} {} {error:.2e}", curve.name, short(*at));
+        curve.points.iter().map(of)
+    });
+    let what = if judge.refinement == "time" { "time step dt" } else { "cell size h" };
+    Plot {
+        title: format!("Convergence of {} of {}", quantity.name, judge.source),
+        description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
+        axes: [what, "error"],
+        curves,
+        slope: judge.expected_order,
+        floor: Vec::new(),
+        marks_points: true,
     }
 }

@@ -111,15 +111,15 @@ impl Kind {
 /// The kinds of documents, in their order on a page.
 const KINDS: &[Kind] = &[
     Kind { name: "study", heading: "Convergence studies", read: study::read },
-    Kind::of::<judge::Judgement>("judge", "Judged results"),
+    Kind::of::<mms_documents::judge::Judge>("judge", "Judged results"),
     Kind::of::<diagnosis::Diagnosis>("diagnose", "Diagnoses"),
-    Kind::of::<campaign::Campaign>("campaign", "Campaigns"),
+    Kind::of::<mms_documents::campaign::Campaign>("campaign", "Campaigns"),
     Kind::of::<verify::Matrix>("verify", "Verification matrix"),
     Kind::of::<tradeoff::Tradeoff>("tradeoff", "Error against cost"),
-    Kind::of::<extremes::Extremes>("extremes", "At the limits"),
+    Kind::of::<mms_documents::extremes::Extremes>("extremes", "At the limits"),
     Kind::of::<defects::Defects>("defects", "Deliberate mistakes"),
     Kind::of::<accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
-    Kind::of::<run::Run>("run", "Single runs"),
+    Kind::of::<mms_documents::run::Run>("run", "Single runs"),
 ];
 
 /// A result with what is known of it.
@@ -194,8 +194,11 @@ fn entry(file: &str, document: &Value) -> Result<Entry, String> {
         .map_err(|error| format!("where it is from cannot be read: {error}"))?;
     let known = KINDS.iter().find(|kind| kind.name == provenance.kind);
     let kind = known.ok_or_else(|| format!("nothing is known of a `{}`", provenance.kind))?;
-    let section = (kind.read)(document)
-        .map_err(|error| format!("not what `mms {}` writes: {error}", kind.name))?;
+    let section = match method::lack(document) {
+        Some(lack) => Err(lack),
+        None => (kind.read)(document).map_err(|error| error.to_string()),
+    }
+    .map_err(|error| format!("not what `mms {}` writes: {error}", kind.name))?;
     let [id, file] = [String::new(), file.to_owned()];
     Ok(Entry { id, heading: kind.heading, file, provenance: Some(provenance), section })
 }

@@ -1,57 +1,16 @@
 //! Single runs.
 
-use std::collections::BTreeMap;
-
 use maud::{Markup, html};
-use serde::Deserialize;
-use serde_json::Value;
+use mms_documents::run::{Diagnostics, OverTime, Run, RunErrors};
 
-use super::mark::{count, number, numbers, plain, seconds, small, table, words};
-use super::method::Method;
+use super::mark::{count, number, numbers, seconds, small, table, words};
+use super::method::{method, name};
 use super::plot::short;
 use super::{Section, Verdicts};
 
-/// What `mms run` writes.
-#[derive(Deserialize)]
-pub struct Run {
-    field: String,
-    method: Method,
-    cells: Value,
-    cell_size: Option<f64>,
-    time_step: Option<f64>,
-    steps: Option<usize>,
-    particles: Option<usize>,
-    errors: Option<BTreeMap<String, Times>>,
-    diagnostics: Option<State>,
-    ns_per_particle_step: Option<f64>,
-    seconds: Option<BTreeMap<String, f64>>,
-    failure: Option<String>,
-}
-
-#[derive(Deserialize)]
-struct Times {
-    over_time: Norms,
-    at_end: Norms,
-}
-
-#[derive(Deserialize)]
-struct Norms {
-    l1: f64,
-    l2: f64,
-    linf: f64,
-}
-
-#[derive(Deserialize)]
-struct State {
-    mass: f64,
-    momentum: Vec<f64>,
-    kinetic_energy: f64,
-    jacobian: [f64; 2],
-}
-
 impl Section for Run {
     fn title(&self) -> String {
-        format!("{}: {}, {} cells", self.field, self.method.name(), plain(&self.cells))
+        format!("{}: {}, {} cells", self.field, name(&self.method), self.cells)
     }
 
     /// A run that reached its end is not judged.
@@ -74,16 +33,22 @@ impl Section for Run {
             @if let Some(errors) = &self.errors { (norms(errors)) }
             @if let Some(state) = &self.diagnostics { (at_end(state)) }
             @if let Some(parts) = &self.seconds {
-                (table("What it took", &[words("part"), numbers("time")], parts.iter().map(|(part, time)| {
-                    vec![html! { (part) }, seconds(Some(*time))]
+                @let parts = [
+                    ("forcing", parts.forcing),
+                    ("transfer", parts.transfer),
+                    ("grid", parts.grid),
+                    ("stress", parts.stress),
+                ];
+                (table("What it took", &[words("part"), numbers("time")], parts.into_iter().map(|(part, time)| {
+                    vec![html! { (part) }, seconds(Some(time))]
                 })))
             }
-            (self.method.html())
+            (method(&self.method))
         }
     }
 }
 
-fn norms(errors: &BTreeMap<String, Times>) -> Markup {
+fn norms(errors: &RunErrors) -> Markup {
     let columns = [
         words("error of"),
         numbers("l1"),
@@ -93,7 +58,13 @@ fn norms(errors: &BTreeMap<String, Times>) -> Markup {
         numbers("l2 at the end"),
         numbers("linf at the end"),
     ];
-    let rows = errors.iter().map(|(quantity, Times { over_time, at_end })| {
+    let quantities = [
+        ("displacement", &errors.displacement),
+        ("velocity", &errors.velocity),
+        ("deformation_gradient", &errors.deformation_gradient),
+        ("first_piola_kirchhoff", &errors.first_piola_kirchhoff),
+    ];
+    let rows = quantities.into_iter().map(|(quantity, OverTime { over_time, at_end })| {
         let norms = [over_time, at_end].map(|it| [it.l1, it.l2, it.linf]).concat();
         let name = html! { (quantity) };
         std::iter::once(name).chain(norms.into_iter().map(|norm| small(Some(norm)))).collect()
@@ -101,7 +72,7 @@ fn norms(errors: &BTreeMap<String, Times>) -> Markup {
     table("Errors, the largest over time and those at the end", &columns, rows)
 }
 
-fn at_end(state: &State) -> Markup {
+fn at_end(state: &Diagnostics) -> Markup {
     let shown = |values: &[f64]| {
         html! {
             @for (at, value) in values.iter().enumerate() {

@@ -6,11 +6,20 @@ use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_convergence::Verdict;
-use serde_json::{Value, json};
+use mms_documents::study::{self as documents, Studies, StudyOfOne};
+use serde::Serialize;
 
 use super::text::{pretty, write_files};
 use super::{Study, picture};
 use crate::provenance::Provenance;
+
+/// The document of one study, or of several methods.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub enum Document {
+    One(Box<documents::Study>),
+    Several(Studies),
+}
 
 /// Studies of one field with methods that differ.
 pub struct Comparison {
@@ -48,24 +57,20 @@ impl Comparison {
         self.names().into_iter().zip(&self.studies)
     }
 
-    /// The JSON document; of one study alone, its own.
-    pub fn document(&self) -> Value {
+    /// The JSON document: that of the study if there is one alone.
+    pub fn document(&self) -> Document {
         if let [alone] = self.studies.as_slice() {
-            return alone.document();
+            return Document::One(Box::new(alone.document()));
         }
-        let studies = self.named().map(|(name, study)| {
-            let mut document = json!({ "name": name });
-            if let (Value::Object(all), Value::Object(own)) = (&mut document, study.content()) {
-                all.extend(own);
-            }
-            document
-        });
-        self.provenance.sign(json!({
-            "field": self.studies[0].field,
-            "refinement": self.studies[0].refinement.name(),
-            "studies": studies.collect::<Vec<_>>(),
-            "passed": self.passed(),
-        }))
+        let studies = self.named().map(|(name, study)| StudyOfOne { name, study: study.content() });
+        let first = &self.studies[0];
+        Document::Several(Studies {
+            field: first.field.raw().to_owned(),
+            refinement: first.refinement.name().to_owned(),
+            studies: studies.collect(),
+            passed: self.passed(),
+            provenance: self.provenance.clone(),
+        })
     }
 
     /// The tables for a terminal, with each verdict.

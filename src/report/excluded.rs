@@ -1,7 +1,8 @@
 //! What a pass excludes, as text and in a JSON document.
 
 use mms_diagnosis::excluded::{Excluded, Shown};
-use serde_json::{Value, json};
+use mms_documents::campaign::ExcludedTogether;
+use mms_documents::judge;
 
 use crate::judge::results::Exclusions;
 
@@ -41,9 +42,13 @@ impl Together {
         lines.map(|(head, names)| format!("{head}: {names}")).collect::<Vec<_>>().join("\n")
     }
 
-    /// What a program reads.
-    pub fn document(&self) -> Value {
-        self.all.iter().map(|(name, by)| json!({ "hypothesis": name, "by": by })).collect()
+    /// The list of a document.
+    pub fn document(&self) -> Vec<ExcludedTogether> {
+        let entry = |(name, by): &(String, Option<String>)| ExcludedTogether {
+            hypothesis: name.clone(),
+            by: by.clone(),
+        };
+        self.all.iter().map(entry).collect()
     }
 }
 
@@ -107,28 +112,27 @@ impl Exclusions {
         lines.join("\n")
     }
 
-    /// What a program reads.
-    pub fn document(&self) -> Value {
-        let each = |it: &Vec<Excluded>| it.iter().map(document).collect::<Vec<_>>();
-        self.all.as_ref().map_or(Value::Null, |all| json!(each(all)))
+    /// The list of a document; nothing if the mistakes could not be run.
+    pub fn document(&self) -> Option<Vec<judge::Excluded>> {
+        Some(self.all.as_ref().ok()?.iter().map(document).collect())
     }
 }
 
-fn document(it: &Excluded) -> Value {
+fn document(it: &Excluded) -> judge::Excluded {
     let (times, right, from) = match it.shown {
         Shown::Always(times) => (times, None, None),
         Shown::From { right, least } => (None, Some(right), Some(least)),
         Shown::Never(times) => (Some(times), None, None),
     };
-    json!({
-        "hypothesis": it.title,
-        "says": it.says,
-        "kind": it.kind.name(),
-        "excluded": it.is_excluded(),
-        "times": times,
-        "right": right,
-        "from": from,
-    })
+    judge::Excluded {
+        hypothesis: it.title.clone(),
+        says: it.says.to_string(),
+        kind: it.kind.name().to_owned(),
+        excluded: it.is_excluded(),
+        times,
+        right,
+        from,
+    }
 }
 
 #[cfg(test)]

@@ -2,9 +2,9 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use mms_documents::extremes::{ExtremeRow, Extremes, StabilityLimit};
 use mms_runtime::Method;
 use mms_spec::foreign::Foreign;
-use serde_json::{Value, json};
 
 use super::method;
 use super::text::tally;
@@ -116,29 +116,31 @@ impl Judged {
         }
     }
 
-    fn document(&self, declared: Declared) -> Value {
+    fn document(&self, declared: Declared) -> ExtremeRow {
         let l2 = match self.seen {
             Seen::Ended { l2, .. } => Some(l2),
             _ => None,
         };
         let (diagnosis, reason) = match &self.seen {
             Seen::Ended { .. } => (None, None),
-            Seen::Stopped { diagnosis, reason } => (Some(diagnosis.name()), Some(reason)),
-            Seen::LeftOut { reason } => (None, Some(reason)),
+            Seen::Stopped { diagnosis, reason } => {
+                (Some(diagnosis.name().to_owned()), Some(reason.clone()))
+            }
+            Seen::LeftOut { reason } => (None, Some(reason.clone())),
         };
-        json!({
-            "name": self.row.name,
-            "setting": self.setting,
-            "theory": self.row.theory,
-            "allowed_factor": self.row.l2,
-            "allowed_diagnoses": self.row.stops.iter().map(|it| it.name()).collect::<Vec<_>>(),
-            "l2": l2,
-            "bound": self.bound(declared),
-            "diagnosis": diagnosis,
-            "reason": reason,
-            "verdict": self.verdict.name(),
-            "expected": self.verdict.is_expected(),
-        })
+        ExtremeRow {
+            name: self.row.name.clone(),
+            setting: self.setting.clone(),
+            theory: self.row.theory.clone(),
+            allowed_factor: self.row.l2,
+            allowed_diagnoses: self.row.stops.iter().map(|it| it.name().to_owned()).collect(),
+            l2,
+            bound: self.bound(declared),
+            diagnosis,
+            reason,
+            verdict: self.verdict.name().to_owned(),
+            expected: self.verdict.is_expected(),
+        }
     }
 }
 
@@ -164,25 +166,24 @@ impl Report {
     }
 
     /// The JSON document.
-    pub fn document(&self) -> Value {
-        let stability = self.stability.iter().map(|it| {
-            json!({
-                "method": name(&it.method),
-                "theory": it.theory,
-                "measured": it.measured,
-                "verdict": it.verdict(),
-                "expected": it.is_expected(),
-            })
+    pub fn document(&self) -> Extremes {
+        let stability = self.stability.iter().map(|it| StabilityLimit {
+            method: name(&it.method),
+            theory: it.theory,
+            measured: it.measured,
+            verdict: it.verdict().to_owned(),
+            expected: it.is_expected(),
         });
-        self.provenance.sign(json!({
-            "field": self.field,
-            "method": method::document(&self.method, self.arithmetic),
-            "quick": self.quick,
-            "declared_l2": self.declared.l2,
-            "rows": self.rows.iter().map(|row| row.document(self.declared)).collect::<Vec<_>>(),
-            "stability": stability.collect::<Vec<_>>(),
-            "unexpected": self.unexpected(),
-        }))
+        Extremes {
+            field: self.field.raw().to_owned(),
+            method: method::document(&self.method, self.arithmetic),
+            quick: self.quick,
+            declared_l2: self.declared.l2,
+            rows: self.rows.iter().map(|row| row.document(self.declared)).collect(),
+            stability: stability.collect(),
+            unexpected: self.unexpected(),
+            provenance: self.provenance.clone(),
+        }
     }
 
     /// The text for a terminal.

@@ -4,8 +4,10 @@ use std::path::Path;
 
 use comfy_table::Table;
 use mms_convergence::{Basis, Finding, Judgement, Kind, Level, RULE, Verdict};
+use mms_documents::Names;
+use mms_documents::judge as documents;
+use mms_documents::study::{JudgedLevel, JudgedNorm, LevelErrors, Limit, LowerOrder, SecondTerm};
 use mms_spec::foreign::{Foreign, shown};
-use serde_json::{Map, Value, json};
 
 use super::picture::{Line, Picture};
 use super::text::{plain, pretty, to_the_right, write_files};
@@ -30,8 +32,8 @@ pub struct Judgements {
     pub part: Option<String>,
     /// What a pass excludes, of results.
     pub exclusions: Option<Exclusions>,
-    /// What the document has besides.
-    pub more: Map<String, Value>,
+    /// The keys of results of files.
+    pub(crate) results: Results,
     /// Where the verdicts are from.
     pub provenance: Provenance,
 }
@@ -78,7 +80,7 @@ impl Judgements {
             notes: Vec::new(),
             part: None,
             exclusions: None,
-            more: Map::new(),
+            results: Results::default(),
             provenance,
         })
     }
@@ -94,14 +96,14 @@ impl Judgements {
         time_step: Option<f64>,
         provenance: Provenance,
     ) -> anyhow::Result<Self> {
-        let more = more(&exact.input().name, files, &measurement);
+        let results = Results::new(&exact.input().name, files, &measurement);
         let Measurement { measured, times, notes, objection, part, .. } = measurement;
         let report = Self::objected(exact.title(), measured, objection.as_ref(), provenance)?;
         let exclusions = match report.verdict().is_good() {
             true => exclusions(exact, &report.measured, times, time_step)?,
             false => None,
         };
-        Ok(Self { notes, exclusions, part, more, ..report })
+        Ok(Self { notes, exclusions, part, results, ..report })
     }
 
     /// The quantity that decides, its position and the verdict.
@@ -230,37 +232,41 @@ impl Judgements {
     }
 
     /// The JSON document.
-    pub fn document(&self) -> Value {
+    pub fn document(&self) -> documents::Judge {
         let (at, verdict) = self.decided();
-        let quantities: Vec<_> =
+        let quantities =
             self.each().map(|(quantity, judged)| self.quantity(quantity, judged)).collect();
         let deciding = self.judged.get(at).map(|it| it.judgement.deciding());
         let finding = deciding.map(|it| &it.finding);
-        let mut document = json!({
-            "source": self.source,
-            "refinement": self.refined.name(),
-            "levels": self.rows(),
-            "quantity": self.measured.quantities.get(at).map(|it| &it.name),
-            "norm": deciding.map(|it| &it.norm),
-            "expected_order": deciding.map(|it| it.expected.order),
-            "tolerance": deciding.map(|it| it.expected.tolerance),
-            "observed_order": finding.and_then(observed),
-            "order_interval": finding.and_then(interval),
-            "quantities": quantities,
-            "verdict": verdict.to_string(),
-            "rule": RULE,
-            "notes": self.notes,
-        });
-        if let Value::Object(document) = &mut document {
-            document.extend(self.more.clone());
-            let excluded = self.exclusions.as_ref().map(Exclusions::document);
-            document.extend(excluded.map(|it| ("excluded".into(), it)));
+        let quantity = self.measured.quantities.get(at);
+        let results = self.results.clone();
+        documents::Judge {
+            source: self.source.clone(),
+            refinement: self.refined.name().to_owned(),
+            levels: self.rows(),
+            quantity: quantity.map(|it| it.name.raw().to_owned()),
+            norm: deciding.map(|it| it.norm.to_owned()),
+            expected_order: deciding.map(|it| it.expected.order),
+            tolerance: deciding.map(|it| it.expected.tolerance),
+            observed_order: finding.and_then(observed),
+            order_interval: finding.and_then(interval),
+            quantities,
+            verdict: verdict.to_string(),
+            rule: RULE,
+            notes: self.notes.clone(),
+            field: results.field,
+            files: results.files,
+            times: results.times,
+            samplings: results.samplings,
+            warnings: results.warnings,
+            iterative_errors: results.iterative_errors,
+            excluded: self.exclusions.as_ref().map(Exclusions::document),
+            provenance: self.provenance.clone(),
         }
-        self.provenance.sign(document)
     }
 
     /// The levels of the first quantity, as a study writes them; of a grid its runs.
-    fn rows(&self) -> Vec<Value> {
+    fn rows(&self) -> Vec<documents::JudgeLevel> {
         let Some(first) = self.measured.quantities.first() else { return Vec::new() };
         let norm = |name: &str| first.norms.iter().find(|it| it.name == *name);
         if self.refined == Refined::Grid {
@@ -295,30 +301,32 @@ impl Judgements {
         [run.map(|it| it.cell_size), run.and_then(|it| it.time_step)]
     }
 
-    fn quantity(&self, quantity: &Quantity, judged: &Judged) -> Value {
+    fn quantity(&self, quantity: &Quantity, judged: &Judged) -> documents::JudgedQuantity {
         let deciding = judged.judgement.deciding();
         let mut norms = norms_judged(&judged.judgement);
         for own in &mut norms {
-            let levels = quantity.norms.iter().find(|norm| own["norm"] == norm.name.raw());
-            own.insert("levels".into(), levels.map_or(Value::Null, |norm| self.norm(norm)));
+            let levels = quantity.norms.iter().find(|norm| own.norm == norm.name.raw());
+            own.levels = Some(levels.map(|norm| self.norm(norm)));
         }
-        json!({
-            "name": quantity.name,
-            "norm": deciding.norm,
-            "verdict": judged.judgement.verdict().to_string(),
-            "layer_order": judged.judgement.layer(),
-            "superconvergent": deciding.is_superconvergent(),
-            "norms": norms,
-            "says": self.says(quantity, judged),
-        })
+        documents::JudgedQuantity {
+            name: quantity.name.raw().to_owned(),
+            norm: deciding.norm.to_owned(),
+            verdict: judged.judgement.verdict().to_string(),
+            layer_order: judged.judgement.layer(),
+            superconvergent: deciding.is_superconvergent(),
+            norms,
+            says: self.says(quantity, judged),
+        }
     }
 
-    fn norm(&self, norm: &Norm) -> Value {
-        let level = |(level, order): &(Level, Option<f64>)| {
-            let error = (!level.errors.is_empty()).then(|| level.error());
-            json!({ "length": level.length, "runs": level.errors, "error": error, "order": order })
+    fn norm(&self, norm: &Norm) -> Vec<JudgedLevel> {
+        let level = |(level, order): (Level, Option<f64>)| JudgedLevel {
+            length: level.length,
+            error: (!level.errors.is_empty()).then(|| level.error()),
+            runs: level.errors,
+            order,
         };
-        self.levels(norm).iter().map(level).collect()
+        self.levels(norm).into_iter().map(level).collect()
     }
 
     /// Writes convergence.svg and .csv into a folder, and returns their paths.
@@ -406,24 +414,32 @@ impl Judgements {
     }
 }
 
-/// What the document of results has besides.
-fn more(field: &Foreign, files: &[String], measurement: &Measurement) -> Map<String, Value> {
-    let names = measurement.measured.quantities.iter().map(|quantity| quantity.name.raw());
-    let samplings = names.zip(measurement.samplings.iter().map(|it| json!(it.name())));
-    let document = json!({
-        "field": field,
-        "files": files,
-        "times": measurement.times,
-        "samplings": samplings.map(|(name, it)| (name.to_owned(), it)).collect::<Map<_, _>>(),
-        "warnings": measurement.warnings,
-    });
-    let mut document = if let Value::Object(document) = document { document } else { Map::new() };
-    if !measurement.iterative.is_empty() {
-        let errors = measurement.iterative.iter();
-        let errors: Map<_, _> = errors.map(|(name, it)| ((*name).to_owned(), json!(it))).collect();
-        document.insert("iterative_errors".into(), Value::Object(errors));
+/// The keys that the document has for results of files.
+#[derive(Clone, Default)]
+pub(crate) struct Results {
+    field: Option<String>,
+    files: Option<Vec<String>>,
+    times: Option<Vec<f64>>,
+    samplings: Option<Names<String>>,
+    warnings: Option<Vec<String>>,
+    iterative_errors: Option<Names<f64>>,
+}
+
+impl Results {
+    fn new(field: &Foreign, files: &[String], measurement: &Measurement) -> Self {
+        let names = measurement.measured.quantities.iter().map(|quantity| quantity.name.raw());
+        let samplings = measurement.samplings.iter().map(|it| it.name().to_owned());
+        let iterative: Names<f64> =
+            measurement.iterative.iter().map(|(name, error)| (name.to_string(), *error)).collect();
+        Results {
+            field: Some(field.raw().to_owned()),
+            files: Some(files.to_vec()),
+            times: Some(measurement.times.clone()),
+            samplings: Some(names.zip(samplings).collect()),
+            warnings: Some(measurement.warnings.clone()),
+            iterative_errors: (!iterative.0.is_empty()).then_some(iterative),
+        }
     }
-    document
 }
 
 /// The texts of a row of a table.
@@ -431,24 +447,16 @@ fn cells(row: &comfy_table::Row) -> Vec<String> {
     row.cell_iter().map(|cell| cell.content()).collect()
 }
 
+/// A level of the document; `errors` are l1, l2 and linf, each with its order.
 fn row(
-    size: Option<f64>,
-    step: Option<f64>,
+    cell_size: Option<f64>,
+    time_step: Option<f64>,
     runs: usize,
     errors: [(Option<f64>, Option<f64>); 3],
-) -> Value {
-    let mut row = Map::new();
-    let mut insert = |key: String, value: Value| row.insert(key, value);
-    insert("cell_size".into(), json!(size));
-    insert("time_step".into(), json!(step));
-    insert("runs".into(), json!(runs));
-    for (norm, (error, _)) in NORMS.iter().zip(&errors) {
-        insert((*norm).into(), json!(error));
-    }
-    for (norm, (_, order)) in NORMS.iter().zip(&errors) {
-        insert(format!("order_{norm}"), json!(order));
-    }
-    Value::Object(row)
+) -> documents::JudgeLevel {
+    let [(l1, order_l1), (l2, order_l2), (linf, order_linf)] = errors;
+    let errors = LevelErrors { l1, l2, linf, order_l1, order_l2, order_linf };
+    documents::JudgeLevel { cell_size, time_step, runs, errors }
 }
 
 fn observed(finding: &Finding) -> Option<f64> {
@@ -460,60 +468,51 @@ fn interval(finding: &Finding) -> Option<[f64; 2]> {
 }
 
 /// What is found of each norm.
-pub(super) fn norms_judged(judgement: &Judgement) -> Vec<Map<String, Value>> {
+pub(super) fn norms_judged(judgement: &Judgement) -> Vec<JudgedNorm> {
     judgement.norms.iter().map(judged).collect()
 }
 
 /// What is found of a norm, under its name.
-fn judged(judged: &mms_convergence::Judged) -> Map<String, Value> {
-    let mut document = Map::new();
-    document.insert("norm".into(), json!(judged.norm));
-    document.insert("expected_order".into(), json!(judged.expected.order));
-    let highest = judged.expected.highest;
-    if highest > judged.expected.order {
-        document.insert("highest_order".into(), json!(highest));
-    }
-    document.extend(finding(&judged.finding));
-    document
-}
-
-fn finding(finding: &Finding) -> Map<String, Value> {
-    let basis = finding.estimate.map(|it| match it.basis {
+fn judged(judged: &mms_convergence::Judged) -> JudgedNorm {
+    let finding = &judged.finding;
+    let basis = |basis| match basis {
         Basis::Scatter => "scatter",
         Basis::Drift => "drift",
         Basis::Digits => "digits",
         Basis::Nothing => "nothing",
-    });
-    let term = finding.term.map(|term| {
-        let kind = match term.kind {
-            Kind::Plateau => "plateau",
-            Kind::LowerOrder => "lower order",
-            Kind::PreAsymptotic => "pre-asymptotic",
-        };
-        json!({
-            "kind": kind,
-            "order": term.order,
-            "share": term.share,
-            "share_interval": term.interval,
-            "takes_over": term.takes_over,
-        })
-    });
-    let limit = finding.limit.map(
-        |limit| json!({ "error": limit.error, "interval": limit.interval, "order": limit.order }),
-    );
-    let document = json!({
-        "verdict": finding.verdict.to_string(),
-        "observed_order": observed(finding),
-        "order_interval": interval(finding),
-        "interval_from": basis,
-        "decided_by": finding.lengths,
-        "lower_order": finding.share.map(|it| json!({
-            "order": it.order,
-            "share": it.share,
-            "share_interval": it.interval(),
-        })),
-        "second_term": term,
-        "limit": limit,
-    });
-    if let Value::Object(document) = document { document } else { Map::new() }
+    };
+    let kind = |kind| match kind {
+        Kind::Plateau => "plateau",
+        Kind::LowerOrder => "lower order",
+        Kind::PreAsymptotic => "pre-asymptotic",
+    };
+    let highest = judged.expected.highest;
+    JudgedNorm {
+        norm: judged.norm.to_owned(),
+        expected_order: judged.expected.order,
+        highest_order: (highest > judged.expected.order).then_some(highest),
+        verdict: finding.verdict.to_string(),
+        observed_order: observed(finding),
+        order_interval: interval(finding),
+        interval_from: finding.estimate.map(|it| basis(it.basis).to_owned()),
+        decided_by: finding.lengths.clone(),
+        lower_order: finding.share.map(|it| LowerOrder {
+            order: it.order,
+            share: it.share,
+            share_interval: it.interval(),
+        }),
+        second_term: finding.term.map(|it| SecondTerm {
+            kind: kind(it.kind).to_owned(),
+            order: it.order,
+            share: it.share,
+            share_interval: it.interval,
+            takes_over: it.takes_over,
+        }),
+        limit: finding.limit.map(|it| Limit {
+            error: it.error,
+            interval: it.interval,
+            order: it.order,
+        }),
+        levels: None,
+    }
 }

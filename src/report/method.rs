@@ -1,45 +1,46 @@
 //! A method in a report.
 
+use mms_documents as documents;
 use mms_runtime::{Division, FormulationName, Method, Setup, Transfer};
-use serde_json::{Value, json};
 
 use crate::session::method::Arithmetic;
 
-/// The JSON object.
-pub fn document(method: &Method, arithmetic: Arithmetic) -> Value {
+/// The method as a part of a document.
+pub fn document(method: &Method, arithmetic: Arithmetic) -> documents::study::Method {
     let Setup { transfer, particles_per_cell, fill, jitter, seed, offset, .. } = &method.setup;
     let axes = ["x", "y", "z"].into_iter().zip(method.setup.periodic);
-    let periodic: Vec<_> = axes.filter_map(|(name, periodic)| periodic.then_some(name)).collect();
+    let periodic: Vec<_> =
+        axes.filter_map(|(name, periodic)| periodic.then_some(name.to_owned())).collect();
     let flip_fraction = match transfer {
-        Transfer::Flip { fraction } => Some(fraction),
+        Transfer::Flip { fraction } => Some(*fraction),
         _ => None,
     };
-    json!({
-        "shape": method.shape.name(),
-        "integrator": method.integrator.name(),
-        "formulation": method.formulation.name(),
-        "transfer": transfer.to_string(),
-        "flip_fraction": flip_fraction,
-        "precision": arithmetic.precision.name(),
-        "form": arithmetic.form.name(),
-        "particles_per_cell": division(particles_per_cell),
-        "fill": fill.map(|fill| fill.to_string()),
-        "jitter": jitter,
-        "seed": seed,
-        "offset": offset,
-        "periodic": periodic,
-        "courant": method.setup.courant,
-        "time_step": method.setup.time_step,
-        "end_time": method.setup.end_time,
-        "relax": method.setup.relax,
-    })
+    documents::study::Method {
+        shape: method.shape.name().to_owned(),
+        integrator: method.integrator.name().to_owned(),
+        formulation: method.formulation.name().to_owned(),
+        transfer: transfer.to_string(),
+        flip_fraction,
+        precision: arithmetic.precision.name().to_owned(),
+        form: arithmetic.form.name().to_owned(),
+        particles_per_cell: division(particles_per_cell),
+        fill: fill.map(|fill| fill.to_string()),
+        jitter: *jitter,
+        seed: *seed,
+        offset: offset.to_vec(),
+        periodic,
+        courant: method.setup.courant,
+        time_step: method.setup.time_step,
+        end_time: method.setup.end_time,
+        relax: method.setup.relax,
+    }
 }
 
 /// A number, or a text such as `32x16`.
-pub fn division(division: &Division) -> Value {
+pub fn division(division: &Division) -> documents::Division {
     match *division {
-        Division::Uniform(number) => json!(number),
-        Division::PerAxis(..) => json!(division.to_string()),
+        Division::Uniform(number) => documents::Division::Uniform(number),
+        Division::PerAxis(..) => documents::Division::ByAxis(division.to_string()),
     }
 }
 

@@ -2,9 +2,8 @@
 
 use comfy_table::Table;
 use mms_convergence::observed_order;
+use mms_documents::study::{self as documents, PhaseLevel};
 use mms_runtime::study::{Phase, Refinement};
-use serde::Serialize;
-use serde_json::{Value, json};
 
 use super::text::{plain, to_the_right};
 
@@ -18,18 +17,14 @@ pub struct Phases {
     pub levels: Vec<Vec<Option<Phase>>>,
 }
 
-/// A level in one of the periods: an entry of the JSON document.
-#[derive(Default, Serialize)]
-struct Row {
-    amplitude_error: Option<f64>,
-    order_amplitude: Option<f64>,
-    phase_lag: Option<f64>,
-    order_phase: Option<f64>,
-}
-
 impl Phases {
     /// The levels in the `which`th of the measured periods, with the orders that led to them.
-    fn rows(&self, which: usize, lengths: &[Option<f64>], refinement: Refinement) -> Vec<Row> {
+    fn rows(
+        &self,
+        which: usize,
+        lengths: &[Option<f64>],
+        refinement: Refinement,
+    ) -> Vec<PhaseLevel> {
         let column = |of: fn(&Phase) -> f64| -> Vec<Option<f64>> {
             let phase = |level: &Vec<Option<Phase>>| level.get(which).copied().flatten();
             self.levels.iter().map(|level| phase(level).as_ref().map(of)).collect()
@@ -37,7 +32,7 @@ impl Phases {
         let (amplitudes, lags) = (column(|it| it.amplitude_error), column(|it| it.phase_lag));
         let orders = [&amplitudes, &lags].map(|values| orders(values, lengths, refinement));
         let rows = amplitudes.iter().zip(&lags).enumerate();
-        rows.map(|(level, (&amplitude_error, &phase_lag))| Row {
+        rows.map(|(level, (&amplitude_error, &phase_lag))| PhaseLevel {
             amplitude_error,
             order_amplitude: orders[0][level],
             phase_lag,
@@ -46,12 +41,14 @@ impl Phases {
         .collect()
     }
 
-    /// The JSON object; h or dt of each level, where it was started.
-    pub fn document(&self, lengths: &[Option<f64>], refinement: Refinement) -> Value {
-        let measured = self.measured.iter().enumerate().map(|(which, number)| {
-            json!({ "number": number, "levels": self.rows(which, lengths, refinement) })
-        });
-        json!({ "period": self.period, "measured": measured.collect::<Vec<_>>() })
+    /// The errors as a part of a document. `lengths` are h or dt of each level that was started.
+    pub fn document(&self, lengths: &[Option<f64>], refinement: Refinement) -> documents::Phase {
+        let period = |(which, &number): (usize, &usize)| documents::Period {
+            number,
+            levels: self.rows(which, lengths, refinement),
+        };
+        let measured = self.measured.iter().enumerate().map(period).collect();
+        documents::Phase { period: self.period, measured }
     }
 
     /// The table for a terminal.

@@ -1,14 +1,18 @@
 //! Comparisons of results as tables and JSON documents.
 
 use mms_convergence::Verdict;
+use mms_documents::judge::{DifferenceOfResults, JudgeBaseline, JudgeSame, SavedError};
 use mms_spec::foreign::shown;
-use serde_json::{Value, json};
 
 use super::text::{plain, to_the_right};
 use crate::judge::results::{Compared, Same};
 
 /// Errors and what they were.
-pub(crate) fn with_baseline(title: &str, all: &[Compared], verdict: Verdict) -> (String, Value) {
+pub(crate) fn with_baseline(
+    title: &str,
+    all: &[Compared],
+    verdict: Verdict,
+) -> (String, JudgeBaseline) {
     let mut table = plain(["quantity", "norm", "h", "error", "saved", "change"]);
     for it in all {
         let change = 100.0 * (it.error / it.saved - 1.0);
@@ -21,14 +25,15 @@ pub(crate) fn with_baseline(title: &str, all: &[Compared], verdict: Verdict) -> 
             format!("{change:+.2} %"),
         ]);
     }
-    let document = all.iter().map(|it| {
-        json!({
-            "quantity": it.quantity, "norm": it.norm, "cell_size": it.length, "error": it.error, "saved": it.saved,
-            "near": it.is_near(),
-        })
+    let errors = all.iter().map(|it| SavedError {
+        quantity: it.quantity.to_string(),
+        norm: it.norm.to_string(),
+        cell_size: it.length,
+        error: it.error,
+        saved: it.saved,
+        near: it.is_near(),
     });
-    let document =
-        json!({ "errors": document.collect::<Vec<_>>(), "verdict": verdict.to_string() });
+    let document = JudgeBaseline { errors: errors.collect(), verdict: verdict.to_string() };
     let text = format!(
         "{title}\n\n{}\n\n{verdict}: errors may differ from those that were saved by 1 %",
         to_the_right(table)
@@ -37,7 +42,7 @@ pub(crate) fn with_baseline(title: &str, all: &[Compared], verdict: Verdict) -> 
 }
 
 /// How far two results differ.
-pub(crate) fn differences(a: &str, b: &str, same: &Same) -> (String, Value) {
+pub(crate) fn differences(a: &str, b: &str, same: &Same) -> (String, JudgeSame) {
     let Same { differences: all, alone, words, paired, .. } = same;
     let mut table = plain(["array", "time", "largest", "relative", "where"]);
     for it in all {
@@ -60,11 +65,20 @@ pub(crate) fn differences(a: &str, b: &str, same: &Same) -> (String, Value) {
     if !same.is_finite() {
         text += "\n\nsome of these numbers are not finite: a run has failed";
     }
-    let document = all.iter().map(|it| {
-        json!({
-            "array": it.name, "time": it.time, "largest": it.largest, "relative": it.relative(), "where": it.place,
-        })
+    let finite = |number: f64| number.is_finite().then_some(number);
+    let differences = all.iter().map(|it| DifferenceOfResults {
+        array: it.name.clone(),
+        time: it.time,
+        largest: finite(it.largest),
+        relative: finite(it.relative()),
+        r#where: it.place.clone(),
     });
-    let document = json!({ "source": [a, b], "paired": paired, "differences": document.collect::<Vec<_>>(), "alone": alone, "words": words });
+    let document = JudgeSame {
+        source: vec![a.to_owned(), b.to_owned()],
+        paired: paired.to_string(),
+        differences: differences.collect(),
+        alone: alone.clone(),
+        words: words.clone(),
+    };
     (text, document)
 }

@@ -2,11 +2,11 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use mms_documents::run as documents;
 use mms_runtime::solver::Residual;
 use mms_runtime::study::{Balance, Details, Deviations};
 use mms_runtime::{Division, Errors, Method};
 use mms_spec::foreign::Foreign;
-use serde_json::{Map, Value, json};
 
 use super::text::duration;
 use super::{Refused, method};
@@ -62,38 +62,28 @@ impl Run {
         }
     }
 
-    /// The JSON document; what is not known of a run that was not started is null.
-    pub fn document(&self) -> Value {
+    /// The JSON document. Keys of a run that was not started are null.
+    pub fn document(&self) -> documents::Run {
         let run = self.run.as_ref().ok();
         let level = run.map(|run| &run.level);
-        let ended = run.and_then(|run| Some((run, run.details.as_ref()?)));
-        let details = ended.map(|(_, details)| details);
-        self.provenance.sign(json!({
-            "field": self.field,
-            "method": method::document(&self.method, self.arithmetic),
-            "cells": method::division(self.cells()),
-            "cell_size": level.map(|level| level.cell_size),
-            "time_step": level.map(|level| level.time_step),
-            "steps": level.map(|level| level.steps),
-            "particles": level.map(|level| level.particles),
-            "errors": details.map(errors),
-            "diagnostics": details.map(|details| json!({
-                "mass": details.diagnostics.mass,
-                "momentum": details.diagnostics.momentum,
-                "kinetic_energy": details.diagnostics.kinetic_energy,
-                "jacobian": details.diagnostics.jacobian,
-                "balance": details.diagnostics.balance.as_ref().map(balance),
-            })),
-            "ns_per_particle_step": ended.map(|(run, _)| ns_per_particle_step(run)),
-            "seconds": ended.map(|(mms_runtime::Run { seconds, .. }, _)| json!({
-                "forcing": seconds.forcing,
-                "transfer": seconds.transfer,
-                "grid": seconds.grid,
-                "stress": seconds.stress,
-            })),
-            "residual_ratio": details.and_then(|details| Some(details.residual?.relative)),
-            "failure": self.failure(),
-        }))
+        let details = run.and_then(|run| run.details.as_ref());
+        let ended = run.filter(|_| details.is_some());
+        documents::Run {
+            field: self.field.raw().to_owned(),
+            method: method::document(&self.method, self.arithmetic),
+            cells: method::division(self.cells()),
+            cell_size: level.map(|level| level.cell_size),
+            time_step: level.map(|level| level.time_step),
+            steps: level.map(|level| level.steps),
+            particles: level.map(|level| level.particles),
+            errors: details.map(errors),
+            diagnostics: details.map(diagnostics),
+            ns_per_particle_step: ended.map(ns_per_particle_step),
+            seconds: ended.map(parts),
+            residual_ratio: details.and_then(|details| Some(details.residual?.relative)),
+            failure: self.failure(),
+            provenance: self.provenance.clone(),
+        }
     }
 
     /// The text for a terminal, of a run that was started.
@@ -180,28 +170,54 @@ fn table(details: &Details) -> Table {
     table
 }
 
-/// What drove the body.
-fn balance(balance: &Balance) -> Value {
-    let mut document = json!({
-        "time": balance.time,
-        "kinetic_energy": balance.kinetic_energy,
-        "strain_energy": balance.strain_energy,
-        "body_work": balance.body_work,
-        "energy_residual": balance.energy_residual,
-        "surface_force": balance.surface_force,
-    });
-    if let Some(work) = balance.given_work {
-        document["given_work"] = json!(work);
+/// The global sums at the end.
+fn diagnostics(details: &Details) -> documents::Diagnostics {
+    let state = &details.diagnostics;
+    documents::Diagnostics {
+        mass: state.mass,
+        momentum: state.momentum.clone(),
+        kinetic_energy: state.kinetic_energy,
+        jacobian: state.jacobian,
+        balance: state.balance.as_ref().map(balance),
     }
-    document
 }
 
-/// Of each quantity the largest over time, and those at the end.
-fn errors(details: &Details) -> Value {
-    let norms = |errors: Errors| json!({ "l1": errors.l1, "l2": errors.l2, "linf": errors.linf });
-    let pairs = quantities(&details.largest).into_iter().zip(quantities(&details.last));
-    let entries = pairs.map(|((_, key, largest), (_, _, last))| {
-        (key.to_owned(), json!({ "over_time": norms(largest), "at_end": norms(last) }))
-    });
-    Value::Object(entries.collect::<Map<_, _>>())
+/// The balance of energy.
+fn balance(balance: &Balance) -> documents::Balance {
+    documents::Balance {
+        time: balance.time,
+        kinetic_energy: balance.kinetic_energy,
+        strain_energy: balance.strain_energy,
+        body_work: balance.body_work,
+        energy_residual: balance.energy_residual,
+        surface_force: balance.surface_force.clone(),
+        given_work: balance.given_work,
+    }
+}
+
+/// The seconds of the parts of a step.
+fn parts(run: &mms_runtime::Run) -> documents::PartsOfTime {
+    let seconds = run.seconds;
+    documents::PartsOfTime {
+        forcing: seconds.forcing,
+        transfer: seconds.transfer,
+        grid: seconds.grid,
+        stress: seconds.stress,
+    }
+}
+
+/// The errors of each quantity: the largest over time, and those at the end.
+fn errors(details: &Details) -> documents::RunErrors {
+    let norms = |Errors { l1, l2, linf }| documents::Norms { l1, l2, linf };
+    let (largest, last) = (&details.largest, &details.last);
+    let of = |of: fn(&Deviations) -> Errors| documents::OverTime {
+        over_time: norms(of(largest)),
+        at_end: norms(of(last)),
+    };
+    documents::RunErrors {
+        displacement: of(|it| it.displacement),
+        velocity: of(|it| it.velocity),
+        deformation_gradient: of(|it| it.deformation_gradient),
+        first_piola_kirchhoff: of(|it| it.first_piola_kirchhoff),
+    }
 }

@@ -5,11 +5,10 @@ use std::path::Path;
 
 use comfy_table::Table;
 use mms_convergence::{CONSTANT_TOLERANCE, Expected, Fit, Judgement, RULE, Verdict, is_near};
+use mms_documents::study::{self as documents, LevelErrors, StudyErrors, StudyOfMethod};
 use mms_runtime::study::{Deviations, Orders, Point, Refinement, Series};
 use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
 use mms_spec::foreign::Foreign;
-use serde::Serialize;
-use serde_json::{Map, Value, json};
 
 use super::judge::norms_judged;
 use super::run::quantities;
@@ -72,62 +71,58 @@ impl fmt::Display for Refused {
     }
 }
 
-/// One level as a record: a row of the CSV file, and an entry of the JSON document.
-#[derive(Default, Serialize)]
-struct Row {
-    cells: Value,
-    cell_size: Option<f64>,
-    time_step: Option<f64>,
-    steps: Option<usize>,
-    particles: Option<usize>,
-    l1: Option<f64>,
-    l2: Option<f64>,
-    linf: Option<f64>,
-    order_l1: Option<f64>,
-    order_l2: Option<f64>,
-    order_linf: Option<f64>,
-    seconds: Option<f64>,
-    failure: Option<String>,
-    round_off: Option<f64>,
-    residual_ratio: Option<f64>,
+/// The heads of the CSV file.
+const COLUMNS: [&str; 15] = [
+    "cells",
+    "cell_size",
+    "time_step",
+    "steps",
+    "particles",
+    "l1",
+    "l2",
+    "linf",
+    "order_l1",
+    "order_l2",
+    "order_linf",
+    "seconds",
+    "failure",
+    "round_off",
+    "residual_ratio",
+];
+
+/// A level as an entry of the document.
+fn row(run: &Run, before: Option<&Run>, refinement: Refinement) -> documents::Level {
+    let (level, point) = (&run.level, refinement.displacement(run));
+    let observed = orders(&point, before.map(|before| refinement.displacement(before)));
+    let details = run.details.as_ref();
+    documents::Level {
+        cells: method::division(&level.cells),
+        cell_size: Some(level.cell_size),
+        time_step: Some(level.time_step),
+        steps: Some(level.steps),
+        particles: Some(level.particles),
+        errors: norms(point.errors, observed),
+        seconds: Some(level.seconds),
+        failure: level.errors.as_ref().err().map(ToString::to_string),
+        round_off: Some(details.map(|details| details.round_off)),
+        residual_ratio: Some(details.and_then(|details| Some(details.residual?.relative))),
+    }
 }
 
-impl Row {
-    fn of(run: &Run, before: Option<&Run>, refinement: Refinement) -> Self {
-        let (level, point) = (&run.level, refinement.displacement(run));
-        let observed = orders(&point, before.map(|before| refinement.displacement(before)));
-        let details = run.details.as_ref();
-        Row {
-            cells: method::division(&level.cells),
-            cell_size: Some(level.cell_size),
-            time_step: Some(level.time_step),
-            steps: Some(level.steps),
-            particles: Some(level.particles),
-            l1: point.errors.map(|errors| errors.l1),
-            l2: point.errors.map(|errors| errors.l2),
-            linf: point.errors.map(|errors| errors.linf),
-            order_l1: observed.l1,
-            order_l2: observed.l2,
-            order_linf: observed.linf,
-            seconds: Some(level.seconds),
-            failure: level.errors.as_ref().err().map(ToString::to_string),
-            round_off: details.map(|details| details.round_off),
-            residual_ratio: details.and_then(|details| Some(details.residual?.relative)),
-        }
+/// A level that was not started.
+fn refused_row(refused: &Refused) -> documents::Level {
+    documents::Level {
+        cells: method::division(&refused.cells),
+        failure: Some(refused.to_string()),
+        round_off: Some(None),
+        residual_ratio: Some(None),
+        ..documents::Level::default()
     }
+}
 
-    /// Whether the error may be nothing but round-off.
-    fn is_noise(&self) -> bool {
-        self.l2.zip(self.round_off).is_some_and(|(error, floor)| error < floor)
-    }
-
-    fn of_refused(refused: &Refused) -> Self {
-        Row {
-            cells: method::division(&refused.cells),
-            failure: Some(refused.to_string()),
-            ..Row::default()
-        }
-    }
+/// Whether the error of a level may be nothing but round-off.
+fn is_noise(row: &documents::Level) -> bool {
+    row.errors.l2.zip(row.round_off.flatten()).is_some_and(|(error, floor)| error < floor)
 }
 
 /// The orders from the point before, if there is one.
@@ -143,15 +138,30 @@ const IN_TIME: &str = "differences between runs show that these converge, and no
 type Judged = (Option<Errors>, Orders);
 
 /// Norms, and the orders that led to them.
-fn norms(errors: Option<Errors>, observed: Orders) -> Value {
-    json!({
-        "l1": errors.map(|errors| errors.l1),
-        "l2": errors.map(|errors| errors.l2),
-        "linf": errors.map(|errors| errors.linf),
-        "order_l1": observed.l1,
-        "order_l2": observed.l2,
-        "order_linf": observed.linf,
-    })
+pub(super) fn norms(errors: Option<Errors>, observed: Orders) -> LevelErrors {
+    LevelErrors {
+        l1: errors.map(|errors| errors.l1),
+        l2: errors.map(|errors| errors.l2),
+        linf: errors.map(|errors| errors.linf),
+        order_l1: observed.l1,
+        order_l2: observed.l2,
+        order_linf: observed.linf,
+    }
+}
+
+/// The difference of two levels.
+fn difference((point, observed): (Point, Orders)) -> documents::LevelDifference {
+    documents::LevelDifference { time_step: point.length, errors: norms(point.errors, observed) }
+}
+
+fn fit(fit: Fit) -> documents::Fit {
+    documents::Fit {
+        space_constant: fit.space_constant,
+        space_order: fit.space_order,
+        time_constant: fit.time_constant,
+        time_order: fit.time_order,
+        residual: fit.residual,
+    }
 }
 
 impl Study {
@@ -178,10 +188,10 @@ impl Study {
         self.levels.iter().map(|level| level.as_ref().ok().map(length)).collect()
     }
 
-    fn rows(&self) -> Vec<Row> {
+    fn rows(&self) -> Vec<documents::Level> {
         let row = |(level, before): (&Result<Run, Refused>, Option<&Run>)| match level {
-            Ok(run) => Row::of(run, before, self.refinement),
-            Err(refused) => Row::of_refused(refused),
+            Ok(run) => row(run, before, self.refinement),
+            Err(refused) => refused_row(refused),
         };
         self.pairs().map(row).collect()
     }
@@ -251,58 +261,44 @@ impl Study {
     }
 
     /// The JSON document.
-    pub fn document(&self) -> Value {
-        self.provenance.sign(self.content())
+    pub fn document(&self) -> documents::Study {
+        documents::Study { study: self.content(), provenance: self.provenance.clone() }
     }
 
-    /// The document, but for where it is from. What a pass excludes is there where it was asked for.
-    pub(super) fn content(&self) -> Value {
-        let quantities = self.quantities().into_iter().map(|(_, key, levels)| {
-            let levels = levels.into_iter().map(|(errors, observed)| norms(errors, observed));
-            (key.to_owned(), levels.collect())
-        });
-        let difference = |(point, observed): (Point, Orders)| {
-            let mut entry = json!({ "time_step": point.length });
-            if let (Value::Object(entry), Value::Object(norms)) =
-                (&mut entry, norms(point.errors, observed))
-            {
-                entry.extend(norms);
-            }
-            entry
-        };
-        let differences =
-            self.steps().map(|all| all.into_iter().map(difference).collect::<Vec<_>>());
-        let mut content = json!({
-            "field": self.field,
-            "method": method::document(&self.method, self.arithmetic),
-            "refinement": self.refinement.name(),
-            "levels": self.rows(),
-            "noise": self.rows().iter().map(Row::is_noise).collect::<Vec<_>>(),
-            "quantities": Value::Object(quantities.collect::<Map<_, _>>()),
-            "differences": differences,
-            "expected_order": self.expected.order,
-            "observed_order": self.judgement.observed_order(),
-            "order_uncertainty": self.uncertainty,
-            "order_interval": self.order_interval(),
-            "norm": self.judgement.deciding().norm,
-            "norms": norms_judged(&self.judgement),
-            "rule": RULE,
-            "error_constant": self.error_constant,
-            "expected_error_constant": self.expected_error_constant,
-            "fit": self.fit.map(|fit| json!({
-                "space_constant": fit.space_constant,
-                "space_order": fit.space_order,
-                "time_constant": fit.time_constant,
-                "time_order": fit.time_order,
-                "residual": fit.residual,
-            })),
-            "phase": self.phases.as_ref().map(|it| it.document(&self.lengths(), self.refinement)),
-            "verdict": self.verdict.to_string(),
-        });
-        if let Some(exclusions) = &self.exclusions {
-            content["excluded"] = exclusions.document();
+    /// The document without its provenance. The list of excluded mistakes is there if it was asked for.
+    pub(super) fn content(&self) -> StudyOfMethod {
+        let rows = self.rows();
+        StudyOfMethod {
+            field: self.field.raw().to_owned(),
+            method: method::document(&self.method, self.arithmetic),
+            refinement: self.refinement.name().to_owned(),
+            noise: rows.iter().map(is_noise).collect(),
+            levels: rows,
+            quantities: self.errors_of_quantities(),
+            differences: self.steps().map(|all| all.into_iter().map(difference).collect()),
+            expected_order: self.expected.order,
+            observed_order: self.judgement.observed_order(),
+            order_uncertainty: self.uncertainty,
+            order_interval: self.order_interval(),
+            norm: Some(self.judgement.deciding().norm.to_owned()),
+            norms: norms_judged(&self.judgement),
+            rule: RULE,
+            error_constant: self.error_constant,
+            expected_error_constant: self.expected_error_constant,
+            fit: self.fit.map(fit),
+            phase: self.phases.as_ref().map(|it| it.document(&self.lengths(), self.refinement)),
+            verdict: self.verdict.to_string(),
+            excluded: self.exclusions.as_ref().map(Exclusions::document),
         }
-        content
+    }
+
+    /// The errors of u, v, F and P on each level.
+    fn errors_of_quantities(&self) -> StudyErrors {
+        let [displacement, velocity, deformation_gradient, first_piola_kirchhoff] =
+            self.quantities().map(|(_, _, levels)| {
+                levels.into_iter().map(|(errors, observed)| norms(errors, observed)).collect()
+            });
+        StudyErrors { displacement, velocity, deformation_gradient, first_piola_kirchhoff }
     }
 
     /// The tables for a terminal, with the verdict.
@@ -343,23 +339,25 @@ impl Study {
         for row in self.rows() {
             let dead = if row.steps.is_some() { "stopped" } else { "not started" };
             let error = |error: Option<f64>| error.map_or(dead.into(), |e| format!("{e:.2e}"));
-            let noise = if row.is_noise() { "~" } else { "" };
+            let noise = if is_noise(&row) { "~" } else { "" };
             let order = |order: Option<f64>| order.map_or("-".into(), |o| format!("{noise}{o:.2}"));
             let count = |count: Option<usize>| count.map_or("-".into(), |c| c.to_string());
             let mut cells = vec![
-                row.cells.to_string().replace('"', ""),
+                row.cells.to_string(),
                 count(row.particles),
                 count(row.steps),
-                error(row.l1),
-                order(row.order_l1),
-                error(row.l2),
-                order(row.order_l2),
-                error(row.linf),
-                order(row.order_linf),
+                error(row.errors.l1),
+                order(row.errors.order_l1),
+                error(row.errors.l2),
+                order(row.errors.order_l2),
+                error(row.errors.linf),
+                order(row.errors.order_linf),
                 row.seconds.map_or("-".into(), duration),
             ];
             if relaxes {
-                cells.push(row.residual_ratio.map_or("-".into(), |it| format!("{it:.1e}")));
+                cells.push(
+                    row.residual_ratio.flatten().map_or("-".into(), |it| format!("{it:.1e}")),
+                );
             }
             table.add_row(cells);
         }
@@ -441,7 +439,7 @@ impl Study {
         if self.refinement == Refinement::Time {
             lines.push(IN_TIME.into());
         }
-        if self.rows().iter().any(Row::is_noise) {
+        if self.rows().iter().any(is_noise) {
             lines.push("~ an error that may be nothing but round-off, and is not judged".into());
         }
         lines.join("\n")
@@ -480,8 +478,13 @@ impl Study {
     /// A row for each level.
     pub(super) fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(COLUMNS)?;
         for row in self.rows() {
-            writer.serialize(row)?;
+            let LevelErrors { l1, l2, linf, order_l1, order_l2, order_linf } = row.errors;
+            let head = (row.cells, row.cell_size, row.time_step, row.steps, row.particles);
+            let errors = (l1, l2, linf, order_l1, order_l2, order_linf);
+            let tail = (row.seconds, row.failure, row.round_off, row.residual_ratio);
+            writer.serialize((head, errors, tail))?;
         }
         Ok(String::from_utf8(writer.into_inner()?)?)
     }

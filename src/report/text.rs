@@ -6,7 +6,6 @@ use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_spec::foreign;
-use serde_json::Value;
 
 use super::file::write_own;
 
@@ -29,7 +28,7 @@ pub(crate) fn write_files<const N: usize>(
 }
 
 /// A document as the content of a file.
-pub(crate) fn pretty(document: &Value) -> anyhow::Result<String> {
+pub(crate) fn pretty(document: &impl serde::Serialize) -> anyhow::Result<String> {
     Ok(serde_json::to_string_pretty(document)? + "\n")
 }
 

@@ -234,7 +234,7 @@ impl Input {
 
     /// What a result of the field, with some settings, is of.
     pub fn provenance(&self, settings: &[String]) -> provenance::Input {
-        provenance::Input::new(&self.given, &self.options.selection, settings, &self.compiled)
+        provenance::input(&self.given, &self.options.selection, settings, &self.compiled)
     }
 
     /// The compiled field, where this program has it, and the interpreted one otherwise; with the parameters

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::matrix::{Row, Study};
 use super::verdict::Judgement;
 use super::work::Outcome;
-use crate::provenance::Provenance;
+use crate::provenance::{Provenance, sign};
 use crate::report::method::division;
 use crate::report::{duration, tally};
 use crate::rows::Named as _;
@@ -90,11 +90,14 @@ impl Report<'_> {
 
     /// The JSON document.
     pub fn document(&self) -> Value {
-        self.provenance.sign(json!({
-            "matrix": if self.quick { "quick" } else { "full" },
-            "rows": self.rows.iter().map(Judged::document).collect::<Vec<_>>(),
-            "unexpected": self.unexpected().map(|judged| &judged.row.name).collect::<Vec<_>>(),
-        }))
+        sign(
+            &self.provenance,
+            json!({
+                "matrix": if self.quick { "quick" } else { "full" },
+                "rows": self.rows.iter().map(Judged::document).collect::<Vec<_>>(),
+                "unexpected": self.unexpected().map(|judged| &judged.row.name).collect::<Vec<_>>(),
+            }),
+        )
     }
 
     /// The table for a terminal.

@@ -248,6 +248,7 @@ pub const CRATES: &[Crate] = &[
             "mms-codegen",
             "mms-convergence",
             "mms-diagnosis",
+            "mms-documents",
             "mms-emit",
             "mms-gallery",
             "mms-interpreted",

@@ -1,7 +1,7 @@
 //! `mms campaign FILE --suggest`: studies to paste.
 
 use mms_campaign::Can;
-use serde_json::json;
+use mms_documents::campaign::{AffineMotion, CampaignSuggest, ProposedField, UnseenTerm};
 
 use super::super::{Outcome, print, print_json};
 use crate::campaign::suggest::{Affine, Proposed, Suggestion, Unseen, suggest};
@@ -86,26 +86,22 @@ fn unseen(unseen: &Unseen) -> String {
     format!("#   {}: {}{by}", unseen.term, unseen.means)
 }
 
-fn document(found: &Suggestion) -> serde_json::Value {
-    let fields = found
-        .fields
-        .iter()
-        .map(|it| json!({ "field": it.name, "cells": it.cells, "shows": it.shows }));
-    let affine = found.affine.as_ref().map(|it| {
-        json!({ "field": it.name, "time_steps": it.time_steps, "exact_in_time": it.is_quadratic })
+fn document(found: &Suggestion) -> CampaignSuggest {
+    let fields = found.fields.iter().map(|it| ProposedField {
+        field: it.name.clone(),
+        cells: it.cells.to_vec(),
+        shows: it.shows.clone(),
     });
-    let unseen = found.unseen.iter().map(|it| {
-        let by = it.shown_by.as_ref();
-        json!({
-            "term": it.term,
-            "means": it.means,
-            "shown_by": by.map(|it| &it.field),
-            "needs": by.map(|it| &it.keys),
-        })
+    let affine = found.affine.as_ref().map(|it| AffineMotion {
+        field: it.name.clone(),
+        time_steps: it.time_steps.clone(),
+        exact_in_time: it.is_quadratic,
     });
-    json!({
-        "fields": fields.collect::<Vec<_>>(),
-        "affine": affine,
-        "unseen": unseen.collect::<Vec<_>>(),
-    })
+    let unseen = found.unseen.iter().map(|it| UnseenTerm {
+        term: it.term.clone(),
+        means: it.means.to_owned(),
+        shown_by: it.shown_by.as_ref().map(|by| by.field.clone()),
+        needs: it.shown_by.as_ref().map(|by| by.keys.iter().map(|key| (*key).to_owned()).collect()),
+    });
+    CampaignSuggest { fields: fields.collect(), affine, unseen: unseen.collect() }
 }

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use mms_convergence::Verdict;
+use mms_documents::judge::JudgeExplained;
 use mms_results::names::{Names, Role, everything};
 use mms_spec::foreign;
 use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
-use serde_json::json;
 
 use super::super::naming::Naming;
 use super::super::{Outcome, say, this_command};
@@ -119,8 +119,8 @@ impl Judge {
             all.push(Explained::new(&mut results, &reading, exact)?);
         }
         let texts: Vec<String> = all.iter().map(Explained::text).collect();
-        let documents: Vec<_> = all.iter().map(Explained::document).collect();
-        self.show((texts.join("\n"), json!({ "files": documents })))?;
+        let files = all.iter().map(Explained::document).collect();
+        self.show((texts.join("\n"), JudgeExplained { files }))?;
         Ok(Outcome::AsExpected)
     }
 

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use anyhow::Context as _;
+use mms_documents::judge::{ExplainedFile, ExplainedQuantity};
 use mms_results::Snapshot;
 use mms_results::cell::Shape;
 use mms_results::names::Role;
 use mms_results::own::LeftOut;
 use mms_spec::foreign::shown;
-use serde_json::{Value, json};
 
 use super::Results;
 use super::extent::motion;
@@ -115,19 +115,21 @@ impl Explained {
     }
 
     /// The explanation as a document.
-    pub fn document(&self) -> Value {
-        let quantity =
-            |(role, how): &(Role, String)| json!({ "quantity": role.name(), "how": how });
-        json!({
-            "file": self.file,
-            "format": self.format,
-            "times": self.times,
-            "points": self.points,
-            "positions": self.positions,
-            "cells": self.cells,
-            "quantities": self.quantities.iter().map(quantity).collect::<Vec<_>>(),
-            "left_out": self.left_out,
-        })
+    pub fn document(&self) -> ExplainedFile {
+        let quantity = |(role, how): &(Role, String)| ExplainedQuantity {
+            quantity: role.name().to_owned(),
+            how: how.clone(),
+        };
+        ExplainedFile {
+            file: self.file.clone(),
+            format: self.format.to_owned(),
+            times: self.times.clone(),
+            points: self.points,
+            positions: self.positions.clone(),
+            cells: self.cells.clone(),
+            quantities: self.quantities.iter().map(quantity).collect(),
+            left_out: self.left_out.clone(),
+        }
     }
 }
 

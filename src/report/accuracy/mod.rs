@@ -14,7 +14,7 @@ use mms_spec::quantity::Quantity;
 use serde_json::{Value, json};
 
 use super::text::{pretty, write_files};
-use crate::provenance::Provenance;
+use crate::provenance::{Provenance, sign};
 use crate::workbench::Time;
 
 /// What the stable form promises, in eps of the largest value of a quantity.
@@ -123,13 +123,16 @@ impl Report {
                 "reason": it.reason,
             })
         });
-        self.provenance.sign(json!({
-            "field": self.field,
-            "points": self.points,
-            "bound_eps": BOUND,
-            "rows": rows.collect::<Vec<_>>(),
-            "left_out": left_out.collect::<Vec<_>>(),
-        }))
+        sign(
+            &self.provenance,
+            json!({
+                "field": self.field,
+                "points": self.points,
+                "bound_eps": BOUND,
+                "rows": rows.collect::<Vec<_>>(),
+                "left_out": left_out.collect::<Vec<_>>(),
+            }),
+        )
     }
 
     /// The rows that are shown: all, or of each quantity, precision and form that of the largest

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::front::front;
 use super::text::{bytes, duration, pretty, write_files};
-use crate::provenance::Provenance;
+use crate::provenance::{Provenance, sign};
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Trial, cost};
 use crate::tradeoff::setting::{Axis, Setting};
 
@@ -168,19 +168,22 @@ impl Report<'_> {
                 "particle_steps": it.work,
             })
         };
-        self.provenance.sign(json!({
-            "field": self.field,
-            "cost": self.plan.cost.name(),
-            "target_linf": target,
-            "budget_seconds": budget,
-            "runs": runs.collect::<Vec<_>>(),
-            "choice": self.choice().map(|trial| self.run(trial, true)),
-            "predicted": self.found.predicted.as_ref().map(|(setting, it)| prediction(setting, it)),
-            "default": self.found.default.as_ref().map(|it| prediction(&Setting::default(), it)),
-            "gain": self.gain(),
-            "exponent": self.exponent(),
-            "dominated": self.dominated(),
-        }))
+        sign(
+            &self.provenance,
+            json!({
+                "field": self.field,
+                "cost": self.plan.cost.name(),
+                "target_linf": target,
+                "budget_seconds": budget,
+                "runs": runs.collect::<Vec<_>>(),
+                "choice": self.choice().map(|trial| self.run(trial, true)),
+                "predicted": self.found.predicted.as_ref().map(|(setting, it)| prediction(setting, it)),
+                "default": self.found.default.as_ref().map(|it| prediction(&Setting::default(), it)),
+                "gain": self.gain(),
+                "exponent": self.exponent(),
+                "dominated": self.dominated(),
+            }),
+        )
     }
 
     fn run(&self, trial: &Trial, on_front: bool) -> Value {

@@ -5,7 +5,7 @@ use comfy_table::presets::NOTHING;
 use serde_json::{Value, json};
 
 use super::{Defect, Shown};
-use crate::provenance::Provenance;
+use crate::provenance::{Provenance, sign};
 use crate::verify::matrix::Row;
 use crate::verify::pseudo::{Check, Looks};
 
@@ -102,14 +102,17 @@ impl<'a> Report<'a> {
             })
         });
         let missed = self.missed().map(|(row, defect)| json!([row.name, defect.name()]));
-        self.provenance.sign(json!({
-            "rows": self.rows.iter().map(|row| &row.name).collect::<Vec<_>>(),
-            "every_row": self.whole,
-            "defects": defects.collect::<Vec<_>>(),
-            "uncaught": self.uncaught().map(|showing| showing.defect.name()).collect::<Vec<_>>(),
-            "missed": missed.collect::<Vec<_>>(),
-            "idle": self.idle().iter().map(|row| &row.name).collect::<Vec<_>>(),
-        }))
+        sign(
+            &self.provenance,
+            json!({
+                "rows": self.rows.iter().map(|row| &row.name).collect::<Vec<_>>(),
+                "every_row": self.whole,
+                "defects": defects.collect::<Vec<_>>(),
+                "uncaught": self.uncaught().map(|showing| showing.defect.name()).collect::<Vec<_>>(),
+                "missed": missed.collect::<Vec<_>>(),
+                "idle": self.idle().iter().map(|row| &row.name).collect::<Vec<_>>(),
+            }),
+        )
     }
 
     /// The table for a terminal.
