@@ -6,7 +6,6 @@ use mms_codegen::{Compiled, Selection};
 pub use mms_documents::provenance::{Input, Machine, Provenance};
 use mms_spec::MAX_FILE;
 use mms_spec::twin::Twin;
-use serde_json::Value;
 
 use crate::read;
 use crate::shell::command;
@@ -55,12 +54,4 @@ pub fn new(kind: &str, arguments: &[String], input: Input) -> Provenance {
         input,
         machine: Some(machine()),
     }
-}
-
-/// Adds the origin to a document.
-pub fn sign(provenance: &Provenance, mut document: Value) -> Value {
-    if let Value::Object(keys) = &mut document {
-        keys.insert("provenance".to_owned(), serde_json::json!(provenance));
-    }
-    document
 }

@@ -14,7 +14,7 @@ pub struct Check {
 }
 
 /// The findings of a field file. A file with mistakes has `diagnostics` and no other key.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CheckedFile {
     /// The path of the file.
@@ -25,9 +25,10 @@ pub struct CheckedFile {
     /// The claims on the faces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub claims: Option<Vec<Claim>>,
-    /// The properties that are proved of the whole field.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub certificate: Option<Certificate>,
+    /// The properties that are proved of the whole field; null if it has no body.
+    #[cfg_attr(feature = "schema", schemars(extend("x-or-null" = true)))]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
+    pub certificate: Option<Option<Certificate>>,
     /// Claims that are refuted or not proved, at their places in the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub objections: Option<Vec<Diagnostic>>,
@@ -54,7 +55,7 @@ pub struct CheckedFile {
     pub stability: Option<Stability>,
     /// The bounds of x, as in `mms show`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub extent: Option<Vec<Vec<f64>>>,
+    pub extent: Option<Vec<[f64; 2]>>,
     /// The shortest wavelength of u, as in `mms show`.
     #[cfg_attr(feature = "schema", schemars(extend("x-or-null" = true)))]
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
@@ -67,22 +68,26 @@ pub struct CheckedFile {
     pub simplified: Option<bool>,
 }
 
-/// A message at its place in a file.
+/// A message at its place in a file. A file that cannot be read has no place.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Diagnostic {
     /// The path of the file.
     pub path: String,
     /// The line, from 1 on.
-    pub line: usize,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
     /// The column, from 1 on.
-    pub column: usize,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column: Option<usize>,
     /// The message.
     pub message: String,
     /// The note at the place.
-    pub label: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
     /// Lines of advice.
-    pub help: Vec<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub help: Option<Vec<String>>,
 }
 
 /// The claim of a face, and its proof.

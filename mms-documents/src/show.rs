@@ -29,12 +29,12 @@ pub struct Show {
     /// The same for a material with fibres; null for others.
     pub transverse_moduli_at_rest: Option<TransverseModuli>,
     /// The bounds of x along each axis, over body, time window and ranges of parameters.
-    pub extent: Vec<Vec<f64>>,
+    pub extent: Vec<[f64; 2]>,
     /// The shortest wavelength of u in a sample; null if u is linear along each axis, or if the search takes too
     /// long.
     pub shortest_wavelength: Option<f64>,
-    /// The density rho0.
-    pub density: String,
+    /// The density rho0; null if the field has none.
+    pub density: Option<String>,
     /// The definitions of the file.
     pub definitions: Names<String>,
     /// The claim on each face.

@@ -22,10 +22,19 @@ pub struct State {
     pub without: Vec<String>,
     /// True if the motion is the affine part of the field.
     pub affine: bool,
+    /// The data of the field.
+    #[serde(flatten)]
+    pub domain: StateDomain,
+}
+
+/// The data of a field that a solver needs once. The file beside a table of states has it alone.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct StateDomain {
     /// The first and last time of the field; null if it is static.
     pub time_window: Option<[f64; 2]>,
-    /// The body in the reference configuration.
-    pub body: StateBody,
+    /// The body in the reference configuration; null if the field has none.
+    pub body: Option<StateBody>,
     /// A box that holds x over the time window, from samples.
     pub motion: StateBox,
     /// The faces of the body.
@@ -33,7 +42,7 @@ pub struct State {
 }
 
 /// The reference body. It has the keys of its shape.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StateBody {
     /// The lower corner of a box.

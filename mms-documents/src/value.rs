@@ -24,8 +24,17 @@ impl<T> Names<T> {
 }
 
 impl<N: Into<String>, T> FromIterator<(N, T)> for Names<T> {
+    /// Names with their values. If a name comes again, its last value stands at its first place.
     fn from_iter<I: IntoIterator<Item = (N, T)>>(items: I) -> Self {
-        Names(items.into_iter().map(|(name, value)| (name.into(), value)).collect())
+        let mut names = Names::default();
+        for (name, value) in items {
+            let name = name.into();
+            match names.0.iter_mut().find(|(own, _)| *own == name) {
+                Some((_, own)) => *own = value,
+                None => names.0.push((name, value)),
+            }
+        }
+        names
     }
 }
 

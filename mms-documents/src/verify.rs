@@ -94,7 +94,7 @@ pub struct VerifyDefects {
     /// The names of defects that no row caught.
     pub uncaught: Vec<String>,
     /// Pairs of a row and a defect that the row claims to catch, and did not.
-    pub missed: Vec<Vec<String>>,
+    pub missed: Vec<[String; 2]>,
     /// The rows that catch nothing that few other rows catch.
     pub idle: Vec<String>,
     /// How the document was made.

@@ -19,13 +19,13 @@ use mms_codegen::certify::written::{Gap, gaps};
 use mms_codegen::compile::Failure;
 use mms_codegen::selection::{Entry, Freeze, Selection};
 use mms_diagnosis::answer::Ranked;
+use mms_documents::check::{self as documents, CheckedFile, ClosedForm, UndefinedComponent};
 use mms_spec::diagnostic::{Diagnostic, render_styled};
 use mms_spec::foreign::{Foreign, shown};
 use mms_spec::source::Sources;
 use mms_stability::judge;
 use mms_stability::solve::solve;
 use mms_stability::warnings::warnings;
-use serde_json::{Value, json};
 
 use super::{Outcome, print, print_json, say, say_styled};
 use crate::session::input::{Variant, read, settings};
@@ -88,7 +88,7 @@ impl Check {
             };
         }
         if self.json {
-            print_json(&json!({ "files": documents }))?;
+            print_json(&documents::Check { files: documents })?;
         }
         Ok(worst)
     }
@@ -103,30 +103,39 @@ impl Check {
         Ok(Selection { set, freeze, ..Selection::default() })
     }
 
-    fn report_unreadable(&self, path: &Foreign, error: &anyhow::Error) -> (Outcome, Value) {
+    fn report_unreadable(&self, path: &Foreign, error: &anyhow::Error) -> (Outcome, CheckedFile) {
         if !self.json {
             say(format_args!("error: {error:#}"));
         }
-        let diagnostic = json!({ "path": path, "message": format!("{error:#}") });
-        (Outcome::BadInput, json!({ "file": path, "diagnostics": [diagnostic] }))
+        let diagnostic = documents::Diagnostic {
+            path: path.raw().to_owned(),
+            line: None,
+            column: None,
+            message: format!("{error:#}"),
+            label: None,
+            help: None,
+        };
+        (Outcome::BadInput, mistaken_file(path, vec![diagnostic]))
     }
 
     fn report_failure(
         &self,
         path: &Foreign,
         failure: &Failure,
-    ) -> anyhow::Result<(Outcome, Value)> {
+    ) -> anyhow::Result<(Outcome, CheckedFile)> {
         if !self.json {
             say_styled(&failure.styled());
             print(&format!("{}: {} mistake(s)", path.shown(), failure.diagnostics.len()))?;
         }
-        let diagnostics: Vec<_> =
-            failure.diagnostics.iter().map(|it| located(&failure.sources, it)).collect();
-        let document = json!({ "file": path, "diagnostics": diagnostics });
-        Ok((Outcome::BadInput, document))
+        let diagnostics = failure.diagnostics.iter().map(|it| located(&failure.sources, it));
+        Ok((Outcome::BadInput, mistaken_file(path, diagnostics.collect())))
     }
 
-    fn report(&self, path: &Foreign, compiled: &Arc<Compiled>) -> anyhow::Result<(Outcome, Value)> {
+    fn report(
+        &self,
+        path: &Foreign,
+        compiled: &Arc<Compiled>,
+    ) -> anyhow::Result<(Outcome, CheckedFile)> {
         let comparisons = compare(compiled);
         let named = mistaken::named(compiled, &comparisons);
         if compiled.field.domain.body.is_nothing() {
@@ -164,35 +173,40 @@ impl Check {
             proofs.extend(solved.map(|solved| format!("  solve  {}", solved.words())));
             print(&text(path, compiled, proofs, &gaps, (&comparisons, &named)))?;
         }
-        let claims: Vec<_> = certificate.claims.iter().map(proof::claim).collect();
-        let objections: Vec<_> =
-            objections.iter().map(|it| located(&compiled.sources, it)).collect();
         let checks = comparisons
             .iter()
             .zip(&named)
             .map(|(it, named)| comparison_document(it, named.as_ref()));
-        let checks: Vec<_> = checks.collect();
         let outcome = if refuted { Outcome::Refuted } else { Outcome::AsExpected };
-        let gaps: Vec<_> = gaps.iter().map(|gap| gap_document(compiled, gap)).collect();
-        Ok((
-            outcome,
-            json!({
-                "file": path,
-                "claims": claims,
-                "certificate": proof::document(&certificate),
-                "objections": objections,
-                "checks": checks,
-                "undefined": gaps,
-                "rest_stress": rest.stress(),
-                "moduli_at_rest": stability::moduli(stability.material.as_ref()),
-                "transverse_moduli_at_rest": stability::transverse(stability.material.as_ref()),
-                "stability": stability::document(&stability, &warnings, solved),
-                "extent": certificate.reach,
-                "shortest_wavelength": stability.shortest_wavelength,
-                "budget_spent": certificate.spent,
-                "simplified": compiled.simplified,
-            }),
-        ))
+        let material = stability.material.as_ref();
+        let objections = objections.iter().map(|it| located(&compiled.sources, it));
+        let document = CheckedFile {
+            file: path.raw().to_owned(),
+            diagnostics: None,
+            claims: Some(certificate.claims.iter().map(proof::claim).collect()),
+            certificate: Some(Some(proof::document(&certificate))),
+            objections: Some(objections.collect()),
+            checks: Some(checks.collect()),
+            undefined: Some(gaps.iter().map(|gap| gap_document(compiled, gap)).collect()),
+            rest_stress: Some(rest.stress().map(<[f64]>::to_vec)),
+            moduli_at_rest: Some(stability::moduli(material)),
+            transverse_moduli_at_rest: Some(stability::transverse(material)),
+            stability: Some(stability::document(&stability, &warnings, solved)),
+            extent: Some(certificate.reach.clone()),
+            shortest_wavelength: Some(stability.shortest_wavelength),
+            budget_spent: Some(certificate.spent.iter().map(ToString::to_string).collect()),
+            simplified: Some(compiled.simplified),
+        };
+        Ok((outcome, document))
+    }
+}
+
+/// A file with mistakes.
+fn mistaken_file(path: &Foreign, diagnostics: Vec<documents::Diagnostic>) -> CheckedFile {
+    CheckedFile {
+        file: path.raw().to_owned(),
+        diagnostics: Some(diagnostics),
+        ..CheckedFile::default()
     }
 }
 
@@ -203,7 +217,7 @@ impl Check {
         path: &Foreign,
         compiled: &Compiled,
         (comparisons, named): (&[Comparison], &[Option<Ranked>]),
-    ) -> anyhow::Result<(Outcome, Value)> {
+    ) -> anyhow::Result<(Outcome, CheckedFile)> {
         if !self.json {
             let line = "  proof  NONE: numbers without claims, for [domain] has no body (`shape = \"none\"`)";
             print(&text(path, compiled, vec![line.into()], &[], (comparisons, named)))?;
@@ -215,14 +229,15 @@ impl Check {
         };
         let checks = comparisons.iter().zip(named);
         let checks = checks.map(|(it, named)| comparison_document(it, named.as_ref()));
-        let document = json!({
-            "file": path,
-            "claims": [],
-            "certificate": null,
-            "objections": [],
-            "checks": checks.collect::<Vec<_>>(),
-            "simplified": compiled.simplified,
-        });
+        let document = CheckedFile {
+            file: path.raw().to_owned(),
+            claims: Some(Vec::new()),
+            certificate: Some(None),
+            objections: Some(Vec::new()),
+            checks: Some(checks.collect()),
+            simplified: Some(compiled.simplified),
+            ..CheckedFile::default()
+        };
         Ok((outcome, document))
     }
 }
@@ -256,57 +271,55 @@ fn rest_line(rest: &Rest) -> Option<String> {
     Some(format!("  rest   stress at rest: P is [{}] at F = I, not 0", components.join(", ")))
 }
 
-fn located(sources: &Sources, diagnostic: &Diagnostic) -> Value {
+fn located(sources: &Sources, diagnostic: &Diagnostic) -> documents::Diagnostic {
     let (line, column) = sources.location(diagnostic.span);
-    json!({
-        "path": sources.get(diagnostic.span.source).path,
-        "line": line,
-        "column": column,
-        "message": diagnostic.message,
-        "label": diagnostic.label,
-        "help": diagnostic.help,
-    })
+    documents::Diagnostic {
+        path: sources.get(diagnostic.span.source).path.raw().to_owned(),
+        line: Some(line),
+        column: Some(column),
+        message: diagnostic.message.to_string(),
+        label: Some(diagnostic.label.to_string()),
+        help: Some(diagnostic.help.iter().map(ToString::to_string).collect()),
+    }
 }
 
 /// Where u has no value, and what is to blame.
-fn gap_document(compiled: &Compiled, gap: &Gap) -> Value {
+fn gap_document(compiled: &Compiled, gap: &Gap) -> UndefinedComponent {
     let (line, column) = compiled.sources.location(gap.span);
-    json!({
-        "component": gap.component.map(|component| component + 1),
-        "line": line,
-        "column": column,
-        "points": gap.points,
-        "at": gap.first.0,
-        "time": gap.first.1,
-    })
+    UndefinedComponent {
+        component: gap.component.map(|component| component + 1),
+        line,
+        column,
+        points: gap.points,
+        at: gap.first.0.clone(),
+        time: gap.first.1,
+    }
 }
 
-fn comparison_document(comparison: &Comparison, named: Option<&Ranked>) -> Value {
+fn comparison_document(comparison: &Comparison, named: Option<&Ranked>) -> ClosedForm {
     let (status, found, undefined) = match &comparison.finding {
         Finding::Agrees => ("passed", None, 0),
         Finding::Differs(found) => ("failed", Some(found), 0),
         Finding::Undefined { points, first } => ("undefined", Some(first), *points),
         Finding::Unmeasured => ("unmeasured", None, 0),
     };
-    // A value that does not exist is null.
-    let difference = found.map(|found| {
-        json!({
-            "at": found.coordinates,
-            "time": found.time,
-            "component": found.component,
-            "derived": found.derived,
-            "expected": found.expected,
-        })
+    let finite = |number: f64| number.is_finite().then_some(number);
+    let difference = found.map(|found| documents::Difference {
+        at: found.coordinates.clone(),
+        time: found.time,
+        component: found.component,
+        derived: finite(found.derived),
+        expected: finite(found.expected),
     });
-    json!({
-        "quantity": comparison.quantity.name(),
-        "source": comparison.source,
-        "points": comparison.points,
-        "status": status,
-        "undefined_points": undefined,
-        "difference": difference,
-        "acts_as": named.map(mistaken::document),
-    })
+    ClosedForm {
+        quantity: comparison.quantity.name().to_owned(),
+        source: comparison.source.as_ref().map(|it| it.raw().to_owned()),
+        points: comparison.points,
+        status: status.to_owned(),
+        undefined_points: undefined,
+        difference,
+        acts_as: named.map(mistaken::document),
+    }
 }
 
 fn text(

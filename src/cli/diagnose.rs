@@ -302,10 +302,10 @@ impl Diagnose {
         Ok(orders)
     }
 
-    fn show(
+    fn show<D: serde::Serialize>(
         &self,
         text: impl FnOnce() -> String,
-        document: impl FnOnce() -> serde_json::Value,
+        document: impl FnOnce() -> D,
     ) -> anyhow::Result<()> {
         if self.json { print_json(&document()) } else { print(&text()) }
     }

@@ -8,10 +8,10 @@ use anyhow::{Context as _, bail};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use mms_codegen::selection::{Freeze, Selection};
+use mms_documents::emit::{self as documents, EmitAll, EmittedFile};
 use mms_emit::{Bundle, Subject, TARGETS, Target};
 use mms_spec::foreign::{self, Foreign};
 use mms_spec::own::Own;
-use serde_json::{Value, json};
 
 use self::folder::{State, compare, write};
 use super::{Outcome, print, print_json, say};
@@ -116,7 +116,9 @@ impl Emit {
             }
         }
         match (self.json, self.all) {
-            (true, true) => print_json(&json!({ "target": target.name, "fields": documents }))?,
+            (true, true) => {
+                print_json(&EmitAll { target: target.name.to_owned(), fields: documents })?
+            }
             (true, false) => print_json(&documents[0])?,
             (false, _) => {}
         }
@@ -220,29 +222,23 @@ impl Delivered {
     }
 
     /// The first file under keys of its own: for some targets it is the only one.
-    fn document(&self, field: &Foreign, target: &Target, bundle: &Bundle) -> Value {
-        let files: Vec<Value> = (bundle.files.iter().enumerate())
-            .map(|(index, file)| {
-                let mut document = json!({
-                    "file": file.name,
-                    "path": self.paths.get(index),
-                    "text": self.texts.as_ref().map(|texts| &texts[index]),
-                });
-                if let Some(states) = &self.states {
-                    document["state"] = states[index].name().into();
-                }
-                document
-            })
-            .collect();
-        json!({
-            "field": field,
-            "target": target.name,
-            "file": files[0]["file"],
-            "path": files[0]["path"],
-            "text": files[0]["text"],
-            "files": files,
-            "verify": self.verify.as_ref().or(bundle.verify.as_ref()),
-        })
+    fn document(&self, field: &Foreign, target: &Target, bundle: &Bundle) -> documents::Emit {
+        let file = |(index, file): (usize, &mms_emit::File)| EmittedFile {
+            file: file.name.clone(),
+            path: self.paths.get(index).map(|path| path.raw().to_owned()),
+            text: self.texts.as_ref().map(|texts| texts[index].clone()),
+            state: self.states.as_ref().map(|states| states[index].name().to_owned()),
+        };
+        let files: Vec<_> = bundle.files.iter().enumerate().map(file).collect();
+        documents::Emit {
+            field: field.raw().to_owned(),
+            target: target.name.to_owned(),
+            file: files[0].file.clone(),
+            path: files[0].path.clone(),
+            text: files[0].text.clone(),
+            verify: self.verify.as_ref().or(bundle.verify.as_ref()).cloned(),
+            files,
+        }
     }
 }
 

@@ -4,9 +4,9 @@ use clap::Args;
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use mms_codegen::materials::MATERIALS;
+use mms_documents::list::{self as documents, ListedField, ListedStudy};
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use mms_spec::{Claim, FORMS, FieldSpec, PRECISIONS, StudySpec};
-use serde_json::{Map, Value, json};
 
 use super::{Outcome, print, print_json};
 use crate::{gallery, profile};
@@ -28,17 +28,18 @@ impl List {
         let materials: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
         let profiles: Vec<_> = profile::names().collect();
         if self.json {
-            print_json(&json!({
-                "fields": fields.iter().map(document).collect::<Vec<_>>(),
-                "materials": materials,
-                "shapes": ShapeName::NAMES,
-                "integrators": IntegratorName::NAMES,
-                "formulations": FormulationName::NAMES,
-                "transfers": Transfer::NAMES,
-                "precisions": PRECISIONS,
-                "forms": FORMS,
-                "profiles": profiles,
-            }))?;
+            let texts = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
+            print_json(&documents::List {
+                fields: fields.iter().map(document).collect(),
+                materials: texts(&materials),
+                shapes: texts(ShapeName::NAMES),
+                integrators: texts(IntegratorName::NAMES),
+                formulations: texts(FormulationName::NAMES),
+                transfers: texts(Transfer::NAMES),
+                precisions: texts(&PRECISIONS),
+                forms: texts(&FORMS),
+                profiles: texts(&profiles),
+            })?;
             return Ok(Outcome::AsExpected);
         }
         let choices = [
@@ -96,36 +97,36 @@ fn claims(field: &FieldSpec) -> String {
     claims.join(", ")
 }
 
-fn document(field: &FieldSpec) -> Value {
+fn document(field: &FieldSpec) -> ListedField {
     let boundary = field.boundary.iter().map(|boundary| {
-        (boundary.face.value.name().to_string(), boundary.claim.value.name().into())
+        (boundary.face.value.name().to_string(), boundary.claim.value.name().to_owned())
     });
-    let checks = field.checks.iter().map(|check| check.quantity.value.name());
-    json!({
-        "name": field.name,
-        "title": field.title,
-        "dimension": field.dimension,
-        "material": field.material.model.value,
-        "reference": field.reference,
-        "body": field.domain.body.name(),
-        "boundary": boundary.collect::<Map<_, _>>(),
-        "starts": start(field),
-        "checks": checks.collect::<Vec<_>>(),
-        "studies": field.studies.iter().map(study).collect::<Vec<_>>(),
-    })
+    let checks = field.checks.iter().map(|check| check.quantity.value.name().to_owned());
+    ListedField {
+        name: field.name.raw().to_owned(),
+        title: field.title.raw().to_owned(),
+        dimension: field.dimension,
+        material: field.material.model.value.raw().to_owned(),
+        reference: field.reference.as_ref().map(|it| it.raw().to_owned()),
+        body: field.domain.body.name().to_owned(),
+        boundary: boundary.collect(),
+        starts: start(field).map(str::to_owned),
+        checks: checks.collect(),
+        studies: field.studies.iter().map(study).collect(),
+    }
 }
 
-fn study(study: &StudySpec) -> Value {
-    json!({
-        "shape": study.shape,
-        "integrator": study.integrator,
-        "formulation": study.formulation,
-        "transfer": study.transfer,
-        "fill": study.fill,
-        "precision": study.precision,
-        "form": study.form,
-        "cells": study.cells,
-        "order": study.order,
-        "reason": study.reason,
-    })
+fn study(study: &StudySpec) -> ListedStudy {
+    ListedStudy {
+        shape: study.shape.clone(),
+        integrator: study.integrator.clone(),
+        formulation: study.formulation.clone(),
+        transfer: study.transfer.clone(),
+        fill: study.fill.clone(),
+        precision: study.precision.clone(),
+        form: study.form.clone(),
+        cells: study.cells.clone(),
+        order: study.order,
+        reason: study.reason.as_ref().map(|it| it.raw().to_owned()),
+    }
 }

@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use mms_analysis::operations::Operations;
-use mms_analysis::visibility::{POINTS, Span, Status, Term, Visibility};
+use mms_analysis::visibility::{POINTS, Status, Term, Visibility};
 use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::reach;
 use mms_codegen::certify::rest;
 use mms_codegen::certify::rest::Rest;
+use mms_documents::Names;
+use mms_documents::show::{self as documents, AbsentTerm, OperationCounts, ShownQuantity};
 use mms_mechanics::Output;
 use mms_mechanics::TooLarge;
 use mms_program::Stage;
@@ -19,7 +21,6 @@ use mms_spec::diagnostic::render_styled;
 use mms_spec::quantity::Quantity;
 use mms_stability::resting::Material;
 use mms_stability::wavelength::shortest_wavelength;
-use serde_json::{Map, Value, json};
 
 use super::check::stability;
 use super::{Outcome, print, print_json, say};
@@ -134,102 +135,93 @@ fn at_rest(compiled: &Compiled) -> Vec<String> {
     lines
 }
 
-fn json(compiled: &Compiled, document: &Document, rest: &Rest) -> Value {
-    let quantities: Map<String, Value> = document
-        .sections
-        .iter()
-        .map(|section| (section.quantity.name().to_string(), quantity(compiled, document, section)))
-        .collect();
-    let claims: Map<String, Value> =
-        document.claims.iter().map(|(face, claim)| (face.to_string(), (*claim).into())).collect();
+fn json(compiled: &Compiled, document: &Document, rest: &Rest) -> documents::Show {
+    let section = |section: &Section| {
+        (section.quantity.name().to_owned(), quantity(compiled, document, section))
+    };
+    let claims = document.claims.iter().map(|(face, claim)| (face.to_string(), claim.to_string()));
     let material = &document.material;
-    let mut definitions = formulas(document, &document.definitions);
-    definitions.extend(formulas(document, &material.whereby));
+    let definitions = [&document.definitions[..], &material.whereby[..]];
     let density = material.density.first();
-    let material_at_rest = Material::of(compiled);
-    json!({
-        "field": document.name,
-        "title": document.title,
-        "dimension": document.dimension,
-        "reference": document.reference,
-        "material": material.name,
-        "strain_energy": compiled.material.strain_energy.text,
-        "material_parameters": formulas(document, &material.arguments),
-        "rest_stress": rest.stress(),
-        "moduli_at_rest": stability::moduli(material_at_rest.as_ref()),
-        "transverse_moduli_at_rest": stability::transverse(material_at_rest.as_ref()),
-        "extent": reach(compiled),
-        "shortest_wavelength": shortest_wavelength(compiled),
-        "density": density.map(|line| document.formula(line.value, &Language)),
-        "definitions": definitions,
-        "boundary": claims,
-        "quantities": quantities,
-        "operations": together(compiled, document),
-        "visibility": document.visibility.as_ref().map(visibility),
-    })
+    let at_rest = Material::of(compiled);
+    documents::Show {
+        field: document.name.raw().to_owned(),
+        title: document.title.raw().to_owned(),
+        dimension: document.dimension,
+        reference: document.reference.as_ref().map(|it| it.raw().to_owned()),
+        material: material.name.raw().to_owned(),
+        strain_energy: compiled.material.strain_energy.text.to_string(),
+        material_parameters: formulas(document, &material.arguments).collect(),
+        rest_stress: rest.stress().map(<[f64]>::to_vec),
+        moduli_at_rest: stability::moduli(at_rest.as_ref()),
+        transverse_moduli_at_rest: stability::transverse(at_rest.as_ref()),
+        extent: reach(compiled),
+        shortest_wavelength: shortest_wavelength(compiled),
+        density: density.map(|line| document.formula(line.value, &Language)),
+        definitions: definitions.iter().flat_map(|lines| formulas(document, lines)).collect(),
+        boundary: claims.collect(),
+        quantities: document.sections.iter().map(section).collect(),
+        operations: together(compiled, document),
+        visibility: document.visibility.as_ref().map(visibility),
+    }
 }
 
-fn visibility(visibility: &Visibility) -> Value {
+fn visibility(visibility: &Visibility) -> documents::Visibility {
     let names = |status| -> Vec<String> { visibility.with(status).map(Term::name).collect() };
     let how = |status| if status == Status::Zero { "zero" } else { "negligible" };
     let absent = visibility.findings.iter().filter(|(_, status)| status.is_absent());
-    let absent: Vec<_> = absent
-        .map(|(term, status)| {
-            json!({ "term": term.name(), "how": how(*status), "means": term.absence() })
-        })
-        .collect();
-    json!({
-        "present": names(Status::Present),
-        "absent": absent,
-        "undecided": names(Status::Undecided),
-        "points": POINTS,
-        "span": visibility.span().map(Span::name),
-        "exact_in_time": visibility.is_exact_in_time(),
-        "symmetric_gradient": visibility.has_symmetric_gradient(),
-    })
+    let absent = absent.map(|(term, status)| AbsentTerm {
+        term: term.name(),
+        how: how(*status).to_owned(),
+        means: term.absence().to_owned(),
+    });
+    documents::Visibility {
+        present: names(Status::Present),
+        absent: absent.collect(),
+        undecided: names(Status::Undecided),
+        points: POINTS,
+        span: visibility.span().map(|it| it.name().to_owned()),
+        exact_in_time: visibility.is_exact_in_time(),
+        symmetric_gradient: visibility.has_symmetric_gradient(),
+    }
 }
 
-/// What all quantities that are shown cost together.
-fn together(compiled: &Compiled, document: &Document) -> Value {
+/// The operations of all quantities that are shown.
+fn together(compiled: &Compiled, document: &Document) -> OperationCounts {
     let shown: Vec<_> = document.sections.iter().map(|section| section.quantity).collect();
     let operations = Operations::of(compiled, &shown);
     let by_stage = Stage::ALL.map(|stage| (stage.name(), operations.by_stage[&stage]));
-    json!({
-        "before": operations.before,
-        "after": operations.after,
-        "by_stage": BTreeMap::from(by_stage),
-        "by_kind": BTreeMap::from_iter(operations.by_kind),
-    })
+    OperationCounts {
+        before: operations.before,
+        after: operations.after,
+        by_stage: BTreeMap::from(by_stage).into_iter().collect(),
+        by_kind: BTreeMap::from_iter(operations.by_kind).into_iter().collect(),
+    }
 }
 
-fn quantity(compiled: &Compiled, document: &Document, section: &Section) -> Value {
+fn quantity(compiled: &Compiled, document: &Document, section: &Section) -> ShownQuantity {
     let components = section.components.iter();
-    let formula: Vec<_> =
-        components.clone().map(|line| document.formula(line.value, &Language)).collect();
-    let symbols: Vec<_> =
-        components.flat_map(|line| &line.left).map(|name| name.identifier()).collect();
-    json!({
-        "symbols": symbols,
-        "where": formulas(document, &section.whereby),
-        "formula": formula,
-        "operations": operations(compiled, section.quantity),
-    })
+    let formula = components.clone().map(|line| document.formula(line.value, &Language));
+    let symbols = components.flat_map(|line| &line.left).map(|name| name.identifier());
+    ShownQuantity {
+        symbols: symbols.collect(),
+        r#where: formulas(document, &section.whereby).collect(),
+        formula: formula.collect(),
+        operations: operations(compiled, section.quantity),
+    }
 }
 
 /// Names and what they stand for, in the order in which they are needed.
-fn formulas(document: &Document, lines: &[Line]) -> Map<String, Value> {
-    let pairs = lines.iter().flat_map(|line| {
+fn formulas(document: &Document, lines: &[Line]) -> impl Iterator<Item = (String, String)> {
+    lines.iter().flat_map(|line| {
         let formula = document.formula(line.value, &Language);
-        line.left.iter().map(move |name| (name.identifier(), formula.clone().into()))
-    });
-    pairs.collect()
+        line.left.iter().map(move |name| (name.identifier(), formula.clone()))
+    })
 }
 
-fn operations(compiled: &Compiled, quantity: Quantity) -> Map<String, Value> {
+fn operations(compiled: &Compiled, quantity: Quantity) -> Names<usize> {
     let counts = compiled.program.operations(&[Output::Quantity(quantity)]);
     let total: usize = counts.values().sum();
-    let mut operations = Map::new();
-    operations.insert("total".into(), total.into());
-    operations.extend(Stage::ALL.map(|stage| (stage.name().to_string(), counts[&stage].into())));
-    operations
+    let stages = Stage::ALL.map(|stage| (stage.name(), counts[&stage]));
+    [("total", total)].into_iter().chain(stages).collect()
 }

@@ -6,12 +6,12 @@ use anyhow::{bail, ensure};
 use clap::{ArgGroup, Args};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Options, Selection};
+use mms_documents::state as documents;
 use mms_mechanics::extent::is_between;
 use mms_runtime::Division;
 use mms_runtime::scene::usual_cells;
 use mms_spec::own::Part;
 use mms_spec::quantity::Quantity;
-use serde_json::json;
 
 use super::naming::Naming;
 use super::{Outcome, print, print_json, spare};
@@ -207,20 +207,17 @@ impl State {
         let count = frames[0].position.len() / exact.dimension;
         let points = if count == 1 { "1 point".to_owned() } else { format!("{count} points") };
         if self.json {
-            let mut document = json!({
-                "field": input.name,
-                "files": written,
-                "source": frames[0].how,
-                "points": count,
-                "times": self.time,
-                "columns": names,
-                "without": self.without.iter().map(|it| it.name()).collect::<Vec<_>>(),
-                "affine": self.affine,
+            return print_json(&documents::State {
+                field: input.name.raw().to_owned(),
+                files: written.to_vec(),
+                source: frames[0].how.to_string(),
+                points: count,
+                times: self.time.clone(),
+                columns: names.into_iter().map(str::to_owned).collect(),
+                without: self.without.iter().map(|it| it.name().to_owned()).collect(),
+                affine: self.affine,
+                domain: domain.document(),
             });
-            if let Some(document) = document.as_object_mut() {
-                document.extend(domain.document());
-            }
-            return print_json(&document);
         }
         let title = format!("{}: {}", input.name.shown(), input.compiled.field.title.shown());
         let times: Vec<_> = self.time.iter().map(|time| format!("{time:?}")).collect();

@@ -11,8 +11,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mms_documents::verify::{ListedRow, VerifyList};
 use mms_spec::suggest::advice;
-use serde_json::Value;
+use serde::Serialize;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::gallery::FIELDS;
@@ -110,7 +111,7 @@ impl Verify {
     fn tell(
         &self,
         name: &str,
-        document: &Value,
+        document: &impl Serialize,
         table: impl FnOnce() -> String,
         page: impl FnOnce() -> String,
     ) -> anyhow::Result<()> {
@@ -162,16 +163,14 @@ impl Verify {
 
     fn print_list(&self, rows: &[&Row]) -> anyhow::Result<()> {
         if self.json {
-            let rows = rows.iter().map(|row| {
-                serde_json::json!({
-                    "name": row.name,
-                    "study": row.study,
-                    "levels": row.levels(self.quick),
-                    "formal_order": row.order.to_string(),
-                    "theory": row.theory,
-                })
+            let rows = rows.iter().map(|row| ListedRow {
+                name: row.name.clone(),
+                study: row.study.clone(),
+                levels: row.levels(self.quick),
+                formal_order: row.order.to_string(),
+                theory: row.theory.clone(),
             });
-            return print_json(&serde_json::json!({ "rows": rows.collect::<Vec<_>>() }));
+            return print_json(&VerifyList { rows: rows.collect() });
         }
         let lines = rows.iter().map(|row| {
             let Row { name, study, order, theory, .. } = row;

@@ -1,9 +1,9 @@
 //! What rounding does to formulas, and what digits cost.
 
 use maud::{Markup, html};
+use mms_documents::accuracy::{Accuracy, AccuracyRow};
 use mms_program::precision::Precision;
 use mms_spec::Form;
-use serde::Deserialize;
 
 use super::mark::{Column, count, number, numbers, table, verdict, words};
 use super::plot::{Curve, Line, Plot};
@@ -11,44 +11,9 @@ use super::{Section, Verdicts};
 use crate::report::accuracy::{eps, is_promised};
 use crate::report::front::front;
 
-/// What `mms accuracy` writes.
-#[derive(Deserialize)]
-pub struct Accuracy {
-    field: String,
-    points: usize,
-    bound_eps: f64,
-    rows: Vec<Row>,
-    left_out: Vec<LeftOut>,
-}
-
-#[derive(Deserialize)]
-struct Row {
-    quantity: String,
-    precision: String,
-    form: String,
-    regime: String,
-    median_eps: Option<f64>,
-    p99_eps: Option<f64>,
-    max_eps: Option<f64>,
-    max_scaled_eps: Option<f64>,
-    not_finite: usize,
-    within_bound: Option<bool>,
-    ns_per_point: Option<f64>,
-}
-
-impl Row {
-    /// Whether nothing is known of what is promised of it.
-    fn is_unmeasured(&self) -> bool {
-        self.within_bound.is_none() && is_promised(&self.form, &self.regime)
-    }
-}
-
-#[derive(Deserialize)]
-struct LeftOut {
-    regime: String,
-    quantity: Option<String>,
-    precision: Option<String>,
-    reason: String,
+/// Whether nothing is known of an error that has a bound.
+fn is_unmeasured(row: &AccuracyRow) -> bool {
+    row.within_bound.is_none() && is_promised(&row.form, &row.regime)
 }
 
 impl Section for Accuracy {
@@ -58,7 +23,7 @@ impl Section for Accuracy {
 
     fn verdicts(&self) -> Verdicts {
         let promised = || self.rows.iter().filter_map(|row| row.within_bound);
-        let unmeasured = self.rows.iter().filter(|row| row.is_unmeasured()).count();
+        let unmeasured = self.rows.iter().filter(|row| is_unmeasured(row)).count();
         let (all, expected) =
             (promised().count() + unmeasured, promised().filter(|within| *within).count());
         if all == 0 && !self.rows.is_empty() {
@@ -68,7 +33,7 @@ impl Section for Accuracy {
     }
 
     fn body(&self, id: &str) -> Markup {
-        let plot = self.plot();
+        let plot = plot(self);
         html! {
             p {
                 "Errors at " (count(Some(self.points))) " points, in units of round-off (eps) of each precision. "
@@ -84,10 +49,10 @@ impl Section for Accuracy {
                     }
                 }
             }
-            (self.regimes())
+            (regimes(self))
             details.bulk {
                 summary { "The worst of each quantity" }
-                (rows("The regime with the largest error, of each quantity, precision and form", &self.worst()))
+                (rows("The regime with the largest error, of each quantity, precision and form", &worst(self)))
             }
             // On paper only if it is open.
             details.bulk {
@@ -106,127 +71,117 @@ impl Section for Accuracy {
     }
 }
 
-impl Accuracy {
-    /// Of each regime the largest errors.
-    fn regimes(&self) -> Markup {
-        let mut regimes: Vec<&str> = Vec::new();
-        for row in &self.rows {
-            if !regimes.contains(&row.regime.as_str()) {
-                regimes.push(&row.regime);
-            }
+/// Of each regime the largest errors.
+fn regimes(accuracy: &Accuracy) -> Markup {
+    let mut regimes: Vec<&str> = Vec::new();
+    for row in &accuracy.rows {
+        if !regimes.contains(&row.regime.as_str()) {
+            regimes.push(&row.regime);
         }
-        let ways = || {
-            let all = Precision::ALL.into_iter().flat_map(|it| Form::ALL.map(|form| (it, form)));
-            let all = all.map(|(precision, form)| (precision.name(), form.name()));
-            let is_there = |way: &(&str, &str)| {
-                self.rows.iter().any(|row| (row.precision.as_str(), row.form.as_str()) == *way)
-            };
-            all.filter(is_there)
+    }
+    let ways = || {
+        let all = Precision::ALL.into_iter().flat_map(|it| Form::ALL.map(|form| (it, form)));
+        let all = all.map(|(precision, form)| (precision.name(), form.name()));
+        let is_there = |way: &(&str, &str)| {
+            accuracy.rows.iter().any(|row| (row.precision.as_str(), row.form.as_str()) == *way)
         };
-        let columns: Vec<_> = std::iter::once(words("regime"))
-            .chain(
-                ways()
-                    .map(|(precision, form)| Column::Number(format!("{precision}, {form}").into())),
-            )
-            .collect();
-        let rows = regimes.into_iter().map(|regime| {
-            let largest = |(precision, form): (&str, &str)| {
-                let of = |row: &&Row| {
-                    row.regime == regime && row.precision == precision && row.form == form
-                };
-                let errors = self.rows.iter().filter(of).filter_map(|row| row.max_scaled_eps);
-                number(errors.reduce(f64::max), eps)
+        all.filter(is_there)
+    };
+    let columns: Vec<_> = std::iter::once(words("regime"))
+        .chain(
+            ways().map(|(precision, form)| Column::Number(format!("{precision}, {form}").into())),
+        )
+        .collect();
+    let rows = regimes.into_iter().map(|regime| {
+        let largest = |(precision, form): (&str, &str)| {
+            let of = |row: &&AccuracyRow| {
+                row.regime == regime && row.precision == precision && row.form == form
             };
-            std::iter::once(html! { (regime) }).chain(ways().map(largest)).collect()
-        });
-        table("Largest error of any quantity, in eps of its largest value", &columns, rows)
-    }
+            let errors = accuracy.rows.iter().filter(of).filter_map(|row| row.max_scaled_eps);
+            number(errors.reduce(f64::max), eps)
+        };
+        std::iter::once(html! { (regime) }).chain(ways().map(largest)).collect()
+    });
+    table("Largest error of any quantity, in eps of its largest value", &columns, rows)
+}
 
-    /// Of each quantity, precision and form the row of the largest error.
-    fn worst(&self) -> Vec<&Row> {
-        let mut worst: Vec<&Row> = Vec::new();
-        for row in &self.rows {
-            let same = |other: &&mut &Row| {
-                (&other.quantity, &other.precision, &other.form)
-                    == (&row.quantity, &row.precision, &row.form)
+/// Of each quantity, precision and form the row of the largest error.
+fn worst(accuracy: &Accuracy) -> Vec<&AccuracyRow> {
+    let mut worst: Vec<&AccuracyRow> = Vec::new();
+    for row in &accuracy.rows {
+        let same = |other: &&mut &AccuracyRow| {
+            (&other.quantity, &other.precision, &other.form)
+                == (&row.quantity, &row.precision, &row.form)
+        };
+        match worst.iter_mut().find(same) {
+            Some(other) if row.max_scaled_eps > other.max_scaled_eps => *other = row,
+            Some(_) => {}
+            None => worst.push(row),
+        }
+    }
+    worst
+}
+
+/// The regime of the picture: the declared one, or else the first.
+fn regime(accuracy: &Accuracy) -> &str {
+    let mut regimes = accuracy.rows.iter().map(|row| row.regime.as_str());
+    let first = regimes.clone().next().unwrap_or_default();
+    regimes.find(|regime| *regime == "declared").unwrap_or(first)
+}
+
+/// Error over time, where times were measured.
+fn plot(accuracy: &Accuracy) -> Plot {
+    let mut curves = Vec::new();
+    for (style, precision) in Precision::ALL.into_iter().enumerate() {
+        for form in Form::ALL {
+            let rows = || {
+                accuracy.rows.iter().filter(|row| {
+                    row.regime == regime(accuracy)
+                        && row.precision == precision.name()
+                        && row.form == form.name()
+                })
             };
-            match worst.iter_mut().find(same) {
-                Some(other) if row.max_scaled_eps > other.max_scaled_eps => *other = row,
-                Some(_) => {}
-                None => worst.push(row),
+            // No time of any is no time of all; an error that is not finite has no place.
+            let Some(time) = rows().map(|row| row.ns_per_point).sum::<Option<f64>>() else {
+                continue;
+            };
+            let errors = rows().map(|row| row.max_scaled_eps.unwrap_or(f64::NAN));
+            let error = precision.eps() * errors.fold(0.0, f64::max);
+            if time > 0.0 {
+                curves.push(Curve {
+                    name: format!("{}, {}", precision.name(), form.name()),
+                    points: vec![[time, error]],
+                    style,
+                    is_hollow: form == Form::Fast,
+                    line: Line::None,
+                });
             }
         }
-        worst
     }
-
-    /// The regime of the picture: the declared one, or else the first.
-    fn regime(&self) -> &str {
-        let mut regimes = self.rows.iter().map(|row| row.regime.as_str());
-        let first = regimes.clone().next().unwrap_or_default();
-        regimes.find(|regime| *regime == "declared").unwrap_or(first)
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    let points: Vec<_> = points.map(|[time, error]| (*time, *error)).collect();
+    let front: Vec<_> = front(&points).into_iter().map(|at| <[f64; 2]>::from(points[at])).collect();
+    let described = curves.iter().filter_map(|curve| {
+        let [time, error] = curve.points.first()?;
+        Some(format!("{}: {time:.3} ns per point, error {error:.1e}", curve.name))
+    });
+    let description = format!("{}.", described.collect::<Vec<_>>().join("; "));
+    if front.len() > 1 {
+        let name = "Pareto front".to_owned();
+        curves.push(Curve { name, points: front, style: 0, is_hollow: false, line: Line::Dashed });
     }
-
-    /// Error over time, where times were measured.
-    fn plot(&self) -> Plot {
-        let mut curves = Vec::new();
-        for (style, precision) in Precision::ALL.into_iter().enumerate() {
-            for form in Form::ALL {
-                let rows = || {
-                    self.rows.iter().filter(|row| {
-                        row.regime == self.regime()
-                            && row.precision == precision.name()
-                            && row.form == form.name()
-                    })
-                };
-                // No time of any is no time of all; an error that is not finite has no place.
-                let Some(time) = rows().map(|row| row.ns_per_point).sum::<Option<f64>>() else {
-                    continue;
-                };
-                let errors = rows().map(|row| row.max_scaled_eps.unwrap_or(f64::NAN));
-                let error = precision.eps() * errors.fold(0.0, f64::max);
-                if time > 0.0 {
-                    curves.push(Curve {
-                        name: format!("{}, {}", precision.name(), form.name()),
-                        points: vec![[time, error]],
-                        style,
-                        is_hollow: form == Form::Fast,
-                        line: Line::None,
-                    });
-                }
-            }
-        }
-        let points = curves.iter().flat_map(|curve| &curve.points);
-        let points: Vec<_> = points.map(|[time, error]| (*time, *error)).collect();
-        let front: Vec<_> =
-            front(&points).into_iter().map(|at| <[f64; 2]>::from(points[at])).collect();
-        let described = curves.iter().filter_map(|curve| {
-            let [time, error] = curve.points.first()?;
-            Some(format!("{}: {time:.3} ns per point, error {error:.1e}", curve.name))
-        });
-        let description = format!("{}.", described.collect::<Vec<_>>().join("; "));
-        if front.len() > 1 {
-            let name = "Pareto front".to_owned();
-            curves.push(Curve {
-                name,
-                points: front,
-                style: 0,
-                is_hollow: false,
-                line: Line::Dashed,
-            });
-        }
-        Plot {
-            title: format!("Error over time of {}", self.field),
-            description,
-            axes: ["all quantities, ns per point", "largest error over largest value"],
-            curves,
-            slope: None,
-            floor: Vec::new(),
-            marks_points: false,
-        }
+    Plot {
+        title: format!("Error over time of {}", accuracy.field),
+        description,
+        axes: ["all quantities, ns per point", "largest error over largest value"],
+        curves,
+        slope: None,
+        floor: Vec::new(),
+        marks_points: false,
     }
 }
 
-fn rows(caption: &str, rows: &[&Row]) -> Markup {
+fn rows(caption: &str, rows: &[&AccuracyRow]) -> Markup {
     let columns = [
         words("quantity"),
         words("precision"),
@@ -255,7 +210,7 @@ fn rows(caption: &str, rows: &[&Row]) -> Markup {
             number(row.ns_per_point, |time| format!("{time:.2}")),
             html! {
                 @if let Some(within) = row.within_bound { (verdict(if within { "kept" } else { "broken" }, within)) }
-                @else if row.is_unmeasured() { (verdict("not measured", false)) }
+                @else if is_unmeasured(row) { (verdict("not measured", false)) }
             },
         ]
     });

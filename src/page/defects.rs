@@ -1,62 +1,34 @@
 //! Deliberate mistakes, and what caught them.
 
-use std::collections::BTreeMap;
-
 use maud::{Markup, html};
-use serde::Deserialize;
+use mms_documents::verify::{ShownDefect, VerifyDefects};
 
 use super::mark::{table, verdict, words};
 use super::{Section, Verdicts};
 
-/// What `mms verify --defects` writes.
-#[derive(Deserialize)]
-pub struct Defects {
-    defects: Vec<Defect>,
-    missed: Vec<[String; 2]>,
-    idle: Vec<String>,
-}
-
-#[derive(Deserialize)]
-struct Defect {
-    name: String,
-    place: String,
-    what: String,
-    rows: Vec<Row>,
-    /// By check, whether it objects.
-    pseudo: BTreeMap<String, Option<bool>>,
-}
-
-#[derive(Deserialize)]
-struct Row {
-    name: String,
-    caught: bool,
-}
-
 /// The checks of the document, in the order of the columns.
 const CHECKS: [&str; 5] = ["picture", "bounded", "symmetric", "energy", "settles"];
 
-impl Defect {
-    fn caught_by(&self) -> Vec<&str> {
-        self.rows.iter().filter(|row| row.caught).map(|row| row.name.as_str()).collect()
-    }
+fn caught_by(defect: &ShownDefect) -> Vec<&str> {
+    defect.rows.iter().filter(|row| row.caught).map(|row| row.name.as_str()).collect()
+}
 
-    fn says(&self, check: &str) -> &'static str {
-        match self.pseudo.get(check).copied().flatten() {
-            Some(true) => "objects",
-            Some(false) => "content",
-            None => "cannot tell",
-        }
+fn says(defect: &ShownDefect, check: &str) -> &'static str {
+    match defect.pseudo.get(check).copied().flatten() {
+        Some(true) => "objects",
+        Some(false) => "content",
+        None => "cannot tell",
     }
 }
 
-impl Section for Defects {
+impl Section for VerifyDefects {
     fn title(&self) -> String {
         format!("{} deliberate mistakes", self.defects.len())
     }
 
     fn verdicts(&self) -> Verdicts {
         let all = self.defects.len();
-        let expected = self.defects.iter().filter(|it| !it.caught_by().is_empty()).count();
+        let expected = self.defects.iter().filter(|it| !caught_by(it).is_empty()).count();
         Verdicts::several(expected, all, "caught")
     }
 
@@ -64,14 +36,14 @@ impl Section for Defects {
         let mut columns = vec![words("defect"), words("in the"), words("caught by")];
         columns.extend(CHECKS.map(words));
         let rows = self.defects.iter().map(|defect| {
-            let by = defect.caught_by();
+            let by = caught_by(defect);
             let shown = if by.is_empty() { "nothing".to_owned() } else { by.join(", ") };
             let mut cells = vec![
                 html! { div.mode { (defect.name) p { (defect.what) } } },
                 html! { (defect.place) },
                 verdict(&shown, !by.is_empty()),
             ];
-            cells.extend(CHECKS.map(|check| html! { (defect.says(check)) }));
+            cells.extend(CHECKS.map(|check| html! { (says(defect, check)) }));
             cells
         });
         html! {

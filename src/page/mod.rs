@@ -112,13 +112,13 @@ impl Kind {
 const KINDS: &[Kind] = &[
     Kind { name: "study", heading: "Convergence studies", read: study::read },
     Kind::of::<mms_documents::judge::Judge>("judge", "Judged results"),
-    Kind::of::<diagnosis::Diagnosis>("diagnose", "Diagnoses"),
+    Kind::of::<mms_documents::diagnose::Diagnose>("diagnose", "Diagnoses"),
     Kind::of::<mms_documents::campaign::Campaign>("campaign", "Campaigns"),
-    Kind::of::<verify::Matrix>("verify", "Verification matrix"),
-    Kind::of::<tradeoff::Tradeoff>("tradeoff", "Error against cost"),
+    Kind::of::<mms_documents::verify::Verify>("verify", "Verification matrix"),
+    Kind::of::<mms_documents::tradeoff::Tradeoff>("tradeoff", "Error against cost"),
     Kind::of::<mms_documents::extremes::Extremes>("extremes", "At the limits"),
-    Kind::of::<defects::Defects>("defects", "Deliberate mistakes"),
-    Kind::of::<accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
+    Kind::of::<mms_documents::verify::VerifyDefects>("defects", "Deliberate mistakes"),
+    Kind::of::<mms_documents::accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
     Kind::of::<mms_documents::run::Run>("run", "Single runs"),
 ];
 

@@ -1,66 +1,32 @@
 //! Error against cost, and what to choose.
 
 use maud::{Markup, html};
-use serde::Deserialize;
+use mms_documents::tradeoff::{Tradeoff, Trial};
 
 use super::mark::{count, number, numbers, seconds, small, table, words};
 use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
 use crate::report::{bytes, duration};
 
-/// What `mms tradeoff` writes.
-#[derive(Deserialize)]
-pub struct Tradeoff {
-    field: String,
-    cost: Cost,
-    target_linf: Option<f64>,
-    budget_seconds: Option<f64>,
-    runs: Vec<Run>,
-    choice: Option<Run>,
-    predicted: Option<Prediction>,
-    gain: Option<f64>,
-    exponent: Option<f64>,
-    dominated: Vec<String>,
-}
-
-/// What is to be small.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "snake_case")]
+/// The cost that is to be small.
+#[derive(Clone, Copy)]
 enum Cost {
     Seconds,
     ParticleSteps,
     Memory,
 }
 
-#[derive(Deserialize)]
-struct Run {
-    command: String,
-    formulation: String,
-    shape: String,
-    integrator: String,
-    transfer: String,
-    particles_per_cell: usize,
-    courant: f64,
-    precision: String,
-    form: String,
-    cells: usize,
-    linf: Option<f64>,
-    particle_steps: Option<f64>,
-    seconds: Option<f64>,
-    memory: Option<f64>,
-    front: bool,
-    failure: Option<String>,
-}
-
-#[derive(Deserialize)]
-struct Prediction {
-    setting: String,
-    cells: f64,
-    linf: f64,
-}
-
 impl Cost {
-    fn of(self, run: &Run) -> Option<f64> {
+    /// The cost that a document names; seconds for words of later versions.
+    fn named(name: &str) -> Self {
+        match name {
+            "particle_steps" => Cost::ParticleSteps,
+            "memory" => Cost::Memory,
+            _ => Cost::Seconds,
+        }
+    }
+
+    fn of(self, run: &Trial) -> Option<f64> {
         match self {
             Cost::Seconds => run.seconds,
             Cost::ParticleSteps => run.particle_steps,
@@ -85,10 +51,13 @@ impl Cost {
     }
 }
 
-impl Run {
-    fn method(&self) -> String {
-        format!("{} {} {} {}", self.formulation, self.shape, self.integrator, self.transfer)
-    }
+/// The cost that was asked for.
+fn asked(tradeoff: &Tradeoff) -> Cost {
+    Cost::named(&tradeoff.cost)
+}
+
+fn method(run: &Trial) -> String {
+    format!("{} {} {} {}", run.formulation, run.shape, run.integrator, run.transfer)
 }
 
 impl Section for Tradeoff {
@@ -103,11 +72,11 @@ impl Section for Tradeoff {
 
     fn body(&self, id: &str) -> Markup {
         let (mut front, others): (Vec<_>, Vec<_>) = self.runs.iter().partition(|run| run.front);
-        let cost = |run: &Run| self.cost.of(run).unwrap_or(f64::INFINITY);
-        front.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let own = |run: &Trial| asked(self).of(run).unwrap_or(f64::INFINITY);
+        front.sort_by(|a, b| own(a).total_cmp(&own(b)));
         html! {
-            (self.advice())
-            @if let Some(svg) = self.plot().svg(&format!("{id}-plot")) {
+            (advice(self))
+            @if let Some(svg) = plot(self).svg(&format!("{id}-plot")) {
                 figure {
                     (svg)
                     figcaption {
@@ -116,144 +85,142 @@ impl Section for Tradeoff {
                     }
                 }
             }
-            (self.table("The Pareto front", &front))
+            (trials(self, "The Pareto front", &front))
             // On paper only if it is open.
             details.bulk {
                 summary { "The " (others.len()) " other runs" }
-                (self.table("Runs that others beat, and runs that stopped", &others))
+                (trials(self, "Runs that others beat, and runs that stopped", &others))
             }
         }
     }
 }
 
-impl Tradeoff {
-    /// What was asked for.
-    fn goal(&self) -> Option<String> {
-        let target = self.target_linf.map(|target| format!("for a largest error of {target:.2e}"));
-        target.or_else(|| self.budget_seconds.map(|it| format!("within {}", duration(it))))
-    }
+/// What was asked for.
+fn goal(tradeoff: &Tradeoff) -> Option<String> {
+    let target = tradeoff.target_linf.map(|target| format!("for a largest error of {target:.2e}"));
+    target.or_else(|| tradeoff.budget_seconds.map(|it| format!("within {}", duration(it))))
+}
 
-    /// What to choose, and what more would cost.
-    fn advice(&self) -> Markup {
-        html! {
-            p {
-                @if let Some(goal) = self.goal() { "Wanted is the best method " (goal) ". " }
-                @match &self.choice {
-                    Some(choice) => {
-                        "Choose " strong { (choice.method()) } ", " (choice.precision) ", " (choice.form) " form, "
-                        (choice.particles_per_cell) @if choice.particles_per_cell == 1 { " particle" } @else { " particles" }
-                        " per cell and direction, Courant "
-                        (choice.courant) ", on " (choice.cells) " cells: " (small(choice.linf)) " in "
-                        (number(self.cost.of(choice), |cost| self.cost.show(cost))) "."
-                    }
-                    None => { "No run that was made reaches it." }
+/// What to choose, and what more would cost.
+fn advice(tradeoff: &Tradeoff) -> Markup {
+    html! {
+        p {
+            @if let Some(goal) = goal(tradeoff) { "Wanted is the best method " (goal) ". " }
+            @match &tradeoff.choice {
+                Some(choice) => {
+                    "Choose " strong { (method(choice)) } ", " (choice.precision) ", " (choice.form) " form, "
+                    (choice.particles_per_cell) @if choice.particles_per_cell == 1 { " particle" } @else { " particles" }
+                    " per cell and direction, Courant "
+                    (choice.courant) ", on " (choice.cells) " cells: " (small(choice.linf)) " in "
+                    (number(asked(tradeoff).of(choice), |cost| asked(tradeoff).show(cost))) "."
                 }
-                @if self.choice.as_ref().is_some_and(|choice| choice.linf == Some(0.0)) {
-                    " It makes no error: nothing but their cost tells it from other runs that make none."
-                }
-                @if let Some(next) = &self.predicted {
-                    " What comes next is predicted to be " (next.setting) " on " (number(Some(next.cells), |it| format!("{it:.0}")))
-                    " cells, with " (small(Some(next.linf))) "."
-                }
-                @if let Some(gain) = self.gain {
-                    " The method of " code { "mms run" } " without options has "
-                    (number(Some(gain), |it| format!("{it:.1}")))
-                    @if self.target_linf.is_some() { " times the cost." } @else { " times the error." }
-                }
-                @if let Some(exponent) = self.exponent {
-                    " Half the error costs " (number(Some(2f64.powf(exponent)), |it| format!("{it:.1}"))) " times as much there."
-                }
+                None => { "No run that was made reaches it." }
             }
-            @if let Some(choice) = &self.choice { p { code { (choice.command) } } }
-            @if !self.dominated.is_empty() {
-                p { "Dominated in every run, whatever else was chosen: " (self.dominated.join(", ")) "." }
+            @if tradeoff.choice.as_ref().is_some_and(|choice| choice.linf == Some(0.0)) {
+                " It makes no error: nothing but their cost tells it from other runs that make none."
+            }
+            @if let Some(next) = &tradeoff.predicted {
+                " What comes next is predicted to be " (next.setting) " on " (number(Some(next.cells), |it| format!("{it:.0}")))
+                " cells, with " (small(Some(next.linf))) "."
+            }
+            @if let Some(gain) = tradeoff.gain {
+                " The method of " code { "mms run" } " without options has "
+                (number(Some(gain), |it| format!("{it:.1}")))
+                @if tradeoff.target_linf.is_some() { " times the cost." } @else { " times the error." }
+            }
+            @if let Some(exponent) = tradeoff.exponent {
+                " Half the error costs " (number(Some(2f64.powf(exponent)), |it| format!("{it:.1}"))) " times as much there."
             }
         }
-    }
-
-    fn point(&self, run: &Run) -> Option<[f64; 2]> {
-        Some([self.cost.of(run)?, run.linf?])
-    }
-
-    fn plot(&self) -> Plot {
-        let points = |on_front: bool| -> Vec<[f64; 2]> {
-            let runs = self.runs.iter().filter(|run| run.front == on_front);
-            runs.filter_map(|run| self.point(run)).collect()
-        };
-        let by_cost = |mut points: Vec<[f64; 2]>| {
-            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            points
-        };
-        let curve = |name: &str, style: usize, is_hollow: bool, line: Line, points| Curve {
-            name: name.to_owned(),
-            points,
-            style,
-            is_hollow,
-            line,
-        };
-        let chosen = self.choice.iter().filter_map(|run| self.point(run)).collect();
-        let all = [points(true), points(false)].concat();
-        let ends = |axis: usize| {
-            let values = all.iter().map(|point| point[axis]).filter(|value| *value > 0.0);
-            values.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], value| {
-                [least.min(value), most.max(value)]
-            })
-        };
-        let goal = match (self.target_linf, self.budget_seconds) {
-            (Some(target), _) => ends(0).map(|cost| [cost, target]).to_vec(),
-            (None, Some(budget)) => ends(1).map(|error| [budget, error]).to_vec(),
-            (None, None) => Vec::new(),
-        };
-        let front = by_cost(points(true));
-        let described =
-            front.iter().map(|[cost, error]| format!("{error:.2e} in {}", self.cost.show(*cost)));
-        Plot {
-            title: format!("Error against cost of {}", self.field),
-            description: format!("The Pareto front: {}.", described.collect::<Vec<_>>().join("; ")),
-            axes: [self.cost.axis(), "largest error of u"],
-            curves: vec![
-                curve("other runs", 1, true, Line::None, points(false)),
-                curve("Pareto front", 0, false, Line::Solid, front),
-                curve("choice", 2, false, Line::None, chosen),
-                curve("goal", 2, false, Line::Dashed, goal),
-            ],
-            slope: None,
-            floor: Vec::new(),
-            marks_points: false,
+        @if let Some(choice) = &tradeoff.choice { p { code { (choice.command) } } }
+        @if !tradeoff.dominated.is_empty() {
+            p { "Dominated in every run, whatever else was chosen: " (tradeoff.dominated.join(", ")) "." }
         }
     }
+}
 
-    fn table(&self, caption: &str, runs: &[&Run]) -> Markup {
-        let columns = [
-            words("method"),
-            numbers("cells"),
-            numbers("particles per cell"),
-            numbers("Courant"),
-            words("precision"),
-            words("form"),
-            numbers("linf"),
-            numbers("particle-steps"),
-            numbers("time"),
-            numbers("memory"),
-            words("remark"),
-        ];
-        let chosen = self.choice.as_ref().map(|choice| choice.command.as_str());
-        let rows = runs.iter().map(|run| {
-            let is_chosen = chosen == Some(run.command.as_str());
-            vec![
-                html! { (run.method()) },
-                count(Some(run.cells)),
-                count(Some(run.particles_per_cell)),
-                number(Some(run.courant), |it| it.to_string()),
-                html! { (run.precision) },
-                html! { (run.form) },
-                small(run.linf),
-                small(run.particle_steps),
-                seconds(run.seconds),
-                number(run.memory, bytes),
-                html! { (if is_chosen { "chosen" } else { run.failure.as_deref().unwrap_or_default() }) },
-            ]
-        });
-        table(caption, &columns, rows)
+fn point(tradeoff: &Tradeoff, run: &Trial) -> Option<[f64; 2]> {
+    Some([asked(tradeoff).of(run)?, run.linf?])
+}
+
+fn plot(tradeoff: &Tradeoff) -> Plot {
+    let points = |on_front: bool| -> Vec<[f64; 2]> {
+        let runs = tradeoff.runs.iter().filter(|run| run.front == on_front);
+        runs.filter_map(|run| point(tradeoff, run)).collect()
+    };
+    let by_cost = |mut points: Vec<[f64; 2]>| {
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        points
+    };
+    let curve = |name: &str, style: usize, is_hollow: bool, line: Line, points| Curve {
+        name: name.to_owned(),
+        points,
+        style,
+        is_hollow,
+        line,
+    };
+    let chosen = tradeoff.choice.iter().filter_map(|run| point(tradeoff, run)).collect();
+    let all = [points(true), points(false)].concat();
+    let ends = |axis: usize| {
+        let values = all.iter().map(|point| point[axis]).filter(|value| *value > 0.0);
+        values.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], value| {
+            [least.min(value), most.max(value)]
+        })
+    };
+    let goal = match (tradeoff.target_linf, tradeoff.budget_seconds) {
+        (Some(target), _) => ends(0).map(|cost| [cost, target]).to_vec(),
+        (None, Some(budget)) => ends(1).map(|error| [budget, error]).to_vec(),
+        (None, None) => Vec::new(),
+    };
+    let front = by_cost(points(true));
+    let described =
+        front.iter().map(|[cost, error]| format!("{error:.2e} in {}", asked(tradeoff).show(*cost)));
+    Plot {
+        title: format!("Error against cost of {}", tradeoff.field),
+        description: format!("The Pareto front: {}.", described.collect::<Vec<_>>().join("; ")),
+        axes: [asked(tradeoff).axis(), "largest error of u"],
+        curves: vec![
+            curve("other runs", 1, true, Line::None, points(false)),
+            curve("Pareto front", 0, false, Line::Solid, front),
+            curve("choice", 2, false, Line::None, chosen),
+            curve("goal", 2, false, Line::Dashed, goal),
+        ],
+        slope: None,
+        floor: Vec::new(),
+        marks_points: false,
     }
+}
+
+fn trials(tradeoff: &Tradeoff, caption: &str, runs: &[&Trial]) -> Markup {
+    let columns = [
+        words("method"),
+        numbers("cells"),
+        numbers("particles per cell"),
+        numbers("Courant"),
+        words("precision"),
+        words("form"),
+        numbers("linf"),
+        numbers("particle-steps"),
+        numbers("time"),
+        numbers("memory"),
+        words("remark"),
+    ];
+    let chosen = tradeoff.choice.as_ref().map(|choice| choice.command.as_str());
+    let rows = runs.iter().map(|run| {
+        let is_chosen = chosen == Some(run.command.as_str());
+        vec![
+            html! { (method(run)) },
+            count(Some(run.cells)),
+            count(Some(run.particles_per_cell)),
+            number(Some(run.courant), |it| it.to_string()),
+            html! { (run.precision) },
+            html! { (run.form) },
+            small(run.linf),
+            small(run.particle_steps),
+            seconds(run.seconds),
+            number(run.memory, bytes),
+            html! { (if is_chosen { "chosen" } else { run.failure.as_deref().unwrap_or_default() }) },
+        ]
+    });
+    table(caption, &columns, rows)
 }

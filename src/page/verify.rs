@@ -1,69 +1,37 @@
 //! The verification matrix.
 
 use maud::{Markup, html};
-use serde::Deserialize;
+use mms_documents::verify::{VerifiedRow, Verify};
 
 use super::mark::{numbers, order, seconds, small, table, verdict, words};
 use super::{Section, Verdicts};
 
-/// What `mms verify` writes.
-#[derive(Deserialize)]
-pub struct Matrix {
-    matrix: String,
-    rows: Vec<Row>,
+fn is_expected(row: &VerifiedRow) -> bool {
+    row.verdict == row.expected_verdict
 }
 
-#[derive(Deserialize)]
-struct Row {
-    name: String,
-    study: String,
-    refined: String,
-    quantity: String,
-    formal_order: String,
-    theory: String,
-    levels: Vec<Level>,
-    observed_order: Option<f64>,
-    error_constant: Option<f64>,
-    expected_error_constant: Option<f64>,
-    verdict: String,
-    expected_verdict: String,
-    reason: Option<String>,
-    seconds: Option<f64>,
+/// What stands before the slash, and behind it.
+fn parts(row: &VerifiedRow) -> (&str, &str) {
+    row.name.split_once('/').unwrap_or(("", &row.name))
 }
 
-#[derive(Deserialize)]
-struct Level {
-    order_l2: Option<f64>,
+fn place(row: &VerifiedRow, id: &str) -> String {
+    format!("{id}-{}", row.name.replace('/', "-"))
 }
 
-impl Row {
-    fn is_expected(&self) -> bool {
-        self.verdict == self.expected_verdict
-    }
-
-    /// What stands before the slash, and behind it.
-    fn parts(&self) -> (&str, &str) {
-        self.name.split_once('/').unwrap_or(("", &self.name))
-    }
-
-    fn place(&self, id: &str) -> String {
-        format!("{id}-{}", self.name.replace('/', "-"))
-    }
-}
-
-impl Section for Matrix {
+impl Section for Verify {
     fn title(&self) -> String {
         format!("The {} matrix, {} modes", self.matrix, self.rows.len())
     }
 
     fn verdicts(&self) -> Verdicts {
         let (all, expected) =
-            (self.rows.len(), self.rows.iter().filter(|row| row.is_expected()).count());
+            (self.rows.len(), self.rows.iter().filter(|row| is_expected(row)).count());
         Verdicts::several(expected, all, "as theory expects")
     }
 
     fn body(&self, id: &str) -> Markup {
-        let groups = || self.rows.chunk_by(|a, b| a.parts().0 == b.parts().0);
+        let groups = || self.rows.chunk_by(|a, b| parts(a).0 == parts(b).0);
         html! {
             p {
                 "Each mode by the field that isolates it. Theory expects of some modes that they do not converge: "
@@ -72,14 +40,14 @@ impl Section for Matrix {
             dl.matrix {
                 @for group in groups() {
                     div {
-                        dt { (group[0].parts().0) }
+                        dt { (parts(&group[0]).0) }
                         @for row in group {
-                            dd { a href=(format!("#{}", row.place(id))) { (verdict(row.parts().1, row.is_expected())) } }
+                            dd { a href=(format!("#{}", place(row, id))) { (verdict(parts(row).1, is_expected(row))) } }
                         }
                     }
                 }
             }
-            @for row in self.rows.iter().filter(|row| !row.is_expected()) {
+            @for row in self.rows.iter().filter(|row| !is_expected(row)) {
                 p.alert {
                     strong { (row.name) } ": " (row.verdict) ", expected " (row.expected_verdict) ": "
                     (row.reason.as_deref().unwrap_or("no reason is given")) ". " code { "mms study " (row.study) }
@@ -90,7 +58,7 @@ impl Section for Matrix {
     }
 }
 
-fn rows(group: &[Row], id: &str) -> Markup {
+fn rows(group: &[VerifiedRow], id: &str) -> Markup {
     let columns = [
         words("mode"),
         words("refined"),
@@ -105,11 +73,11 @@ fn rows(group: &[Row], id: &str) -> Markup {
     ];
     let cells = group.iter().map(|row| {
         // That of the finest pair is the one beside it.
-        let before = row.levels.len().checked_sub(2).and_then(|at| row.levels[at].order_l2);
+        let before = row.levels.len().checked_sub(2).and_then(|at| row.levels[at].errors.order_l2);
         vec![
             html! {
-                div.mode id=(row.place(id)) {
-                    (row.parts().1)
+                div.mode id=(place(row, id)) {
+                    (parts(row).1)
                     p { (row.theory) }
                     p { code { (row.study) } }
                 }
@@ -121,9 +89,9 @@ fn rows(group: &[Row], id: &str) -> Markup {
             order(before),
             small(row.error_constant),
             small(row.expected_error_constant),
-            verdict(&row.verdict, row.is_expected()),
-            seconds(row.seconds),
+            verdict(&row.verdict, is_expected(row)),
+            seconds(Some(row.seconds)),
         ]
     });
-    table(&format!("Modes of {}", group[0].parts().0), &columns, cells)
+    table(&format!("Modes of {}", parts(&group[0]).0), &columns, cells)
 }

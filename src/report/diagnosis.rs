@@ -5,8 +5,8 @@ use std::path::Path;
 use mms_diagnosis::answer::{Diagnosis, Fields, Finding, Like, Place, Ranked};
 use mms_diagnosis::falls::{Falls, OfOrder};
 use mms_diagnosis::list::Listed;
+use mms_documents::diagnose as documents;
 use mms_spec::foreign::Foreign;
-use serde_json::{Value, json};
 
 use super::text::plain;
 use super::{pretty, write_files};
@@ -93,27 +93,34 @@ impl Diagnosed<'_> {
         table.to_string()
     }
 
-    /// What a program reads.
-    pub fn document(&self) -> Value {
+    /// The JSON document.
+    pub fn document(&self) -> documents::Diagnose {
         let it = self.diagnosis;
-        json!({
-            "field": self.field,
-            "files": self.files,
-            "evidence": it.rung.says(),
-            "finding": it.finding.name(),
-            "error": it.error,
-            "least_expected_error": it.expected[0],
-            "expected_error": it.expected[1],
-            "order": it.falls.as_ref().map(|falls| falls_document(falls, it.of_order.as_ref())),
-            "ranked": it.ranked.iter().map(ranked).collect::<Vec<_>>(),
-            "cannot_be_seen": it.cannot_be_seen,
-            "pair": it.pair.as_ref().map(|it| json!({ "hypotheses": it.hypotheses, "explained": it.explained })),
-            "like": it.like.as_ref().map(|it| json!({ "method": it.method, "factor": it.factor, "apart": it.apart })),
-            "place": it.place.as_ref().map(place_document),
-            "fields": it.fields.as_ref().map(fields),
-            "next": it.rung.next(it.finding),
-            "provenance": self.provenance,
-        })
+        documents::Diagnose {
+            field: self.field.raw().to_owned(),
+            files: self.files.to_vec(),
+            evidence: it.rung.says().to_owned(),
+            finding: it.finding.name().to_owned(),
+            error: it.error,
+            least_expected_error: it.expected[0],
+            expected_error: it.expected[1],
+            order: it.falls.as_ref().map(|falls| error_order(falls, it.of_order.as_ref())),
+            ranked: it.ranked.iter().map(hypothesis).collect(),
+            cannot_be_seen: it.cannot_be_seen.iter().map(ToString::to_string).collect(),
+            pair: it.pair.as_ref().map(|it| documents::Pair {
+                hypotheses: it.hypotheses.iter().map(ToString::to_string).collect(),
+                explained: it.explained,
+            }),
+            like: it.like.as_ref().map(|it| documents::Like {
+                method: it.method.to_string(),
+                factor: it.factor,
+                apart: it.apart,
+            }),
+            place: it.place.as_ref().map(place_document),
+            fields: it.fields.as_ref().map(fields),
+            next: it.rung.next(it.finding).to_string(),
+            provenance: self.provenance.clone(),
+        }
     }
 }
 
@@ -204,60 +211,60 @@ const AXES: [&str; 3] = ["X", "Y", "Z"];
 /// Less of an error than this is smooth: it is called noise.
 const SMOOTH: f64 = 0.5;
 
-fn fields(it: &Fields) -> Value {
-    json!({
-        "quantity": it.quantity,
-        "time": it.time,
-        "points": it.points,
-        "error": it.error,
-        "named": it.named,
-    })
+fn fields(it: &Fields) -> documents::ErrorFields {
+    documents::ErrorFields {
+        quantity: it.quantity.to_string(),
+        time: it.time,
+        points: it.points.clone(),
+        error: it.error.clone(),
+        named: it.named.clone(),
+    }
 }
 
-fn falls_document(it: &Falls, of_order: Option<&OfOrder>) -> Value {
-    json!({
-        "quantity": it.quantity,
-        "norm": it.norm,
-        "observed_order": it.observed,
-        "expected_order": it.expected,
-        "verdict": it.verdict,
-        "says": it.hint(),
-        "like": of_order.map(|own| json!({ "method": own.method, "order": own.order })),
-    })
+fn error_order(it: &Falls, of_order: Option<&OfOrder>) -> documents::ErrorOrder {
+    documents::ErrorOrder {
+        quantity: it.quantity.to_string(),
+        norm: it.norm.to_string(),
+        observed_order: it.observed,
+        expected_order: it.expected,
+        verdict: it.verdict.to_string(),
+        says: it.hint().map(|hint| hint.to_string()),
+        like: of_order.map(|own| documents::MethodOfOrder {
+            method: own.method.to_string(),
+            order: own.order,
+        }),
+    }
 }
 
-fn place_document(it: &Place) -> Value {
-    json!({
-        "at": it.at,
-        "time": it.time,
-        "face": it.face.map(|face| face.to_string()),
-        "plane": it.plane.map(|(axis, at)| json!({ "axis": AXES[axis], "at": at })),
-        "order": it.order,
-        "smooth": it.smooth,
-    })
+fn place_document(it: &Place) -> documents::Place {
+    documents::Place {
+        at: it.at.clone(),
+        time: it.time,
+        face: it.face.map(|face| face.to_string()),
+        plane: it.plane.map(|(axis, at)| documents::Plane { axis: AXES[axis].to_owned(), at }),
+        order: it.order,
+        smooth: it.smooth,
+    }
 }
 
-fn ranked(it: &Ranked) -> Value {
-    let factor = match it.factor.as_slice() {
-        [factor] => json!(factor),
-        _ => Value::Null,
-    };
-    let interval = it.factor.first().filter(|_| it.factor.len() == 1);
-    json!({
-        "hypothesis": it.name,
-        "says": it.says,
-        "kind": it.kind.name(),
-        "factor": factor,
-        "interval": interval.map(|factor| [factor - it.margin, factor + it.margin]),
-        "vector": if it.factor.len() > 1 { json!(it.factor) } else { Value::Null },
-        "explained": it.explained,
-        "plausible": it.is_plausible,
-        "face": it.face.map(|face| face.to_string()),
-        "which": it.which,
-        "equivalent_always": it.equivalent_always,
-        "equivalent_here": it.equivalent_here,
-        "needs": it.needs,
-    })
+fn hypothesis(it: &Ranked) -> documents::Hypothesis {
+    let texts = |all: &[String]| all.to_vec();
+    let factor = it.factor.first().copied().filter(|_| it.factor.len() == 1);
+    documents::Hypothesis {
+        hypothesis: it.name.to_string(),
+        says: it.says.to_string(),
+        kind: it.kind.name().to_owned(),
+        factor,
+        interval: factor.map(|factor| [factor - it.margin, factor + it.margin]),
+        vector: (it.factor.len() > 1).then(|| it.factor.clone()),
+        explained: it.explained,
+        plausible: it.is_plausible,
+        face: it.face.map(|face| face.to_string()),
+        which: it.which.as_ref().map(ToString::to_string),
+        equivalent_always: texts(&it.equivalent_always),
+        equivalent_here: texts(&it.equivalent_here),
+        needs: texts(&it.needs),
+    }
 }
 
 /// The hypotheses about a field.
@@ -279,18 +286,18 @@ impl Hypotheses<'_> {
         table.to_string()
     }
 
-    /// What a program reads.
-    pub fn document(&self) -> Value {
-        let each = self.all.iter().map(|it| {
-            json!({
-                "hypothesis": it.title,
-                "changes": it.changes,
-                "kind": it.kind.name(),
-                "shown_by": it.shown_by,
-                "says": it.says,
-                "of": it.size_of.map(|(name, size)| json!({ "hypothesis": name, "factor": size })),
-            })
+    /// The JSON document.
+    pub fn document(&self) -> documents::Hypotheses {
+        let each = self.all.iter().map(|it| documents::ListedHypothesis {
+            hypothesis: it.title.clone(),
+            changes: it.changes.to_owned(),
+            kind: it.kind.name().to_owned(),
+            shown_by: it.shown_by.to_owned(),
+            says: it.says.to_string(),
+            of: it
+                .size_of
+                .map(|(name, factor)| documents::SizeOf { hypothesis: name.to_owned(), factor }),
         });
-        json!({ "field": self.field, "hypotheses": each.collect::<Vec<_>>() })
+        documents::Hypotheses { field: self.field.raw().to_owned(), hypotheses: each.collect() }
     }
 }

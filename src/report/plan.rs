@@ -2,8 +2,8 @@
 
 use clap::ValueEnum;
 use mms_diagnosis::list::Listed;
+use mms_documents::diagnose::{DiagnosePlan, DiagnoseStep};
 use mms_spec::foreign::Foreign;
-use serde_json::{Value, json};
 
 /// A step of the ladder; each takes for granted what the one before it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
@@ -127,18 +127,19 @@ impl<'a> Plan<'a> {
         std::iter::once(head.to_owned()).chain(each).collect::<Vec<_>>().join("\n\n")
     }
 
-    /// The document for a program.
-    pub fn document(&self) -> Value {
+    /// The JSON document.
+    pub fn document(&self) -> DiagnosePlan {
         let field = self.field.shown();
-        let step = |step: &Step| {
-            json!({
-                "step": step.name(),
-                "needs": step.needs(),
-                "costs": step.costs(),
-                "command": step.command(&field),
-                "sees": self.seen(*step),
-            })
+        let step = |step: &Step| DiagnoseStep {
+            step: step.name().to_owned(),
+            needs: step.needs().to_owned(),
+            costs: step.costs().to_owned(),
+            command: step.command(&field),
+            sees: self.seen(*step).into_iter().map(str::to_owned).collect(),
         };
-        json!({ "field": self.field, "steps": self.steps.iter().map(step).collect::<Vec<_>>() })
+        DiagnosePlan {
+            field: self.field.raw().to_owned(),
+            steps: self.steps.iter().map(step).collect(),
+        }
     }
 }

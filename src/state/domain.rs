@@ -1,5 +1,6 @@
 //! What a solver needs to know of a field once: its time window, how far its motion goes, what is claimed on its faces.
 
+use mms_documents::state::{StateBody, StateBox, StateDomain, StateFace};
 use mms_emit::port::faces::claims;
 use mms_mechanics::Bound;
 use mms_mechanics::extent::Extent;
@@ -7,7 +8,6 @@ use mms_mechanics::output::parts;
 use mms_results::write::{self, Fact};
 use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Face};
-use serde_json::{Map, Value, json};
 
 use crate::session::exact::Exact;
 
@@ -68,33 +68,44 @@ impl Domain {
         facts
     }
 
-    /// As keys of a document.
-    pub fn document(&self) -> Map<String, Value> {
-        let part = |(bound, values): (Bound, Vec<f64>)| {
-            let value = match bound {
-                Bound::Inner | Bound::Outer => json!(values[0]),
-                Bound::Vertices => values.chunks_exact(2).map(|vertex| json!(vertex)).collect(),
-                _ => json!(values),
-            };
-            (if bound == Bound::Z { "z" } else { bound.name() }.to_owned(), value)
+    /// The data as a part of a document.
+    pub fn document(&self) -> StateDomain {
+        let face = |(face, claim): &(Face, Claim)| StateFace {
+            face: face.name().to_string(),
+            claim: claim.name().to_owned(),
         };
-        let body: Value = match &self.body {
-            Extent::Nothing(_) => Value::Null,
-            body => parts(body, 0.0).into_iter().map(part).collect::<Map<_, _>>().into(),
-        };
-        let faces = self
-            .faces
-            .iter()
-            .map(|(face, claim)| json!({"face": face.name(), "claim": claim.name()}));
-        let [lower, upper] = &self.reach;
-        let document = [
-            ("time_window", json!(self.window)),
-            ("body", body),
-            ("motion", json!({"lower": lower, "upper": upper})),
-            ("faces", faces.collect()),
-        ];
-        document.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+        let [lower, upper] = self.reach.clone();
+        StateDomain {
+            time_window: self.window,
+            body: body(&self.body),
+            motion: StateBox { lower, upper },
+            faces: self.faces.iter().map(face).collect(),
+        }
     }
+}
+
+/// The body as a part of a document; nothing if there is none.
+fn body(extent: &Extent<f64>) -> Option<StateBody> {
+    if matches!(extent, Extent::Nothing(_)) {
+        return None;
+    }
+    let mut body = StateBody::default();
+    for (bound, values) in parts(extent, 0.0) {
+        match bound {
+            Bound::Lower => body.lower = Some(values),
+            Bound::Upper => body.upper = Some(values),
+            Bound::Inner => body.inner = values.first().copied(),
+            Bound::Outer => body.outer = values.first().copied(),
+            Bound::Theta => body.theta = values.try_into().ok(),
+            Bound::Z => body.z = values.try_into().ok(),
+            Bound::Phi => body.phi = values.try_into().ok(),
+            Bound::Vertices => {
+                body.vertices = Some(values.chunks_exact(2).map(<[f64]>::to_vec).collect());
+            }
+            Bound::Space | Bound::Time => {}
+        }
+    }
+    Some(body)
 }
 
 /// The least and the greatest coordinates of samples of the body, its corners among them, over the time window.

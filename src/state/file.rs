@@ -10,7 +10,6 @@ use mms_results::Cells;
 use mms_results::write::{self, Mesh, State};
 use mms_spec::foreign;
 use mms_spec::quantity::Quantity;
-use serde_json::Value;
 
 use super::domain::Domain;
 use super::points::Points;
@@ -116,7 +115,7 @@ impl Target {
         let mut name = self.path.file_name().unwrap_or_default().to_owned();
         name.push(".json");
         let path = self.path.with_file_name(name);
-        let text = pretty(&Value::Object(domain.document()))?;
+        let text = pretty(&domain.document())?;
         self.one(&path, |out| Ok(out.write_all(text.as_bytes())?))
     }
 

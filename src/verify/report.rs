@@ -2,12 +2,13 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
-use serde_json::{Value, json};
+use mms_documents::study::{Level, LevelErrors};
+use mms_documents::verify::{VerifiedRow, Verify};
 
 use super::matrix::{Row, Study};
 use super::verdict::Judgement;
 use super::work::Outcome;
-use crate::provenance::{Provenance, sign};
+use crate::provenance::Provenance;
 use crate::report::method::division;
 use crate::report::{duration, tally};
 use crate::rows::Named as _;
@@ -39,46 +40,45 @@ impl Judged<'_> {
         self.levels.iter().filter_map(Outcome::run).map(|run| run.seconds).sum()
     }
 
-    fn document(&self) -> Value {
-        let Judgement { orders, constant, verdict, expected, reason } = &self.judgement;
-        let levels = self.levels.iter().enumerate().map(|(at, level)| {
-            let run = level.run();
-            let errors = level.errors(self.row);
-            let norm = |norm: usize| errors.map(|errors| errors[norm]);
-            let [order_l1, order_l2, order_linf] = orders[at];
-            json!({
-                "cells": division(&self.study.cells[if self.row.halvings > 0 { 0 } else { at }]),
-                "cell_size": run.map(|run| run.cell_size),
-                "time_step": run.map(|run| run.time_step),
-                "steps": run.map(|run| run.steps),
-                "particles": run.map(|run| run.particles),
-                "l1": norm(0),
-                "l2": norm(1),
-                "linf": norm(2),
-                "order_l1": order_l1,
-                "order_l2": order_l2,
-                "order_linf": order_linf,
-                "seconds": run.map(|run| run.seconds),
-                "failure": level.failure(),
-            })
-        });
-        json!({
-            "name": self.row.name,
-            "study": self.row.study,
-            "refined": if self.row.halvings > 0 { "time" } else { "space and time" },
-            "quantity": self.row.quantity.name(),
-            "formal_order": self.row.order.to_string(),
-            "tolerance": self.row.tolerance,
-            "theory": self.row.theory,
-            "levels": levels.collect::<Vec<_>>(),
-            "observed_order": self.judgement.observed_order(),
-            "error_constant": constant,
-            "expected_error_constant": self.row.constant,
-            "verdict": verdict.to_string(),
-            "expected_verdict": expected.to_string(),
-            "reason": reason,
-            "seconds": self.seconds(),
-        })
+    fn document(&self) -> VerifiedRow {
+        let Judgement { constant, verdict, expected, reason, .. } = &self.judgement;
+        VerifiedRow {
+            name: self.row.name.clone(),
+            study: self.row.study.clone(),
+            refined: if self.row.halvings > 0 { "time" } else { "space and time" }.to_owned(),
+            quantity: self.row.quantity.name().to_owned(),
+            formal_order: self.row.order.to_string(),
+            tolerance: self.row.tolerance,
+            theory: self.row.theory.clone(),
+            levels: (0..self.levels.len()).map(|at| self.level(at)).collect(),
+            observed_order: self.judgement.observed_order(),
+            error_constant: *constant,
+            expected_error_constant: self.row.constant,
+            verdict: verdict.to_string(),
+            expected_verdict: expected.to_string(),
+            reason: reason.clone(),
+            seconds: self.seconds(),
+        }
+    }
+
+    fn level(&self, at: usize) -> Level {
+        let (level, [order_l1, order_l2, order_linf]) =
+            (&self.levels[at], self.judgement.orders[at]);
+        let (run, errors) = (level.run(), level.errors(self.row));
+        let norm = |norm: usize| errors.map(|errors| errors[norm]);
+        let [l1, l2, linf] = [0, 1, 2].map(norm);
+        Level {
+            cells: division(&self.study.cells[if self.row.halvings > 0 { 0 } else { at }]),
+            cell_size: run.map(|run| run.cell_size),
+            time_step: run.map(|run| run.time_step),
+            steps: run.map(|run| run.steps),
+            particles: run.map(|run| run.particles),
+            errors: LevelErrors { l1, l2, linf, order_l1, order_l2, order_linf },
+            seconds: run.map(|run| run.seconds),
+            failure: level.failure().map(|it| it.to_string()),
+            round_off: None,
+            residual_ratio: None,
+        }
     }
 }
 
@@ -89,15 +89,13 @@ impl Report<'_> {
     }
 
     /// The JSON document.
-    pub fn document(&self) -> Value {
-        sign(
-            &self.provenance,
-            json!({
-                "matrix": if self.quick { "quick" } else { "full" },
-                "rows": self.rows.iter().map(Judged::document).collect::<Vec<_>>(),
-                "unexpected": self.unexpected().map(|judged| &judged.row.name).collect::<Vec<_>>(),
-            }),
-        )
+    pub fn document(&self) -> Verify {
+        Verify {
+            matrix: if self.quick { "quick" } else { "full" }.to_owned(),
+            rows: self.rows.iter().map(Judged::document).collect(),
+            unexpected: self.unexpected().map(|judged| judged.row.name.clone()).collect(),
+            provenance: self.provenance.clone(),
+        }
     }
 
     /// The table for a terminal.

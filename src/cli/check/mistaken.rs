@@ -8,11 +8,11 @@ use mms_diagnosis::answer::Ranked;
 use mms_diagnosis::closed_form::ClosedForm;
 use mms_diagnosis::scene::closed_form;
 use mms_diagnosis::table::Measure;
+use mms_documents::check::Mistaken;
 use mms_mechanics::Output;
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::sorted::SortedMap;
-use serde_json::{Value, json};
 
 /// What is looked at of a quantity.
 fn closed_form_of(quantity: Quantity) -> Option<ClosedForm> {
@@ -67,12 +67,12 @@ pub fn says(it: &Ranked) -> String {
     format!("    it acts as {}: {}{or}", it.title(), it.says)
 }
 
-/// What a program reads.
-pub fn document(it: &Ranked) -> Value {
-    json!({
-        "hypothesis": it.title(),
-        "says": it.says,
-        "factor": if it.factor.len() == 1 { json!(it.factor[0]) } else { Value::Null },
-        "equivalent": others(it),
-    })
+/// The mistake as a part of a document.
+pub fn document(it: &Ranked) -> Mistaken {
+    Mistaken {
+        hypothesis: it.title(),
+        says: it.says.clone(),
+        factor: it.factor.first().copied().filter(|_| it.factor.len() == 1),
+        equivalent: others(it).into_iter().map(|it| it.to_string()).collect(),
+    }
 }

@@ -11,8 +11,8 @@ use mms_codegen::certify::rates::Rates;
 use mms_codegen::certify::sign::Sign;
 use mms_codegen::certify::softening::Softening;
 use mms_codegen::certify::solid::Part;
+use mms_documents::check::{self as documents, PlaceInTheMotion};
 use mms_spec::BoundarySpec;
-use serde_json::{Value, json};
 
 /// One line for each thing that was to be proved.
 pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
@@ -178,59 +178,57 @@ fn rounded(value: f64, direction: f64) -> String {
 }
 
 /// A claim, and what is known of it.
-pub fn claim((claim, finding): &(BoundarySpec, claims::Finding)) -> Value {
-    let mut document = json!({
-        "face": claim.face.value.name(),
-        "claim": claim.claim.value.name(),
-        "status": finding.status(),
-    });
-    match finding {
-        claims::Finding::Proved => {}
+pub fn claim((claim, finding): &(BoundarySpec, claims::Finding)) -> documents::Claim {
+    let (interval, witness) = match finding {
+        claims::Finding::Proved => (None, None),
         claims::Finding::Enclosed(interval) | claims::Finding::Unproved(interval) => {
-            document["interval"] = json!(interval);
+            (Some(*interval), None)
         }
-        claims::Finding::Refuted(witness, value) => {
-            document["at"] = json!(witness.coordinates);
-            document["time"] = json!(witness.time);
-            document["value"] = json!(value);
-        }
+        claims::Finding::Refuted(witness, value) => (None, Some((witness, *value))),
+    };
+    documents::Claim {
+        face: claim.face.value.name().to_string(),
+        claim: claim.claim.value.name().to_owned(),
+        status: finding.status().to_owned(),
+        interval,
+        at: witness.map(|(witness, _)| witness.coordinates.clone()),
+        time: witness.map(|(witness, _)| witness.time),
+        value: witness.map(|(_, value)| value),
     }
-    document
 }
 
-/// What is proved of the field as a whole. What is not known is null.
-pub fn document(certificate: &Certificate) -> Value {
+/// The bounds that are proved of the field as a whole. A bound that is not known is null.
+pub fn document(certificate: &Certificate) -> documents::Certificate {
     let jacobian = match certificate.jacobian {
         Sign::Positive(bounds) => Some(bounds),
         Sign::Refuted(..) | Sign::Unproved(..) => None,
     };
     let rates = certificate.rates;
-    let [angle_digits, angle_digits_f32] = certificate
-        .computed
-        .each_ref()
-        .map(|computed| computed.angles.as_ref().map(|(digits, _)| digits.floor().max(0.0) as u32));
-    json!({
-        "jacobian": jacobian,
-        "solid": certificate.solid.iter().all(|(_, sign)| matches!(sign, Sign::Positive(_))),
-        "analytic": certificate.exits.is_empty(),
-        "finite": certificate.computed[0].finding == Finding::Proved,
-        "finite_f32": certificate.computed[1].finding == Finding::Proved,
-        "angle_digits": angle_digits,
-        "angle_digits_f32": angle_digits_f32,
-        "principal_stretch": rates.map(|it| it.principal_stretch),
-        "strain_rate": rates.map(|it| it.strain_rate),
-        "wave_speed": rates.map(|it| it.wave_speed),
-        "reference_wave_speed": rates.map(|it| it.reference_wave_speed),
-        "time_step_per_cell_size": rates.map(|it| it.time_step_per_cell_size()),
-        "strongly_elliptic": matches!(certificate.ellipticity, Ellipticity::Strong(_)),
-        "ellipticity_lost": lost(&certificate.ellipticity),
-        "boxes": certificate.boxes,
-    })
+    let [angle_digits, angle_digits_f32] = certificate.computed.each_ref().map(|computed| {
+        computed.angles.as_ref().map(|(digits, _)| digits.floor().max(0.0) as usize)
+    });
+    documents::Certificate {
+        jacobian,
+        solid: certificate.solid.iter().all(|(_, sign)| matches!(sign, Sign::Positive(_))),
+        analytic: certificate.exits.is_empty(),
+        finite: certificate.computed[0].finding == Finding::Proved,
+        finite_f32: certificate.computed[1].finding == Finding::Proved,
+        angle_digits,
+        angle_digits_f32,
+        principal_stretch: rates.map(|it| it.principal_stretch),
+        strain_rate: rates.map(|it| it.strain_rate),
+        wave_speed: rates.map(|it| it.wave_speed),
+        reference_wave_speed: rates.map(|it| it.reference_wave_speed),
+        time_step_per_cell_size: rates.map(|it| it.time_step_per_cell_size()),
+        strongly_elliptic: matches!(certificate.ellipticity, Ellipticity::Strong(_)),
+        ellipticity_lost: lost(&certificate.ellipticity),
+        boxes: certificate.boxes,
+    }
 }
 
 /// Where a wave is proved to grow.
-fn lost(ellipticity: &Ellipticity) -> Option<Value> {
+fn lost(ellipticity: &Ellipticity) -> Option<PlaceInTheMotion> {
     let Ellipticity::Lost(Softening { witness, direction, .. }) = ellipticity else { return None };
     let Witness { coordinates, time, .. } = witness;
-    Some(json!({ "at": coordinates, "time": time, "direction": direction }))
+    Some(PlaceInTheMotion { at: coordinates.clone(), time: *time, direction: direction.to_vec() })
 }

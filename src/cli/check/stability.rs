@@ -3,7 +3,8 @@
 use mms_codegen::certify::certificate::Certificate;
 use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::softening::Softening;
-use mms_spec::Face;
+use mms_documents::check;
+use mms_documents::show as documents;
 use mms_spec::diagnostic::Diagnostic;
 use mms_stability::Stability;
 use mms_stability::corners::Corner;
@@ -14,7 +15,6 @@ use mms_stability::resting::Material;
 use mms_stability::solve::Solved;
 use mms_stability::warnings::{list, short};
 use mms_stability::waves::Waves;
-use serde_json::{Value, json};
 
 /// One line for each thing that was looked at.
 pub fn text(stability: &Stability, certificate: &Certificate, is_static: bool) -> Vec<String> {
@@ -156,49 +156,53 @@ fn long(growth: &Growth, is_static: bool) -> String {
     )
 }
 
-/// The same, and what is warned of.
-pub fn document(stability: &Stability, warnings: &[Diagnostic], solved: Option<Solved>) -> Value {
+/// The stability as a part of a document, with the warnings.
+pub fn document(
+    stability: &Stability,
+    warnings: &[Diagnostic],
+    solved: Option<Solved>,
+) -> check::Stability {
     let waves = stability.waves.as_ref();
     let growth = stability.growth.as_ref();
-    json!({
-        "least_acoustic_eigenvalue": waves.map(|waves| waves.least),
-        "softest_wave": waves.map(|waves| json!({
-            "at": waves.at,
-            "time": waves.time,
-            "direction": waves.direction,
-        })),
-        "faces": stability.surfaces.iter().map(face_document).collect::<Vec<_>>(),
-        "corners": stability.corners.iter().map(corner_document).collect::<Vec<_>>(),
-        "growth": growth.map(|growth| growth.factor),
-        "slowest_mode": growth.map(|growth| json!({
-            "omega_squared": growth.least,
-            "time": growth.time,
-            "elements": growth.elements,
-            "times": growth.times,
-        })),
-        "solve": solved.map(Solved::name),
-        "warnings": warnings.iter().map(sentence).collect::<Vec<_>>(),
-    })
+    check::Stability {
+        least_acoustic_eigenvalue: waves.map(|waves| waves.least),
+        softest_wave: waves.map(|waves| check::PlaceInTheMotion {
+            at: waves.at.to_vec(),
+            time: waves.time,
+            direction: waves.direction.to_vec(),
+        }),
+        faces: stability.surfaces.iter().map(face_document).collect(),
+        corners: stability.corners.iter().map(corner_document).collect(),
+        growth: growth.map(|growth| growth.factor),
+        slowest_mode: growth.map(|growth| check::Mode {
+            omega_squared: growth.least,
+            time: growth.time,
+            elements: growth.elements.to_vec(),
+            times: growth.times,
+        }),
+        solve: solved.map(|it| it.name().to_owned()),
+        warnings: warnings.iter().map(sentence).collect(),
+    }
 }
 
-fn face_document(surface: &Surface) -> Value {
-    json!({
-        "face": surface.face.name(),
-        "least_impedance": surface.least,
-        "least_impedance_follower": surface.follower,
-        "at": surface.at,
-        "time": surface.time,
-        "direction": surface.direction,
-    })
+fn face_document(surface: &Surface) -> check::Surface {
+    check::Surface {
+        face: surface.face.name().to_string(),
+        least_impedance: surface.least,
+        least_impedance_follower: surface.follower,
+        at: surface.at.to_vec(),
+        time: surface.time,
+        direction: surface.direction.to_vec(),
+    }
 }
 
-fn corner_document(corner: &Corner) -> Value {
-    json!({
-        "faces": corner.faces.map(Face::name),
-        "coercivity": corner.coercivity,
-        "at": corner.at,
-        "time": corner.time,
-    })
+fn corner_document(corner: &Corner) -> check::Corner {
+    check::Corner {
+        faces: corner.faces.map(|face| face.name().to_string()).to_vec(),
+        coercivity: corner.coercivity,
+        at: corner.at.to_vec(),
+        time: corner.time,
+    }
 }
 
 fn sentence(warning: &Diagnostic) -> String {
@@ -206,18 +210,23 @@ fn sentence(warning: &Diagnostic) -> String {
 }
 
 /// Moduli at rest; null of a material that is not isotropic there.
-pub fn moduli(material: Option<&Material>) -> Option<Value> {
+pub fn moduli(material: Option<&Material>) -> Option<documents::Moduli> {
     let moduli = material?.middle.moduli()?;
-    Some(json!({
-        "lambda": moduli.lambda,
-        "mu": moduli.mu,
-        "young": moduli.young(),
-        "nu": moduli.nu(),
-    }))
+    Some(documents::Moduli {
+        lambda: moduli.lambda,
+        mu: moduli.mu,
+        young: moduli.young(),
+        nu: moduli.nu(),
+    })
 }
 
 /// Moduli of a material that is isotropic about an axis at rest, and no more.
-pub fn transverse(material: Option<&Material>) -> Option<Value> {
+pub fn transverse(material: Option<&Material>) -> Option<documents::TransverseModuli> {
     let TransverseModuli { axis, young, nu, shear } = material?.middle.transverse_moduli()?;
-    Some(json!({ "axis": axis, "young": young, "nu": nu, "shear": shear }))
+    Some(documents::TransverseModuli {
+        axis: axis.to_vec(),
+        young: young.to_vec(),
+        nu: nu.to_vec(),
+        shear: shear.to_vec(),
+    })
 }

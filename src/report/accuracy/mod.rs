@@ -7,14 +7,14 @@ use std::path::Path;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_analysis::accuracy::{Accuracy, Errors, Row};
+use mms_documents::accuracy as documents;
 use mms_program::precision::Precision;
 use mms_spec::Form;
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
-use serde_json::{Value, json};
 
 use super::text::{pretty, write_files};
-use crate::provenance::{Provenance, sign};
+use crate::provenance::Provenance;
 use crate::workbench::Time;
 
 /// What the stable form promises, in eps of the largest value of a quantity.
@@ -95,44 +95,37 @@ impl Report {
     }
 
     /// The JSON document.
-    pub fn document(&self) -> Value {
-        let rows = self.accuracy.rows.iter().map(|row| {
-            let errors = row.errors;
-            json!({
-                "quantity": row.quantity.name(),
-                "precision": row.precision.name(),
-                "form": row.form.name(),
-                "regime": row.regime,
-                "median_eps": measured(row, |it| it.median_eps),
-                "p99_eps": measured(row, |it| it.p99_eps),
-                "max_eps": measured(row, |it| it.max_eps),
-                "max_scaled_eps": measured(row, |it| it.max_scaled_eps),
-                "compared": errors.compared,
-                "not_finite": errors.not_finite,
-                "overflowed": errors.overflowed,
-                "undefined": errors.undefined,
-                "within_bound": within_bound(row),
-                "ns_per_point": self.time(row.quantity, row.precision, row.form),
-            })
+    pub fn document(&self) -> documents::Accuracy {
+        let row = |row: &Row| documents::AccuracyRow {
+            quantity: row.quantity.name().to_owned(),
+            precision: row.precision.name().to_owned(),
+            form: row.form.name().to_owned(),
+            regime: row.regime.raw().to_owned(),
+            median_eps: measured(row, |it| it.median_eps),
+            p99_eps: measured(row, |it| it.p99_eps),
+            max_eps: measured(row, |it| it.max_eps),
+            max_scaled_eps: measured(row, |it| it.max_scaled_eps),
+            compared: row.errors.compared,
+            not_finite: row.errors.not_finite,
+            overflowed: row.errors.overflowed,
+            undefined: row.errors.undefined,
+            within_bound: within_bound(row),
+            ns_per_point: self.time(row.quantity, row.precision, row.form),
+        };
+        let left_out = self.accuracy.left_out.iter().map(|it| documents::LeftOut {
+            regime: it.regime.raw().to_owned(),
+            quantity: it.quantity.map(|it| it.name().to_owned()),
+            precision: it.precision.map(|it| it.name().to_owned()),
+            reason: it.reason.to_string(),
         });
-        let left_out = self.accuracy.left_out.iter().map(|it| {
-            json!({
-                "regime": it.regime,
-                "quantity": it.quantity.map(Quantity::name),
-                "precision": it.precision.map(Precision::name),
-                "reason": it.reason,
-            })
-        });
-        sign(
-            &self.provenance,
-            json!({
-                "field": self.field,
-                "points": self.points,
-                "bound_eps": BOUND,
-                "rows": rows.collect::<Vec<_>>(),
-                "left_out": left_out.collect::<Vec<_>>(),
-            }),
-        )
+        documents::Accuracy {
+            field: self.field.raw().to_owned(),
+            points: self.points,
+            bound_eps: BOUND,
+            rows: self.accuracy.rows.iter().map(row).collect(),
+            left_out: left_out.collect(),
+            provenance: self.provenance.clone(),
+        }
     }
 
     /// The rows that are shown: all, or of each quantity, precision and form that of the largest

@@ -7,13 +7,13 @@ use std::path::Path;
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use mms_documents::tradeoff as documents;
 use mms_spec::foreign::Foreign;
-use serde_json::{Value, json};
 
 use super::front::front;
 use super::text::{bytes, duration, pretty, write_files};
-use crate::provenance::{Provenance, sign};
-use crate::tradeoff::search::{Cost, Found, Goal, Plan, Trial, cost};
+use crate::provenance::Provenance;
+use crate::tradeoff::search::{Cost, Found, Goal, Plan, Prediction, Trial, cost};
 use crate::tradeoff::setting::{Axis, Setting};
 
 /// What was found for a field.
@@ -149,7 +149,7 @@ impl Report<'_> {
     }
 
     /// The JSON document.
-    pub fn document(&self) -> Value {
+    pub fn document(&self) -> documents::Tradeoff {
         let front = self.front();
         let runs = self.trials().iter().map(|trial| {
             let on_front = front.iter().any(|other| std::ptr::eq(*other, trial));
@@ -159,56 +159,54 @@ impl Report<'_> {
             Goal::Error(target) => (Some(target), None),
             Goal::Cost(budget) => (None, Some(budget)),
         };
-        let prediction = |setting: &Setting, it: &crate::tradeoff::search::Prediction| {
-            json!({
-                "setting": setting.to_string(),
-                "cells": it.cells,
-                "linf": it.error,
-                self.plan.cost.name(): it.cost,
-                "particle_steps": it.work,
-            })
+        let cost = self.plan.cost;
+        let prediction = |setting: &Setting, it: &Prediction| documents::Prediction {
+            setting: setting.to_string(),
+            cells: it.cells,
+            linf: it.error,
+            seconds: (cost == Cost::Seconds).then_some(it.cost),
+            memory: (cost == Cost::Memory).then_some(it.cost),
+            particle_steps: it.work,
         };
-        sign(
-            &self.provenance,
-            json!({
-                "field": self.field,
-                "cost": self.plan.cost.name(),
-                "target_linf": target,
-                "budget_seconds": budget,
-                "runs": runs.collect::<Vec<_>>(),
-                "choice": self.choice().map(|trial| self.run(trial, true)),
-                "predicted": self.found.predicted.as_ref().map(|(setting, it)| prediction(setting, it)),
-                "default": self.found.default.as_ref().map(|it| prediction(&Setting::default(), it)),
-                "gain": self.gain(),
-                "exponent": self.exponent(),
-                "dominated": self.dominated(),
-            }),
-        )
+        documents::Tradeoff {
+            field: self.field.raw().to_owned(),
+            cost: cost.name().to_owned(),
+            target_linf: target,
+            budget_seconds: budget,
+            runs: runs.collect(),
+            choice: self.choice().map(|trial| self.run(trial, true)),
+            predicted: self.found.predicted.as_ref().map(|(setting, it)| prediction(setting, it)),
+            default: self.found.default.as_ref().map(|it| prediction(&Setting::default(), it)),
+            gain: self.gain(),
+            exponent: self.exponent(),
+            dominated: self.dominated(),
+            provenance: self.provenance.clone(),
+        }
     }
 
-    fn run(&self, trial: &Trial, on_front: bool) -> Value {
+    fn run(&self, trial: &Trial, front: bool) -> documents::Trial {
         let Setting { formulation, shape, integrator, transfer, .. } = trial.setting;
         let started = trial.steps > 0;
-        json!({
-            "command": (self.command)(&trial.setting, trial.cells),
-            "formulation": formulation.name(),
-            "shape": shape.name(),
-            "integrator": integrator.name(),
-            "transfer": transfer.to_string(),
-            "particles_per_cell": trial.setting.particles,
-            "courant": trial.setting.courant,
-            "precision": trial.setting.arithmetic.precision.name(),
-            "form": trial.setting.arithmetic.form.name(),
-            "cells": trial.cells,
-            "particles": started.then_some(trial.particles),
-            "steps": started.then_some(trial.steps),
-            "linf": trial.error.as_ref().ok(),
-            "particle_steps": started.then(|| trial.particle_steps()),
-            "seconds": trial.error.is_ok().then(|| self.cost(trial, Cost::Seconds)),
-            "memory": started.then_some(trial.memory),
-            "front": on_front,
-            "failure": trial.error.as_ref().err(),
-        })
+        documents::Trial {
+            command: (self.command)(&trial.setting, trial.cells),
+            formulation: formulation.name().to_owned(),
+            shape: shape.name().to_owned(),
+            integrator: integrator.name().to_owned(),
+            transfer: transfer.to_string(),
+            particles_per_cell: trial.setting.particles,
+            courant: trial.setting.courant,
+            precision: trial.setting.arithmetic.precision.name().to_owned(),
+            form: trial.setting.arithmetic.form.name().to_owned(),
+            cells: trial.cells,
+            particles: started.then_some(trial.particles),
+            steps: started.then_some(trial.steps),
+            linf: trial.error.as_ref().ok().copied(),
+            particle_steps: started.then(|| trial.particle_steps()),
+            seconds: trial.error.is_ok().then(|| self.cost(trial, Cost::Seconds)),
+            memory: started.then_some(trial.memory),
+            front,
+            failure: trial.error.as_ref().err().cloned(),
+        }
     }
 
     /// The text for a terminal: all runs, or those on the front, those of the default and those that stopped.

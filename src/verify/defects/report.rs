@@ -2,10 +2,10 @@
 
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use serde_json::{Value, json};
+use mms_documents::verify::{ShownDefect, ShownRow, VerifyDefects};
 
 use super::{Defect, Shown};
-use crate::provenance::{Provenance, sign};
+use crate::provenance::Provenance;
 use crate::verify::matrix::Row;
 use crate::verify::pseudo::{Check, Looks};
 
@@ -26,6 +26,23 @@ impl<'a> Showing<'a> {
     /// The rows whose verdict is not the expected one.
     pub fn caught(&self) -> impl Iterator<Item = &Shown<'a>> {
         self.rows.iter().filter(|shown| !shown.judgement.as_expected())
+    }
+
+    fn document(&self) -> ShownDefect {
+        let row = |shown: &Shown<'_>| ShownRow {
+            name: shown.row.name.clone(),
+            caught: !shown.judgement.as_expected(),
+            verdict: shown.judgement.verdict.to_string(),
+            reason: shown.judgement.reason.clone(),
+        };
+        let checks = Check::ALL.into_iter().map(Check::name);
+        ShownDefect {
+            name: self.defect.name().to_owned(),
+            place: self.defect.place().to_owned(),
+            what: self.defect.what().to_owned(),
+            rows: self.rows.iter().map(row).collect(),
+            pseudo: checks.zip(self.looks.0).collect(),
+        }
     }
 
     /// Rows that claim to catch it, and do not.
@@ -79,40 +96,18 @@ impl<'a> Report<'a> {
     }
 
     /// The JSON document.
-    pub fn document(&self) -> Value {
-        let looks = |looks: Looks| -> Value {
-            let pairs = Check::ALL.into_iter().zip(looks.0);
-            pairs.map(|(check, objects)| (check.name().to_owned(), json!(objects))).collect()
-        };
-        let defects = self.showings.iter().map(|showing| {
-            let rows = showing.rows.iter().map(|shown| {
-                json!({
-                    "name": shown.row.name,
-                    "caught": !shown.judgement.as_expected(),
-                    "verdict": shown.judgement.verdict.to_string(),
-                    "reason": shown.judgement.reason,
-                })
-            });
-            json!({
-                "name": showing.defect.name(),
-                "place": showing.defect.place(),
-                "what": showing.defect.what(),
-                "rows": rows.collect::<Vec<_>>(),
-                "pseudo": looks(showing.looks),
-            })
-        });
-        let missed = self.missed().map(|(row, defect)| json!([row.name, defect.name()]));
-        sign(
-            &self.provenance,
-            json!({
-                "rows": self.rows.iter().map(|row| &row.name).collect::<Vec<_>>(),
-                "every_row": self.whole,
-                "defects": defects.collect::<Vec<_>>(),
-                "uncaught": self.uncaught().map(|showing| showing.defect.name()).collect::<Vec<_>>(),
-                "missed": missed.collect::<Vec<_>>(),
-                "idle": self.idle().iter().map(|row| &row.name).collect::<Vec<_>>(),
-            }),
-        )
+    pub fn document(&self) -> VerifyDefects {
+        let names = |rows: &[&Row]| rows.iter().map(|row| row.name.clone()).collect();
+        let missed = |(row, defect): (&Row, Defect)| [row.name.clone(), defect.name().to_owned()];
+        VerifyDefects {
+            rows: names(&self.rows),
+            every_row: self.whole,
+            defects: self.showings.iter().map(Showing::document).collect(),
+            uncaught: self.uncaught().map(|it| it.defect.name().to_owned()).collect(),
+            missed: self.missed().map(missed).collect(),
+            idle: names(&self.idle()),
+            provenance: self.provenance.clone(),
+        }
     }
 
     /// The table for a terminal.
