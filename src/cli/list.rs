@@ -36,8 +36,8 @@ impl List {
                 integrators: texts(IntegratorName::NAMES),
                 formulations: texts(FormulationName::NAMES),
                 transfers: texts(Transfer::NAMES),
-                precisions: texts(&PRECISIONS),
-                forms: texts(&FORMS),
+                precisions: texts(PRECISIONS),
+                forms: texts(FORMS),
                 profiles: texts(&profiles),
             })?;
             return Ok(Outcome::AsExpected);

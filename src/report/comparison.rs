@@ -18,7 +18,7 @@ use crate::provenance::Provenance;
 #[serde(untagged)]
 pub enum Document {
     One(Box<documents::Study>),
-    Several(Studies),
+    Several(Box<Studies>),
 }
 
 /// Studies of one field with methods that differ.
@@ -64,13 +64,13 @@ impl Comparison {
         }
         let studies = self.named().map(|(name, study)| StudyOfOne { name, study: study.content() });
         let first = &self.studies[0];
-        Document::Several(Studies {
+        Document::Several(Box::new(Studies {
             field: first.field.raw().to_owned(),
             refinement: first.refinement.name().to_owned(),
             studies: studies.collect(),
             passed: self.passed(),
             provenance: self.provenance.clone(),
-        })
+        }))
     }
 
     /// The tables for a terminal, with each verdict.
