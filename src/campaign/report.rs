@@ -1,4 +1,4 @@
-//! What is said of a campaign: text and JSON document.
+//! The report of a campaign: text and JSON document.
 
 use std::path::Path;
 
@@ -16,9 +16,9 @@ use crate::report::{Judgements, Together, duration, plain, pretty, to_the_right,
 
 /// A campaign that was carried out, or what was asked for of it.
 pub struct Report<'a> {
-    /// What was asked for.
+    /// The plan of the campaign.
     pub plan: &'a Plan,
-    /// What is said of each study.
+    /// The judgement of each study.
     pub studies: Vec<Judged<'a>>,
     /// Where it is from.
     pub provenance: Provenance,
@@ -61,7 +61,7 @@ impl Report<'_> {
         to_the_right(table).to_string()
     }
 
-    /// What the studies that pass exclude together.
+    /// The mistakes that all passing studies exclude together.
     fn excluded(&self) -> Option<Together> {
         Together::new(self.studies.iter().filter_map(|it| {
             let exclusions = it.judgements.as_ref()?.exclusions.as_ref()?;
@@ -172,7 +172,7 @@ impl Judged<'_> {
     }
 }
 
-/// What is said of a run that did not come to its end.
+/// The message for a run that failed.
 fn failure(job: &Job, outcome: &Outcome) -> Option<String> {
     let Outcome::Failed { reason, last_words, folder } = outcome else { return None };
     let words: String = last_words.iter().map(|line| format!("\n    {}", one_line(line))).collect();

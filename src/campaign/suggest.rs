@@ -19,7 +19,7 @@ use crate::gallery;
 use crate::session::input::{Input, Variant};
 use crate::session::stability::sound;
 
-/// What to run, and what stays unseen.
+/// The proposed studies, and the terms that none of them shows.
 pub struct Suggestion {
     /// The fields, the cheapest first.
     pub fields: Vec<Proposed>,
@@ -35,7 +35,7 @@ pub struct Proposed {
     pub name: String,
     /// Cells along the longest edge of the body.
     pub cells: &'static [usize],
-    /// What it shows that no cheaper one of the set does.
+    /// The terms that no cheaper field of the set shows.
     pub shows: Vec<String>,
 }
 
@@ -58,11 +58,11 @@ pub struct Needing {
     pub keys: Vec<&'static str>,
 }
 
-/// What stays unseen.
+/// A term that no proposed field shows.
 pub struct Unseen {
     /// The term.
     pub term: String,
-    /// What that leaves untested.
+    /// The part of the solver that stays untested.
     pub means: &'static str,
     /// The field that shows it and needs the least.
     pub shown_by: Option<Needing>,
@@ -116,7 +116,7 @@ impl Shown {
         Ok(Shown { input, needs, terms, visibility, cells })
     }
 
-    /// What it shows, and about what the finest mesh costs.
+    /// The terms that the field shows, and an estimate of the cost of the finest mesh.
     fn candidate(&self) -> Candidate {
         let finest = self.cells.last().copied().unwrap_or(1) as f64;
         let cost = finest.powi(self.input.compiled.field.dimension as i32 + 1);

@@ -160,7 +160,7 @@ impl Accuracy {
     }
 }
 
-/// Those of all that are given, in the order of all; all, if none is.
+/// The given values in the order of all values; all values if none is given.
 fn wanted<T: PartialEq, const N: usize>(all: [T; N], given: &[T]) -> Vec<T> {
     all.into_iter().filter(|it| given.is_empty() || given.contains(it)).collect()
 }

@@ -223,7 +223,7 @@ impl Campaign {
     }
 }
 
-/// What made a judgement of a campaign.
+/// The origin of a judgement of a campaign.
 fn signed(planned: &Planned) -> Provenance {
     this_command("judge", planned.input.provenance(&planned.study.set))
 }

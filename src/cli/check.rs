@@ -211,7 +211,7 @@ fn mistaken_file(path: &Foreign, diagnostics: Vec<documents::Diagnostic>) -> Che
 }
 
 impl Check {
-    /// Of a field without a body there are its closed forms, at points of the unit cube, and nothing to prove.
+    /// Reports the closed forms of a field without a body, at points of the unit cube. There is nothing to prove.
     fn report_numbers(
         &self,
         path: &Foreign,
@@ -242,7 +242,7 @@ impl Check {
     }
 }
 
-/// What else was not looked at, or at fewer points, since that takes too long.
+/// The other checks that were skipped, or made at fewer points, because they take too long.
 fn unseen(compiled: &Compiled, rest: &Rest) -> Vec<String> {
     let mut unseen = Vec::new();
     if written::points(compiled) < written::POINTS {
@@ -257,7 +257,7 @@ fn unseen(compiled: &Compiled, rest: &Rest) -> Vec<String> {
     unseen
 }
 
-/// What is said of P at F = I, if it is not 0.
+/// The line about P at F = I, if P is not 0.
 fn rest_line(rest: &Rest) -> Option<String> {
     if let Rest::Pressed(stress, names) = rest {
         let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();

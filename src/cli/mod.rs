@@ -157,7 +157,7 @@ fn answer() -> anyhow::Result<Outcome> {
     }
 }
 
-/// What a command line asks for.
+/// Parses a command line.
 fn parse(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
     let mut command = Arguments::command().mut_subcommands(|it| it.mut_args(with_signs));
     let matches = command.try_get_matches_from_mut(arguments)?;

@@ -56,7 +56,7 @@ pub struct Show {
     script: Option<Script>,
 }
 
-/// What a script derives with.
+/// The system that a script uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Script {
     /// SymPy.

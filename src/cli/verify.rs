@@ -180,7 +180,7 @@ impl Verify {
     }
 }
 
-/// What the matrix is of: its rows, and the fields of the gallery.
+/// The input of the matrix: its rows, and the fields of the gallery.
 fn input() -> provenance::Input {
     let fields = FIELDS.iter().map(|entry| entry.text).collect::<String>();
     let hash = digest([MATRIX, &fields]);

@@ -1,4 +1,4 @@
-//! What is interpreted has the bits of compiled code.
+//! Interpreted fields have the bits of compiled code.
 
 use std::fmt::Debug;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! What rounding does to formulas, and what digits cost.
+//! The errors of formulas by rounding, and the cost of digits.
 
 use maud::{Markup, html};
 use mms_documents::accuracy::{Accuracy, AccuracyRow};
@@ -71,7 +71,7 @@ impl Section for Accuracy {
     }
 }
 
-/// Of each regime the largest errors.
+/// The largest errors of each regime.
 fn regimes(accuracy: &Accuracy) -> Markup {
     let mut regimes: Vec<&str> = Vec::new();
     for row in &accuracy.rows {
@@ -105,7 +105,7 @@ fn regimes(accuracy: &Accuracy) -> Markup {
     table("Largest error of any quantity, in eps of its largest value", &columns, rows)
 }
 
-/// Of each quantity, precision and form the row of the largest error.
+/// The row of the largest error, for each quantity, precision and form.
 fn worst(accuracy: &Accuracy) -> Vec<&AccuracyRow> {
     let mut worst: Vec<&AccuracyRow> = Vec::new();
     for row in &accuracy.rows {

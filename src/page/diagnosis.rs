@@ -1,4 +1,4 @@
-//! What the error of a solver acts as.
+//! The diagnosis of the error of a solver.
 
 use maud::{Markup, html};
 use mms_documents::diagnose::{Diagnose, ErrorFields, Hypothesis};

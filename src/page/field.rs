@@ -25,7 +25,7 @@ const QUANTITIES: [Quantity; 6] = [
 /// A field on a page.
 pub struct Shown {
     input: Input,
-    /// What is known of it; or why nothing is.
+    /// The content of the field; or the reason why there is none.
     content: Result<Content, String>,
 }
 

@@ -60,7 +60,7 @@ fn known(norm: &JudgedNorm) -> &[JudgedLevel] {
     norm.levels.as_ref().and_then(Option::as_deref).unwrap_or_default()
 }
 
-/// What decides, for a row of a table: its expected order, its observed one, and of what.
+/// The cells of a row: the expected order, the observed order, and the quantity and norm that decide.
 pub fn deciding(judge: &Judge) -> [Markup; 3] {
     let name = |it: &Option<String>| it.clone().unwrap_or_default();
     [
@@ -74,7 +74,7 @@ fn is_of_several(judge: &Judge) -> bool {
     judge.quantities.len() > 1
 }
 
-/// What a table is of; a quantity alone may have no name of its own.
+/// The caption of a table. A quantity alone may have no name of its own.
 fn errors_of(judge: &Judge, quantity: &JudgedQuantity) -> String {
     match is_of_several(judge) {
         true => format!("Errors of {}", quantity.name),

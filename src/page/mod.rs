@@ -46,24 +46,24 @@ use field::Shown;
 
 /// A result, ready to be shown.
 pub trait Section {
-    /// What it is, in a line.
+    /// The title of the result.
     fn title(&self) -> String;
 
-    /// What is said of it.
+    /// The verdicts on the result.
     fn verdicts(&self) -> Verdicts;
 
-    /// What stands below its heading, which is an `h3`. Names of places in it begin with `id`.
+    /// The content below the heading, which is an `h3`. Names of places in it begin with `id`.
     fn body(&self, id: &str) -> Markup;
 }
 
 /// How many verdicts a result has, and how many of them are the expected ones.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Verdicts {
-    /// Of all.
+    /// The number of expected verdicts.
     pub expected: usize,
     /// All.
     pub all: usize,
-    /// The same in a word or two.
+    /// The verdicts in a word or two.
     pub word: String,
 }
 
@@ -91,7 +91,7 @@ impl Verdicts {
 struct Kind {
     /// The `kind` of its provenance.
     name: &'static str,
-    /// What stands above all of them.
+    /// The heading above all documents of the kind.
     heading: &'static str,
     read: fn(&Value) -> serde_json::Result<Box<dyn Section>>,
 }
@@ -126,7 +126,7 @@ const KINDS: &[Kind] = &[
 struct Entry {
     /// The name of its place on the page.
     id: String,
-    /// What stands above all of its kind.
+    /// The heading above all results of its kind.
     heading: &'static str,
     /// Its file, below the folder.
     file: String,
@@ -159,7 +159,7 @@ impl Page {
         Self { title: title.to_owned(), entries, fields, set_aside, read: Vec::new() }
     }
 
-    /// What was not understood, a line each.
+    /// The files that are not shown, each with the reason.
     pub fn set_aside(&self) -> &[String] {
         &self.set_aside
     }
@@ -169,7 +169,7 @@ impl Page {
         self.read.iter().chain(self.fields.iter().flat_map(Shown::files))
     }
 
-    /// What is said of all results together.
+    /// The verdicts on all results together.
     pub fn verdicts(&self) -> Verdicts {
         let each = || self.entries.iter().map(|entry| entry.section.verdicts());
         let expected = each().map(|verdicts| verdicts.expected).sum();

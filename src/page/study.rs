@@ -114,7 +114,7 @@ fn length(study: &StudyOfMethod) -> &'static str {
     if study.refinement == "time" { "dt" } else { "h" }
 }
 
-/// What is refined, on a level.
+/// The refined length of a level: dt in time, else h.
 fn refined(study: &StudyOfMethod, level: &Level) -> Option<f64> {
     if study.refinement == "time" { level.time_step } else { level.cell_size }
 }
@@ -166,7 +166,7 @@ fn plot(study: &StudyOfMethod) -> Plot {
     }
 }
 
-/// What the picture does not say by itstudy.
+/// The caption of the picture.
 fn caption(study: &StudyOfMethod, plot: &Plot) -> String {
     let mut text = format!(
         "Both axes are logarithmic; the triangle has the expected slope, {}.",

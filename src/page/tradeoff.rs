@@ -95,13 +95,13 @@ impl Section for Tradeoff {
     }
 }
 
-/// What was asked for.
+/// The goal of the search in words.
 fn goal(tradeoff: &Tradeoff) -> Option<String> {
     let target = tradeoff.target_linf.map(|target| format!("for a largest error of {target:.2e}"));
     target.or_else(|| tradeoff.budget_seconds.map(|it| format!("within {}", duration(it))))
 }
 
-/// What to choose, and what more would cost.
+/// The recommended method, and the cost of a smaller error.
 fn advice(tradeoff: &Tradeoff) -> Markup {
     html! {
         p {

@@ -10,7 +10,7 @@ fn is_expected(row: &VerifiedRow) -> bool {
     row.verdict == row.expected_verdict
 }
 
-/// What stands before the slash, and behind it.
+/// The parts of the name before and after the slash.
 fn parts(row: &VerifiedRow) -> (&str, &str) {
     row.name.split_once('/').unwrap_or(("", &row.name))
 }

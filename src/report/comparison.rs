@@ -41,7 +41,7 @@ impl Comparison {
         !self.studies.is_empty() && self.passed() == self.studies.len()
     }
 
-    /// What tells each method from the others.
+    /// The names that tell the methods from each other.
     pub fn names(&self) -> Vec<String> {
         let words: Vec<[String; 6]> = self.studies.iter().map(words).collect();
         let differs = |at: usize| words.iter().any(|word| word[at] != words[0][at]);
@@ -149,7 +149,7 @@ impl Comparison {
     }
 }
 
-/// What methods of one study may differ in.
+/// The words in which the methods of a study may differ.
 fn words(study: &Study) -> [String; 6] {
     let method = &study.method;
     [

@@ -21,14 +21,14 @@ pub struct Diagnosed<'a> {
     pub field: &'a Foreign,
     /// The files.
     pub files: &'a [String],
-    /// What was found.
+    /// The diagnosis.
     pub diagnosis: &'a Diagnosis,
     /// Where it is from.
     pub provenance: Provenance,
 }
 
 impl Diagnosed<'_> {
-    /// What a person reads.
+    /// The text for a terminal.
     pub fn text(&self) -> String {
         let it = self.diagnosis;
         let mut parts = vec![format!(
@@ -124,7 +124,7 @@ impl Diagnosed<'_> {
     }
 }
 
-/// What right solvers make.
+/// The sentence about the errors of right solvers.
 fn ordinary([least, most]: [f64; 2]) -> String {
     match least == most {
         true => format!("a right solver would be at about {most:.1e}"),
@@ -153,7 +153,7 @@ fn order(it: &Falls, of_order: Option<&OfOrder>) -> String {
     lines.join("\n")
 }
 
-/// What a mistake that is named says.
+/// The sentence about the mistake that is named.
 fn named(best: &Ranked) -> String {
     let mut lines =
         vec![format!("named: {} ({})", best.title(), best.kind.name()), best.says.clone()];
@@ -276,7 +276,7 @@ pub struct Hypotheses<'a> {
 }
 
 impl Hypotheses<'_> {
-    /// What a person reads.
+    /// The table for a terminal.
     pub fn table(&self) -> String {
         let mut table = plain(["hypothesis", "changes", "kind", "shown by", "what it is"]);
         for it in &self.all {

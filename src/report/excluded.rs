@@ -1,4 +1,4 @@
-//! What a pass excludes, as text and in a JSON document.
+//! The mistakes that a pass excludes, as text and in a JSON document.
 
 use mms_diagnosis::excluded::{Excluded, Shown};
 use mms_documents::campaign::ExcludedTogether;
@@ -6,14 +6,14 @@ use mms_documents::judge;
 
 use crate::judge::results::Exclusions;
 
-/// What several results exclude together.
+/// The mistakes that several results exclude together.
 pub struct Together {
     /// The name of each mistake, and which results exclude it.
     all: Vec<(String, Option<String>)>,
 }
 
 impl Together {
-    /// Of some results, each with a name; nothing, where of none is known what they exclude.
+    /// Collects the mistakes of named results; nothing if no result has a list of them.
     pub fn new<'a>(of: impl Iterator<Item = (&'a str, &'a Exclusions)>) -> Option<Together> {
         let mut all: Vec<(String, Option<String>)> = Vec::new();
         for (source, exclusions) in of {
@@ -31,7 +31,7 @@ impl Together {
         (!all.is_empty()).then_some(Together { all })
     }
 
-    /// What a person reads.
+    /// The lines for a terminal.
     pub fn text(&self) -> String {
         let of = |is_excluded: bool| {
             let names = self.all.iter().filter(|(_, by)| by.is_some() == is_excluded);
@@ -52,7 +52,7 @@ impl Together {
     }
 }
 
-/// What a text says of some hypotheses.
+/// The head of a line, and the text of each mistake in it.
 type Says = (&'static str, fn(&Excluded) -> Option<String>);
 
 /// The lines of a text: what is excluded, from which size on, what is not, and what the field does not see.
@@ -78,7 +78,7 @@ pub fn size(right: f64, least: f64) -> String {
     if right == 1.0 { format!("{:.2} %", 100.0 * least) } else { format!("{least:.2e}") }
 }
 
-/// What makes no more than this part of an error makes none, but for rounding.
+/// The largest part of an error that counts as none, because of rounding.
 const UNSEEN: f64 = 1e-6;
 
 /// Names between commas: what they are of is said once, as in `material [hencky, ogden]`.
@@ -96,7 +96,7 @@ fn listed(names: impl IntoIterator<Item = String>) -> String {
 }
 
 impl Exclusions {
-    /// What a person reads.
+    /// The lines for a terminal.
     pub fn text(&self) -> String {
         let all = match &self.all {
             Err(reason) => return format!("which mistakes that excludes is not known: {reason}"),

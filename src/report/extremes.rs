@@ -13,7 +13,7 @@ use crate::extremes::verdict::{Declared, Seen, Verdict, bound};
 use crate::provenance::Provenance;
 use crate::session::method::Arithmetic;
 
-/// What came of a field at its extremes.
+/// The results of a field at its extremes.
 pub struct Report {
     /// The field's name.
     pub field: Foreign,
@@ -39,9 +39,9 @@ pub struct Report {
 pub struct Judged {
     /// The row.
     pub row: Row,
-    /// What is extreme, in words.
+    /// The extreme in words.
     pub setting: String,
-    /// What came of it.
+    /// The result of the run.
     pub seen: Seen,
     /// Whether that is expected.
     pub verdict: Verdict,
@@ -144,7 +144,7 @@ impl Judged {
     }
 }
 
-/// What is said where nothing ran.
+/// The message if nothing ran.
 const UNMEASURED: &str = "nothing was measured";
 
 impl Report {
@@ -154,7 +154,7 @@ impl Report {
         self.rows.iter().all(is_left_out) && self.stability.is_empty()
     }
 
-    /// What is not as theory says, in words.
+    /// The names of rows that are not as theory says.
     pub fn unexpected(&self) -> Vec<String> {
         let rows = self.rows.iter().filter(|row| !row.verdict.is_expected());
         let rows = rows.map(|row| row.row.name.clone());

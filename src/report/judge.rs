@@ -22,15 +22,15 @@ pub struct Judgements {
     pub source: String,
     /// The errors.
     pub measured: Measured,
-    /// What differs between the runs.
+    /// The lengths that differ between the runs.
     pub refined: Refined,
-    /// What is said of each quantity.
+    /// The judgement of each quantity.
     pub judged: Vec<Judged>,
     /// How the errors were measured, in sentences.
     pub notes: Vec<String>,
     /// The part of the body that results cover, if a part was enough.
     pub part: Option<String>,
-    /// What a pass excludes, of results.
+    /// The mistakes that results exclude if they pass.
     pub exclusions: Option<Exclusions>,
     /// The keys of results of files.
     pub(crate) results: Results,
@@ -38,7 +38,7 @@ pub struct Judgements {
     pub provenance: Provenance,
 }
 
-/// What decides over several quantities.
+/// The norm that decides over several quantities.
 pub struct Deciding {
     /// The expected order.
     pub expected: f64,
@@ -116,7 +116,7 @@ impl Judgements {
         self.decided().1
     }
 
-    /// What decides: its expected order, and what was observed of which norm.
+    /// The norm that decides, with its expected and observed order.
     pub fn deciding(&self) -> Option<Deciding> {
         let (at, _) = self.decided();
         let (quantity, judged) = self.each().nth(at)?;
@@ -405,7 +405,7 @@ impl Judgements {
         stopped.map(|(_, run)| self.measured.length(self.refined, run)).collect()
     }
 
-    /// What a logarithmic axis can show of a norm: means of replicates.
+    /// The points of a norm on logarithmic axes: the means of replicates.
     fn points(&self, norm: &Norm) -> Vec<(f64, f64)> {
         let refined = if self.refined == Refined::Grid { Refined::Space } else { self.refined };
         let levels = self.measured.sequence(refined, norm);
@@ -467,12 +467,12 @@ fn interval(finding: &Finding) -> Option<[f64; 2]> {
     finding.estimate.and_then(|it| it.interval)
 }
 
-/// What is found of each norm.
+/// The finding of each norm.
 pub(super) fn norms_judged(judgement: &Judgement) -> Vec<JudgedNorm> {
     judgement.norms.iter().map(judged).collect()
 }
 
-/// What is found of a norm, under its name.
+/// The finding of a norm.
 fn judged(judged: &mms_convergence::Judged) -> JudgedNorm {
     let finding = &judged.finding;
     let basis = |basis| match basis {

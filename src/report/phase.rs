@@ -7,13 +7,13 @@ use mms_runtime::study::{Phase, Refinement};
 
 use super::text::{plain, to_the_right};
 
-/// What was measured in some periods.
+/// The amplitudes and phases of some periods.
 pub struct Phases {
     /// How long a period takes.
     pub period: f64,
     /// Which were measured, the first being 1.
     pub measured: Vec<usize>,
-    /// Of each level, from coarse to fine, and of each of these; fewer of a run that stopped.
+    /// The phase on each level, from coarse to fine, in each of these periods; fewer if a run stopped.
     pub levels: Vec<Vec<Option<Phase>>>,
 }
 

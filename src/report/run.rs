@@ -1,4 +1,4 @@
-//! One run as a text and as a JSON document.
+//! A run as a text and as a JSON document.
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
@@ -23,13 +23,13 @@ pub struct Run {
     pub method: Method,
     /// How numbers were computed.
     pub arithmetic: Arithmetic,
-    /// What came of it, or why it was not started.
+    /// The run, or the reason why it was not started.
     pub run: Result<mms_runtime::Run, Refused>,
     /// Where it is from.
     pub provenance: Provenance,
 }
 
-/// What errors are of: symbol, key and value.
+/// The errors of each quantity: symbol, key and value.
 pub(crate) fn quantities(deviations: &Deviations) -> [(&'static str, &'static str, Errors); 4] {
     [
         ("u", "displacement", deviations.displacement),
@@ -123,7 +123,7 @@ fn balanced(Residual { relative, tolerance }: Residual) -> String {
     )
 }
 
-/// What the parts of a step took.
+/// The line about the time of each part of a step.
 fn times(run: &mms_runtime::Run) -> String {
     let seconds = run.seconds;
     let parts = [

@@ -28,7 +28,7 @@ pub struct Study {
     pub method: Method,
     /// How numbers were computed.
     pub arithmetic: Arithmetic,
-    /// What was refined.
+    /// The refined lengths.
     pub refinement: Refinement,
     /// The levels, from coarse to fine.
     pub levels: Vec<Result<Run, Refused>>,
@@ -36,21 +36,21 @@ pub struct Study {
     pub differences: Option<Series>,
     /// The order that theory says, and how narrow its interval must be.
     pub expected: Expected,
-    /// What the errors say of it.
+    /// The judgement of the errors.
     pub judgement: Judgement,
     /// The outcome: `fail` also where a level was not started, or the error constant is another one.
     pub verdict: Verdict,
-    /// What Richardson's extrapolation adds to the order of the finest pair.
+    /// The change that Richardson's extrapolation makes to the order of the finest pair.
     pub uncertainty: Option<f64>,
     /// C of l2 = C h^p, or C dt^p in time, with the expected order.
     pub error_constant: Option<f64>,
-    /// What it should be, where that is known.
+    /// The expected error constant, if it is known.
     pub expected_error_constant: Option<f64>,
     /// Space and time in one formula, where that was asked for, and found.
     pub fit: Option<Fit>,
     /// Amplitude and phase, where that was asked for.
     pub phases: Option<Phases>,
-    /// What a pass excludes, where that was asked for.
+    /// The mistakes that a pass excludes, if they were asked for.
     pub exclusions: Option<Exclusions>,
     /// Where it is from.
     pub provenance: Provenance,
@@ -130,7 +130,7 @@ fn orders(point: &Point, before: Option<Point>) -> Orders {
     before.map_or_else(Orders::default, |before| point.orders_from(&before))
 }
 
-/// What the verdict of a study in time is about.
+/// The remark on the verdict of a study in time.
 const IN_TIME: &str = "differences between runs show that these converge, and not to what: that is for a study against the \
                        exact solution, without `--refine time`";
 
@@ -182,7 +182,7 @@ impl Study {
         self.levels.iter().zip(before)
     }
 
-    /// What is refined, on each level that was started.
+    /// The refined length of each level that was started.
     fn lengths(&self) -> Vec<Option<f64>> {
         let length = |run: &Run| self.refinement.length(&run.level);
         self.levels.iter().map(|level| level.as_ref().ok().map(length)).collect()
@@ -196,7 +196,7 @@ impl Study {
         self.pairs().map(row).collect()
     }
 
-    /// Of u, v, F and P: symbol, key, and errors and orders of each level.
+    /// The symbol, the key, and the errors and orders of each level, for u, v, F and P.
     fn quantities(&self) -> [(&'static str, &'static str, Vec<Judged>); 4] {
         let names = quantities(&Deviations::default());
         std::array::from_fn(|which| {
@@ -227,7 +227,7 @@ impl Study {
         )
     }
 
-    /// What is judged: the errors of the levels that were started, or in time how far each is from the next.
+    /// The errors that are judged: those of the levels that were started, or in time the differences of successive levels.
     pub(super) fn points(&self) -> Vec<Point> {
         match &self.differences {
             Some(differences) => differences.points().to_vec(),
@@ -423,7 +423,7 @@ impl Study {
         self.judgement.norm("l2")?.finding.estimate?.interval
     }
 
-    /// What is refined, in formulas.
+    /// The symbol of the refined length.
     fn symbol(&self) -> &'static str {
         if self.refinement == Refinement::Time { "dt" } else { "h" }
     }

@@ -39,7 +39,7 @@ pub(crate) fn plain<const N: usize>(header: [&str; N]) -> Table {
     table
 }
 
-/// The same, with all columns to the right.
+/// A table with all columns aligned to the right.
 pub(crate) fn to_the_right(mut table: Table) -> Table {
     for column in table.column_iter_mut() {
         column.set_cell_alignment(CellAlignment::Right);

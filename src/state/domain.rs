@@ -1,4 +1,4 @@
-//! What a solver needs to know of a field once: its time window, how far its motion goes, what is claimed on its faces.
+//! The data of a field that a solver needs once: time window, body, extent of the motion, claims on the faces.
 
 use mms_documents::state::{StateBody, StateBox, StateDomain, StateFace};
 use mms_emit::port::faces::claims;
@@ -29,7 +29,7 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// Of a field with numbers for its parameters.
+    /// Collects the data of a field with numbers for its parameters.
     ///
     /// # Errors
     /// A motion that cannot be evaluated.

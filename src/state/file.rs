@@ -84,7 +84,7 @@ impl Target {
         &self.path
     }
 
-    /// What columns are called there.
+    /// The kind of names that the columns have.
     pub fn names(&self) -> Names {
         match self.format {
             Format::Csv | Format::Npz => Names::Symbols,

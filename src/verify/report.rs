@@ -31,7 +31,7 @@ pub struct Judged<'a> {
     pub study: Study,
     /// Its levels, coarse to fine.
     pub levels: Vec<Outcome>,
-    /// What they say.
+    /// The judgement of the levels.
     pub judgement: Judgement,
 }
 
@@ -160,7 +160,7 @@ impl Report<'_> {
     }
 }
 
-/// What stands before the tables of the page.
+/// The text before the tables of the page.
 const INTRODUCTION: &str = "\
 # Verification matrix
 

@@ -32,7 +32,7 @@ fn text(found: &Suggestion) -> String {
     parts.join("\n\n")
 }
 
-/// What is said to whom the gallery has nothing for: mostly solvers that start at rest and undeformed.
+/// The message if the gallery has no field for a solver, which mostly starts at rest and undeformed.
 const NONE: &str = "# no field of the gallery is one that this solver can run; write your own (`mms new NAME`):\n\
     # u times 1 - cos(w*t) starts at rest and undeformed, with an acceleration";
 

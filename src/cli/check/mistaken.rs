@@ -14,7 +14,7 @@ use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::sorted::SortedMap;
 
-/// What is looked at of a quantity.
+/// The closed form of a quantity that a diagnosis can take.
 fn closed_form_of(quantity: Quantity) -> Option<ClosedForm> {
     match quantity {
         Quantity::BodyForce => Some(ClosedForm::BodyForce),
@@ -25,7 +25,7 @@ fn closed_form_of(quantity: Quantity) -> Option<ClosedForm> {
     }
 }
 
-/// What each closed form of a field acts as, where that has a name.
+/// The mistake that each closed form of a field contains, if it has a name.
 pub fn named(compiled: &Arc<Compiled>, comparisons: &[Comparison]) -> Vec<Option<Ranked>> {
     let named = |(check, it): (usize, &Comparison)| match it.finding {
         Finding::Differs(_) => closed_form_of(it.quantity).and_then(|it| of(compiled, check, it)),
@@ -57,7 +57,7 @@ fn others(it: &Ranked) -> Vec<String> {
     [it.equivalent_always.as_slice(), it.equivalent_here.as_slice()].concat()
 }
 
-/// What a person reads.
+/// The mistake as a line of text.
 pub fn says(it: &Ranked) -> String {
     let others = others(it);
     let or = match others.is_empty() {

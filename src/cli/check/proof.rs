@@ -1,4 +1,4 @@
-//! What `mms check` says of proofs.
+//! The proofs in the report of `mms check`.
 
 use mms_codegen::Compiled;
 use mms_codegen::bounds::witness::Witness;
@@ -14,7 +14,7 @@ use mms_codegen::certify::solid::Part;
 use mms_documents::check::{self as documents, PlaceInTheMotion};
 use mms_spec::BoundarySpec;
 
-/// One line for each thing that was to be proved.
+/// A line for each property that was to be proved.
 pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
     let [double, single] = &certificate.computed;
     let mut lines = vec![
@@ -102,7 +102,7 @@ fn solid(certificate: &Certificate) -> Option<String> {
     })
 }
 
-/// What is said where all is computed, and what else.
+/// The line about finite values in a precision.
 fn finite(proved: &str, computed: &AsComputed) -> String {
     match &computed.finding {
         Finding::Proved | Finding::NotAsked => proved.into(),
@@ -115,7 +115,7 @@ fn finite(proved: &str, computed: &AsComputed) -> String {
     }
 }
 
-/// What sums of places and times leave of the digits of an angle.
+/// The digits of an angle that sums of places and times leave.
 fn angles(compiled: &Compiled, computed: &AsComputed) -> Option<String> {
     let (digits, witness) = computed.angles.as_ref()?;
     let count = digits.floor().max(0.0);

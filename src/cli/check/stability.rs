@@ -1,4 +1,4 @@
-//! What `mms check` says of the stability of a field.
+//! The stability of a field in the report of `mms check`.
 
 use mms_codegen::certify::certificate::Certificate;
 use mms_codegen::certify::ellipticity::Ellipticity;
@@ -16,7 +16,7 @@ use mms_stability::solve::Solved;
 use mms_stability::warnings::{list, short};
 use mms_stability::waves::Waves;
 
-/// One line for each thing that was looked at.
+/// A line for each property that was sampled.
 pub fn text(stability: &Stability, certificate: &Certificate, is_static: bool) -> Vec<String> {
     let mut lines: Vec<_> = stability.material.iter().map(at_rest).collect();
     lines.push(extent(&certificate.reach, stability.shortest_wavelength));
@@ -38,7 +38,7 @@ pub fn text(stability: &Stability, certificate: &Certificate, is_static: bool) -
     lines
 }
 
-/// What another code should call its moduli.
+/// The moduli at rest, as another code may name them.
 pub fn at_rest(material: &Material) -> String {
     let middle = if material.is_graded { ", in the middle of the body" } else { "" };
     if let Some(mu) = material.middle.shear_alone() {
@@ -68,7 +68,7 @@ pub fn at_rest(material: &Material) -> String {
     }
 }
 
-/// What a grid has to hold, and a mesh to resolve.
+/// The box that a grid must hold, and the wavelength that a mesh must resolve.
 pub fn extent(reach: &[[f64; 2]], shortest_wavelength: Option<f64>) -> String {
     let side = |(axis, [least, most]): (usize, &[f64; 2])| {
         format!("{} <= {} <= {}", short(*least), ["x", "y", "z"][axis], short(*most))

@@ -17,7 +17,7 @@ use super::text::{pretty, write_files};
 use crate::provenance::Provenance;
 use crate::workbench::Time;
 
-/// What the stable form promises, in eps of the largest value of a quantity.
+/// The bound of the stable form, in eps of the largest value of a quantity.
 pub const BOUND: f64 = 64.0;
 
 /// The regimes that the promise is about.
@@ -32,7 +32,7 @@ pub struct Report {
     pub points: usize,
     /// The errors.
     pub accuracy: Accuracy,
-    /// What the emitted code costs; empty where that was not measured.
+    /// The times of the emitted code; empty if they were not measured.
     pub times: Vec<(Form, Time)>,
     /// Where it is from.
     pub provenance: Provenance,
@@ -86,7 +86,7 @@ impl Report {
             && !rows.iter().any(|row| row.regime == declared)
     }
 
-    /// What the emitted code of a row takes.
+    /// The nanoseconds per point of the emitted code of a row.
     fn time(&self, quantity: Quantity, precision: Precision, form: Form) -> Option<f64> {
         let same = |(of, time): &&(Form, Time)| {
             *of == form && time.quantity == quantity && time.precision == precision

@@ -16,15 +16,15 @@ use crate::provenance::Provenance;
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Prediction, Trial, cost};
 use crate::tradeoff::setting::{Axis, Setting};
 
-/// What was found for a field.
+/// The result of a search for a field.
 pub struct Report<'a> {
     /// The field's name.
     pub field: Foreign,
     /// The field's title.
     pub title: Foreign,
-    /// What was searched.
+    /// The plan of the search.
     pub plan: Plan,
-    /// What was found.
+    /// The runs and predictions of the search.
     pub found: Found,
     /// The command that runs a setting on a grid.
     pub command: &'a dyn Fn(&Setting, usize) -> String,
@@ -54,7 +54,7 @@ impl Cost {
         }
     }
 
-    /// What there is more of, of twice the cost.
+    /// The words after a factor of the cost, as in "2 times as long".
     fn verb(self) -> &'static str {
         match self {
             Cost::Seconds => "times as long",
@@ -74,7 +74,7 @@ impl Report<'_> {
         &self.found.trials
     }
 
-    /// What a run costs.
+    /// The cost of a run.
     pub fn cost(&self, trial: &Trial, measure: Cost) -> f64 {
         cost(self.trials(), trial, measure)
     }
@@ -139,7 +139,7 @@ impl Report<'_> {
         dominated
     }
 
-    /// What the default takes, over what the choice does, by their power laws.
+    /// The cost of the default method over that of the choice, by their power laws.
     pub fn gain(&self) -> Option<f64> {
         let (default, choice) = (self.found.default?, self.choice()?);
         match self.plan.goal {
@@ -272,7 +272,7 @@ impl Report<'_> {
         table
     }
 
-    /// What to choose, and why, in sentences.
+    /// The recommendation in sentences.
     pub fn advice(&self) -> String {
         let measure = self.plan.cost;
         let mut sentences = Vec::new();
@@ -392,7 +392,7 @@ impl Report<'_> {
     }
 }
 
-/// What stopped a run, without where and what to do about it.
+/// The reason why a run stopped, without its place and advice.
 fn cause(reason: &str) -> &str {
     let from = reason.find(": ").map_or(0, |at| at + 2);
     let rest = &reason[from..];

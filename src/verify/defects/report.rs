@@ -18,7 +18,7 @@ pub struct Showing<'a> {
     pub defect: Defect,
     /// The rows, with it.
     pub rows: Vec<Shown<'a>>,
-    /// What people would have said of these runs, where they would not have said it anyway.
+    /// The objections of checks of plausibility to these runs, if they do not object to right runs as well.
     pub looks: Looks,
 }
 
@@ -193,7 +193,7 @@ fn capitalised(text: &str) -> String {
     first.to_uppercase() + rest
 }
 
-/// What checks say: an objection, none, or nothing.
+/// The words for the answers of checks: an objection, none, or not known.
 fn words(looks: Looks) -> [String; Check::ALL.len()] {
     looks.0.map(|objects| match objects {
         Some(true) => "objects".to_owned(),
@@ -202,7 +202,7 @@ fn words(looks: Looks) -> [String; Check::ALL.len()] {
     })
 }
 
-/// What stands before the tables of the page.
+/// The text before the tables of the page.
 const INTRODUCTION: &str = "\
 # Deliberate mistakes
 
