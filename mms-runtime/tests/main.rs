@@ -9,6 +9,7 @@ mod failures;
 mod integrators;
 mod motions;
 mod reference_bar;
+mod reference_step;
 mod relaxation;
 mod restart;
 #[path = "../../tests/support/sampled.rs"]
