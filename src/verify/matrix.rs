@@ -172,20 +172,21 @@ impl Row {
     /// The arguments of `mms run` for a level, as they are written and understood.
     ///
     /// # Errors
-    /// As [`Row::study`]; cells that are not written as `--cells A,B,..`.
+    /// As [`Row::study`]; cells that are no word of their own behind `--cells`.
     pub fn level(&self, level: usize) -> anyhow::Result<(String, Study)> {
         let (study, _) = self.study()?;
-        let all: Vec<String> = study.cells.iter().map(ToString::to_string).collect();
-        let mut line = self.study.clone();
+        let mut words: Vec<String> = self.study.split_whitespace().map(str::to_owned).collect();
         if self.halvings == 0 {
-            let [all, one] = [&all.join(","), &all[level]].map(|cells| format!("--cells {cells}"));
-            line = line.replace(&all, &one);
+            let cells = words.iter().position(|word| word == "--cells").map(|at| at + 1);
+            let cells = cells.and_then(|at| words.get_mut(at));
+            *cells.context("cells have to be written as `--cells A,B,..`")? =
+                study.cells[level].to_string();
         } else {
             let courant = Setup::default().courant / f64::powi(2.0, level as i32);
-            line += &format!(" --courant {courant}");
+            words.extend(["--courant".to_owned(), courant.to_string()]);
         }
+        let line = words.join(" ");
         let study = Study::try_parse_from(arguments(&line))?;
-        ensure!(study.cells.len() == 1, "cells have to be written as `--cells {}`", all.join(","));
         Ok((line, study))
     }
 }
