@@ -32,7 +32,7 @@ struct Evaluator<'a> {
     compiled: &'a Compiled,
 }
 
-/// What is looked at of a motion.
+/// The quantities of a motion that are compared.
 const QUANTITIES: [Quantity; 5] = [
     Quantity::DisplacementGradient,
     Quantity::FirstPiolaKirchhoff,

@@ -4,7 +4,7 @@ use mms_convergence::{Basis, Expected, Finding, Sample, Sequence, Verdict};
 
 use crate::sampled::sampled;
 
-/// One in so many kinds of studies is tried.
+/// The share of kinds of studies: one in so many is tried.
 const SHARE: usize = 4;
 
 const SECOND: Expected = Expected::new(2.0, 0.15);

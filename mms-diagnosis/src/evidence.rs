@@ -121,7 +121,7 @@ impl<const D: usize> Frame<D> {
         (0..self.times.len()).flat_map(quantities)
     }
 
-    /// What sees errors at the points of a mesh; `None` without a result.
+    /// The fit of errors at the points of a mesh, set up once; `None` if the mesh has no result.
     pub fn sight<'a>(&'a self, mesh: &'a Mesh) -> Option<Sight<'a, D>> {
         let mut points: Vec<(&[f64], Arc<Fitting>)> = Vec::new();
         for time in &self.times {
@@ -153,16 +153,16 @@ impl<const D: usize> Frame<D> {
     }
 }
 
-/// Sees the errors of one mesh in a frame.
+/// Fits the errors of a mesh by the smooth functions of a frame.
 pub struct Sight<'a, const D: usize> {
     frame: &'a Frame<D>,
     mesh: &'a Mesh,
-    /// X of the points at each time, and what finds functions there.
+    /// X of the points at each time, and the fit there.
     points: Vec<(&'a [f64], Arc<Fitting>)>,
 }
 
 impl<const D: usize> Sight<'_, D> {
-    /// What is seen of errors at the points, of each time and quantity; `None` where one is not finite.
+    /// Fits the errors of each time and quantity at the points; `None` if an error is not finite.
     pub fn see(&self, errors: &[Vec<f64>]) -> Option<Seen> {
         let mut seen = Seen { coefficients: Vec::new(), share: 0.0 };
         let (mut all, mut held) = (0.0, 0.0);

@@ -26,7 +26,7 @@ const FALLING: f64 = 0.25;
 pub struct Level<'a, const D: usize> {
     /// The results.
     pub mesh: &'a Mesh,
-    /// What sees errors at their points.
+    /// The fit of errors at their points.
     sight: Sight<'a, D>,
     /// Their errors.
     pub seen: Seen,

@@ -69,7 +69,7 @@ impl<const D: usize> Smooth<D> {
         })
     }
 
-    /// What finds the functions nearest to values at points.
+    /// Sets up the fit of values at points.
     pub fn fitting(&self, points: &[Vector<f64, D>]) -> Fitting {
         let rows: Vec<f64> = points.iter().flat_map(|x| self.values(x)).collect();
         let matrix = DMatrix::from_row_slice(points.len(), self.count(), &rows);

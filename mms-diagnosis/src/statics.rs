@@ -56,11 +56,11 @@ struct System<'a, const D: usize> {
     tangent: LU<f64, Dyn, Dyn>,
 }
 
-/// What a mistake puts out of balance at the exact motion.
+/// The forces that a mistake puts out of balance at the exact motion.
 struct Put {
-    /// What of it does not depend on the motion.
+    /// The loads, which do not depend on the motion.
     loads: DVector<f64>,
-    /// All of it; `None` where it is not finite.
+    /// The sum of all forces; `None` if it is not finite.
     all: Option<DVector<f64>>,
 }
 
@@ -152,7 +152,7 @@ impl<'a, const D: usize> System<'a, D> {
         sums.iter().all(|it| it.is_finite()).then_some(sums)
     }
 
-    /// What a mistake puts out of balance at the exact motion.
+    /// The forces that a mistake puts out of balance at the exact motion.
     fn put(&self, field: &Changed<'_, D>) -> Put {
         let loads = self.loads(field);
         let all = self.unbalanced(field, &loads, &DVector::zeros(self.weak.count()));
@@ -304,7 +304,7 @@ pub struct Equilibrium<'a, const D: usize> {
     system: System<'a, D>,
     /// The error of elements of degree 1, for the cell size of the exact solution.
     of_elements: DVector<f64>,
-    /// What mistakes make, and what they make if they are small.
+    /// The responses to mistakes, and those to small mistakes.
     found: [Mutex<Found>; 2],
 }
 
@@ -390,7 +390,7 @@ pub struct Statics<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Statics<'a, D> {
-    /// Of one mesh.
+    /// The responses at the points of a mesh.
     pub fn new(equilibrium: Arc<Equilibrium<'a, D>>, frame: &'a Frame<D>, mesh: &'a Mesh) -> Self {
         let (cell_size, functions) = (mesh.cell_size, OnceLock::new());
         Statics { equilibrium, frame, mesh, cell_size, functions }
@@ -415,7 +415,7 @@ impl<'a, const D: usize> Statics<'a, D> {
     }
 }
 
-/// What makes a quantity at some points of parts of the functions.
+/// The parts of the functions that make a quantity at some points.
 enum AtPoints<const D: usize> {
     /// The functions, point by point.
     Displacement(Vec<f64>),

@@ -131,7 +131,7 @@ pub struct Certificate {
     pub finite_f32: bool,
     /// The digits after the point that are left of angles in `f64`; null if there is no angle or no proof.
     pub angle_digits: Option<usize>,
-    /// The same in `f32`.
+    /// The digits after the point that are left of angles in `f32`; null if there is no angle or no proof.
     pub angle_digits_f32: Option<usize>,
     /// An upper bound of the principal stretches.
     pub principal_stretch: Option<f64>,
@@ -195,7 +195,7 @@ pub struct Surface {
     pub face: String,
     /// The least eigenvalue of the surface impedance under dead loads; along the face for a roller.
     pub least_impedance: f64,
-    /// The same if the load is a pressure that follows the face; null for other loads.
+    /// The least eigenvalue under a pressure that follows the face; null for other loads.
     pub least_impedance_follower: Option<f64>,
     /// The point X.
     pub at: Vec<f64>,

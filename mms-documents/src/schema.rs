@@ -124,7 +124,7 @@ fn words(schema: &Value) -> (String, bool) {
     if let Some(target) = target(schema) {
         return (format!("[{target}](#{target})"), false);
     }
-    if let Some(choices) = schema["anyOf"].as_array() {
+    if let Some(choices) = schema["anyOf"].as_array().or(schema["oneOf"].as_array()) {
         let found: Vec<_> = choices.iter().map(words).collect();
         let mut named: Vec<_> =
             found.iter().map(|(word, _)| word.clone()).filter(|it| !it.is_empty()).collect();

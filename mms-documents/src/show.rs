@@ -26,7 +26,7 @@ pub struct Show {
     pub rest_stress: Option<Vec<f64>>,
     /// The moduli at F = I in the middle of the body; null if the material is not isotropic there.
     pub moduli_at_rest: Option<Moduli>,
-    /// The same for a material with fibres; null for others.
+    /// The moduli at F = I of a material with fibres; null for others.
     pub transverse_moduli_at_rest: Option<TransverseModuli>,
     /// The bounds of x along each axis, over body, time window and ranges of parameters.
     pub extent: Vec<[f64; 2]>,

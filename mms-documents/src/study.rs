@@ -154,9 +154,8 @@ pub struct JudgedLevel {
 }
 
 /// A method of the solver of this project.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(default)]
 pub struct Method {
     /// The shape function.
     pub shape: String,
@@ -190,12 +189,13 @@ pub struct Method {
     pub time_step: Option<f64>,
     /// The end of the run, with `--time`.
     pub end_time: Option<f64>,
-    /// True if the run goes to an equilibrium, with `--relax`.
+    /// True if the run goes to an equilibrium, with `--relax`. Older documents do not have it.
+    #[serde(default)]
     pub relax: bool,
 }
 
 /// A level of a study.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Level {
     /// The number of cells along the longest edge, or a text such as `32x16`.

@@ -10,8 +10,8 @@ use crate::provenance::Provenance;
 pub struct Tradeoff {
     /// The name of the field.
     pub field: String,
-    /// `seconds`, `particle_steps` or `memory`.
-    pub cost: String,
+    /// The cost that is to be small: `seconds`, `particle_steps` or `memory`.
+    pub cost: Cost,
     /// The error that the run must reach, with `--target-linf`.
     pub target_linf: Option<f64>,
     /// The time that the run may take, with `--budget`.
@@ -32,6 +32,20 @@ pub struct Tradeoff {
     pub dominated: Vec<String>,
     /// How the document was made.
     pub provenance: Provenance,
+}
+
+/// The cost of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(inline))]
+#[serde(rename_all = "snake_case")]
+pub enum Cost {
+    /// The time in seconds.
+    Seconds,
+    /// The number of particles times the number of steps.
+    ParticleSteps,
+    /// The most bytes at a time.
+    Memory,
 }
 
 /// A run of the search.

@@ -88,16 +88,10 @@ impl<T: schemars::JsonSchema> schemars::JsonSchema for Names<T> {
 #[cfg_attr(feature = "schema", schemars(inline))]
 #[serde(untagged)]
 pub enum Division {
-    /// The same number along all axes.
+    /// A number for all axes.
     Uniform(usize),
     /// A number for each axis, joined by `x`.
     ByAxis(String),
-}
-
-impl Default for Division {
-    fn default() -> Self {
-        Division::Uniform(0)
-    }
 }
 
 impl fmt::Display for Division {

@@ -114,7 +114,7 @@ fn in_stage_order(ops: Vec<Op>, outputs: SortedMap<Output, Vec<Value>>) -> Progr
     }
 }
 
-/// What a point supplies: X, N and H.
+/// The inputs of a point: X, N and H.
 #[derive(Clone, Debug)]
 struct Given<T> {
     coordinates: [T; DIMENSION],
@@ -175,7 +175,7 @@ fn in_blocks<T: Blockwise>(
     found
 }
 
-/// The same by the interpreter of one point.
+/// The outputs by the interpreter of one point.
 fn one_by_one<T: Blockwise>(
     program: &Program,
     outputs: &[Output],
@@ -349,7 +349,7 @@ fn whole_turns_are_taken_off_as_at_one_point() {
     }
 }
 
-/// Of sums of products with one reader, each operand may be the same at all points, and have either sign.
+/// Each operand of a sum of products with one reader may be the same at all points, and have either sign.
 #[test]
 fn fused_products_round_once_or_twice_as_they_should() {
     let [x, y] = [0, 1].map(|axis| Op::Input(Symbol::Coordinate(axis)));

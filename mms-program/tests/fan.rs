@@ -9,7 +9,7 @@ use mms_program::interval::Interval;
 use mms_symbolic::expr::Function;
 use mms_symbolic::expr::Small;
 
-/// What is made of two numbers by all operations.
+/// The results of all operations on two numbers.
 fn made<T: Number>(x: T, y: T) -> Vec<T> {
     let mut made = vec![
         x.clone() + y.clone(),

@@ -1,4 +1,4 @@
-//! What is scheduled, by its operations.
+//! Schedules, by their operations.
 
 use mms_program::Op;
 use mms_program::interpret::{Interpreter, Point};

@@ -9,7 +9,7 @@ use mms_results::over_cells::{Asked, Carried, Exact};
 
 use crate::sampled::sampled;
 
-/// One in so many kinds of cells is integrated finely.
+/// The share of kinds of cells: one in so many is integrated finely.
 const SHARE: usize = 3;
 
 #[test]

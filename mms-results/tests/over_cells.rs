@@ -10,7 +10,7 @@ use crate::sampled::sampled;
 /// Kinds whose functions are products along the axes: lines, quads and hexahedra of degree 1 and 2.
 const KINDS: [u8; 6] = [3, 21, 9, 28, 12, 29];
 
-/// One in so many kinds of cells is tried.
+/// The share of kinds of cells: one in so many is tried.
 const SHARE: usize = 2;
 
 /// The wave vector of the exact solution.

@@ -5,8 +5,8 @@
 //! Schreyer, Comput. Methods Appl. Mech. Eng. 118 (1994) 179, doi 10.1016/0045-7825(94)90112-0, with the stress of the
 //! reference volume: V sigma = V0 tau.
 
-use crate::common::AxisAligned;
-use mms_runtime::study::{Frame, Observer, run_level};
+use crate::common::{AxisAligned, Last};
+use mms_runtime::study::run_level;
 use mms_runtime::{
     FormulationName, IntegratorName, ManufacturedField as _, Material as _, Matrix, Method, Setup,
     ShapeName, Solve, Vector,
@@ -129,22 +129,6 @@ fn particles<const D: usize>(field: &AxisAligned, grid: &Grid) -> Vec<Particle<D
     (0..along.pow(D as u32)).map(particle).collect()
 }
 
-/// The last state of a run.
-struct Last(Option<Frame>);
-
-impl Observer for Last {
-    fn step(&mut self, _: usize, _: usize) {}
-
-    fn wants(&self, step: usize, steps: usize) -> bool {
-        step == steps
-    }
-
-    fn see(&mut self, frame: &Frame) -> Result<(), String> {
-        self.0 = Some(frame.clone());
-        Ok(())
-    }
-}
-
 /// The solver after a fifth of a period has the particles of the plain steps.
 fn hold<const D: usize>(cells: usize)
 where
@@ -154,7 +138,7 @@ where
     let setup = Setup { end_time: Some(0.2), ..Setup::default() };
     let (shape, integrator) = (ShapeName::Linear, IntegratorName::Leapfrog);
     let method = Method { shape, integrator, formulation: FormulationName::Updated, setup };
-    let mut last = Last(None);
+    let mut last = Last::default();
     let level = run_level::<f64, D>(&field, &method, &cells.into(), &mut last).unwrap();
     let frame = last.0.expect("the last state");
 

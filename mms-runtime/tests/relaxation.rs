@@ -1,7 +1,7 @@
 //! Dynamic relaxation of fields that do not move: orders of the equilibrium, its residual by another route.
 
-use crate::common::{Affine, AxisAligned, Bar, method, methods};
-use mms_runtime::study::{Frame, Observer, Run, Solve, Watch};
+use crate::common::{Affine, AxisAligned, Bar, Last, method, methods};
+use mms_runtime::study::{Observer, Run, Solve, Watch};
 use mms_runtime::{
     Cause, Domain, FormulationName, IntegratorName, ManufacturedField, Material, Matrix, Method,
     Real, ShapeName, Transfer, Vector,
@@ -127,23 +127,6 @@ fn an_equilibrium_is_of_second_order() {
     near(finest_orders::<f64, 1>(&bar(), &domains, [16, 32]), [1.9, 0.95, 0.95]);
     domains.setup.transfer = Transfer::Pic;
     near(finest_orders::<f64, 2>(&block(), &domains, [8, 16]), [1.9, 0.9, 0.9]);
-}
-
-/// The last state that it sees.
-#[derive(Default)]
-struct Last(Option<Frame>);
-
-impl Observer for Last {
-    fn step(&mut self, _: usize, _: usize) {}
-
-    fn wants(&self, step: usize, steps: usize) -> bool {
-        step == steps
-    }
-
-    fn see(&mut self, frame: &Frame) -> Result<(), String> {
-        self.0 = Some(frame.clone());
-        Ok(())
-    }
 }
 
 /// Forces at nodes from the particles of the last state alone: hat functions at X by hand, P and b by their formulas.

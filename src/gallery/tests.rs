@@ -130,7 +130,7 @@ fn hold<T: Interpretable>(entry: &Entry, of: fn(&Code) -> Build<T>) {
     }
 }
 
-/// One in so many fields is tried.
+/// The share of fields: one in so many is tried.
 const SHARE: usize = 4;
 
 /// All that a solver asks for, of compiled fields, in both precisions.

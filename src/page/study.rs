@@ -15,7 +15,7 @@ use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
 
 /// Each error and its order.
-fn cells(errors: &LevelErrors) -> [Markup; 6] {
+fn norms(errors: &LevelErrors) -> [Markup; 6] {
     [
         small(errors.l1),
         order(errors.order_l1),
@@ -26,7 +26,7 @@ fn cells(errors: &LevelErrors) -> [Markup; 6] {
     ]
 }
 
-/// The heads of [`cells`].
+/// The heads of [`norms`].
 const NORMS: [Column; 6] = [
     numbers("l1"),
     numbers("order"),
@@ -206,7 +206,7 @@ fn levels(study: &StudyOfMethod) -> Markup {
     columns.push(words("remark"));
     let rows = study.levels.iter().enumerate().map(|(at, level)| {
         let mut cells = vec![html! { (level.cells) }, count(level.particles), count(level.steps)];
-        cells.extend(self::cells(&level.errors));
+        cells.extend(norms(&level.errors));
         let noise = study.noise.get(at).is_some_and(|noise| *noise).then_some("noise");
         let remark = level.failure.as_deref().or(noise).unwrap_or_default();
         cells.push(small(level.round_off.flatten()));
@@ -232,9 +232,9 @@ fn others(study: &StudyOfMethod) -> Markup {
         details {
             summary { "Errors of other quantities" }
             @for (name, levels) in others {
-                @let rows = levels.iter().zip(&study.levels).map(|(norms, level)| {
+                @let rows = levels.iter().zip(&study.levels).map(|(errors, level)| {
                     let mut cells = vec![html! { (level.cells) }];
-                    cells.extend(self::cells(norms));
+                    cells.extend(norms(errors));
                     cells
                 });
                 (table(&format!("Errors of the {}", name), &columns, rows))
@@ -248,7 +248,7 @@ fn steps(differences: &[LevelDifference]) -> Markup {
     columns.extend(NORMS);
     let rows = differences.iter().map(|difference| {
         let mut cells = vec![small(Some(difference.time_step))];
-        cells.extend(self::cells(&difference.errors));
+        cells.extend(norms(&difference.errors));
         cells
     });
     table("Differences of displacements to the next level", &columns, rows)

@@ -1,59 +1,38 @@
 //! Error against cost, and what to choose.
 
 use maud::{Markup, html};
-use mms_documents::tradeoff::{Tradeoff, Trial};
+use mms_documents::tradeoff::{Cost, Tradeoff, Trial};
 
 use super::mark::{count, number, numbers, seconds, small, table, words};
 use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
 use crate::report::{bytes, duration};
 
-/// The cost that is to be small.
-#[derive(Clone, Copy)]
-enum Cost {
-    Seconds,
-    ParticleSteps,
-    Memory,
-}
-
-impl Cost {
-    /// The cost that a document names; seconds for words of later versions.
-    fn named(name: &str) -> Self {
-        match name {
-            "particle_steps" => Cost::ParticleSteps,
-            "memory" => Cost::Memory,
-            _ => Cost::Seconds,
-        }
-    }
-
-    fn of(self, run: &Trial) -> Option<f64> {
-        match self {
-            Cost::Seconds => run.seconds,
-            Cost::ParticleSteps => run.particle_steps,
-            Cost::Memory => run.memory,
-        }
-    }
-
-    fn show(self, value: f64) -> String {
-        match self {
-            Cost::Seconds => duration(value),
-            Cost::ParticleSteps => format!("{value:.2e} particle-steps"),
-            Cost::Memory => bytes(value),
-        }
-    }
-
-    fn axis(self) -> &'static str {
-        match self {
-            Cost::Seconds => "seconds",
-            Cost::ParticleSteps => "particle-steps",
-            Cost::Memory => "bytes of memory",
-        }
+/// The cost of a run; nothing if the run stopped.
+fn cost_of(tradeoff: &Tradeoff, run: &Trial) -> Option<f64> {
+    match tradeoff.cost {
+        Cost::Seconds => run.seconds,
+        Cost::ParticleSteps => run.particle_steps,
+        Cost::Memory => run.memory,
     }
 }
 
-/// The cost that was asked for.
-fn asked(tradeoff: &Tradeoff) -> Cost {
-    Cost::named(&tradeoff.cost)
+/// A cost with its unit.
+fn cost_shown(tradeoff: &Tradeoff, value: f64) -> String {
+    match tradeoff.cost {
+        Cost::Seconds => duration(value),
+        Cost::ParticleSteps => format!("{value:.2e} particle-steps"),
+        Cost::Memory => bytes(value),
+    }
+}
+
+/// The name of the axis of costs.
+fn axis(cost: Cost) -> &'static str {
+    match cost {
+        Cost::Seconds => "seconds",
+        Cost::ParticleSteps => "particle-steps",
+        Cost::Memory => "bytes of memory",
+    }
 }
 
 fn method(run: &Trial) -> String {
@@ -72,7 +51,7 @@ impl Section for Tradeoff {
 
     fn body(&self, id: &str) -> Markup {
         let (mut front, others): (Vec<_>, Vec<_>) = self.runs.iter().partition(|run| run.front);
-        let own = |run: &Trial| asked(self).of(run).unwrap_or(f64::INFINITY);
+        let own = |run: &Trial| cost_of(self, run).unwrap_or(f64::INFINITY);
         front.sort_by(|a, b| own(a).total_cmp(&own(b)));
         html! {
             (advice(self))
@@ -112,7 +91,7 @@ fn advice(tradeoff: &Tradeoff) -> Markup {
                     (choice.particles_per_cell) @if choice.particles_per_cell == 1 { " particle" } @else { " particles" }
                     " per cell and direction, Courant "
                     (choice.courant) ", on " (choice.cells) " cells: " (small(choice.linf)) " in "
-                    (number(asked(tradeoff).of(choice), |cost| asked(tradeoff).show(cost))) "."
+                    (number(cost_of(tradeoff, choice), |cost| cost_shown(tradeoff, cost))) "."
                 }
                 None => { "No run that was made reaches it." }
             }
@@ -140,7 +119,7 @@ fn advice(tradeoff: &Tradeoff) -> Markup {
 }
 
 fn point(tradeoff: &Tradeoff, run: &Trial) -> Option<[f64; 2]> {
-    Some([asked(tradeoff).of(run)?, run.linf?])
+    Some([cost_of(tradeoff, run)?, run.linf?])
 }
 
 fn plot(tradeoff: &Tradeoff) -> Plot {
@@ -174,11 +153,11 @@ fn plot(tradeoff: &Tradeoff) -> Plot {
     };
     let front = by_cost(points(true));
     let described =
-        front.iter().map(|[cost, error]| format!("{error:.2e} in {}", asked(tradeoff).show(*cost)));
+        front.iter().map(|[cost, error]| format!("{error:.2e} in {}", cost_shown(tradeoff, *cost)));
     Plot {
         title: format!("Error against cost of {}", tradeoff.field),
         description: format!("The Pareto front: {}.", described.collect::<Vec<_>>().join("; ")),
-        axes: [asked(tradeoff).axis(), "largest error of u"],
+        axes: [axis(tradeoff.cost), "largest error of u"],
         curves: vec![
             curve("other runs", 1, true, Line::None, points(false)),
             curve("Pareto front", 0, false, Line::Solid, front),

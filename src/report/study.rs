@@ -113,10 +113,15 @@ fn row(run: &Run, before: Option<&Run>, refinement: Refinement) -> documents::Le
 fn refused_row(refused: &Refused) -> documents::Level {
     documents::Level {
         cells: method::division(&refused.cells),
+        cell_size: None,
+        time_step: None,
+        steps: None,
+        particles: None,
+        errors: LevelErrors::default(),
+        seconds: None,
         failure: Some(refused.to_string()),
         round_off: Some(None),
         residual_ratio: Some(None),
-        ..documents::Level::default()
     }
 }
 

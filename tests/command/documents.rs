@@ -23,7 +23,7 @@ const OF_DEFECTS: [&str; 3] = ["verify-defects", "shown-defect", "shown-row"];
 type Again = fn(&str) -> String;
 
 fn again<T: Serialize + DeserializeOwned>(text: &str) -> String {
-    let document: T = serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"));
+    let document: T = serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}"));
     serde_json::to_string_pretty(&document).expect("JSON") + "\n"
 }
 

@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use super::verdict::{Kind, json, reader_accepts};
 use crate::sampled::{all_is_tried, sampled};
 
-/// One in so many places of each file gets its slips.
+/// The share of places: one in so many of each file gets its slips.
 const SHARE: usize = 4;
 
 /// Files with all keys, between them.

@@ -166,7 +166,7 @@ pub fn quick(line: String) -> String {
     line.replace("-O2", "-O0").replace(" -O ", " ")
 }
 
-/// The same, but where everything is tried.
+/// The command without optimisation, unless everything is tried.
 pub fn mostly_quick(line: String) -> String {
     if all_is_tried() { line } else { quick(line) }
 }

@@ -527,7 +527,7 @@ mod tests {
         assert_eq!((plan.steps.len(), plan.registers), (100, 3));
     }
 
-    /// Of sums of a product, each operand may be the same at all points.
+    /// Each operand of a sum with a product may be the same at all points.
     #[test]
     fn a_product_that_is_added_is_no_step_of_its_own() {
         let [x, y] = [0, 1].map(|axis| Op::Input(Symbol::Coordinate(axis)));

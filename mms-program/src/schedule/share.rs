@@ -263,7 +263,7 @@ impl Table {
         self.pairs = pairs;
     }
 
-    /// Whoever occurs less often stays where it is ranked until its turn comes.
+    /// Removes the pairs of an operation. A pair that occurs less often keeps its rank until [`Table::next`] meets it.
     fn withdraw(&mut self, flat: &Flat, item: Item, concerned: [Item; 3]) {
         let pairs = self.take_pairs(flat.form(item), Some(concerned));
         for (pair, _) in &pairs {

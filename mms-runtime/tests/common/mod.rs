@@ -5,7 +5,7 @@ pub mod spin;
 pub mod wave;
 pub mod weights;
 
-use mms_runtime::study::{Level, Solve, run_level};
+use mms_runtime::study::{Frame, Level, Observer, Solve, run_level};
 use mms_runtime::{
     Body, Condition, Domain, Face, FormulationName, IntegratorName, ManufacturedField, Material,
     Matrix, Method, Real, ShapeName, Vector,
@@ -362,6 +362,23 @@ impl<T: Real, const D: usize> ManufacturedField<T, D> for AxisAligned {
                 self.factor::<T>(time, a, 0) * T::of(PI * (PI * x[a].to_f64()).cos())
             }));
         }
+    }
+}
+
+/// Keeps the last state of a run.
+#[derive(Default)]
+pub struct Last(pub Option<Frame>);
+
+impl Observer for Last {
+    fn step(&mut self, _: usize, _: usize) {}
+
+    fn wants(&self, step: usize, steps: usize) -> bool {
+        step == steps
+    }
+
+    fn see(&mut self, frame: &Frame) -> Result<(), String> {
+        self.0 = Some(frame.clone());
+        Ok(())
     }
 }
 

@@ -36,15 +36,6 @@ pub struct Report<'a> {
 const NEAR: f64 = 10.0;
 
 impl Cost {
-    /// The key in JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Cost::Seconds => "seconds",
-            Cost::ParticleSteps => "particle_steps",
-            Cost::Memory => "memory",
-        }
-    }
-
     /// A value for a person.
     pub fn show(self, value: f64) -> String {
         match self {
@@ -170,7 +161,11 @@ impl Report<'_> {
         };
         documents::Tradeoff {
             field: self.field.raw().to_owned(),
-            cost: cost.name().to_owned(),
+            cost: match cost {
+                Cost::Seconds => documents::Cost::Seconds,
+                Cost::ParticleSteps => documents::Cost::ParticleSteps,
+                Cost::Memory => documents::Cost::Memory,
+            },
             target_linf: target,
             budget_seconds: budget,
             runs: runs.collect(),

@@ -8,7 +8,7 @@ use mms_spec::{format, read_material};
 use super::*;
 use crate::sampled::sampled;
 
-/// One in so many texts is compiled.
+/// The share of texts: one in so many is compiled.
 const SHARE: usize = 12;
 
 /// What `mms new` can be asked for.
