@@ -1,7 +1,6 @@
-//! Lists the field files for the command and for the tests, the profiles of codes, and the sources of `mms-math` for
-//! the workbench.
+//! Lists the field files for the tests, the profiles of codes, and the sources of `mms-math` for the workbench.
 //!
-//! The lists go to `OUT_DIR`: the texts for `src/gallery.rs`, and one set of tests per file for `tests/fields.rs`.
+//! The lists go to `OUT_DIR`: one set of tests per field file is for `tests/fields.rs`.
 //! Names that no module can have are refused (`spec/field_name.rs`), and so are files that are no fields: a
 //! mistake in one of them breaks the build at its place. What derivatives say of it, `mms-gallery` finds. Cargo
 //! runs this again when the folder or a file in it changes: `fields/` is its own list.
@@ -21,9 +20,9 @@ use mms_spec::{FieldFile, field_files};
 const TAKEN: &[&str] = &[
     "core",
     "current",
-    "mms",
     "mms_bar",
     "mms_codegen",
+    "mms_exact",
     "mms_gallery",
     "mms_interpreted",
     "mms_macros",
@@ -47,7 +46,6 @@ fn main() -> io::Result<()> {
             process::exit(1);
         }
     }
-    fs::write(out.join("fields.rs"), fields(&files))?;
     fs::write(out.join("profiles.rs"), sources(&root.join("profiles"), "toml")?)?;
     fs::write(out.join("math.rs"), sources(&root.join("mms-math").join("src"), "rs")?)?;
     fs::write(out.join("field_tests.rs"), field_tests(&files))
@@ -68,19 +66,6 @@ fn read(file: &FieldFile) -> Result<(), String> {
     compile_unproved(&file.name, &path, &file.text, &|_| file.load_material(), &options)
         .map(drop)
         .map_err(|failure| failure.to_string())
-}
-
-/// Name, path and text of each field, and the text of a material that it brings along.
-fn fields(files: &[FieldFile]) -> String {
-    let mut text = String::from("&[\n");
-    for file in files {
-        let (name, [field, material]) = (&file.name, file.included());
-        let path = format!("fields/{name}.toml");
-        let entry = format!("name: {name:?}, path: {path:?}, text: {field}, material: {material}");
-        writeln!(text, "    Entry {{ {entry} }},").expect("writing to a string");
-    }
-    text.push(']');
-    text
 }
 
 /// The paths and texts of the files below a folder that end so; none if there is no such folder, as in a package.

@@ -13,16 +13,16 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use crc32fast::Hasher;
+use mms_files::read;
+use mms_files::shell::quoted;
+use mms_files::write::write_with;
+use mms_files::write::{is_stream, remove_unfinished, try_to_write};
 use mms_runtime::study::Checkpoint;
 use mms_spec::foreign;
 use mms_spec::foreign::Foreign;
 use serde::{Deserialize, Serialize};
 
 use crate::history::Mark;
-use crate::read;
-use crate::report::file::{is_stream, remove_unfinished, try_to_write};
-use crate::report::write_with;
-use crate::shell::quoted;
 
 /// What the first key of every file says.
 const FORMAT: &str = "mms checkpoint 2";

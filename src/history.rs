@@ -6,13 +6,12 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
+use mms_files::read;
+use mms_files::write::is_stream;
+use mms_files::write::write_whole;
 use mms_runtime::study::{Balance, Record};
 use mms_spec::foreign;
 use serde::{Deserialize, Serialize};
-
-use crate::read;
-use crate::report::file::is_stream;
-use crate::report::write_whole;
 
 /// The names of components.
 const AXES: [&str; 3] = ["x", "y", "z"];

@@ -2,8 +2,7 @@
 //!
 //! A manufactured displacement field u(X, t) is one TOML file in `fields/`. Everything that follows
 //! from it and from a strain-energy density W is derived: at build time by `field!`, and at run time
-//! by the command, which interprets files that were never compiled. [`gallery`] holds the texts that
-//! ship, and what of them was compiled into this program.
+//! by the command, which interprets files that were never compiled.
 
 #![warn(clippy::disallowed_methods)]
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
@@ -13,13 +12,11 @@ mod checkpoint;
 pub mod cli;
 mod diagnose;
 mod extremes;
-pub mod gallery;
 mod history;
 mod judge;
 mod page;
 mod profile;
 mod provenance;
-mod read;
 pub mod report;
 mod rows;
 #[cfg(test)]
@@ -27,9 +24,7 @@ mod rows;
 mod sampled;
 pub mod schema;
 mod session;
-mod shell;
 mod state;
-mod store;
 mod terminal;
 mod tradeoff;
 mod trial;

@@ -4,11 +4,10 @@ use std::path::Path;
 
 use anyhow::bail;
 use mms_campaign::profile::read;
+use mms_files::read::{self as files, Kind};
 use mms_results::names::{Profile, Role};
 use mms_spec::foreign::shown;
 use mms_spec::suggest::advice;
-
-use crate::read::{self as files, Kind};
 
 /// The file names and texts of the profiles in `profiles/`.
 const SHIPPED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/profiles.rs"));

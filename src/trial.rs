@@ -5,18 +5,19 @@ use std::collections::BTreeMap;
 
 use anyhow::Context as _;
 use clap::Parser as _;
+use mms_exact::Input;
+use mms_exact::wave::{fastest_wave, without_bound};
+use mms_files::shell;
+use mms_files::store::{Entry, Store};
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Observer, Watch};
 use mms_runtime::{Division, Method};
 use peak_alloc::PeakAlloc;
 use serde::{Deserialize, Serialize};
 
-use crate::session::input::Input;
+use crate::session::input::find;
 use crate::session::method::Precision;
 use crate::session::progress::Progress;
-use crate::session::stability::fastest_wave;
-use crate::shell;
-use crate::store::{Entry, Store};
 use crate::verify::matrix::{Quantity, Study};
 use crate::verify::plan::Key;
 use crate::verify::work::{Outcome, outcome};
@@ -50,7 +51,7 @@ impl Trials {
     pub fn new(store: Store) -> anyhow::Result<Self> {
         Ok(Self {
             store,
-            program: crate::store::program()?,
+            program: mms_files::store::program()?,
             progress: Progress::new(),
             inputs: BTreeMap::new(),
             waves: BTreeMap::new(),
@@ -67,7 +68,7 @@ impl Trials {
         let variant = study.variant();
         let name = format!("{} {variant:?}", study.field);
         if !self.inputs.contains_key(&name) {
-            self.inputs.insert(name.clone(), Input::find(&study.field, &variant)?);
+            self.inputs.insert(name.clone(), find(&study.field, &variant)?);
         }
         let input = self.inputs.get(&name).context("it was put there")?;
         let mut method = study.method.method(input.compiled.field.dimension)?;
@@ -90,7 +91,10 @@ impl Trials {
             let setup = (method.setup.courant, method.setup.time_step);
             let wave = format!("{name} {:?} {} {setup:?}", study.set, method.formulation);
             if !self.waves.contains_key(&wave) {
-                let fastest = fastest_wave(input, &study.set, &method)?;
+                let fastest = fastest_wave(input, &input.settings(&study.set)?, &method);
+                if fastest.is_none() {
+                    self.progress.say(&without_bound(input));
+                }
                 self.waves.insert(wave.clone(), fastest);
             }
             method.setup.fastest_wave = self.waves.get(&wave).copied().flatten();

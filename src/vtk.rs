@@ -9,12 +9,11 @@ use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
+use mms_files::write::{write_own, write_own_with};
 use mms_results::Cells;
 use mms_results::write::{Column, Mesh, Shape, State, head, vtu};
 use mms_runtime::study::Frame;
 use mms_spec::foreign;
-
-use crate::report::{write_own, write_own_with};
 
 /// Writes states to a folder.
 pub struct Writer {

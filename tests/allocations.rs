@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use allocation_counter::measure;
-use mms::gallery::find;
+use mms_exact::gallery::find;
 use mms_gallery::axis_aligned_3d;
 use mms_mechanics::Output;
 use mms_program::block::{Inputs, Outputs, Plan, Prepared, Rooms, Way};

@@ -68,7 +68,7 @@ fn the_script_of_every_field_agrees() {
     if !can_run("the_script_of_every_field_agrees") {
         return;
     }
-    let names = mms::gallery::FIELDS.iter().map(|entry| entry.name.to_string());
+    let names = mms_exact::gallery::FIELDS.iter().map(|entry| entry.name.to_string());
     let fields = sampled(files().into_iter().chain(names), 12);
     fields.par_iter().for_each(|field| {
         let output = run(&script(field));

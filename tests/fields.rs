@@ -473,7 +473,7 @@ fn closed_forms<K: Kernel>() {
 fn the_gallery_leaves_no_term_unseen() {
     let mut asked: BTreeSet<String> = Term::KINDS.iter().map(|kind| kind.to_string()).collect();
     let mut seen = BTreeSet::new();
-    for entry in mms::gallery::FIELDS {
+    for entry in mms_exact::gallery::FIELDS {
         let compiled = compiled(entry.name);
         let visibility = Visibility::of(compiled).expect("the gallery is within the bound");
         for (term, status) in &visibility.findings {
@@ -514,7 +514,7 @@ fn scene<T: Interpretable>(name: &str, study: &StudySpec) -> Scene<T> {
     let compiled = match form {
         None | Some(Form::Stable) => compiled(name).clone(),
         Some(form) => {
-            let entry = mms::gallery::find(name).expect("a field of the gallery");
+            let entry = mms_exact::gallery::find(name).expect("a field of the gallery");
             let options = Options { form, ..Options::default() };
             entry.compile_with(&options).expect("a field of the gallery")
         }

@@ -6,6 +6,7 @@ mod audit;
 mod batch;
 mod datum;
 mod emitted;
+mod gallery;
 mod layers;
 mod operation_counts;
 pub mod programs;

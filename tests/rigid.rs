@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use mms::gallery::{Entry, FIELDS};
 use mms_codegen::{Compiled, Options, Selection};
+use mms_exact::gallery::{Entry, FIELDS};
 use mms_mechanics::Response;
 use mms_mechanics::sample::{Sample, samples};
 use mms_mechanics::{Bound, Output};

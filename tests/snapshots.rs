@@ -8,7 +8,7 @@ use std::process::Command;
 use mms_codegen::{Compiled, compile};
 
 fn bar() -> Compiled {
-    let entry = mms::gallery::find("bar_1d").expect("the bar is in the gallery");
+    let entry = mms_exact::gallery::find("bar_1d").expect("the bar is in the gallery");
     let load = |path: &str| Err(format!("{path}: not in the gallery"));
     compile(entry.name, entry.path, entry.text, &load).expect("the gallery compiles")
 }

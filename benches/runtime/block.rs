@@ -38,7 +38,7 @@ macro_rules! of {
     ($($float:ident $member:ident: $($dimension:literal $variant:ident),*;)*) => {
         $($(impl Of<$float, $dimension> for Scene<$float> {
             fn find(name: &str) -> Option<Box<dyn ManufacturedField<$float, $dimension>>> {
-                let compiled = mms::gallery::find(name)?.compile().ok()?;
+                let compiled = mms_exact::gallery::find(name)?.compile().ok()?;
                 let values = compiled.parameters::<$float>(&Default::default());
                 match (mms_gallery::find(name)?.$member)(&values)? {
                     Scene::$variant(field) => Some(field),

@@ -14,9 +14,9 @@ use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
 
 use case::{Case, Outcome};
-use mms::gallery;
 use mms_diagnosis::exact::Exact;
 use mms_diagnosis::list::listed;
+use mms_exact::gallery;
 use mms_runtime::scene::Scene;
 
 /// What stands before the table.

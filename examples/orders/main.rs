@@ -7,8 +7,8 @@ mod rows;
 use std::error::Error;
 use std::sync::Arc;
 
-use mms::gallery::{self, Entry};
 use mms_codegen::{Options, Selection};
+use mms_exact::gallery::{self, Entry};
 use mms_runtime::convergence::{Expected, TOLERANCE};
 use mms_runtime::scene::Scene;
 use mms_runtime::study::{Watch, differences, judge, orders};

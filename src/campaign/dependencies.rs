@@ -4,8 +4,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use mms_files::read;
+
 use super::digests::{Content, Digests};
-use crate::read;
 
 /// Stands in a word for a path that is not known before the run.
 pub const UNKNOWN: char = '\0';
@@ -288,7 +289,7 @@ mod tests {
         let files =
             ["solve", "build/solve", "build/run.py", "build/pkg/sub/__main__.py", "build/c.txt"];
         for file in files {
-            crate::report::write_whole(&here.join(file), file).unwrap();
+            mms_files::write::write_whole(&here.join(file), file).unwrap();
         }
         let build = here.join("build");
         let digests = Digests::default();
@@ -337,8 +338,8 @@ mod tests {
         let here = folder.path();
         let at = |name: &str| here.join(name);
         let text = format!("#!/usr/bin/env {}\n", at("own").display());
-        crate::report::write_whole(&at("first"), &text).unwrap();
-        crate::report::write_whole(&at("own"), "1").unwrap();
+        mms_files::write::write_whole(&at("first"), &text).unwrap();
+        mms_files::write::write_whole(&at("own"), "1").unwrap();
         symlink("first", at("solve")).unwrap();
         let digests = Digests::default();
         let place = Place { here, directory: Some(here), digests: &digests };
@@ -350,9 +351,9 @@ mod tests {
             all.map(|it| it.name.as_str()).collect()
         };
         assert_eq!(changed(), [""; 0]);
-        crate::report::write_whole(&at("own"), "2").unwrap();
+        mms_files::write::write_whole(&at("own"), "2").unwrap();
         assert_eq!(changed(), ["own"]);
-        crate::report::write_whole(&at("first"), "2").unwrap();
+        mms_files::write::write_whole(&at("first"), "2").unwrap();
         assert_eq!(changed(), ["own", "solve"], "behind the link");
         fs::remove_file(at("own")).unwrap();
         assert_eq!(changed(), ["own", "solve"]);

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::SystemTime;
 
-use crate::read;
-use crate::store::Digest;
+use mms_files::read;
+use mms_files::store::Digest;
 
 /// The most bytes that a file may have for its digest: 1 GiB takes some seconds.
 pub const MOST: u64 = 1 << 30;

@@ -1,5 +1,6 @@
 //! The results of a study, judged as `mms judge` does it.
 
+use mms_exact::Exact;
 use mms_results::Snapshot;
 
 use super::plan::{Job, Judging, Planned};
@@ -8,7 +9,6 @@ use crate::judge::Measured;
 use crate::judge::results::{Comparison, Measurement, Reading, Results, measure};
 use crate::provenance::Provenance;
 use crate::report::Judgements;
-use crate::session::exact::Exact;
 
 /// What is said of a study.
 pub struct Judged<'a> {

@@ -7,6 +7,8 @@ use anyhow::{Context as _, anyhow, bail};
 use mms_campaign::template::{PARAMETER, Placeholder, Template};
 use mms_campaign::{Campaign, Study};
 use mms_emit::{TARGETS, Target};
+use mms_exact::wave::sound;
+use mms_exact::{Input, quantities};
 use mms_mechanics::sample::domain;
 use mms_results::names::{Mapping, Names, Role};
 use mms_runtime::Division;
@@ -20,13 +22,11 @@ use serde::Serialize;
 use super::dependencies::{self, Dependencies, Dependency, UNKNOWN};
 use super::digests::Digests;
 use super::sources;
-
 use crate::judge::results::{Over, Start as How, own_roles, weight};
 use crate::judge::table::{Order, Orders};
 use crate::profile;
-use crate::session::input::{Input, Variant, quantities};
+use crate::session::input::{Variant, find};
 use crate::session::method::hold_division;
-use crate::session::stability::sound;
 use crate::state::points::PER_CELL;
 
 /// A campaign, ready to be run.
@@ -284,7 +284,7 @@ impl Setting<'_> {
         let path = self.here.join(&field.value);
         let is_path = field.value.ends_with(".toml");
         let named = if is_path { path.to_string_lossy() } else { field.value.as_str().into() };
-        let input = Input::find(&named, &Variant::default());
+        let input = find(&named, &Variant::default());
         let input = input.and_then(|input| input.hold(&study.set).map(|()| input));
         input.map_err(|error| {
             let why = format!("{error:#}");

@@ -5,13 +5,13 @@ use std::path::Path;
 use anyhow::Context as _;
 use mms_convergence::Verdict;
 use mms_documents::campaign::{self as documents, CampaignRun, CampaignStudy};
+use mms_files::write::refuse_link;
 use mms_spec::foreign::{self, one_line, shown};
 
 use super::judged::Judged;
 use super::plan::{Job, Plan, Planned};
 use super::work::{Finished, Outcome, left_behind_too};
 use crate::provenance::Provenance;
-use crate::report::file::refuse_link;
 use crate::report::{Judgements, Together, duration, plain, pretty, to_the_right, write_files};
 
 /// A campaign that was carried out, or what was asked for of it.

@@ -96,7 +96,7 @@ mod tests {
         let here = folder.path().join("it's [here]");
         fs::create_dir_all(here.join("a/b")).unwrap();
         for file in ["x.c", "y.h", "a/x.c", "a/b/x.c"] {
-            crate::report::write_whole(&here.join(file), file).unwrap();
+            mms_files::write::write_whole(&here.join(file), file).unwrap();
         }
         for (word, names) in [
             ("x.c", vec!["x.c"]),
@@ -123,7 +123,7 @@ mod tests {
         use std::os::unix::fs::symlink;
         let folder = tempfile::tempdir().unwrap();
         symlink(".", folder.path().join("circle")).unwrap();
-        crate::report::write_whole(&folder.path().join("x.c"), "").unwrap();
+        mms_files::write::write_whole(&folder.path().join("x.c"), "").unwrap();
         assert_eq!(files(folder.path(), "**/*.c").unwrap().len(), 1);
         assert_eq!(files(folder.path(), "*/*/*.c").unwrap().len(), 1);
         let sparse = fs::File::create(folder.path().join("mesh")).unwrap();

@@ -10,14 +10,15 @@ use anyhow::anyhow;
 use mms_analysis::visibility::{Span, Status, Term, Visibility};
 use mms_campaign::Can;
 use mms_campaign::cover::{Candidate, smallest};
+use mms_exact::Input;
+use mms_exact::gallery;
+use mms_exact::wave::sound;
 use mms_mechanics::TooLarge;
 use mms_runtime::Division;
 use mms_spec::{Claim, FieldSpec};
 use mms_symbolic::sorted::SortedMap;
 
-use crate::gallery;
-use crate::session::input::{Input, Variant};
-use crate::session::stability::sound;
+use crate::session::input::{Variant, find};
 
 /// The proposed studies, and the terms that none of them shows.
 pub struct Suggestion {
@@ -107,7 +108,7 @@ pub fn suggest(can: &Can) -> anyhow::Result<Suggestion> {
 
 impl Shown {
     fn new(name: &str, can: &Can) -> anyhow::Result<Self> {
-        let input = Input::find(name, &Variant::default())?;
+        let input = find(name, &Variant::default())?;
         let visibility = Visibility::of(&input.compiled)
             .map_err(|TooLarge(what)| anyhow!("`{name}`: the {what} have too many terms"))?;
         let terms = terms(&input.compiled.field, &visibility);

@@ -12,6 +12,11 @@ use mms_campaign::process::{Folder, Order};
 use mms_campaign::supervisor::{Ended, Report};
 use mms_codegen::rust::File;
 use mms_emit::{Subject, Target};
+use mms_exact::Exact;
+use mms_files::read::{self, Kind, Unread};
+use mms_files::shell::quoted;
+use mms_files::store::{Entry, Store, digest, side_by_side};
+use mms_files::write::write_own;
 use mms_results::wanted::{self, Need};
 use mms_runtime::Division;
 use mms_spec::foreign;
@@ -20,15 +25,10 @@ use serde::{Deserialize, Serialize};
 use super::digests::Content;
 use super::plan::{Job, Paths, Plan, Planned, text};
 use crate::judge::results::{Results, placed, room};
-use crate::read::{self, Kind, Unread};
-use crate::report::write_own;
-use crate::session::exact::Exact;
-use crate::shell::quoted;
 use crate::state::domain::Domain;
 use crate::state::file::{self, Frame};
 use crate::state::points::Points;
 use crate::state::{USUAL, Wanted};
-use crate::store::{Entry, Store, digest, side_by_side};
 
 /// A run that came to its end, as it is stored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -8,6 +8,8 @@ use mms_analysis::accuracy::regime::REGIMES;
 use mms_analysis::accuracy::{Request, measure, names};
 use mms_codegen::selection::Selection;
 use mms_codegen::{Compiled, Options};
+use mms_exact::Source;
+use mms_exact::{hold_body, quantities, settings};
 use mms_program::precision::Precision;
 use mms_spec::Form;
 use mms_spec::foreign::{Foreign, one_line, shown};
@@ -15,9 +17,8 @@ use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::provenance;
 use crate::report::accuracy::Report;
-use crate::session::input::{Motion, Text, hold_body, precision, quantities, settings};
+use crate::session::input::{Motion, open, precision};
 use crate::workbench::{Module, Time, Way, Workbench, time};
 
 /// Measure the errors of a field against arbitrary precision: every quantity, in single, double and
@@ -86,7 +87,7 @@ fn listed() -> String {
 
 impl Accuracy {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let text = Text::find(&self.field)?;
+        let text = open(&self.field)?;
         self.output.as_deref().map_or(Ok(()), hold_output)?;
         let set = settings(&self.set)?;
         let options = self.motion.options(Selection { set, ..Selection::default() });
@@ -111,7 +112,8 @@ impl Accuracy {
             true => timed(&text, &request),
             false => None,
         };
-        let input = provenance::input(&self.field, &options.selection, &self.set, &compiled);
+        let input =
+            mms_exact::provenance::input(&self.field, &options.selection, &self.set, &compiled);
         let report = Report {
             field: text.name().clone(),
             points: request.points,
@@ -166,7 +168,7 @@ fn wanted<T: PartialEq, const N: usize>(all: [T; N], given: &[T]) -> Vec<T> {
 }
 
 /// The times of the forms; `None`, with a word on stderr, where nothing can be timed.
-fn timed(text: &Text, request: &Request) -> Option<Vec<(Form, Time)>> {
+fn timed(text: &Source, request: &Request) -> Option<Vec<(Form, Time)>> {
     say(format_args!("{}: compiling and timing the emitted code", text.name().shown()));
     let compiled = |form: Form| {
         let mut options = Options { form, ..request.options.clone() };

@@ -11,6 +11,9 @@ use anyhow::{Context as _, bail};
 use clap::Args;
 use mms_campaign::Campaign as File;
 use mms_documents::campaign::{CampaignRuns, ListedRun};
+use mms_files::read::{self, Kind};
+use mms_files::shell::{command, quoted};
+use mms_files::store::Store;
 use mms_spec::foreign;
 
 use super::follow::Interrupted;
@@ -20,9 +23,6 @@ use crate::campaign::plan::{Job, Only, Plan, Planned};
 use crate::campaign::report::{Report, line};
 use crate::campaign::work::{self, Watcher, Work, hash, side_by_side_of};
 use crate::provenance::{Input, Provenance};
-use crate::read::{self, Kind};
-use crate::shell::{command, quoted};
-use crate::store::Store;
 
 /// Run your own solver on the meshes of several studies, and judge each as `mms judge` does it.
 ///

@@ -15,6 +15,8 @@ use mms_diagnosis::exact::Quantity as Seen;
 use mms_diagnosis::material::Material;
 use mms_diagnosis::scene::{self, Evidence};
 use mms_diagnosis::solver::Solver;
+use mms_exact::Exact;
+use mms_exact::{Input, evaluated};
 use mms_runtime::Method;
 use mms_runtime::scene::Scene;
 use mms_spec::own::Own;
@@ -26,8 +28,7 @@ use crate::diagnose::{Alone, Factors, Reading, falls, find, gradients, left_out,
 use crate::judge::results::Results;
 use crate::judge::table::{Order, Orders};
 use crate::report::{Diagnosed, Hypotheses, Plan, Step};
-use crate::session::exact::Exact;
-use crate::session::input::{Input, Variant, evaluated};
+use crate::session::input::{Variant, open};
 use crate::session::method::{MethodOptions, finite, length, positive};
 
 /// Name the mistake of a solver by the error that it makes.
@@ -178,7 +179,7 @@ impl Diagnose {
         self.output.as_deref().map_or(Ok(()), hold_output)?;
         let variation = if self.affine { Variation::Affine } else { Variation::Nothing };
         let options = Options { variation, ..self.variant.options(Selection::default()) };
-        let input = Input::find_with(self.field.as_deref().unwrap_or(LISTED), &options)?;
+        let input = Input::new(open(self.field.as_deref().unwrap_or(LISTED))?, &options)?;
         let scene = input.scene(&self.set, |code| code.double)?;
         if self.list {
             let report = Hypotheses { field: &input.name, all: scene::hypotheses(&scene) };
@@ -246,8 +247,7 @@ impl Diagnose {
             _ => None,
         };
         let solver = Solver { without, like, falls, is_beside: !right.is_empty() };
-        let field = self.field.as_deref().unwrap_or(LISTED);
-        let factors = Factors::new(field, &self.variant, &exact);
+        let factors = Factors::new(&exact);
         let times = |parameter, factor| factors.times(parameter, factor);
         let material = Material { names: factors.names(), times: &times };
         let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material)?;

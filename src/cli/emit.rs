@@ -10,15 +10,16 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use mms_codegen::selection::{Freeze, Selection};
 use mms_documents::emit::{self as documents, EmitAll, EmittedFile};
 use mms_emit::{Bundle, Subject, TARGETS, Target};
+use mms_exact::gallery::FIELDS;
+use mms_exact::{Input, quantities, settings};
+use mms_files::shell::{command, quoted, words};
+use mms_files::write::refuse_link;
 use mms_spec::foreign::{self, Foreign};
 use mms_spec::own::Own;
 
 use self::folder::{State, compare, write};
 use super::{Outcome, print, print_json, say};
-use crate::gallery::FIELDS;
-use crate::report::file::refuse_link;
-use crate::session::input::{Input, Text, Variant, quantities, settings};
-use crate::shell::{command, quoted, words};
+use crate::session::input::{Variant, open};
 
 /// Write the source of a field for another solver: all of it, or only what is needed.
 ///
@@ -74,12 +75,12 @@ impl Emit {
         let target =
             Target::find(&self.target).with_context(|| format!("no target `{}`", self.target))?;
         let own = match &self.field {
-            Some(field) => Text::find(field)?.own_quantities(),
+            Some(field) => open(field)?.own_quantities(),
             None => Vec::new(),
         };
         let options = self.variant.options(self.selection(&own)?);
         let emitted = |field: &str| {
-            let input = Input::find_with(field, &options)?;
+            let input = Input::new(open(field)?, &options)?;
             input.offered(&self.quantity, Vec::new())?;
             let subject = Subject::new(&input.compiled);
             let bundle = (target.emit)(&subject);

@@ -6,6 +6,8 @@ use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
 use mms_codegen::Compiled;
 use mms_codegen::compile::constant;
+use mms_exact::plane::{self, Beyond, SPACE, nine};
+use mms_exact::{Input, evaluated};
 use mms_mechanics::extent::{Extent, is_between};
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Program};
@@ -20,8 +22,7 @@ use serde_json::value::RawValue;
 
 use super::naming::Naming;
 use super::{Outcome, print, print_json, say};
-use crate::session::input::{Input, Text, Variant, evaluated, precision};
-use crate::session::plane::{self, Beyond, SPACE, nine};
+use crate::session::input::{Variant, find_some, open, precision};
 use crate::state::points::Points;
 
 /// Evaluate quantities of a field at points.
@@ -179,13 +180,13 @@ struct Outside {
 
 impl Eval {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let own = Text::find(&self.field)?.own_quantities();
+        let own = open(&self.field)?.own_quantities();
         let quantities = evaluated(&own, &self.quantity)?;
         let mut derived = quantities.clone();
         if self.all_components {
             derived.extend(plane::NEEDED);
         }
-        let input = Input::find_some(&self.field, &self.variant, &derived)?;
+        let input = find_some(&self.field, &self.variant, &derived)?;
         let quantities = input.offered(&self.quantity, quantities)?;
         self.hold_normal(&quantities)?;
         match self.precision {

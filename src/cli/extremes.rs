@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use anyhow::bail;
 use clap::Args;
 use mms_codegen::{Options, Selection};
+use mms_exact::settings;
+use mms_runtime::scene::usual_cells;
 use mms_runtime::study::Observer;
 use mms_runtime::{Division, IntegratorName, Method, Transfer};
 use mms_spec::suggest::advice;
@@ -19,11 +21,10 @@ use crate::extremes::verdict::{Declared, Seen, judge};
 use crate::report::extremes::{Judged, Report, Stability};
 use crate::report::{pretty, write_files};
 use crate::rows::Named as _;
-use crate::session::input::{Motion, settings};
+use crate::session::input::Motion;
 use crate::session::method::{Arithmetic, MethodOptions, Precision};
 use crate::session::progress::Progress;
 use crate::tradeoff::setting::Setting;
-use mms_runtime::scene::usual_cells;
 
 /// Run a field at the limits of the solver: each run meets its bound, or stops with the right diagnosis.
 ///

@@ -7,16 +7,16 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use clap::Args;
 use mms_convergence::{TOLERANCE, Verdict};
+use mms_files::read::{self, Kind};
+use mms_files::store::digest;
 use mms_spec::foreign;
 use serde::Serialize;
 
 use super::{Outcome, hold_output, print, print_json, this_command};
 use crate::judge::table::{self, Order, Orders};
 use crate::provenance::Input;
-use crate::read::{self, Kind};
 use crate::report::Judgements;
 use crate::session::method::positive;
-use crate::store::digest;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
 ///

@@ -43,12 +43,12 @@ use std::process::ExitCode;
 use anyhow::Context as _;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use mms_campaign::supervisor;
+use mms_files::shell::words;
+use mms_files::write::{is_same, try_to_write};
 use mms_runtime::math::dispatch::{Instructions, LIMIT};
 use mms_spec::foreign;
 
 use crate::provenance::{self, Input, Provenance};
-use crate::report::file::{is_same, try_to_write};
-use crate::shell::words;
 use crate::terminal::{print, print_json, printed_to_the_end, say, say_styled};
 
 /// Manufactured solutions for solid mechanics: derive, evaluate and check them, and see the order

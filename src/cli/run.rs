@@ -4,6 +4,11 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
+use mms_exact::Input;
+use mms_files::machine::memory;
+use mms_files::shell::words;
+use mms_files::store::{digest, program};
+use mms_files::write::is_same;
 use mms_runtime::scene::usual_cells;
 use mms_runtime::study::Watch;
 use mms_runtime::{Division, Method};
@@ -14,14 +19,11 @@ use super::{Outcome, hold_output, print, print_json, say, spare};
 use crate::checkpoint::{Found, Head, Keeper};
 use crate::history::History;
 use crate::provenance;
-use crate::report::file::is_same;
 use crate::report::run::Run as Report;
 use crate::report::{Refused, pretty, write_files};
-use crate::session::input::{Input, Motion};
-use crate::session::method::{MethodOptions, Precision, hold_division, memory};
+use crate::session::input::{Motion, find};
+use crate::session::method::{MethodOptions, Precision, hold_division};
 use crate::session::progress::Progress;
-use crate::shell::words;
-use crate::store::{digest, program};
 use crate::vtk::Writer;
 
 /// Run one simulation: errors in u, v, F and P, and what it took.
@@ -71,7 +73,7 @@ pub struct Run {
 
 impl Run {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let input = Input::find(&self.field, &self.method.variant(&self.motion))?;
+        let input = find(&self.field, &self.method.variant(&self.motion))?;
         let dimension = input.compiled.field.dimension;
         let method = self.method.method_for(&input, &self.set)?;
         let cells = self.cells.unwrap_or(Division::Uniform(usual_cells(dimension)));

@@ -6,6 +6,7 @@ use std::ffi::OsString;
 use anyhow::{anyhow, bail};
 use clap::{Arg, Args, Command};
 use mms_codegen::compile::Failure;
+use mms_files::read::{self, Kind};
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::source::Sources;
 use mms_spec::suggest::advice;
@@ -13,7 +14,6 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::study::Study;
-use crate::read::{self, Kind};
 
 /// The arguments of a command line, with those of a study file in front of the others. What is also given on
 /// the command line is not taken from the file, nor what that excludes; parameters are set by both.

@@ -12,6 +12,7 @@ use mms_codegen::certify::rest;
 use mms_codegen::certify::rest::Rest;
 use mms_documents::Names;
 use mms_documents::show::{self as documents, AbsentTerm, OperationCounts, ShownQuantity};
+use mms_exact::quantities;
 use mms_mechanics::Output;
 use mms_mechanics::TooLarge;
 use mms_program::Stage;
@@ -24,7 +25,7 @@ use mms_stability::wavelength::shortest_wavelength;
 
 use super::check::stability;
 use super::{Outcome, print, print_json, say};
-use crate::session::input::{Input, Variant, quantities};
+use crate::session::input::{Variant, find};
 
 /// Show what follows from a field: its derivation with every step named, its claims, how many
 /// operations each quantity takes, and which terms of the equations it can and cannot see.
@@ -77,7 +78,7 @@ enum Format {
 
 impl Show {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let input = Input::find(&self.field, &self.variant)?;
+        let input = find(&self.field, &self.variant)?;
         let rest = rest::stress(&input.compiled);
         if let Some(warning) = rest.warning(&input.compiled) {
             say(render_styled(&input.compiled.sources, &[warning]));

@@ -7,6 +7,8 @@ use clap::{ArgGroup, Args};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Options, Selection};
 use mms_documents::state as documents;
+use mms_exact::Exact;
+use mms_exact::{Input, evaluated};
 use mms_mechanics::extent::is_between;
 use mms_runtime::Division;
 use mms_runtime::scene::usual_cells;
@@ -15,8 +17,7 @@ use mms_spec::quantity::Quantity;
 
 use super::naming::Naming;
 use super::{Outcome, print, print_json, spare};
-use crate::session::exact::Exact;
-use crate::session::input::{Input, Variant, evaluated};
+use crate::session::input::{Variant, open};
 use crate::session::method::{finite, hold_division};
 use crate::state::domain::Domain;
 use crate::state::file::{Frame, Target};
@@ -93,7 +94,7 @@ impl State {
     pub fn run(mut self) -> anyhow::Result<Outcome> {
         let variation = if self.affine { Variation::Affine } else { Variation::Nothing };
         let options = Options { variation, ..self.variant.options(Selection::default()) };
-        let input = Input::find_with(&self.field, &options)?;
+        let input = Input::new(open(&self.field)?, &options)?;
         let read: Vec<PathBuf> =
             input.files().into_iter().chain(self.points.iter().map(PathBuf::from)).collect();
         spare("--output", self.output.path(), &read)?;

@@ -8,7 +8,9 @@ use anyhow::{Context as _, bail};
 use clap::{Args, Parser};
 use mms_analysis::period::period;
 use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
+use mms_exact::Input;
 use mms_mechanics::sample::domain;
+use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
 use mms_runtime::{Division, Method, Real, Run};
 
@@ -18,10 +20,9 @@ use crate::judge::results::Exclusions;
 use crate::provenance::{self, Provenance};
 use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method, run};
 use crate::session::effort::announce;
-use crate::session::input::{Input, Motion};
+use crate::session::input::{Motion, find};
 use crate::session::method::{MethodOptions, Precision, finite, hold_division, positive};
 use crate::session::progress::Progress;
-use mms_runtime::scene::{Scene, Solvable};
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.
 ///
@@ -208,7 +209,7 @@ impl Study {
             let input = match inputs.entry(options.arithmetic.form) {
                 Entry::Occupied(known) => Rc::clone(known.get()),
                 Entry::Vacant(new) => {
-                    let input = Input::find(&self.field, &options.variant(&self.motion))?;
+                    let input = find(&self.field, &options.variant(&self.motion))?;
                     Rc::clone(new.insert(Rc::new(input)))
                 }
             };

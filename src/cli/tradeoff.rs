@@ -5,8 +5,13 @@ use std::path::PathBuf;
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
 use mms_codegen::Compiled;
+use mms_exact::Input;
+use mms_exact::wave::sound;
+use mms_files::shell;
+use mms_files::store::Store;
 use mms_mechanics::sample::domain;
 use mms_runtime::Division;
+use mms_runtime::scene::usual_cells;
 use mms_spec::Form;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
@@ -14,15 +19,11 @@ use mms_symbolic::sorted::SortedMap;
 use super::{Outcome, print, print_json, say, this_command};
 use crate::report::tradeoff::Report;
 use crate::report::tradeoff::page::Page;
-use crate::session::input::{Input, Motion, Variant};
+use crate::session::input::{Motion, Variant, find};
 use crate::session::method::positive;
-use crate::session::stability::sound;
-use crate::shell;
-use crate::store::Store;
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
 use crate::tradeoff::setting::Setting;
 use crate::trial::Trials;
-use mms_runtime::scene::usual_cells;
 
 /// Find the cheapest method, numbers and grid for an error, or the least error for a time.
 ///
@@ -111,7 +112,7 @@ impl Tradeoff {
     }
 
     fn input(&self, field: &str) -> anyhow::Result<Input> {
-        let input = Input::find(field, &Variant::new(self.motion.clone(), Form::Stable))?;
+        let input = find(field, &Variant::new(self.motion.clone(), Form::Stable))?;
         input.hold_moving()?;
         Ok(input)
     }

@@ -12,16 +12,16 @@ use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_documents::verify::{ListedRow, VerifyList};
+use mms_exact::gallery::FIELDS;
+use mms_files::store::{Store, digest, program};
 use mms_spec::suggest::advice;
 use serde::Serialize;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::gallery::FIELDS;
 use crate::provenance;
 use crate::report::{pretty, write_files};
 use crate::rows::Named as _;
-use crate::session::input::Input;
-use crate::store::{Store, digest, program};
+use crate::session::input::find;
 use crate::verify::matrix::{MATRIX, Row, rows};
 use crate::verify::plan::{Job, Plan};
 use crate::verify::report::{Judged, Report};
@@ -87,7 +87,7 @@ impl Verify {
         let (store, set_aside) = Store::open(&self.store)?;
         let progress = Progress::new(&plan.jobs);
         set_aside.iter().for_each(|what| progress.set_aside(what));
-        let fields = Fields::new(Input::find);
+        let fields = Fields::new(find);
         let outcomes = outcomes(&plan.jobs, &store, threads, &fields, &progress)?;
         progress.finish();
         let judged = rows.iter().zip(&plan.levels).map(|(row, levels)| {

@@ -3,10 +3,9 @@
 use anyhow::ensure;
 use mms_diagnosis::evidence::Mesh;
 use mms_diagnosis::exact::Quantity;
+use mms_exact::Exact;
 use mms_spec::foreign::shown;
 use mms_spec::quantity;
-
-use crate::session::exact::Exact;
 
 /// Points are the same if they are no further apart than this part of the largest coordinate: single precision.
 const SAME: f64 = 1e-6;

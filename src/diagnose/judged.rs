@@ -2,6 +2,7 @@
 
 use mms_convergence::Verdict;
 use mms_diagnosis::falls::Falls;
+use mms_exact::Exact;
 use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
@@ -9,7 +10,6 @@ use super::Reading;
 use crate::judge::results::{Comparison, Over, Reading as Judging, Results, measure};
 use crate::judge::table::Orders;
 use crate::judge::worst;
-use crate::session::exact::Exact;
 
 /// Finds how the errors of results fall from mesh to mesh; nothing of one mesh.
 ///

@@ -22,7 +22,7 @@ pub use self::parameters::Factors;
 
 use self::nodes::{Nodes, volumes};
 use crate::judge::results::{Results, motion, placed, room};
-use crate::session::exact::Exact;
+use mms_exact::Exact;
 
 /// How results are read.
 pub struct Reading<'a> {

@@ -1,13 +1,13 @@
 //! Points at which accelerations or residuals were computed: each once, with its volume.
 
 use anyhow::{bail, ensure};
+use mms_exact::Exact;
 use mms_results::lattice::Lattice;
 use mms_results::mesh::Mesh;
 use mms_results::names::Values;
 use mms_spec::quantity::Quantity;
 
 use crate::judge::results::{distances, placed};
-use crate::session::exact::Exact;
 
 /// Points with one vector each.
 pub struct Nodes {

@@ -5,23 +5,19 @@ use std::sync::{Arc, OnceLock};
 use mms_codegen::compile::{Compiled, constant};
 use mms_codegen::variation::{Variation, factor_of};
 use mms_codegen::{Options, Selection};
+use mms_exact::Exact;
 use mms_runtime::scene::Scene;
-
-use crate::session::exact::Exact;
-use crate::session::input::{Text, Variant};
 
 /// A field whose material has factors; it is compiled when one is asked for.
 pub struct Factors<'a> {
-    field: &'a str,
-    variant: &'a Variant,
     exact: &'a Exact,
     compiled: OnceLock<Option<Arc<Compiled>>>,
 }
 
 impl<'a> Factors<'a> {
-    /// Names the field; nothing is compiled yet.
-    pub fn new(field: &'a str, variant: &'a Variant, exact: &'a Exact) -> Self {
-        Factors { field, variant, exact, compiled: OnceLock::new() }
+    /// The parameters of a field's material; nothing is compiled yet.
+    pub fn new(exact: &'a Exact) -> Self {
+        Factors { exact, compiled: OnceLock::new() }
     }
 
     /// The names of the parameters.
@@ -41,8 +37,11 @@ impl<'a> Factors<'a> {
     }
 
     fn compile(&self) -> Option<Arc<Compiled>> {
+        let input = self.exact.input();
+        let Options { selection, .. } = input.options();
+        let selection = Selection { quantities: None, ..selection.clone() };
         let options =
-            Options { variation: Variation::Factors, ..self.variant.options(Selection::default()) };
-        Some(Arc::new(Text::find(self.field).ok()?.compile(&options).ok()?))
+            Options { selection, variation: Variation::Factors, ..input.options().clone() };
+        Some(Arc::new(input.varied(&options).ok()?))
     }
 }

@@ -3,9 +3,12 @@
 use mms_analysis::accuracy::{Varied, regime, vary};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options};
+use mms_exact::Input;
+use mms_exact::wave::{fastest_wave, sound, without_bound};
 use mms_mechanics::Output;
 use mms_mechanics::sample::{domain, samples};
 use mms_program::interpret::{Interpreter, Point};
+use mms_runtime::scene::{Scene, Solvable, usual_cells};
 use mms_runtime::study::{Observer, Watch};
 use mms_runtime::{Division, FormulationName, Method};
 use mms_spec::quantity::Quantity;
@@ -15,10 +18,9 @@ use mms_symbolic::sorted::SortedMap;
 use super::rows::Row;
 use super::theory::Elasticity;
 use super::verdict::{Diagnosis, Seen};
-use crate::session::input::{Input, Text};
+use crate::session::input::open;
 use crate::session::method::Precision;
-use crate::session::stability::{fastest_wave_with, sound};
-use mms_runtime::scene::{Scene, Solvable, usual_cells};
+use crate::terminal::say;
 
 /// At how many points and times the largest displacement and the least J are looked for.
 const POINTS: usize = 256;
@@ -54,28 +56,28 @@ impl Subject {
         let mut options = declared.clone();
         let mut set = SortedMap::new();
         let mut settings = String::new();
-        let text = Text::find(field)?;
+        let source = open(field)?;
         if let Some(name) = row.and_then(|row| row.regime.as_deref()) {
             let Some(regime) = regime::find(name) else { anyhow::bail!("no regime `{name}`") };
-            let compile = |options: &Options| text.compile(options);
+            let compile = |options: &Options| source.compile(options);
             let varied = match vary(&compile, &options, regime) {
                 Ok(varied) => varied,
                 Err(reason) => return Ok(Err(reason)),
             };
             settings = name.replace('_', " ");
-            let compiled = Input::find_with(field, declared)?.compiled;
+            let compiled = Input::new(source.clone(), declared)?.compiled;
             (options, set) = take(&compiled, varied, declared);
         } else if let Some(ratio) = row.and_then(|row| row.lambda_over_mu.clone()) {
             settings = format!("lambda/mu {ratio}");
             let variation = Variation::Moduli(ratio);
-            let input = Input::find_with(field, declared)?;
+            let input = Input::new(source.clone(), declared)?;
             if let Err(reason) = variation.fits(&input.compiled.field) {
                 return Ok(Err(reason));
             }
             options.variation = variation;
         }
         let varied = options != *declared;
-        let input = match Input::find_with(field, &options) {
+        let input = match Input::new(source, &options) {
             // The field holds as it is: it is the extreme that it does not claim anything about.
             Err(error) if varied => return Ok(Err(first_line(&error))),
             input => input?,
@@ -118,7 +120,13 @@ impl Subject {
         }
         method.setup.fastest_wave = match row.allows_unstable(allow_unstable) {
             true => None,
-            false => fastest_wave_with(&self.input, &self.set, &method),
+            false => {
+                let fastest = fastest_wave(&self.input, &self.set, &method);
+                if fastest.is_none() {
+                    say(without_bound(&self.input));
+                }
+                fastest
+            }
         };
         (method, Division::Uniform(cells))
     }

@@ -25,9 +25,8 @@
 //! than the interior: what is measured on a body may be less.
 
 use mms_runtime::nalgebra::{Complex, DMatrix};
-use mms_runtime::{ManufacturedField, Matrix, Method, ShapeName, Transfer, Vector};
-
 use mms_runtime::scene::Scene;
+use mms_runtime::{ManufacturedField, Matrix, Method, ShapeName, Transfer, Vector};
 
 /// How many wave numbers from 0 to pi along an axis.
 const WAVES: i32 = 8;

@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use maud::{Markup, PreEscaped, html};
 use mms_codegen::{Options, Selection};
+use mms_exact::gallery::Entry;
+use mms_exact::provenance::twin;
 use mms_show::{Document, mathml};
 use mms_spec::quantity::Quantity;
 
 use super::motion::Motion;
-use crate::gallery::Entry;
-use crate::provenance::{Input, Provenance, twin};
+use crate::provenance::{Input, Provenance};
 use crate::session::input;
 
 /// The quantities that lead from u to b.
@@ -56,7 +57,8 @@ fn content(input: &Input) -> Result<Content, String> {
     let window = input.window.clone();
     let selection = Selection { twin: twin(input), window, ..Selection::default() };
     let options = Options { selection, ..Options::default() };
-    let found = input::Input::find_with(field, &options)
+    let found = input::open(field)
+        .and_then(|source| mms_exact::Input::new(source, &options))
         .map_err(|error| format!("{error:#}").lines().next().unwrap_or_default().to_owned())?;
     if found.compiled.input_hash() != input.hash {
         return Err("its text is another one now".to_owned());
@@ -76,7 +78,7 @@ fn content(input: &Input) -> Result<Content, String> {
 impl Shown {
     /// A field of the gallery, as it is.
     pub fn of_gallery(entry: &Entry) -> anyhow::Result<Self> {
-        let found = input::Input::find_with(entry.name, &Options::default())?;
+        let found = mms_exact::Input::new(input::open(entry.name)?, &Options::default())?;
         let input = found.provenance(&[]);
         Ok(Self { content: content(&input), input })
     }

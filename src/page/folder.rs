@@ -4,12 +4,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
+use mms_files::read::{self, Kind};
+use mms_files::store;
 use mms_spec::foreign;
 use serde_json::Value;
 
 use super::{Entry, Page, entry, states};
-use crate::read::{self, Kind};
-use crate::store;
 
 impl Page {
     /// All results in a folder and in the folders in it. What is none is set aside; what a store holds is counted.

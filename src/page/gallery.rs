@@ -2,12 +2,12 @@
 //! them depends on the machine.
 
 use maud::html;
+use mms_exact::gallery::Entry;
 use mms_spec::{FieldSpec, StudySpec};
 
 use super::mark::{table, words};
 use super::{Page, Verdicts, field, frame};
 use crate::cli::study::Study;
-use crate::gallery::Entry;
 
 /// The page of a field.
 ///
@@ -82,8 +82,8 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::gallery::FIELDS;
     use crate::sampled::sampled;
+    use mms_exact::gallery::FIELDS;
 
     const WRITE: &str = "cargo run --release -- report --gallery docs/gallery";
 

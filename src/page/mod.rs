@@ -35,6 +35,7 @@ mod verify;
 
 use std::path::PathBuf;
 
+use field::Shown;
 use maud::{Markup, html};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -42,7 +43,6 @@ use serde_json::Value;
 
 use crate::provenance::Provenance;
 use crate::report::tally;
-use field::Shown;
 
 /// A result, ready to be shown.
 pub trait Section {

@@ -293,7 +293,7 @@ fn outline(cells: &[Cell]) -> Vec<Vec<[f64; 2]>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gallery;
+    use mms_exact::gallery;
 
     #[test]
     fn small_displacements_are_magnified_by_round_numbers() {

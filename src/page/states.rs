@@ -6,11 +6,11 @@ use anyhow::{Context as _, ensure};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, html};
+use mms_files::read::{self, Kind};
 use roxmltree::Document;
 
 use super::picture::{Moment, Scale, Shape, pictures, project};
 use super::{Section, Verdicts};
-use crate::read::{self, Kind};
 
 /// What stands above all of them.
 pub const HEADING: &str = "States of runs";

@@ -7,6 +7,7 @@ use mms_convergence::{Basis, Finding, Judgement, Kind, Level, RULE, Verdict};
 use mms_documents::Names;
 use mms_documents::judge as documents;
 use mms_documents::study::{JudgedLevel, JudgedNorm, LevelErrors, Limit, LowerOrder, SecondTerm};
+use mms_exact::Exact;
 use mms_spec::foreign::{Foreign, shown};
 
 use super::picture::{Line, Picture};
@@ -14,7 +15,6 @@ use super::text::{plain, pretty, to_the_right, write_files};
 use crate::judge::results::{Exclusions, Measurement, exclusions};
 use crate::judge::{Judged, Measured, Norm, Objection, Quantity, Refined, worst};
 use crate::provenance::Provenance;
-use crate::session::exact::Exact;
 
 /// Errors with what they say.
 pub struct Judgements {

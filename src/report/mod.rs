@@ -5,7 +5,6 @@ mod comparison;
 mod diagnosis;
 pub(crate) mod excluded;
 pub(crate) mod extremes;
-pub(crate) mod file;
 pub(crate) mod front;
 mod judge;
 pub(crate) mod method;
@@ -27,5 +26,4 @@ pub use plan::{Plan, Step};
 pub(crate) use results::{differences, with_baseline};
 pub use study::{Refused, Study};
 
-pub(crate) use file::{write_own, write_own_with, write_whole, write_with};
 pub(crate) use text::{bytes, duration, plain, pretty, tally, to_the_right, write_files};

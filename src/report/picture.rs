@@ -1,11 +1,10 @@
 //! The convergence picture: errors over cell size, both logarithmic, with the expected slope.
 
 use anyhow::anyhow;
-use plotters::element::DashedPathElement;
-use plotters::prelude::*;
-
 use mms_runtime::Errors;
 use mms_runtime::study::Refinement;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
 
 use super::{Study, method};
 

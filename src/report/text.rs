@@ -5,9 +5,8 @@ use std::path::Path;
 use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use mms_files::write::write_own;
 use mms_spec::foreign;
-
-use super::file::write_own;
 
 /// Writes texts to files of one stem in a folder, which is made if there is none, by their extensions; returns
 /// their paths.

@@ -1,6 +1,7 @@
 //! What one value of a field file says about others: how many components there are, which faces,
 //! which parameters of a material.
 
+use mms_exact::gallery;
 use mms_spec::format;
 use mms_spec::format::MATERIAL;
 use mms_spec::moduli;
@@ -10,7 +11,6 @@ use mms_spec::{BODIES, BODY_KEYS, Face, MaterialSpec, Shape};
 use serde_json::{Map, Value, json};
 
 use super::holds::{count, extend};
-use crate::gallery;
 
 /// All of them.
 pub fn of_field() -> Value {

@@ -11,14 +11,17 @@ use std::str::FromStr;
 use anyhow::bail;
 use clap::Args;
 use mms_codegen::certify::certificate::not_computed;
+use mms_exact::Input;
+use mms_exact::wave::{fastest_wave, without_bound};
+use mms_files::machine::{memory, processors};
 use mms_mechanics::sample::domain;
 use mms_runtime::{
     Division, Fill, FormulationName, IntegratorName, Method, Setup, ShapeName, Transfer,
 };
 use mms_spec::Form;
 
-use super::input::{Input, Motion, Variant};
-use super::stability::fastest_wave;
+use super::input::{Motion, Variant};
+use crate::terminal::say;
 
 /// The precision of the solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -179,23 +182,6 @@ pub fn hold_division(option: &str, numbers: &Division, dimension: usize) -> anyh
     }
 }
 
-/// How many threads run at the same time here.
-pub fn processors() -> usize {
-    std::thread::available_parallelism().map_or(1, Into::into)
-}
-
-/// How many bytes of memory are free here, within the limit of a container if there is one; without bound where
-/// the system does not tell.
-pub fn memory() -> u64 {
-    let mut system = sysinfo::System::new();
-    system.refresh_memory();
-    let free = match system.cgroup_limits() {
-        Some(limits) => system.available_memory().min(limits.free_memory),
-        None => system.available_memory(),
-    };
-    if free == 0 { u64::MAX } else { free }
-}
-
 /// The name of an axis.
 #[derive(Clone, Copy, Debug)]
 struct Axis(usize);
@@ -227,7 +213,10 @@ impl MethodOptions {
         self.hold_precision(input, settings)?;
         method.setup.memory = Some(memory());
         if !self.allow_unstable {
-            method.setup.fastest_wave = fastest_wave(input, settings, &method)?;
+            method.setup.fastest_wave = fastest_wave(input, &input.settings(settings)?, &method);
+            if method.setup.fastest_wave.is_none() {
+                say(without_bound(input));
+            }
         }
         Ok(method)
     }

@@ -2,9 +2,6 @@
 //! method, the time steps that are stable, what runs will take, and progress.
 
 pub(crate) mod effort;
-pub(crate) mod exact;
 pub(crate) mod input;
 pub(crate) mod method;
-pub(crate) mod plane;
 pub(crate) mod progress;
-pub(crate) mod stability;

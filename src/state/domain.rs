@@ -2,14 +2,13 @@
 
 use mms_documents::state::{StateBody, StateBox, StateDomain, StateFace};
 use mms_emit::port::faces::claims;
+use mms_exact::Exact;
 use mms_mechanics::Bound;
 use mms_mechanics::extent::Extent;
 use mms_mechanics::output::parts;
 use mms_results::write::{self, Fact};
 use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Face};
-
-use crate::session::exact::Exact;
 
 /// How many samples the body has along each edge, in one to three dimensions.
 const ALONG: [usize; 3] = [257, 33, 9];

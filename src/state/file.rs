@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::Context as _;
+use mms_exact::Exact;
+use mms_files::write::refuse_link;
+use mms_files::write::write_with;
 use mms_results::Cells;
 use mms_results::write::{self, Mesh, State};
 use mms_spec::foreign;
@@ -14,9 +17,7 @@ use mms_spec::quantity::Quantity;
 use super::domain::Domain;
 use super::points::Points;
 use super::{Names, Wanted};
-use crate::report::file::refuse_link;
-use crate::report::{pretty, write_with};
-use crate::session::exact::Exact;
+use crate::report::pretty;
 use crate::vtk;
 
 /// A file to write, or several of one stem.

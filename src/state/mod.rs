@@ -9,6 +9,8 @@ pub mod file;
 pub mod points;
 
 use anyhow::{bail, ensure};
+use mms_exact::Exact;
+use mms_files::machine::memory;
 use mms_results::write::{Column, Shape, State};
 use mms_spec::Face;
 use mms_spec::quantity::{self, Quantity};
@@ -16,8 +18,6 @@ use mms_spec::quantity::{self, Quantity};
 use self::domain::Domain;
 use self::points::Points;
 use crate::report::bytes;
-use crate::session::exact::Exact;
-use crate::session::method::memory;
 
 /// A term that a solver is not given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

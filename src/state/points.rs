@@ -4,6 +4,8 @@ use std::borrow::Cow;
 
 use anyhow::{bail, ensure};
 use mms_analysis::present::{Inverse, Unplaced};
+use mms_exact::{Exact, says};
+use mms_files::machine::memory;
 use mms_results::motion::{Body, resolve};
 use mms_results::names::{Names, Role, Values, all_names, everything, recognise};
 use mms_results::{Array, Cells, Snapshot};
@@ -13,8 +15,6 @@ use mms_spec::Face;
 use mms_spec::foreign::shown;
 
 use crate::judge::results::{Results, placed, without_positions};
-use crate::session::exact::{Exact, says};
-use crate::session::method::memory;
 
 /// Particles in each direction of a cell where nothing is said.
 pub const PER_CELL: Division = Division::Uniform(2);

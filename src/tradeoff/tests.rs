@@ -1,9 +1,10 @@
 //! The search on methods whose errors and costs are known in closed form.
 
+use mms_runtime::ShapeName;
+
 use super::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
 use super::setting::Setting;
 use crate::session::method::Precision;
-use mms_runtime::ShapeName;
 
 /// Errors and times by formula, and how often they were asked for.
 struct Known<E> {

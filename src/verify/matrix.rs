@@ -3,10 +3,10 @@
 use anyhow::{Context as _, bail, ensure};
 use clap::Parser;
 use mms_convergence::TOLERANCE;
+use mms_exact::gallery::{self, Entry};
 use mms_runtime::{Division, Setup};
 use serde::Deserialize;
 
-use crate::gallery::{self, Entry};
 use crate::rows::{Named, read};
 use crate::session::input::{Motion, Variant};
 use crate::session::method::MethodOptions;

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use anyhow::Context as _;
+use mms_exact::gallery::{self, Entry};
+use mms_files::store::digest;
 use mms_runtime::{Division, Method};
 use serde::Serialize;
 
 use super::matrix::{Quantity, Row, Study};
-use crate::gallery::{self, Entry};
-use crate::store::digest;
 
 /// Everything that a result depends on.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]

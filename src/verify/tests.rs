@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use mms_exact::gallery;
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use mms_spec::Claim;
 
@@ -10,7 +11,6 @@ use super::plan::Plan;
 use super::report::fixed;
 use super::verdict::{Verdict, judge};
 use super::work::{Outcome, Size};
-use crate::gallery;
 use crate::rows::Named as _;
 
 fn studies() -> Vec<(Row, Study)> {

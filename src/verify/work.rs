@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::sync::{Arc, Mutex};
 
+use mms_exact::Input;
+use mms_files::store::{Entry, Store, side_by_side};
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Details, Watch};
 use mms_runtime::{Errors, Level};
@@ -12,9 +14,8 @@ use serde::{Deserialize, Serialize};
 
 use super::matrix::{Quantity, Row};
 use super::plan::Job;
-use crate::session::input::{Input, Variant};
+use crate::session::input::Variant;
 use crate::session::method::Precision;
-use crate::store::{Entry, Store, side_by_side};
 
 /// l1, l2 and linf, the largest over all steps.
 pub type Norms = [f64; 3];

@@ -1,10 +1,10 @@
 //! The machine code of what is emitted.
 
+use mms_files::read::{self, Kind};
 use mms_program::precision::Precision;
 
 use super::Workbench;
 use super::module::{Call, Module, Way, scalar};
-use crate::read::{self, Kind};
 
 /// An object file with what is called on the way from parameters, time and position to every quantity
 /// of a module: `prepare`, `at_time`, what keeps points where they are kept, a function for each

@@ -2,9 +2,10 @@
 // the contenders.
 #![allow(warnings)]
 
-use mms_math::{Double, Scalar};
 use std::hint::black_box;
 use std::time::Instant;
+
+use mms_math::{Double, Scalar};
 
 /// A contender: how many points it evaluates in a turn, and a turn.
 type Turn = (usize, Box<dyn FnMut()>);

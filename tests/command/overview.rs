@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use mms::gallery::FIELDS;
 use mms_codegen::materials::MATERIALS;
+use mms_exact::gallery::FIELDS;
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use mms_spec::Form;
 use mms_spec::PRECISIONS;

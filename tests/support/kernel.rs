@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, OnceLock};
 
-use mms::gallery::FIELDS;
 use mms_codegen::Compiled;
+use mms_exact::gallery::FIELDS;
 use mms_mechanics::sample::{Sample, samples};
 use mms_runtime::math::Real;
 use mms_spec::quantity::Quantity;
@@ -136,7 +136,7 @@ pub fn rows<T: Copy, const D: usize>(components: &[T]) -> [[T; D]; D] {
 pub fn compiled(name: &str) -> &'static Compiled {
     static COMPILED: LazyLock<BTreeMap<&str, OnceLock<Compiled>>> =
         LazyLock::new(|| FIELDS.iter().map(|entry| (entry.name, OnceLock::new())).collect());
-    let entry = mms::gallery::find(name).expect("a field of the gallery");
+    let entry = mms_exact::gallery::find(name).expect("a field of the gallery");
     COMPILED[name].get_or_init(|| entry.compile().expect("the gallery compiles"))
 }
 

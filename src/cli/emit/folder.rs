@@ -5,11 +5,10 @@ use std::path::Path;
 
 use anyhow::Context as _;
 use mms_emit::File;
+use mms_files::read;
+use mms_files::write::write_own;
 use mms_spec::foreign;
 use mms_spec::foreign::Foreign;
-
-use crate::read;
-use crate::report::write_own;
 
 /// Writes a file into a folder, whole or not at all, and returns its path.
 pub fn write(folder: &Path, file: &File) -> anyhow::Result<Foreign> {

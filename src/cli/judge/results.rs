@@ -6,6 +6,9 @@ use anyhow::{Context as _, bail};
 use clap::Args;
 use mms_convergence::Verdict;
 use mms_documents::judge::JudgeExplained;
+use mms_exact::Exact;
+use mms_exact::evaluated;
+use mms_files::read::{self, Kind};
 use mms_results::names::{Names, Role, everything};
 use mms_spec::foreign;
 use mms_spec::foreign::shown;
@@ -19,10 +22,8 @@ use crate::judge::results::{
     same, weight,
 };
 use crate::judge::table::Orders;
-use crate::read::{self, Kind};
 use crate::report::{Judgements, differences, with_baseline};
-use crate::session::exact::Exact;
-use crate::session::input::{Input, Variant, evaluated};
+use crate::session::input::{Variant, find};
 use crate::session::method::{finite, length};
 
 /// How results are read.
@@ -94,7 +95,7 @@ impl Judge {
                 shown(field)
             );
         }
-        let input = Input::find(field, &options.variant)?;
+        let input = find(field, &options.variant)?;
         let mut exact = Exact::new(input, &options.set)?.in_space_if(options.all_components);
         if options.explain {
             return self.explain(&mut exact);

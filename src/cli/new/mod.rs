@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
+use mms_exact::gallery;
+use mms_files::write;
 use mms_spec::field_name;
 use mms_spec::foreign;
 
 use self::template::{Body, Template};
 use super::{Outcome, print};
-use crate::gallery;
-use crate::report::file;
 
 /// Where fields are kept, in this project and in others.
 const FIELDS: &str = "fields";
@@ -106,7 +106,7 @@ impl New {
 /// Writes a file that must not be there yet.
 fn write_new(path: &Path, text: &str) -> anyhow::Result<()> {
     let shown = foreign::path(path);
-    match file::write_new(path, text) {
+    match write::write_new(path, text) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::AlreadyExists => {
             bail!(

@@ -7,14 +7,13 @@
 
 use anyhow::bail;
 use mms_codegen::materials::MATERIALS;
+use mms_exact::gallery;
 use mms_spec::foreign::Foreign;
 use mms_spec::language::FUNCTIONS;
 use mms_spec::suggest::advice;
 use mms_spec::{
     FILLS, FORMS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS,
 };
-
-use crate::gallery;
 
 /// The text, with the lines of all variants.
 const TEMPLATE: &str = include_str!("template.toml");

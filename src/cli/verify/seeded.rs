@@ -5,10 +5,10 @@ use std::num::NonZero;
 
 use anyhow::bail;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mms_files::store::{Store, program};
 
 use super::super::{Outcome, say, this_command};
 use super::{Verify, input};
-use crate::store::{Store, program};
 use crate::verify::defects::report::{Report, Showing};
 use crate::verify::defects::{Defect, Shown, Stage, validate};
 use crate::verify::matrix::Row;

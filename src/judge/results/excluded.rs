@@ -3,10 +3,10 @@
 use mms_diagnosis::exact::Quantity;
 use mms_diagnosis::excluded::{Excluded, Study};
 use mms_diagnosis::scene::excludes;
+use mms_exact::Exact;
 use mms_runtime::scene::Scene;
 
 use super::Measured;
-use crate::session::exact::Exact;
 
 /// Which mistakes results exclude, or why that is not known.
 pub struct Exclusions {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use anyhow::Context as _;
 use mms_documents::judge::{ExplainedFile, ExplainedQuantity};
+use mms_exact::Exact;
 use mms_results::Snapshot;
 use mms_results::cell::Shape;
 use mms_results::names::Role;
@@ -13,7 +14,6 @@ use mms_spec::foreign::shown;
 use super::Results;
 use super::extent::motion;
 use super::level::{Reading, values};
-use crate::session::exact::Exact;
 
 /// How one file is read.
 pub struct Explained {

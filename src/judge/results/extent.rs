@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use anyhow::ensure;
+use mms_exact::Exact;
 use mms_mechanics::extent::Extent;
 use mms_results::lattice::Lattice;
 use mms_results::mesh::{Mesh, swept};
@@ -15,7 +16,6 @@ use mms_spec::Face;
 use super::ALIKE;
 use super::files::placed;
 use crate::judge::Objection;
-use crate::session::exact::Exact;
 
 /// The part of the body that may be missing by rounding and by the meshing of curved sides.
 const ROUNDING: f64 = 1e-7;

@@ -3,13 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
+use mms_files::machine::memory;
+use mms_files::read::{self, Kind, cannot_read};
 use mms_results::own::{self, LeftOut};
 use mms_results::wanted::Wanted;
 use mms_results::{Mistake, Snapshot};
 use mms_spec::foreign;
-
-use crate::read::{self, Kind, cannot_read};
-use crate::session::method::memory;
 
 /// The ends of files that list pieces of one mesh; the pieces are no meshes of their own.
 const PIECES: &[&str] = &["vtm", "vtpc", "pvtu", "pvtp", "pvti", "pvtr", "pvts"];

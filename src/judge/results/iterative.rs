@@ -1,6 +1,7 @@
 //! The iterative error of a solver: how far results are from those of a smaller tolerance on the same mesh.
 
 use anyhow::{Context as _, bail, ensure};
+use mms_exact::Exact;
 use mms_results::norm::{lengths, of_differences, over_points};
 use mms_results::pairing::{self, Pairs};
 use mms_results::{Snapshot, names::Values};
@@ -10,7 +11,6 @@ use mms_spec::quantity::Quantity;
 use super::Level;
 use super::files::{Results, placed};
 use super::level::Reading;
-use crate::session::exact::Exact;
 
 /// How much smaller than an error of discretisation an iterative error must be, that an order is not changed by it: one
 /// percent of the error moves it by 0.01 or so (Eca & Hoekstra, Int. J. Numer. Meth. Fluids 60, 2009, 499-530).

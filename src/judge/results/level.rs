@@ -1,6 +1,7 @@
 //! The errors of one snapshot.
 
 use anyhow::{anyhow, bail};
+use mms_exact::Exact;
 use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, hold_distinct};
 use mms_results::names::{
@@ -14,7 +15,6 @@ use super::extent::{self, Covered};
 use super::files::{Results, placed, room};
 use super::taken::Taken;
 use super::units;
-use crate::session::exact::Exact;
 
 /// The number of a polygon among the types of cells in VTK.
 const POLYGON: u8 = 7;

@@ -39,7 +39,7 @@ use self::level::{Errors, Found, Measure};
 use self::start::Lowered;
 use super::table::Orders;
 use super::{Measured, Norm, Objection, Run};
-use crate::session::exact::Exact;
+use mms_exact::Exact;
 
 /// What was measured, and what is to be said of it.
 pub struct Measurement {

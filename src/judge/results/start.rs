@@ -3,12 +3,12 @@
 //! shape or where k is 2. It excites waves as long as a cell, which lower the order of v by one and that of a by two.
 
 use clap::ValueEnum;
+use mms_exact::Exact;
 use mms_spec::quantity::Quantity;
 
 use super::Level;
 use crate::judge::Objection;
 use crate::judge::table::Orders;
-use crate::session::exact::Exact;
 
 /// How a solver finds its first displacements and velocities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,6 +1,7 @@
 //! The errors of the quantities of one snapshot.
 
 use anyhow::{anyhow, bail};
+use mms_exact::Exact;
 use mms_results::comparison::Comparison;
 use mms_results::mesh::Mesh;
 use mms_results::motion::Motion;
@@ -12,7 +13,6 @@ use mms_spec::quantity::Quantity;
 
 use super::files::placed;
 use super::level::{Errors, Measure, Sampling};
-use crate::session::exact::Exact;
 
 /// A snapshot with what is known of it.
 pub struct Taken<'a> {

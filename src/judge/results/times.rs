@@ -1,10 +1,10 @@
 //! At which times levels are compared.
 
 use anyhow::bail;
+use mms_exact::{Exact, SAME};
 use mms_results::{Array, Snapshot, Stored, Time};
 
 use super::files::Results;
-use crate::session::exact::{Exact, SAME};
 
 /// Times at which all meshes have results, or those that are wanted; and how many each has that are left out.
 #[derive(Default)]

@@ -1,13 +1,12 @@
 //! The units in the headers of tables, against those of the field.
 
 use anyhow::bail;
+use mms_exact::Exact;
 use mms_results::names::{Meaning, Role};
 use mms_results::{Snapshot, is_time};
 use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 use mms_spec::units::{Dimension, Unit, system};
-
-use crate::session::exact::Exact;
 
 /// Refuses a column whose unit measures something else than its quantity, or is of another system than the units of the
 /// field's parameters. A unit that is unknown says nothing.

@@ -14,6 +14,8 @@ pub mod report;
 use std::num::NonZero;
 
 use anyhow::ensure;
+use eyes::{Eyes, Watched};
+use mms_files::store::Store;
 use mms_mechanics::defect as compiler;
 use mms_runtime::defect as solver;
 use mms_spec::suggest::did_you_mean;
@@ -23,9 +25,7 @@ use super::plan::Plan;
 use super::pseudo::Looks;
 use super::verdict::{Judgement, judge};
 use super::work::{Fields, Outcome, Watcher, outcomes};
-use crate::session::input::Input;
-use crate::store::Store;
-use eyes::{Eyes, Watched};
+use crate::session::input::{find, interpreted};
 
 /// A deliberate mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -160,8 +160,8 @@ impl Stage<'_> {
             }
         }
         let fields = Fields::new(match defect {
-            Some(Defect::Compiler(_)) => Input::interpreted,
-            _ => Input::find,
+            Some(Defect::Compiler(_)) => interpreted,
+            _ => find,
         });
         let bench = Eyes { fields };
         let _made = Made::new(defect);

@@ -15,25 +15,14 @@ use mms_runtime::{FormulationName, Method};
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
-use super::input::Input;
-use crate::terminal::say;
+use crate::Input;
 
 /// At how many points c0 is sampled.
 const POINTS: usize = 16;
 
-/// A bound of the speed of waves in the frame of the method's grid, with parameters set by `name=value`
-/// settings; no sharper than the time step of the method asks for. `None`, with a word on stderr, where
-/// there is none.
+/// Bounds the speed of waves in the frame of the method's grid, for parameters that are set by position; no sharper than the
+/// time step of the method asks for. `None` if no bound is proved: [`without_bound`] says so.
 pub fn fastest_wave(
-    input: &Input,
-    settings: &[String],
-    method: &Method,
-) -> anyhow::Result<Option<f64>> {
-    Ok(fastest_wave_with(input, &input.settings(settings)?, method))
-}
-
-/// The same, with parameters that are set by position.
-pub fn fastest_wave_with(
     input: &Input,
     set: &SortedMap<usize, Rational>,
     method: &Method,
@@ -48,14 +37,15 @@ pub fn fastest_wave_with(
         Some(_) => 0.0,
         None => sound(&input.compiled, set)[0] / method.setup.courant,
     };
-    let fastest = wave_speed(&input.compiled, set, frame, asked);
-    if fastest.is_none() {
-        say(format_args!(
-            "note: no stable time step of `{}` is known, since nothing bounds its waves: see `mms check`",
-            input.name.shown()
-        ));
-    }
-    fastest
+    wave_speed(&input.compiled, set, frame, asked)
+}
+
+/// The note that no stable time step of a field is known.
+pub fn without_bound(input: &Input) -> String {
+    format!(
+        "note: no stable time step of `{}` is known, since nothing bounds its waves: see `mms check`",
+        input.name.shown()
+    )
 }
 
 /// The least and the greatest c0 at some points; the least is 0 where there is none.

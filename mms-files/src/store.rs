@@ -25,8 +25,8 @@ use serde_json::Value;
 use serde_json::value::RawValue;
 
 use crate::read::{self, Kind, Unread};
-use crate::report::file::{leads_to, remove_stale};
-use crate::report::write_own;
+use crate::write::write_own;
+use crate::write::{leads_to, remove_stale};
 
 /// What the first key of every file says.
 pub const FORMAT: &str = "mms result 1";

@@ -1,14 +1,9 @@
 //! The shipped fields: the folder `fields/` is the list.
 
-#[cfg(not(feature = "gallery"))]
-use mms_bar as linked;
 use mms_codegen::compile::Failure;
 use mms_codegen::materials::MATERIALS;
 use mms_codegen::{Compiled, Options};
-#[cfg(feature = "gallery")]
-use mms_gallery as linked;
 use mms_mechanics::Model;
-use mms_runtime::scene::Code;
 use mms_spec::source::Sources;
 use mms_spec::{FieldSpec, MaterialSpec, read_field, read_material};
 use mms_symbolic::expr::{Expr, Graph, Symbol};
@@ -33,11 +28,6 @@ pub struct Entry {
 pub const FIELDS: &[Entry] = include!(concat!(env!("OUT_DIR"), "/fields.rs"));
 
 impl Entry {
-    /// Its compiled code, where that is part of this program.
-    pub fn code(&self) -> Option<Code> {
-        linked::find(self.name)
-    }
-
     /// Compiles the text again, for what the generated module does not hold.
     pub fn compile(&self) -> Result<Compiled, Failure> {
         self.compile_with(&Options::default())
@@ -101,6 +91,3 @@ pub fn materials() -> Vec<MaterialSpec> {
     });
     materials.collect()
 }
-
-#[cfg(test)]
-mod tests;

@@ -41,29 +41,29 @@ impl Target {
 }
 
 /// Whether what is written to a path is gone, as to a device or a FIFO, and so can be written once and in one go.
-pub(crate) fn is_stream(path: &Path) -> bool {
+pub fn is_stream(path: &Path) -> bool {
     matches!(Target::of(path), Ok(Target::Stream))
 }
 
 /// The folder that holds a file, behind its links.
-pub(crate) fn folder(path: &Path) -> PathBuf {
+pub fn folder(path: &Path) -> PathBuf {
     let folder = without_links(path).parent().map(Path::to_owned).unwrap_or_default();
     if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder }
 }
 
 /// Never leaves half a file under its final name.
-pub(crate) fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
+pub fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
     write_with(path, |file| Ok(file.write_all(content.as_bytes())?))
 }
 
 /// The same, of a file in a folder that was named, by a name of ours. Nothing but a plain file is written to there: who
 /// named the folder named neither what is behind a link, nor a FIFO that may have no reader.
-pub(crate) fn write_own(path: &Path, content: &str) -> anyhow::Result<()> {
+pub fn write_own(path: &Path, content: &str) -> anyhow::Result<()> {
     write_own_with(path, |file| Ok(file.write_all(content.as_bytes())?))
 }
 
 /// As [`write_own`], with whatever is written.
-pub(crate) fn write_own_with(
+pub fn write_own_with(
     path: &Path,
     write: impl FnOnce(&mut File) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
@@ -74,7 +74,7 @@ pub(crate) fn write_own_with(
 }
 
 /// Refuses a link, whose user named the link and not what it leads to; `other` says what to name in its place.
-pub(crate) fn refuse_link(path: &Path, other: &str) -> anyhow::Result<()> {
+pub fn refuse_link(path: &Path, other: &str) -> anyhow::Result<()> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_symlink() => Err(not_written_to(&found, other)),
         _ => Ok(()),
@@ -87,14 +87,14 @@ fn not_written_to(found: &Metadata, other: &str) -> anyhow::Error {
 }
 
 /// The same, of a file that must not be there yet: an error of the kind `AlreadyExists` if it is.
-pub(crate) fn write_new(path: &Path, content: &str) -> io::Result<()> {
+pub fn write_new(path: &Path, content: &str) -> io::Result<()> {
     let mut new = Unfinished::of(path)?;
     new.file.write_all(content.as_bytes())?;
     new.path.persist_noclobber(path).map_err(|error| error.error)
 }
 
 /// Whether two paths lead to the same file, there or not, by whatever folders and links.
-pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+pub fn is_same(one: &Path, other: &Path) -> bool {
     place(one) == place(other)
 }
 
@@ -108,7 +108,7 @@ fn place(path: &Path) -> PathBuf {
 
 /// As [`write_whole`], with whatever is written. A link stays, and so do the permissions of a file that is replaced; a device or a
 /// FIFO is written to.
-pub(crate) fn write_with(
+pub fn write_with(
     path: &Path,
     write: impl FnOnce(&mut File) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
@@ -125,7 +125,7 @@ pub(crate) fn write_with(
 }
 
 /// Whether a file could be written, without a trace of the attempt.
-pub(crate) fn try_to_write(path: &Path) -> io::Result<()> {
+pub fn try_to_write(path: &Path) -> io::Result<()> {
     Unfinished::of(&without_links(path)).map(drop)
 }
 
@@ -133,7 +133,7 @@ pub(crate) fn try_to_write(path: &Path) -> io::Result<()> {
 const WRITERS: u32 = 16;
 
 /// Removes what earlier processes left of a file that they were killed over.
-pub(crate) fn remove_unfinished(path: &Path) {
+pub fn remove_unfinished(path: &Path) {
     let path = without_links(path);
     for number in 0..WRITERS {
         let _ = remove_stale(&unfinished(&path, number));
@@ -196,7 +196,7 @@ fn create(path: &Path) -> io::Result<File> {
 }
 
 /// Removes a file that no process has locked; whether it did.
-pub(crate) fn remove_stale(path: &Path) -> io::Result<bool> {
+pub fn remove_stale(path: &Path) -> io::Result<bool> {
     match fs::symlink_metadata(path) {
         Ok(found) if !found.is_file() => return Ok(false),
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
@@ -219,14 +219,14 @@ pub(crate) fn remove_stale(path: &Path) -> io::Result<bool> {
 
 /// Whether a name is still that of a file.
 #[cfg(unix)]
-pub(crate) fn leads_to(path: &Path, file: &File) -> bool {
+pub fn leads_to(path: &Path, file: &File) -> bool {
     use std::os::unix::fs::MetadataExt as _;
     let place = |found: io::Result<Metadata>| found.map(|it| (it.dev(), it.ino())).ok();
     place(file.metadata()).is_some_and(|own| place(fs::symlink_metadata(path)) == Some(own))
 }
 
 #[cfg(not(unix))]
-pub(crate) fn leads_to(_: &Path, _: &File) -> bool {
+pub fn leads_to(_: &Path, _: &File) -> bool {
     true
 }
 

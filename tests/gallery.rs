@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
+use mms_exact::gallery::{Entry, FIELDS};
 use mms_interpreted::{Interpretable, scene};
 use mms_mechanics::sample::samples;
 use mms_runtime::column::BUNCH;
@@ -11,7 +12,6 @@ use mms_runtime::scene::{Code, Scene};
 use mms_runtime::{ManufacturedField, Matrix, Real, Vector};
 use mms_symbolic::sorted::SortedMap;
 
-use super::{Entry, FIELDS};
 use crate::sampled::sampled;
 
 /// Less than a block, one, and more of either precision.

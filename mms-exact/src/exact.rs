@@ -15,9 +15,8 @@ use mms_spec::quantity::{Quantity, Shape};
 use mms_spec::{Claim, Face};
 use mms_symbolic::sorted::SortedMap;
 
-use super::input::Input;
-use super::method::processors;
-use super::plane::{Beyond, NEEDED, SPACE, nine};
+use crate::Input;
+use crate::plane::{Beyond, NEEDED, SPACE, nine};
 
 /// What part of the time window two times may differ by that are one: sums of time steps round.
 pub const SAME: f64 = 1e-9;
@@ -288,7 +287,8 @@ impl Exact {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => place.insert(prepared(&self.input, &self.parameters, output)?),
         };
-        Ok(prepared.values(components, time, self.dimension, places, processors()))
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        Ok(prepared.values(components, time, self.dimension, places, threads))
     }
 }
 

@@ -1,0 +1,19 @@
+//! A field that a user named, with numbers for its parameters.
+//!
+//! A [`Source`] is the text of a field and the way to its material. [`Input`] is a field compiled from one; [`Exact`] evaluates
+//! it at many points. [`wave`] bounds the speed of its waves, [`gallery`] holds the texts of the shipped fields. Nothing here
+//! opens a file: whoever makes a [`Source`] read it.
+
+mod exact;
+pub mod gallery;
+mod input;
+pub mod plane;
+pub mod provenance;
+mod quantities;
+mod source;
+pub mod wave;
+
+pub use exact::{Exact, SAME, says};
+pub use input::{Input, hold_body, settings};
+pub use quantities::{evaluated, quantities};
+pub use source::{Open, Source};

@@ -1,0 +1,40 @@
+//! Names of quantities, as users give them.
+
+use anyhow::Error;
+use mms_codegen::selection::{self, quantity};
+use mms_spec::own::Own;
+use mms_spec::quantity::Quantity;
+
+/// The quantities of some names or aliases that a field with these of its own is compiled with, each once; `all` stands for those of a point and a
+/// time.
+pub fn quantities(own: &[Own], names: &[String]) -> anyhow::Result<Vec<Quantity>> {
+    named(own, names, quantity)
+}
+
+/// The same, those on request as well, which `all` leaves out.
+pub fn evaluated(own: &[Own], names: &[String]) -> anyhow::Result<Vec<Quantity>> {
+    named(own, names, selection::evaluated)
+}
+
+fn named(
+    own: &[Own],
+    names: &[String],
+    known: fn(&[Own], &str) -> Result<Quantity, String>,
+) -> anyhow::Result<Vec<Quantity>> {
+    let mut quantities = Vec::new();
+    for name in names.iter().map(|name| name.trim()) {
+        if name == "all" {
+            let own = own.iter().map(|own| Quantity::Own(*own));
+            quantities.extend(Quantity::pointwise().chain(own.filter(|it| !it.takes_normal())));
+            continue;
+        }
+        quantities.push(known(own, name).map_err(Error::msg)?);
+    }
+    let mut seen = Vec::new();
+    quantities.retain(|quantity| {
+        let new = !seen.contains(quantity);
+        seen.push(*quantity);
+        new
+    });
+    Ok(quantities)
+}

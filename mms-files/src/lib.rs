@@ -1,0 +1,13 @@
+//! The files of a program, and the machine that it runs on.
+//!
+//! [`read`] reads plain files within a bound for each kind; [`write`](mod@write) writes files whole or not at all; [`store`]
+//! keeps results that several processes share; [`shell`] quotes command lines; [`machine`] counts processors and memory.
+
+#![warn(clippy::disallowed_methods)]
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
+pub mod machine;
+pub mod read;
+pub mod shell;
+pub mod store;
+pub mod write;
