@@ -7,15 +7,11 @@
 #![warn(clippy::disallowed_methods)]
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
-mod campaign;
 mod checkpoint;
 pub mod cli;
-mod diagnose;
 mod extremes;
 mod history;
-mod judge;
 mod page;
-mod profile;
 mod provenance;
 pub mod report;
 mod rows;
@@ -24,7 +20,6 @@ mod rows;
 mod sampled;
 pub mod schema;
 mod session;
-mod state;
 mod terminal;
 mod tradeoff;
 mod trial;

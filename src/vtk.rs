@@ -4,16 +4,16 @@
 //! under its name when it is whole, and the list is written anew with each state: so whatever stops a run, what is
 //! there can be opened. `.ci/states.py` reads them with meshio.
 
-use std::fmt::Write as _;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use mms_files::write::{write_own, write_own_with};
 use mms_results::Cells;
-use mms_results::write::{Column, Mesh, Shape, State, head, vtu};
+use mms_results::write::{Column, Mesh, Shape, State, vtu};
 use mms_runtime::study::Frame;
 use mms_spec::foreign;
+use mms_state::file::list;
 
 /// Writes states to a folder.
 pub struct Writer {
@@ -102,22 +102,6 @@ fn write_state(path: &Path, state: &State, position: &[f64], cells: &Cells) -> a
         vtu(state, Mesh { position, cells }, &mut file)?;
         Ok(file.flush()?)
     })
-}
-
-/// A list of files of one mesh at times, as `.pvd`.
-pub fn list(written: &[(f64, String)]) -> String {
-    let mut text = head("Collection");
-    text += "<Collection>\n";
-    for (time, file) in written {
-        let file = attribute(file);
-        let _ = writeln!(text, r#"<DataSet timestep="{time:.16e}" file="{file}"/>"#);
-    }
-    text + "</Collection>\n</VTKFile>\n"
-}
-
-/// The text as the value of an attribute.
-fn attribute(text: &str) -> String {
-    foreign::markup(text).replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
 /// What is written of a frame.

@@ -11,6 +11,7 @@ use mms_codegen::{Compiled, Options, Selection, compile_with};
 use mms_documents::provenance;
 use mms_interpreted::Interpretable;
 use mms_mechanics::{Program, TooLarge};
+use mms_runtime::Division;
 use mms_runtime::scene::{Code, Scene};
 use mms_spec::Form;
 use mms_spec::foreign::{Foreign, shown};
@@ -301,4 +302,16 @@ pub fn hold_body(compiled: &Compiled, why: &str) -> anyhow::Result<()> {
         compiled.field.name.shown()
     );
     Ok(())
+}
+
+/// Refuses numbers of an option for other axes than there are.
+pub fn hold_division(option: &str, numbers: &Division, dimension: usize) -> anyhow::Result<()> {
+    match *numbers {
+        Division::PerAxis(each, given) if given != dimension => bail!(
+            "`{option} {numbers}`: {given} numbers for {dimension} dimension(s); expected one for each, or one for \
+             all, as in `{option} {}`",
+            each[0]
+        ),
+        _ => Ok(()),
+    }
 }

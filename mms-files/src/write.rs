@@ -12,6 +12,8 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
+use anyhow::Context as _;
+use mms_spec::foreign;
 use tempfile::TempPath;
 
 use crate::read;
@@ -122,6 +124,29 @@ pub fn write_with(
         new.file.set_permissions(replaced.permissions())?;
     }
     Ok(new.path.persist(&path).map_err(|error| error.error)?)
+}
+
+/// Writes texts to files of one stem in a folder, which is made if there is none, by their extensions; returns
+/// their paths.
+pub fn write_files<const N: usize>(
+    folder: &Path,
+    stem: &str,
+    files: [(&str, String); N],
+) -> anyhow::Result<Vec<String>> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder `{}`", foreign::path(folder)))?;
+    let write = |(extension, content): (&str, String)| {
+        let path = folder.join(stem).with_extension(extension);
+        let shown = foreign::path(&path);
+        write_own(&path, &content).with_context(|| format!("cannot write `{shown}`"))?;
+        Ok(shown)
+    };
+    files.into_iter().map(write).collect()
+}
+
+/// The content of a file with a JSON document.
+pub fn pretty(document: &impl serde::Serialize) -> anyhow::Result<String> {
+    Ok(serde_json::to_string_pretty(document)? + "\n")
 }
 
 /// Whether a file could be written, without a trace of the attempt.

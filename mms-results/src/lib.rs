@@ -15,6 +15,7 @@
 pub mod cell;
 pub mod comparison;
 mod components;
+mod files;
 pub mod lattice;
 mod mapping;
 mod meaning;
@@ -35,6 +36,7 @@ pub mod suggestion;
 pub mod wanted;
 pub mod write;
 
+pub use files::Files;
 pub use mistake::Mistake;
 pub use read::{Contents, is_time, parse, read};
 pub use snapshot::{Array, Cells, Snapshot, Stored, Time};

@@ -14,15 +14,17 @@ use mms_documents::campaign::{CampaignRuns, ListedRun};
 use mms_files::read::{self, Kind};
 use mms_files::shell::{command, quoted};
 use mms_files::store::Store;
+use mms_harness::judged::Judged;
+use mms_harness::plan::{Job, Only, Plan, Planned};
+use mms_harness::work::{self, Watcher, Work, hash, side_by_side_of};
 use mms_spec::foreign;
 
 use super::follow::Interrupted;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::campaign::judged::Judged;
-use crate::campaign::plan::{Job, Only, Plan, Planned};
-use crate::campaign::report::{Report, line};
-use crate::campaign::work::{self, Watcher, Work, hash, side_by_side_of};
 use crate::provenance::{Input, Provenance};
+use crate::report::campaign::{View, line};
+use crate::session::input::open;
+use mms_harness::report::Report;
 
 /// Run your own solver on the meshes of several studies, and judge each as `mms judge` does it.
 ///
@@ -88,7 +90,7 @@ impl Campaign {
             );
         }
         let only: Vec<Only> = self.only.iter().cloned().map(Only::from).collect();
-        let plan = Plan::new(&self.file, file, &only)?;
+        let plan = Plan::new(&self.file, file, &only, &open)?;
         let given = self.folder();
         let (store, set_aside) = Store::open(&given)?;
         let folder = given.canonicalize().with_context(|| read::cannot_read(&given))?;
@@ -135,10 +137,10 @@ impl Campaign {
         if self.json {
             print_json(&report.document())?;
         } else {
-            print(&report.text())?;
+            print(&View(report).text())?;
         }
         if let Some(folder) = &self.output {
-            let written = report.write(folder)?;
+            let written = View(report).write(folder)?;
             if !self.json {
                 print(&format!("\nwrote {}", written.join(", ")))?;
             }

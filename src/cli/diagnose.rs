@@ -17,6 +17,10 @@ use mms_diagnosis::scene::{self, Evidence};
 use mms_diagnosis::solver::Solver;
 use mms_exact::Exact;
 use mms_exact::{Input, evaluated};
+use mms_files::results::Disk;
+use mms_judge::diagnose::{Alone, Factors, Reading, falls, find, gradients, left_out, read};
+use mms_judge::results::Results;
+use mms_judge::table::{Order, Orders};
 use mms_runtime::Method;
 use mms_runtime::scene::Scene;
 use mms_spec::own::Own;
@@ -24,9 +28,6 @@ use mms_spec::quantity::Quantity;
 
 use super::naming::Naming;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::diagnose::{Alone, Factors, Reading, falls, find, gradients, left_out, read};
-use crate::judge::results::Results;
-use crate::judge::table::{Order, Orders};
 use crate::report::{Diagnosed, Hypotheses, Plan, Step};
 use crate::session::input::{Variant, open};
 use crate::session::method::{MethodOptions, finite, length, positive};
@@ -195,16 +196,17 @@ impl Diagnose {
         let mut exact = Exact::new(input, &self.set)?;
         let (law, wanted) = self.quantities(&exact.input().own_quantities())?;
         let names = self.naming.names(&exact.input().own_quantities())?;
-        let all = self.files.iter().map(|file| find(file, &names, self.max_memory));
+        let all = self.files.iter().map(|file| find(file, &names, self.max_memory, &Disk));
         let mut all = all.collect::<anyhow::Result<Vec<_>>>()?;
         let is_static = exact.input().is_static();
         all.iter_mut().filter(|_| is_static).for_each(Results::keep_last);
         all.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
-        let right = self.reference.iter().map(|file| find(file, &names, self.max_memory));
+        let right = self.reference.iter().map(|file| find(file, &names, self.max_memory, &Disk));
         let mut right = right.collect::<anyhow::Result<Vec<_>>>()?;
         right.iter_mut().filter(|_| is_static).for_each(Results::keep_last);
         right.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
         let reading = Reading {
+            files: &Disk,
             right: &right,
             names: &names,
             times: &self.time,

@@ -17,13 +17,13 @@ use mms_program::precision::Precision;
 use mms_runtime::math::{Double, Scalar as _};
 use mms_spec::foreign::{Foreign, shown};
 use mms_spec::quantity::Quantity;
+use mms_state::points::Points;
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
 use super::naming::Naming;
 use super::{Outcome, print, print_json, say};
 use crate::session::input::{Variant, find_some, open, precision};
-use crate::state::points::Points;
 
 /// Evaluate quantities of a field at points.
 ///

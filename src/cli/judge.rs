@@ -9,13 +9,14 @@ use clap::Args;
 use mms_convergence::{TOLERANCE, Verdict};
 use mms_files::read::{self, Kind};
 use mms_files::store::digest;
+use mms_judge::Judgements;
+use mms_judge::table::{self, Order, Orders};
 use mms_spec::foreign;
 use serde::Serialize;
 
 use super::{Outcome, hold_output, print, print_json, this_command};
-use crate::judge::table::{self, Order, Orders};
 use crate::provenance::Input;
-use crate::report::Judgements;
+use crate::report::View;
 use crate::session::method::positive;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
@@ -92,15 +93,16 @@ impl Judge {
         let input =
             Input { field: None, rigid: None, window: None, set: Vec::new(), hash: digest([text]) };
         let provenance = this_command("judge", input);
-        let report = Judgements::of(source.clone(), measured, provenance).context(source)?;
-        self.tell(&Judgements { notes, ..report })
+        let mut report = Judgements::of(source.clone(), measured, provenance).context(source)?;
+        report.notes = notes;
+        self.tell(&report)
     }
 
     /// Prints a report, and writes it where that is asked for.
     fn tell(&self, report: &Judgements) -> anyhow::Result<Outcome> {
-        self.show((report.table(), report.document()))?;
+        self.show((View(report).table(), report.document()))?;
         if let Some(folder) = &self.output {
-            let written = report.write(folder)?;
+            let written = View(report).write(folder)?;
             if !self.json {
                 print(&format!("\nwrote {}", written.join(", ")))?;
             }

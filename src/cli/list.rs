@@ -6,11 +6,11 @@ use comfy_table::presets::NOTHING;
 use mms_codegen::materials::MATERIALS;
 use mms_documents::list::{self as documents, ListedField, ListedStudy};
 use mms_exact::gallery;
+use mms_harness::profile;
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use mms_spec::{Claim, FORMS, FieldSpec, PRECISIONS, StudySpec};
 
 use super::{Outcome, print, print_json};
-use crate::profile;
 
 /// List the fields, materials and methods, and the codes whose files have a profile.
 ///

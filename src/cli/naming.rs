@@ -2,11 +2,10 @@
 
 use anyhow::anyhow;
 use clap::Args;
+use mms_harness::profile;
+use mms_judge::results::own_roles;
 use mms_results::names::{Mapping, Names};
 use mms_spec::own::Own;
-
-use crate::judge::results::own_roles;
-use crate::profile;
 
 /// The options of every command that reads files of other programs.
 #[derive(Args)]

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use mms_exact::gallery::{self, FIELDS};
+use mms_files::write::write_files;
 use mms_files::write::{write_own, write_whole};
 use mms_spec::foreign;
 
 use super::{Outcome, print, say, spare};
 use crate::page::{self, Page, Verdicts};
-use crate::report::write_files;
 
 /// Put all results of a folder on one page of HTML, complete in itself: verdicts first, then tables, pictures of
 /// convergence, diagnoses, campaigns of other solvers, the verification matrix, error against cost, the solver at its limits, states of runs, the formulas

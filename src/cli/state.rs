@@ -3,26 +3,28 @@
 use std::path::PathBuf;
 
 use anyhow::{bail, ensure};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Options, Selection};
 use mms_documents::state as documents;
 use mms_exact::Exact;
+use mms_exact::hold_division;
 use mms_exact::{Input, evaluated};
 use mms_mechanics::extent::is_between;
 use mms_runtime::Division;
 use mms_runtime::scene::usual_cells;
 use mms_spec::own::Part;
 use mms_spec::quantity::Quantity;
+use mms_state::domain::Domain;
+use mms_state::file::{Frame, Target};
+use mms_state::points::{Given, PER_CELL, Places, Points};
+use mms_state::{Term, USUAL, Wanted};
 
 use super::naming::Naming;
 use super::{Outcome, print, print_json, spare};
 use crate::session::input::{Variant, open};
-use crate::session::method::{finite, hold_division};
-use crate::state::domain::Domain;
-use crate::state::file::{Frame, Target};
-use crate::state::points::{Given, PER_CELL, Places, Points};
-use crate::state::{Term, USUAL, Wanted};
+use crate::session::method::finite;
 
 /// Write exact states: to start a solver in the middle of a motion, to look at, or to feed a solver that reads tables.
 ///
@@ -69,7 +71,7 @@ pub struct State {
     /// Leave a term out of what the solver is given, so that its order must suffer: body_force (b = 0), stress (P, sigma and
     /// their like 0: a solver that starts from stored stress starts without), traction (P N = 0 on every face). The motion
     /// stays what it is: u, v and F are those of the field.
-    #[arg(long, value_name = "TERM,..", value_delimiter = ',', value_enum)]
+    #[arg(long, value_name = "TERM,..", value_delimiter = ',', value_parser = terms())]
     without: Vec<Term>,
     /// Take the affine part of the motion about the middle c of the body, u(c, t) + H(c, t) (X - c). Where the material is
     /// the same everywhere its stress is, too, and b is the acceleration alone: a consistent method errs by
@@ -88,6 +90,13 @@ pub struct State {
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
+}
+
+/// Reads a term that a solver is not given.
+fn terms() -> impl TypedValueParser<Value = Term> {
+    let name = |term: Term| PossibleValue::new(term.name()).help(term.says());
+    let names = PossibleValuesParser::new(Term::ALL.map(name));
+    names.try_map(|name| Term::from_name(&name).ok_or("no term"))
 }
 
 impl State {

@@ -9,6 +9,8 @@ use clap::{Args, Parser};
 use mms_analysis::period::period;
 use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
 use mms_exact::Input;
+use mms_exact::hold_division;
+use mms_judge::results::Exclusions;
 use mms_mechanics::sample::domain;
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
@@ -16,12 +18,11 @@ use mms_runtime::{Division, Method, Real, Run};
 
 use super::methods::Methods;
 use super::{Outcome, output_folder, print, print_json, say};
-use crate::judge::results::Exclusions;
 use crate::provenance::{self, Provenance};
 use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method, run};
 use crate::session::effort::announce;
 use crate::session::input::{Motion, find};
-use crate::session::method::{MethodOptions, Precision, finite, hold_division, positive};
+use crate::session::method::{MethodOptions, Precision, finite, positive};
 use crate::session::progress::Progress;
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.

@@ -14,12 +14,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_documents::verify::{ListedRow, VerifyList};
 use mms_exact::gallery::FIELDS;
 use mms_files::store::{Store, digest, program};
+use mms_files::write::{pretty, write_files};
 use mms_spec::suggest::advice;
 use serde::Serialize;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::provenance;
-use crate::report::{pretty, write_files};
 use crate::rows::Named as _;
 use crate::session::input::find;
 use crate::verify::matrix::{MATRIX, Row, rows};

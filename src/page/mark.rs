@@ -36,7 +36,7 @@ pub fn count(value: Option<usize>) -> Markup {
 
 /// Seconds of a computation.
 pub fn seconds(value: Option<f64>) -> Markup {
-    number(value, crate::report::duration)
+    number(value, mms_files::words::duration)
 }
 
 /// A number or a text of a document, as it stands there.

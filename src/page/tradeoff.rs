@@ -2,11 +2,11 @@
 
 use maud::{Markup, html};
 use mms_documents::tradeoff::{Cost, Tradeoff, Trial};
+use mms_files::words::{bytes, duration};
 
 use super::mark::{count, number, numbers, seconds, small, table, words};
 use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
-use crate::report::{bytes, duration};
 
 /// The cost of a run; nothing if the run stopped.
 fn cost_of(tradeoff: &Tradeoff, run: &Trial) -> Option<f64> {

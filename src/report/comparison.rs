@@ -7,9 +7,9 @@ use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_convergence::Verdict;
 use mms_documents::study::{self as documents, Studies, StudyOfOne};
+use mms_files::write::{pretty, write_files};
 use serde::Serialize;
 
-use super::text::{pretty, write_files};
 use super::{Study, picture};
 use crate::provenance::Provenance;
 

@@ -6,10 +6,10 @@ use mms_diagnosis::answer::{Diagnosis, Fields, Finding, Like, Place, Ranked};
 use mms_diagnosis::falls::{Falls, OfOrder};
 use mms_diagnosis::list::Listed;
 use mms_documents::diagnose as documents;
+use mms_files::write::{pretty, write_files};
 use mms_spec::foreign::Foreign;
 
 use super::text::plain;
-use super::{pretty, write_files};
 use crate::provenance::Provenance;
 
 /// How many hypotheses a text shows.

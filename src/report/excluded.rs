@@ -1,55 +1,18 @@
-//! The mistakes that a pass excludes, as text and in a JSON document.
+//! The mistakes that a pass excludes, as text.
 
 use mms_diagnosis::excluded::{Excluded, Shown};
-use mms_documents::campaign::ExcludedTogether;
-use mms_documents::judge;
+use mms_judge::Together;
+use mms_judge::results::Exclusions;
 
-use crate::judge::results::Exclusions;
-
-/// The mistakes that several results exclude together.
-pub struct Together {
-    /// The name of each mistake, and which results exclude it.
-    all: Vec<(String, Option<String>)>,
-}
-
-impl Together {
-    /// Collects the mistakes of named results; nothing if no result has a list of them.
-    pub fn new<'a>(of: impl Iterator<Item = (&'a str, &'a Exclusions)>) -> Option<Together> {
-        let mut all: Vec<(String, Option<String>)> = Vec::new();
-        for (source, exclusions) in of {
-            for it in exclusions.all.iter().flatten() {
-                let at = all.iter().position(|(name, _)| *name == it.name);
-                let at = at.unwrap_or_else(|| {
-                    all.push((it.name.clone(), None));
-                    all.len() - 1
-                });
-                if it.is_excluded() {
-                    all[at].1.get_or_insert_with(|| source.to_owned());
-                }
-            }
-        }
-        (!all.is_empty()).then_some(Together { all })
-    }
-
-    /// The lines for a terminal.
-    pub fn text(&self) -> String {
-        let of = |is_excluded: bool| {
-            let names = self.all.iter().filter(|(_, by)| by.is_some() == is_excluded);
-            listed(names.map(|(name, _)| name.clone()))
-        };
-        let lines = [("excluded by what passes", of(true)), ("still open", of(false))];
-        let lines = lines.iter().filter(|(_, names)| !names.is_empty());
-        lines.map(|(head, names)| format!("{head}: {names}")).collect::<Vec<_>>().join("\n")
-    }
-
-    /// The list of a document.
-    pub fn document(&self) -> Vec<ExcludedTogether> {
-        let entry = |(name, by): &(String, Option<String>)| ExcludedTogether {
-            hypothesis: name.clone(),
-            by: by.clone(),
-        };
-        self.all.iter().map(entry).collect()
-    }
+/// The lines of mistakes that several results exclude together.
+pub fn together(of: &Together) -> String {
+    let names = |is_excluded: bool| {
+        let found = of.all.iter().filter(|(_, by)| by.is_some() == is_excluded);
+        listed(found.map(|(name, _)| name.clone()))
+    };
+    let lines = [("excluded by what passes", names(true)), ("still open", names(false))];
+    let lines = lines.iter().filter(|(_, names)| !names.is_empty());
+    lines.map(|(head, names)| format!("{head}: {names}")).collect::<Vec<_>>().join("\n")
 }
 
 /// The head of a line, and the text of each mistake in it.
@@ -95,44 +58,20 @@ fn listed(names: impl IntoIterator<Item = String>) -> String {
     })
 }
 
-impl Exclusions {
-    /// The lines for a terminal.
-    pub fn text(&self) -> String {
-        let all = match &self.all {
-            Err(reason) => return format!("which mistakes that excludes is not known: {reason}"),
-            Ok(all) => all,
-        };
-        let line = |(head, says): &Says| {
-            let names = listed(all.iter().filter_map(says));
-            (!names.is_empty()).then(|| format!("  {head}: {names}"))
-        };
-        let mut lines =
-            vec![format!("mistakes, by what they add to the finest error, {}:", self.of)];
-        lines.extend(LINES.iter().filter_map(line));
-        lines.join("\n")
-    }
-
-    /// The list of a document; nothing if the mistakes could not be run.
-    pub fn document(&self) -> Option<Vec<judge::Excluded>> {
-        Some(self.all.as_ref().ok()?.iter().map(document).collect())
-    }
-}
-
-fn document(it: &Excluded) -> judge::Excluded {
-    let (times, right, from) = match it.shown {
-        Shown::Always(times) => (times, None, None),
-        Shown::From { right, least } => (None, Some(right), Some(least)),
-        Shown::Never(times) => (Some(times), None, None),
+/// The lines of the mistakes that a pass excludes.
+pub fn text(exclusions: &Exclusions) -> String {
+    let all = match &exclusions.all {
+        Err(reason) => return format!("which mistakes that excludes is not known: {reason}"),
+        Ok(all) => all,
     };
-    judge::Excluded {
-        hypothesis: it.title.clone(),
-        says: it.says.to_string(),
-        kind: it.kind.name().to_owned(),
-        excluded: it.is_excluded(),
-        times,
-        right,
-        from,
-    }
+    let line = |(head, says): &Says| {
+        let names = listed(all.iter().filter_map(says));
+        (!names.is_empty()).then(|| format!("  {head}: {names}"))
+    };
+    let mut lines =
+        vec![format!("mistakes, by what they add to the finest error, {}:", exclusions.of)];
+    lines.extend(LINES.iter().filter_map(line));
+    lines.join("\n")
 }
 
 #[cfg(test)]

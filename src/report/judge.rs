@@ -1,42 +1,20 @@
-//! Judged errors as tables, a JSON document, a CSV file and a picture.
+//! Judged errors as tables for a terminal, a CSV file and a picture.
 
 use std::path::Path;
 
 use comfy_table::Table;
-use mms_convergence::{Basis, Finding, Judgement, Kind, Level, RULE, Verdict};
-use mms_documents::Names;
-use mms_documents::judge as documents;
-use mms_documents::study::{JudgedLevel, JudgedNorm, LevelErrors, Limit, LowerOrder, SecondTerm};
-use mms_exact::Exact;
-use mms_spec::foreign::{Foreign, shown};
+use mms_convergence::RULE;
+use mms_files::write::{pretty, write_files};
+use mms_judge::Judgements;
+use mms_judge::measured::{Norm, Quantity, Refined};
+use mms_spec::foreign::shown;
 
+use super::excluded;
 use super::picture::{Line, Picture};
-use super::text::{plain, pretty, to_the_right, write_files};
-use crate::judge::results::{Exclusions, Measurement, exclusions};
-use crate::judge::{Judged, Measured, Norm, Objection, Quantity, Refined, worst};
-use crate::provenance::Provenance;
+use super::text::{plain, to_the_right};
 
-/// Errors with what they say.
-pub struct Judgements {
-    /// Where the errors are from, in a word or two.
-    pub source: String,
-    /// The errors.
-    pub measured: Measured,
-    /// The lengths that differ between the runs.
-    pub refined: Refined,
-    /// The judgement of each quantity.
-    pub judged: Vec<Judged>,
-    /// How the errors were measured, in sentences.
-    pub notes: Vec<String>,
-    /// The part of the body that results cover, if a part was enough.
-    pub part: Option<String>,
-    /// The mistakes that results exclude if they pass.
-    pub exclusions: Option<Exclusions>,
-    /// The keys of results of files.
-    pub(crate) results: Results,
-    /// Where the verdicts are from.
-    pub provenance: Provenance,
-}
+/// The text, the table and the picture of judgements.
+pub struct View<'a>(pub &'a Judgements);
 
 /// The norm that decides over several quantities.
 pub struct Deciding {
@@ -48,78 +26,16 @@ pub struct Deciding {
     pub of: String,
 }
 
-/// The norms that levels have in the document of a study.
-const NORMS: [&str; 3] = ["l1", "l2", "linf"];
-
 /// An order with two digits, or that there is none.
 fn order(order: Option<f64>) -> String {
     order.map_or("-".into(), |order| format!("{order:.2}"))
 }
 
-impl Judgements {
-    /// Judges what was measured.
-    ///
-    /// # Errors
-    /// Runs that cannot be compared.
-    pub fn of(source: String, measured: Measured, provenance: Provenance) -> anyhow::Result<Self> {
-        Self::objected(source, measured, None, provenance)
-    }
-
-    fn objected(
-        source: String,
-        measured: Measured,
-        objection: Option<&Objection>,
-        provenance: Provenance,
-    ) -> anyhow::Result<Self> {
-        let (refined, judged) = measured.judged(objection)?;
-        Ok(Self {
-            source,
-            refined,
-            judged,
-            measured,
-            notes: Vec::new(),
-            part: None,
-            exclusions: None,
-            results: Results::default(),
-            provenance,
-        })
-    }
-
-    /// Judges what was measured of results in files.
-    ///
-    /// # Errors
-    /// Runs that cannot be compared.
-    pub fn of_results(
-        exact: &Exact,
-        files: &[String],
-        measurement: Measurement,
-        time_step: Option<f64>,
-        provenance: Provenance,
-    ) -> anyhow::Result<Self> {
-        let results = Results::new(&exact.input().name, files, &measurement);
-        let Measurement { measured, times, notes, objection, part, .. } = measurement;
-        let report = Self::objected(exact.title(), measured, objection.as_ref(), provenance)?;
-        let exclusions = match report.verdict().is_good() {
-            true => exclusions(exact, &report.measured, times, time_step)?,
-            false => None,
-        };
-        Ok(Self { notes, exclusions, part, results, ..report })
-    }
-
-    /// The quantity that decides, its position and the verdict.
-    fn decided(&self) -> (usize, Verdict) {
-        worst(&self.judged).unwrap_or((0, Verdict::NotAsymptotic))
-    }
-
-    /// The worst verdict.
-    pub fn verdict(&self) -> Verdict {
-        self.decided().1
-    }
-
+impl View<'_> {
     /// The norm that decides, with its expected and observed order.
     pub fn deciding(&self) -> Option<Deciding> {
-        let (at, _) = self.decided();
-        let (quantity, judged) = self.each().nth(at)?;
+        let (at, _) = self.0.decided();
+        let (quantity, judged) = self.0.each().nth(at)?;
         let deciding = judged.judgement.deciding();
         let observed = deciding.finding.estimate.map(|it| match it.interval {
             Some([low, high]) => format!("{:.2} ({low:.2} to {high:.2})", it.order),
@@ -129,79 +45,35 @@ impl Judgements {
         Some(Deciding { expected: deciding.expected.order, observed, of })
     }
 
-    fn each(&self) -> impl Iterator<Item = (&Quantity, &Judged)> {
-        self.measured.quantities.iter().zip(&self.judged)
-    }
-
-    /// How a level is called.
-    fn name(&self, length: f64) -> String {
-        match self.refined {
-            Refined::Space => format!("h {length:.3e}"),
-            Refined::Time => format!("dt {length:.3e}"),
-            Refined::Grid => format!("{length:.3e}"),
-        }
-    }
-
-    /// The levels of a norm, each with the order that led to it; none of a grid of h and dt.
-    fn levels(&self, norm: &Norm) -> Vec<(Level, Option<f64>)> {
-        if self.refined == Refined::Grid {
-            return Vec::new();
-        }
-        let levels = self.measured.sequence(self.refined, norm).levels().to_vec();
-        let orders: Vec<_> = levels.windows(2).map(|pair| pair[1].order_from(&pair[0])).collect();
-        levels.into_iter().zip(std::iter::once(None).chain(orders)).collect()
-    }
-
     /// The tables for a terminal, with the verdicts.
     pub fn table(&self) -> String {
-        let head = format!("{}: {} runs", self.source, self.measured.runs.len());
-        let mut parts = vec![[&[head], self.notes.as_slice()].concat().join("\n")];
-        let several = self.judged.len() > 1;
-        for (quantity, judged) in self.each() {
+        let head = format!("{}: {} runs", self.0.source, self.0.measured.runs.len());
+        let mut parts = vec![[&[head], self.0.notes.as_slice()].concat().join("\n")];
+        let several = self.0.judged.len() > 1;
+        for (quantity, judged) in self.0.each() {
             let mut lines = Vec::new();
             lines.extend(several.then(|| quantity.name.shown()));
-            lines.push(match self.refined {
+            lines.push(match self.0.refined {
                 Refined::Grid => self.grid_table(quantity).to_string(),
                 _ => self.levels_table(quantity).to_string(),
             });
             parts.push(lines.join("\n"));
-            parts.push(self.says(quantity, judged).join("\n"));
+            parts.push(self.0.says(quantity, judged).join("\n"));
         }
         if several {
-            let passed = self.judged.iter().filter(|it| it.judgement.verdict().is_good());
-            let (count, all) = (passed.count(), self.judged.len());
-            parts.push(format!("{}: {count} of {all} quantities pass", self.verdict()));
+            let passed = self.0.judged.iter().filter(|it| it.judgement.verdict().is_good());
+            let (count, all) = (passed.count(), self.0.judged.len());
+            parts.push(format!("{}: {count} of {all} quantities pass", self.0.verdict()));
         }
         parts.push(format!("by rule {RULE} of docs/guide/judging.md"));
-        parts.extend(self.exclusions.as_ref().map(Exclusions::text));
+        parts.extend(self.0.exclusions.as_ref().map(excluded::text));
         parts.join("\n\n")
     }
 
-    /// The verdict of a quantity in words.
-    fn says(&self, quantity: &Quantity, judged: &Judged) -> Vec<String> {
-        let fits = quantity.norms.iter().zip(&judged.fits);
-        let fits = fits.filter_map(|(norm, fit)| Some(fit.as_ref()?.sentence(&norm.name.shown())));
-        let mut lines =
-            judged.judgement.sentences(self.refined.symbol(), &|length| self.name(length));
-        let deciding = judged.judgement.deciding();
-        lines.extend(deciding.is_superconvergent().then(|| {
-            format!(
-                "that is superconvergence, of values that are more accurate than theory promises everywhere: {}",
-                deciding.expected.order
-            )
-        }));
-        lines.extend(fits);
-        lines.extend(judged.objection.as_ref().map(|it| it.why.clone()));
-        lines.extend(
-            self.part.as_ref().map(|part| format!("this is of a part of the body: {part}")),
-        );
-        lines
-    }
-
     fn levels_table(&self, quantity: &Quantity) -> Table {
-        let mut table = plain([if self.refined == Refined::Time { "dt" } else { "h" }, "runs"]);
+        let mut table = plain([if self.0.refined == Refined::Time { "dt" } else { "h" }, "runs"]);
         let mut header: Vec<String> = table.header().map(cells).unwrap_or_default();
-        let norms: Vec<_> = quantity.norms.iter().map(|norm| self.levels(norm)).collect();
+        let norms: Vec<_> = quantity.norms.iter().map(|norm| self.0.levels(norm)).collect();
         header.extend(quantity.norms.iter().flat_map(|it| [it.name.shown(), "order".into()]));
         table.set_header(header);
         for at in 0..norms.first().map_or(0, Vec::len) {
@@ -222,111 +94,13 @@ impl Judgements {
         let mut header: Vec<String> = table.header().map(cells).unwrap_or_default();
         header.extend(quantity.norms.iter().map(|it| it.name.shown()));
         table.set_header(header);
-        for (at, run) in self.measured.runs.iter().enumerate() {
+        for (at, run) in self.0.measured.runs.iter().enumerate() {
             let number = |it: Option<f64>| it.map_or("-".into(), |it| format!("{it:.3e}"));
             let mut row = vec![number(Some(run.cell_size)), number(run.time_step)];
             row.extend(quantity.norms.iter().map(|norm| number(norm.errors[at])));
             table.add_row(row);
         }
         to_the_right(table)
-    }
-
-    /// The JSON document.
-    pub fn document(&self) -> documents::Judge {
-        let (at, verdict) = self.decided();
-        let quantities =
-            self.each().map(|(quantity, judged)| self.quantity(quantity, judged)).collect();
-        let deciding = self.judged.get(at).map(|it| it.judgement.deciding());
-        let finding = deciding.map(|it| &it.finding);
-        let quantity = self.measured.quantities.get(at);
-        let results = self.results.clone();
-        documents::Judge {
-            source: self.source.clone(),
-            refinement: self.refined.name().to_owned(),
-            levels: self.rows(),
-            quantity: quantity.map(|it| it.name.raw().to_owned()),
-            norm: deciding.map(|it| it.norm.to_owned()),
-            expected_order: deciding.map(|it| it.expected.order),
-            tolerance: deciding.map(|it| it.expected.tolerance),
-            observed_order: finding.and_then(observed),
-            order_interval: finding.and_then(interval),
-            quantities,
-            verdict: verdict.to_string(),
-            rule: RULE,
-            notes: self.notes.clone(),
-            field: results.field,
-            files: results.files,
-            times: results.times,
-            samplings: results.samplings,
-            warnings: results.warnings,
-            iterative_errors: results.iterative_errors,
-            excluded: self.exclusions.as_ref().map(Exclusions::document),
-            provenance: self.provenance.clone(),
-        }
-    }
-
-    /// The levels of the first quantity, as a study writes them; of a grid its runs.
-    fn rows(&self) -> Vec<documents::JudgeLevel> {
-        let Some(first) = self.measured.quantities.first() else { return Vec::new() };
-        let norm = |name: &str| first.norms.iter().find(|it| it.name == *name);
-        if self.refined == Refined::Grid {
-            let runs = self.measured.runs.iter().enumerate();
-            return runs
-                .map(|(at, run)| {
-                    let error = |name| norm(name).and_then(|it| it.errors[at]);
-                    let errors = NORMS.map(|name| (error(name), None));
-                    row(Some(run.cell_size), run.time_step, 1, errors)
-                })
-                .collect();
-        }
-        let norms = NORMS.map(|name| norm(name).map(|it| self.levels(it)));
-        let all = first.norms.first().map(|it| self.levels(it)).unwrap_or_default();
-        let level = |(at, (level, _)): (usize, &(Level, Option<f64>))| {
-            let errors = norms.each_ref().map(|levels| {
-                let found = levels.as_ref().map(|it| &it[at]);
-                let error = found.filter(|(it, _)| !it.errors.is_empty()).map(|(it, _)| it.error());
-                (error, found.and_then(|it| it.1))
-            });
-            let [size, step] = self.sizes(level.length);
-            row(size, step, level.errors.len(), errors)
-        };
-        all.iter().enumerate().map(level).collect()
-    }
-
-    /// h and dt of a level.
-    fn sizes(&self, length: f64) -> [Option<f64>; 2] {
-        let runs = &self.measured.runs;
-        let of = |run: &&crate::judge::Run| self.measured.length(self.refined, run) == length;
-        let run = runs.iter().find(of);
-        [run.map(|it| it.cell_size), run.and_then(|it| it.time_step)]
-    }
-
-    fn quantity(&self, quantity: &Quantity, judged: &Judged) -> documents::JudgedQuantity {
-        let deciding = judged.judgement.deciding();
-        let mut norms = norms_judged(&judged.judgement);
-        for own in &mut norms {
-            let levels = quantity.norms.iter().find(|norm| own.norm == norm.name.raw());
-            own.levels = Some(levels.map(|norm| self.norm(norm)));
-        }
-        documents::JudgedQuantity {
-            name: quantity.name.raw().to_owned(),
-            norm: deciding.norm.to_owned(),
-            verdict: judged.judgement.verdict().to_string(),
-            layer_order: judged.judgement.layer(),
-            superconvergent: deciding.is_superconvergent(),
-            norms,
-            says: self.says(quantity, judged),
-        }
-    }
-
-    fn norm(&self, norm: &Norm) -> Vec<JudgedLevel> {
-        let level = |(level, order): (Level, Option<f64>)| JudgedLevel {
-            length: level.length,
-            error: (!level.errors.is_empty()).then(|| level.error()),
-            runs: level.errors,
-            order,
-        };
-        self.levels(norm).into_iter().map(level).collect()
     }
 
     /// Writes convergence.svg and .csv into a folder, and returns their paths.
@@ -339,7 +113,7 @@ impl Judgements {
         let files = [
             ("svg", self.picture().svg()?),
             ("csv", self.csv()?),
-            ("json", pretty(&self.document())?),
+            ("json", pretty(&self.0.document())?),
         ];
         write_files(folder, "convergence", files)
     }
@@ -348,22 +122,23 @@ impl Judgements {
     fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let columns = || {
-            self.measured
+            self.0
+                .measured
                 .quantities
                 .iter()
                 .flat_map(|quantity| quantity.norms.iter().map(move |norm| (quantity, norm)))
         };
-        let several = self.measured.quantities.len() > 1;
+        let several = self.0.measured.quantities.len() > 1;
         let column =
             |(quantity, norm): (&Quantity, &Norm)| match several && quantity.name != norm.name {
                 true => format!("{}_{}", quantity.name.raw(), norm.name.raw()),
                 false => norm.name.raw().to_owned(),
             };
-        let has_steps = self.measured.runs.iter().any(|run| run.time_step.is_some());
+        let has_steps = self.0.measured.runs.iter().any(|run| run.time_step.is_some());
         let lengths = if has_steps { &["h", "dt"][..] } else { &["h"] };
         writer
             .write_record(lengths.iter().map(|it| (*it).to_owned()).chain(columns().map(column)))?;
-        for (at, run) in self.measured.runs.iter().enumerate() {
+        for (at, run) in self.0.measured.runs.iter().enumerate() {
             let number = |it: Option<f64>| it.map_or(String::new(), |it| format!("{it:e}"));
             let mut row = vec![number(Some(run.cell_size))];
             row.extend(has_steps.then(|| number(run.time_step)));
@@ -375,144 +150,46 @@ impl Judgements {
 
     /// A line for each norm; of several quantities for that which decides. In a grid of h and dt, points over h.
     fn picture(&self) -> Picture {
-        let several = self.judged.len() > 1;
-        let lines = self.each().flat_map(|(quantity, _)| {
+        let several = self.0.judged.len() > 1;
+        let lines = self.0.each().flat_map(|(quantity, _)| {
             quantity.norms.iter().map(move |norm| -> Line {
                 let own = several && quantity.name != norm.name;
                 let of = if own { format!("{} ", quantity.name.shown()) } else { String::new() };
                 (format!("{of}{}", norm.name.shown()), self.points(norm))
             })
         });
-        let runs = self.measured.runs.iter();
+        let runs = self.0.measured.runs.iter();
         Picture {
-            caption: self.source.clone(),
+            caption: self.0.source.clone(),
             axes: [
-                if self.refined == Refined::Time { "time step dt" } else { "cell size h" },
+                if self.0.refined == Refined::Time { "time step dt" } else { "cell size h" },
                 "error",
             ],
             lines: lines.collect(),
-            lengths: runs.map(|run| self.measured.length(self.refined, run)).collect(),
+            lengths: runs.map(|run| self.0.measured.length(self.0.refined, run)).collect(),
             stopped: self.stopped(),
-            order: self.judged.first().map_or(2.0, |it| it.judgement.norms[0].expected.order),
+            order: self.0.judged.first().map_or(2.0, |it| it.judgement.norms[0].expected.order),
         }
     }
 
     /// h or dt of runs that stopped.
     fn stopped(&self) -> Vec<f64> {
-        let norms = || self.measured.quantities.iter().flat_map(|it| &it.norms);
-        let runs = self.measured.runs.iter().enumerate();
+        let norms = || self.0.measured.quantities.iter().flat_map(|it| &it.norms);
+        let runs = self.0.measured.runs.iter().enumerate();
         let stopped = runs.filter(|(at, _)| norms().any(|it| it.errors[*at].is_none()));
-        stopped.map(|(_, run)| self.measured.length(self.refined, run)).collect()
+        stopped.map(|(_, run)| self.0.measured.length(self.0.refined, run)).collect()
     }
 
     /// The points of a norm on logarithmic axes: the means of replicates.
     fn points(&self, norm: &Norm) -> Vec<(f64, f64)> {
-        let refined = if self.refined == Refined::Grid { Refined::Space } else { self.refined };
-        let levels = self.measured.sequence(refined, norm);
+        let refined = if self.0.refined == Refined::Grid { Refined::Space } else { self.0.refined };
+        let levels = self.0.measured.sequence(refined, norm);
         let levels = levels.levels().iter().filter(|it| !it.errors.is_empty());
         levels.map(|it| (it.length, it.error())).filter(|(_, error)| *error > 0.0).collect()
-    }
-}
-
-/// The keys that the document has for results of files.
-#[derive(Clone, Default)]
-pub(crate) struct Results {
-    field: Option<String>,
-    files: Option<Vec<String>>,
-    times: Option<Vec<f64>>,
-    samplings: Option<Names<String>>,
-    warnings: Option<Vec<String>>,
-    iterative_errors: Option<Names<f64>>,
-}
-
-impl Results {
-    fn new(field: &Foreign, files: &[String], measurement: &Measurement) -> Self {
-        let names = measurement.measured.quantities.iter().map(|quantity| quantity.name.raw());
-        let samplings = measurement.samplings.iter().map(|it| it.name().to_owned());
-        let iterative: Names<f64> =
-            measurement.iterative.iter().map(|(name, error)| (name.to_string(), *error)).collect();
-        Results {
-            field: Some(field.raw().to_owned()),
-            files: Some(files.to_vec()),
-            times: Some(measurement.times.clone()),
-            samplings: Some(names.zip(samplings).collect()),
-            warnings: Some(measurement.warnings.clone()),
-            iterative_errors: (!iterative.0.is_empty()).then_some(iterative),
-        }
     }
 }
 
 /// The texts of a row of a table.
 fn cells(row: &comfy_table::Row) -> Vec<String> {
     row.cell_iter().map(|cell| cell.content()).collect()
-}
-
-/// A level of the document; `errors` are l1, l2 and linf, each with its order.
-fn row(
-    cell_size: Option<f64>,
-    time_step: Option<f64>,
-    runs: usize,
-    errors: [(Option<f64>, Option<f64>); 3],
-) -> documents::JudgeLevel {
-    let [(l1, order_l1), (l2, order_l2), (linf, order_linf)] = errors;
-    let errors = LevelErrors { l1, l2, linf, order_l1, order_l2, order_linf };
-    documents::JudgeLevel { cell_size, time_step, runs, errors }
-}
-
-fn observed(finding: &Finding) -> Option<f64> {
-    finding.estimate.map(|it| it.order)
-}
-
-fn interval(finding: &Finding) -> Option<[f64; 2]> {
-    finding.estimate.and_then(|it| it.interval)
-}
-
-/// The finding of each norm.
-pub(super) fn norms_judged(judgement: &Judgement) -> Vec<JudgedNorm> {
-    judgement.norms.iter().map(judged).collect()
-}
-
-/// The finding of a norm.
-fn judged(judged: &mms_convergence::Judged) -> JudgedNorm {
-    let finding = &judged.finding;
-    let basis = |basis| match basis {
-        Basis::Scatter => "scatter",
-        Basis::Drift => "drift",
-        Basis::Digits => "digits",
-        Basis::Nothing => "nothing",
-    };
-    let kind = |kind| match kind {
-        Kind::Plateau => "plateau",
-        Kind::LowerOrder => "lower order",
-        Kind::PreAsymptotic => "pre-asymptotic",
-    };
-    let highest = judged.expected.highest;
-    JudgedNorm {
-        norm: judged.norm.to_owned(),
-        expected_order: judged.expected.order,
-        highest_order: (highest > judged.expected.order).then_some(highest),
-        verdict: finding.verdict.to_string(),
-        observed_order: observed(finding),
-        order_interval: interval(finding),
-        interval_from: finding.estimate.map(|it| basis(it.basis).to_owned()),
-        decided_by: finding.lengths.clone(),
-        lower_order: finding.share.map(|it| LowerOrder {
-            order: it.order,
-            share: it.share,
-            share_interval: it.interval(),
-        }),
-        second_term: finding.term.map(|it| SecondTerm {
-            kind: kind(it.kind).to_owned(),
-            order: it.order,
-            share: it.share,
-            share_interval: it.interval,
-            takes_over: it.takes_over,
-        }),
-        limit: finding.limit.map(|it| Limit {
-            error: it.error,
-            interval: it.interval,
-            order: it.order,
-        }),
-        levels: None,
-    }
 }

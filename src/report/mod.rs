@@ -1,6 +1,7 @@
 //! What the command says of runs and studies: tables, JSON documents, CSV files and pictures.
 
 pub mod accuracy;
+pub(crate) mod campaign;
 mod comparison;
 mod diagnosis;
 pub(crate) mod excluded;
@@ -19,11 +20,10 @@ pub(crate) mod tradeoff;
 
 pub use comparison::Comparison;
 pub use diagnosis::{Diagnosed, Hypotheses};
-pub use excluded::Together;
-pub(crate) use judge::Judgements;
+pub(crate) use judge::View;
 pub use phase::Phases;
 pub use plan::{Plan, Step};
 pub(crate) use results::{differences, with_baseline};
 pub use study::{Refused, Study};
 
-pub(crate) use text::{bytes, duration, plain, pretty, tally, to_the_right, write_files};
+pub(crate) use text::{plain, tally, to_the_right};

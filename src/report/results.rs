@@ -2,10 +2,10 @@
 
 use mms_convergence::Verdict;
 use mms_documents::judge::{DifferenceOfResults, JudgeBaseline, JudgeSame, SavedError};
+use mms_judge::results::{Compared, Same};
 use mms_spec::foreign::shown;
 
 use super::text::{plain, to_the_right};
-use crate::judge::results::{Compared, Same};
 
 /// Errors and what they were.
 pub(crate) fn with_baseline(

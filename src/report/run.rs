@@ -3,12 +3,12 @@
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_documents::run as documents;
+use mms_files::words::duration;
 use mms_runtime::solver::Residual;
 use mms_runtime::study::{Balance, Details, Deviations};
 use mms_runtime::{Division, Errors, Method};
 use mms_spec::foreign::Foreign;
 
-use super::text::duration;
 use super::{Refused, method};
 use crate::provenance::Provenance;
 use crate::session::method::Arithmetic;

@@ -6,15 +6,17 @@ use std::path::Path;
 use comfy_table::Table;
 use mms_convergence::{CONSTANT_TOLERANCE, Expected, Fit, Judgement, RULE, Verdict, is_near};
 use mms_documents::study::{self as documents, LevelErrors, StudyErrors, StudyOfMethod};
+use mms_files::words::duration;
+use mms_files::write::{pretty, write_files};
+use mms_judge::norms_judged;
+use mms_judge::results::Exclusions;
 use mms_runtime::study::{Deviations, Orders, Point, Refinement, Series};
 use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
 use mms_spec::foreign::Foreign;
 
-use super::judge::norms_judged;
 use super::run::quantities;
-use super::text::{duration, plain, pretty, to_the_right, write_files};
+use super::text::{plain, to_the_right};
 use super::{Phases, method, picture};
-use crate::judge::results::Exclusions;
 use crate::provenance::Provenance;
 use crate::session::method::Arithmetic;
 
@@ -323,7 +325,7 @@ impl Study {
             parts.push(self.quantities_table().to_string());
         }
         parts.extend(self.phase_table());
-        parts.extend(self.exclusions.as_ref().map(Exclusions::text));
+        parts.extend(self.exclusions.as_ref().map(super::excluded::text));
         parts.join("\n\n")
     }
 

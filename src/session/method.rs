@@ -12,6 +12,7 @@ use anyhow::bail;
 use clap::Args;
 use mms_codegen::certify::certificate::not_computed;
 use mms_exact::Input;
+use mms_exact::hold_division;
 use mms_exact::wave::{fastest_wave, without_bound};
 use mms_files::machine::{memory, processors};
 use mms_mechanics::sample::domain;
@@ -168,18 +169,6 @@ pub fn length(text: &str) -> Result<f64, &'static str> {
 /// Reads a part of a whole.
 fn part(text: &str) -> Result<f64, &'static str> {
     number(text, "expected a number from 0 to 1", |value| (0.0..=1.0).contains(&value))
-}
-
-/// Refuses numbers of an option for other axes than there are.
-pub fn hold_division(option: &str, numbers: &Division, dimension: usize) -> anyhow::Result<()> {
-    match *numbers {
-        Division::PerAxis(each, given) if given != dimension => bail!(
-            "`{option} {numbers}`: {given} numbers for {dimension} dimension(s); expected one for each, or one for \
-             all, as in `{option} {}`",
-            each[0]
-        ),
-        _ => Ok(()),
-    }
 }
 
 /// The name of an axis.

@@ -4,13 +4,14 @@ use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_documents::study::{Level, LevelErrors};
 use mms_documents::verify::{VerifiedRow, Verify};
+use mms_files::words::duration;
 
 use super::matrix::{Row, Study};
 use super::verdict::Judgement;
 use super::work::Outcome;
 use crate::provenance::Provenance;
 use crate::report::method::division;
-use crate::report::{duration, tally};
+use crate::report::tally;
 use crate::rows::Named as _;
 
 /// Rows, with what came of them.

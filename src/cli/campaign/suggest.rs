@@ -2,13 +2,14 @@
 
 use mms_campaign::Can;
 use mms_documents::campaign::{AffineMotion, CampaignSuggest, ProposedField, UnseenTerm};
+use mms_harness::suggest::{Affine, Proposed, Suggestion, Unseen, suggest};
 
 use super::super::{Outcome, print, print_json};
-use crate::campaign::suggest::{Affine, Proposed, Suggestion, Unseen, suggest};
+use crate::session::input::open;
 
 /// Prints what is proposed.
 pub fn propose(can: &Can, as_json: bool) -> anyhow::Result<Outcome> {
-    let found = suggest(can)?;
+    let found = suggest(can, &open)?;
     if as_json {
         print_json(&document(&found))?;
     } else {

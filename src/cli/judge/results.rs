@@ -4,11 +4,19 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use mms_convergence::Verdict;
 use mms_documents::judge::JudgeExplained;
 use mms_exact::Exact;
 use mms_exact::evaluated;
 use mms_files::read::{self, Kind};
+use mms_files::results::Disk;
+use mms_judge::Judgements;
+use mms_judge::results::{
+    Baseline, Comparison, Explained, Measurement, Over, Reading, Results, Start, measure, room,
+    same, weight,
+};
+use mms_judge::table::Orders;
 use mms_results::names::{Names, Role, everything};
 use mms_spec::foreign;
 use mms_spec::foreign::shown;
@@ -17,12 +25,7 @@ use mms_spec::quantity::Quantity;
 use super::super::naming::Naming;
 use super::super::{Outcome, say, this_command};
 use super::{Judge, outcome};
-use crate::judge::results::{
-    Baseline, Comparison, Explained, Measurement, Over, Reading, Results, Start, measure, room,
-    same, weight,
-};
-use crate::judge::table::Orders;
-use crate::report::{Judgements, differences, with_baseline};
+use crate::report::{differences, with_baseline};
 use crate::session::input::{Variant, find};
 use crate::session::method::{finite, length};
 
@@ -39,7 +42,7 @@ pub struct Options {
     h: Vec<f64>,
     /// How the solver starts, which tells the orders of v and a: from exact values at its nodes, as is taken where cells are
     /// known, or from the elliptic (Ritz) projection.
-    #[arg(long, value_name = "HOW", requires = "field")]
+    #[arg(long, value_name = "HOW", requires = "field", value_parser = starts())]
     pub(super) start: Option<Start>,
     /// Let results cover a part of the body: a symmetric half, a line, a probe. The verdict says that they do.
     #[arg(long, requires = "field")]
@@ -83,6 +86,17 @@ pub struct Options {
     /// order; several in one place may stand for one. Takes no FIELD.
     #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with_all = ["field", "files", "errors"])]
     same: Vec<String>,
+}
+
+/// Reads the start of a solver.
+fn starts() -> impl TypedValueParser<Value = Start> {
+    let names = PossibleValuesParser::new([
+        PossibleValue::new("interpolation").help("The exact values at its nodes"),
+        PossibleValue::new("projection").help(
+            "The elliptic (Ritz) projection of the exact motion, so that no order is lowered",
+        ),
+    ]);
+    names.try_map(|name| Start::of(&name))
 }
 
 impl Judge {
@@ -140,6 +154,7 @@ impl Judge {
     fn reading<'a>(&self, names: &'a Names, wanted: &'a [Quantity]) -> Reading<'a> {
         let options = &self.results;
         Reading {
+            files: &Disk,
             names,
             wanted,
             weight: options.weight,
@@ -189,9 +204,9 @@ impl Judge {
     /// Compares two results.
     pub(super) fn same(&self) -> anyhow::Result<Outcome> {
         let [a, b] = self.results.same.as_slice() else { bail!("`--same`: expected two results") };
-        let (room, advice) = room(self.results.max_memory);
+        let (room, advice) = room(self.results.max_memory, &Disk);
         let names = self.results.naming.names(&[])?;
-        let find = |given| Results::find(given, &everything(&names).within(room, advice));
+        let find = |given| Results::find(given, &everything(&names).within(room, advice), &Disk);
         let found = same(&find(a)?, &find(b)?, &names)?;
         self.show(differences(a, b, &found))?;
         Ok(if found.is_finite() { Outcome::AsExpected } else { Outcome::Refuted })

@@ -8,12 +8,12 @@ use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_analysis::accuracy::{Accuracy, Errors, Row};
 use mms_documents::accuracy as documents;
+use mms_files::write::{pretty, write_files};
 use mms_program::precision::Precision;
 use mms_spec::Form;
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
 
-use super::text::{pretty, write_files};
 use crate::provenance::Provenance;
 use crate::workbench::Time;
 

@@ -8,10 +8,11 @@ use std::path::Path;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_documents::tradeoff as documents;
+use mms_files::words::{bytes, duration};
+use mms_files::write::{pretty, write_files};
 use mms_spec::foreign::Foreign;
 
 use super::front::front;
-use super::text::{bytes, duration, pretty, write_files};
 use crate::provenance::Provenance;
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Prediction, Trial, cost};
 use crate::tradeoff::setting::{Axis, Setting};

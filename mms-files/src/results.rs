@@ -1,0 +1,93 @@
+//! Files of results on the disk: a file, a list of states, a folder, a pattern.
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, anyhow, bail};
+use mms_results::Files;
+use mms_spec::foreign;
+
+use crate::machine::memory;
+use crate::read::{self, Kind, cannot_read};
+
+/// The ends of files that list pieces of one mesh; the pieces are no meshes of their own.
+const PIECES: &[&str] = &["vtm", "vtpc", "pvtu", "pvtp", "pvti", "pvtr", "pvts"];
+
+/// The ends of files of results, in groups: a folder with files of one group is not searched for the next.
+const ENDS: [&[&str]; 2] = [
+    &["vtu", "vtp", "vti", "vtr", "vts", "vtk", "npz", "npy", "csv", "tsv"],
+    &["xdmf", "vtkhdf", "e", "exo", "h5", "hdf5", "nc", "mat", "frd", "msh", "dat", "tec", "dump"],
+];
+
+/// Files of results on the disk.
+pub struct Disk;
+
+impl Files for Disk {
+    fn paths(&self, given: &str) -> Result<Vec<PathBuf>, Box<dyn Error + Send + Sync>> {
+        Ok(paths(given)?)
+    }
+
+    fn bytes(&self, path: &Path, room: u64) -> Result<Vec<u8>, String> {
+        read::bytes_within(path, Kind::Results, room)
+            .map_err(|error| format!("cannot read it: {error}"))
+    }
+
+    fn memory(&self) -> u64 {
+        memory()
+    }
+}
+
+/// The files of a name, all of which are there.
+///
+/// # Errors
+/// There are none.
+pub fn existing(given: &str) -> anyhow::Result<Vec<PathBuf>> {
+    let found = paths(given)?;
+    match found.iter().find(|path| !path.is_file()) {
+        Some(path) => bail!("`{}`: no such file", foreign::path(path)),
+        None => Ok(found),
+    }
+}
+
+/// The files that are named, in the order of their names.
+fn paths(given: &str) -> anyhow::Result<Vec<PathBuf>> {
+    let path = Path::new(given);
+    if path.is_dir() {
+        return folder(path);
+    }
+    if path.exists() || !given.contains(['*', '?', '[']) {
+        return Ok(vec![path.to_owned()]);
+    }
+    let found = glob::glob(given).with_context(|| format!("`{given}`: not a pattern"))?;
+    let found: Vec<_> = found.filter_map(Result::ok).filter(|path| path.is_file()).collect();
+    if found.is_empty() {
+        bail!("`{given}`: no file fits the pattern");
+    }
+    Ok(found)
+}
+
+/// The list of states of a folder, or its files of results.
+fn folder(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    let entries = path.read_dir().with_context(|| cannot_read(path))?;
+    let mut files: Vec<PathBuf> = entries.filter_map(|it| it.ok().map(|it| it.path())).collect();
+    files.sort();
+    let ending = |end: &str| -> Vec<PathBuf> {
+        let fits =
+            |file: &&PathBuf| file.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
+        files.iter().filter(fits).cloned().collect()
+    };
+    let of = |ends: &[&str]| -> Vec<PathBuf> { ends.iter().flat_map(|it| ending(it)).collect() };
+    let lists = of(&["pvd", "series"]);
+    if lists.len() > 1 {
+        bail!(
+            "`{}`: it holds {} lists of states (.pvd, .series); name one of them",
+            foreign::path(path),
+            lists.len()
+        );
+    }
+    let groups = [lists, of(PIECES)].into_iter().chain(ENDS.map(of));
+    groups.into_iter().find(|it| !it.is_empty()).ok_or_else(|| {
+        let known = ENDS.concat().iter().map(|it| format!(".{it}")).collect::<Vec<_>>().join(", ");
+        anyhow!("`{}`: it holds no results: expected {known}", foreign::path(path))
+    })
+}

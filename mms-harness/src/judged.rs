@@ -1,0 +1,127 @@
+//! The results of a study, judged as `mms judge` does it.
+
+use mms_documents::provenance::Provenance;
+use mms_exact::Exact;
+use mms_files::results::Disk;
+use mms_judge::Judgements;
+use mms_judge::measured::Measured;
+use mms_judge::results::{Comparison, Measurement, Reading, Results, measure};
+use mms_results::Snapshot;
+
+use super::plan::{Job, Judging, Planned};
+use super::work::{Outcome, Work};
+
+/// What is said of a study.
+pub struct Judged<'a> {
+    /// The study.
+    pub planned: &'a Planned,
+    /// What came of its runs.
+    pub outcomes: Vec<Outcome>,
+    /// Its errors with what they say; nothing, if it has no results, or not all levels were asked for.
+    pub judgements: Option<Judgements>,
+    /// What is wrong with its results.
+    pub mistake: Option<String>,
+    /// What may be wrong with them.
+    pub warnings: Vec<String>,
+}
+
+impl<'a> Judged<'a> {
+    /// Judges a study.
+    ///
+    /// # Errors
+    /// Its field cannot be evaluated.
+    pub fn new(
+        work: &Work<'_>,
+        planned: &'a Planned,
+        outcomes: Vec<Outcome>,
+        provenance: &dyn Fn(&Planned) -> Provenance,
+    ) -> anyhow::Result<Self> {
+        let mut judged =
+            Judged { planned, outcomes, judgements: None, mistake: None, warnings: Vec::new() };
+        let finished =
+            planned.jobs.iter().zip(&judged.outcomes).filter_map(|(job, outcome)| match outcome {
+                Outcome::Finished(finished) => Some((job, finished)),
+                _ => None,
+            });
+        let mut files = Vec::new();
+        let mut jobs = Vec::new();
+        for (job, finished) in finished {
+            files.push(work.results_of(planned, job, finished)?);
+            jobs.push(job);
+        }
+        let interrupted = judged.outcomes.contains(&Outcome::Interrupted);
+        if jobs.is_empty() || interrupted || !planned.is_whole() {
+            return Ok(judged);
+        }
+        let mut exact = Exact::new(planned.input.clone(), &planned.study.set)?;
+        match measured(&mut exact, planned, &jobs, &files) {
+            Err(error) => judged.mistake = Some(format!("{error:#}")),
+            Ok(mut measurement) => {
+                judged.warnings = measurement.warnings.clone();
+                stopped(&mut measurement.measured, planned, &jobs);
+                let provenance = provenance(planned);
+                let time_step = jobs.iter().filter_map(|job| job.time_step).reduce(f64::min);
+                match Judgements::of_results(&exact, &files, measurement, time_step, provenance) {
+                    Ok(judgements) => judged.judgements = Some(judgements),
+                    Err(error) => judged.mistake = Some(format!("{error:#}")),
+                }
+            }
+        }
+        Ok(judged)
+    }
+}
+
+fn measured(
+    exact: &mut Exact,
+    planned: &Planned,
+    jobs: &[&Job],
+    files: &[String],
+) -> anyhow::Result<Measurement> {
+    let Planned { study, options, .. } = planned;
+    let Judging { names, over, quantities: wanted, weight, .. } = options;
+    let (memory, is_part) = (study.max_memory, study.part);
+    let (weight, over) = (*weight, *over);
+    let reading = Reading { names, wanted, weight, memory, files: &Disk, is_part, over };
+    let all: Vec<Results> =
+        files.iter().map(|file| reading.find(file, exact)).collect::<anyhow::Result<_>>()?;
+    let h: Vec<f64> = jobs.iter().map(|job| planned.size(job)).collect();
+    // One file without a time is of the end.
+    let is_end = |it: &Results| matches!(it.snapshots.as_slice(), [Snapshot { time: None, .. }]);
+    let times = match study.time.is_empty() && all.iter().all(is_end) {
+        true => vec![planned.window[1]],
+        false => study.time.clone(),
+    };
+    let comparison = Comparison {
+        sizes: &h,
+        times: &times,
+        orders: &options.orders,
+        has_steps: study.time_steps.is_some(),
+        tighter: None,
+    };
+    let mut measurement = measure(all, &reading, exact, comparison)?;
+    if study.time_steps.is_some() {
+        let runs = measurement.measured.runs.iter_mut().zip(jobs);
+        runs.for_each(|(run, job)| run.time_step = job.time_step);
+    }
+    Ok(measurement)
+}
+
+/// Adds the runs that have no results.
+fn stopped(measured: &mut Measured, planned: &Planned, finished: &[&Job]) {
+    let is_missing = |job: &&Job| finished.iter().all(|other| other.level != job.level);
+    for job in planned.jobs.iter().filter(is_missing) {
+        let time_step = planned.study.time_steps.as_ref().and(job.time_step);
+        measured.runs.push(mms_judge::measured::Run { cell_size: planned.size(job), time_step });
+        for norm in measured.quantities.iter_mut().flat_map(|it| &mut it.norms) {
+            norm.errors.push(None);
+            norm.floors.push(0.0);
+        }
+    }
+}
+
+impl Planned {
+    /// h of a run, as the file says it or that of its cells.
+    pub fn size(&self, job: &Job) -> f64 {
+        self.study.h_of(job.level).unwrap_or(job.cell_size)
+    }
+}

@@ -1,0 +1,601 @@
+//! The runs of a campaign.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, anyhow, bail};
+use mms_campaign::template::{PARAMETER, Placeholder, Template};
+use mms_campaign::{Campaign, Study};
+use mms_codegen::Options;
+use mms_emit::{TARGETS, Target};
+use mms_exact::hold_division;
+use mms_exact::wave::sound;
+use mms_exact::{Input, Open, quantities};
+use mms_judge::results::{Over, Start as How, own_roles, weight};
+use mms_judge::table::{Order, Orders};
+use mms_mechanics::sample::domain;
+use mms_results::names::{Mapping, Names, Role};
+use mms_runtime::Division;
+use mms_spec::foreign;
+use mms_spec::own::Own;
+use mms_spec::quantity::Quantity;
+use mms_spec::source::Spanned;
+use mms_spec::suggest::advice;
+use mms_state::points::PER_CELL;
+use serde::Serialize;
+
+use super::dependencies::{self, Dependencies, Dependency, UNKNOWN};
+use super::digests::Digests;
+use super::sources;
+use crate::profile;
+
+/// A campaign, ready to be run.
+pub struct Plan {
+    /// What the file says.
+    pub campaign: Campaign,
+    /// The folder of the file.
+    pub here: PathBuf,
+    /// The language that fields are written in.
+    pub target: Option<&'static Target>,
+    /// The studies that were asked for.
+    pub studies: Vec<Planned>,
+    /// The digests of the files that runs depend on.
+    pub digests: Digests,
+}
+
+/// A study, with what its words mean.
+pub struct Planned {
+    /// What the file says.
+    pub study: Study,
+    /// Its field.
+    pub input: Input,
+    /// The first and the last time.
+    pub window: [f64; 2],
+    /// How its results are judged.
+    pub options: Judging,
+    /// Particles in each direction of a cell.
+    pub per_cell: Division,
+    /// Its runs, those that were asked for.
+    pub jobs: Vec<Job>,
+}
+
+/// What the options of `mms judge` say.
+pub struct Judging {
+    /// What is judged; all that is found, if there is none.
+    pub quantities: Vec<Quantity>,
+    /// The names of arrays.
+    pub names: Names,
+    /// Whether norms are over points or over cells.
+    pub over: Option<Over>,
+    /// The expected orders.
+    pub orders: Orders,
+    /// The column that means are taken by.
+    pub weight: Option<Role>,
+}
+
+impl Planned {
+    /// Whether all of its levels were asked for, so that it can be judged.
+    pub fn is_whole(&self) -> bool {
+        self.jobs.len() == self.study.levels()
+    }
+}
+
+/// One run.
+pub struct Job {
+    /// `study/level`.
+    pub name: String,
+    /// The level, from 1 on.
+    pub level: usize,
+    /// Cells along the longest edge of the body.
+    pub cells: usize,
+    /// h.
+    pub cell_size: f64,
+    /// dt; none of a static field.
+    pub time_step: Option<f64>,
+    /// How many there are; none of a static field.
+    pub steps: Option<u64>,
+    /// What its result depends on.
+    pub key: Key,
+    /// The files among that.
+    pub dependencies: Vec<Dependency>,
+}
+
+/// Everything that the result of a run depends on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Key {
+    /// Of this program.
+    pub version: &'static str,
+    /// Of the solver, as the file says it.
+    pub solver: Option<String>,
+    /// The words of the command, with paths that are this program's choice as placeholders.
+    pub command: Vec<String>,
+    /// Where it is run.
+    pub directory: String,
+    /// Which files are its results.
+    pub output: String,
+    /// Digests of the files that the command starts or names, and of those that the file lists.
+    pub files: BTreeMap<String, String>,
+    /// The folder of the file, where something may be started that has no digest.
+    pub folder: Option<String>,
+    /// The language that the field is written in.
+    pub emit: Option<&'static str>,
+    /// The exact state that it starts from, where it gets one.
+    pub state: Option<Start>,
+    /// The digest of the field's text, and of its own material's.
+    pub field: String,
+    /// Parameters.
+    pub set: Vec<String>,
+}
+
+/// What is not said of an exact state at the start by the field and its parameters.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Start {
+    /// The format of its file.
+    pub format: String,
+    /// Cells of the grid whose particles are its points.
+    pub cells: usize,
+    /// Particles in each direction of a cell.
+    pub per_cell: String,
+}
+
+impl Start {
+    fn new(format: &str, cells: usize, per_cell: Division) -> Self {
+        Start { format: format.to_owned(), cells, per_cell: per_cell.to_string() }
+    }
+}
+
+/// Which runs are asked for: a study, all steps of one, or a level of these.
+pub struct Only(String);
+
+impl Only {
+    fn study(&self) -> &str {
+        self.0.rsplit_once('/').map_or(&self.0, |(study, _)| study)
+    }
+
+    fn names(&self, study: &Study) -> bool {
+        [&study.name, &study.family].into_iter().any(|name| self.study() == name)
+    }
+
+    fn takes(&self, study: &Study, level: usize) -> bool {
+        let names = [&study.name, &study.family];
+        names.into_iter().any(|name| self.0 == *name || self.0 == format!("{name}/{level}"))
+    }
+}
+
+impl From<String> for Only {
+    fn from(name: String) -> Self {
+        Only(name)
+    }
+}
+
+impl Plan {
+    /// Plans the runs of a file, all or some, whose fields `open` opens.
+    ///
+    /// # Errors
+    /// What is wrong with the file, at its place.
+    pub fn new(
+        path: &Path,
+        campaign: Campaign,
+        only: &[Only],
+        open: Open<'_>,
+    ) -> anyhow::Result<Self> {
+        hold_only(&campaign, only)?;
+        let here = folder_of(path)?;
+        let target = target(&campaign)?;
+        let digests = Digests::default();
+        let sources = sources(&campaign, &here, &digests)?;
+        let mut studies = Vec::new();
+        for study in &campaign.studies {
+            let is_asked =
+                |level: &usize| only.is_empty() || only.iter().any(|it| it.takes(study, *level));
+            let levels: Vec<usize> = (1..=study.levels()).filter(is_asked).collect();
+            if !levels.is_empty() {
+                let (campaign, here) = (&campaign, here.as_path());
+                let setting =
+                    Setting { campaign, here, target, sources: &sources, digests: &digests, open };
+                studies.push(setting.planned(study, &levels)?);
+            }
+        }
+        Ok(Plan { campaign, here, target, studies, digests })
+    }
+}
+
+/// The folder of a file, whatever the working directory of a run will be.
+fn folder_of(path: &Path) -> anyhow::Result<PathBuf> {
+    let folder = path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    folder.canonicalize().with_context(|| format!("no folder `{}`", foreign::path(folder)))
+}
+
+/// Refuses names of what is not there.
+fn hold_only(campaign: &Campaign, only: &[Only]) -> anyhow::Result<()> {
+    for it in only {
+        let study = campaign.studies.iter().find(|study| it.names(study));
+        let known =
+            study.is_some_and(|study| (1..=study.levels()).any(|level| it.takes(study, level)));
+        if !known {
+            let names = campaign.studies.iter().map(|study| study.name.as_str());
+            let levels =
+                |study: &Study| format!("`{}` has levels 1 to {}", study.name, study.levels());
+            let help = study.map_or_else(
+                || advice(it.study(), names, |all| format!("the studies are {all}")),
+                levels,
+            );
+            bail!(
+                "`--only {}`: no such study or level; {}",
+                foreign::shown(&it.0),
+                foreign::shown(&help)
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The language that fields are written in.
+fn target(campaign: &Campaign) -> anyhow::Result<Option<&'static Target>> {
+    let Some(word) = &campaign.solver.emit else { return Ok(None) };
+    Target::find(&word.value).map(Some).ok_or_else(|| {
+        let names = TARGETS.iter().map(|target| target.name);
+        let help = advice(&word.value, names, |all| format!("the targets are {all}"));
+        let message = format!("`emit`: no target `{}`; {help}", foreign::shown(&word.value));
+        campaign.mistake(word.span, message, "unknown").into()
+    })
+}
+
+/// The files that the campaign file lists.
+fn sources(campaign: &Campaign, here: &Path, digests: &Digests) -> anyhow::Result<Vec<Dependency>> {
+    let mut all = Vec::new();
+    for word in &campaign.solver.sources {
+        let found = sources::files(here, &word.value)
+            .map_err(|why| campaign.mistake(word.span, format!("`sources`: {why}"), "this"))?;
+        all.extend(found.iter().filter_map(|path| Dependency::new(path, here, digests)));
+    }
+    Ok(all)
+}
+
+/// What all studies of a file share.
+struct Setting<'a> {
+    campaign: &'a Campaign,
+    here: &'a Path,
+    target: Option<&'static Target>,
+    sources: &'a [Dependency],
+    digests: &'a Digests,
+    open: Open<'a>,
+}
+
+impl Setting<'_> {
+    /// What an option of `mms judge` makes of a word of the file.
+    fn option<T>(
+        &self,
+        word: &Spanned<String>,
+        key: &str,
+        value: Result<T, String>,
+    ) -> anyhow::Result<T> {
+        value.map_err(|why| {
+            self.campaign.mistake(word.span, format!("`{key}`: {why}"), "this").into()
+        })
+    }
+
+    fn options<T>(
+        &self,
+        words: &[Spanned<String>],
+        key: &str,
+        value: impl Fn(&str) -> Result<T, String>,
+    ) -> anyhow::Result<Vec<T>> {
+        words.iter().map(|word| self.option(word, key, value(&word.value))).collect()
+    }
+
+    /// The field of a study; a path is one from the folder of the file.
+    fn field(&self, study: &Study) -> anyhow::Result<Input> {
+        let field = &study.field;
+        let path = self.here.join(&field.value);
+        let is_path = field.value.ends_with(".toml");
+        let named = if is_path { path.to_string_lossy() } else { field.value.as_str().into() };
+        let input = (self.open)(&named).and_then(|source| Input::new(source, &Options::default()));
+        let input = input.and_then(|input| input.hold(&study.set).map(|()| input));
+        input.map_err(|error| {
+            let why = format!("{error:#}");
+            let (first, rest) = why.split_once('\n').unwrap_or((&why, ""));
+            let mistake = self.campaign.mistake(field.span, format!("`field`: {first}"), "this");
+            anyhow!("{mistake}\n{rest}")
+        })
+    }
+
+    fn planned(&self, study: &Study, levels: &[usize]) -> anyhow::Result<Planned> {
+        let input = self.field(study)?;
+        let settings = input.settings(&study.set)?;
+        let parameters = input.compiled.parameters::<f64>(&settings);
+        let (_, [first, last]) = domain(&input.compiled.program, &parameters);
+        self.hold_static(study, &input)?;
+        self.hold_parameters(study, &input)?;
+        let end = study.end.unwrap_or(last);
+        if !(end > first && end <= last) {
+            let message = format!("`end`: the time window of the field is {first:?} to {last:?}");
+            return Err(self.campaign.mistake(study.span, message, "of this study").into());
+        }
+        let speed = sound(&input.compiled, &settings)[1];
+        let (window, per_cell) = ([first, end], self.per_cell(study, &input)?);
+        let place = Place { setting: self, study, input: &input, window, per_cell, speed };
+        let jobs = levels.iter().map(|&level| place.job(level)).collect::<Result<_, _>>()?;
+        let options = self.judging(study, &input.own_quantities())?;
+        Ok(Planned { study: study.clone(), window, options, per_cell, jobs, input })
+    }
+
+    /// The texts of the file that are filled in for each run.
+    fn templates(&self) -> impl Iterator<Item = &Template> {
+        let solver = &self.campaign.solver;
+        solver.run.iter().chain(&solver.directory).chain([&solver.output])
+    }
+
+    /// Refuses times of a field that has none.
+    fn hold_static(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
+        if !input.is_static() {
+            return Ok(());
+        }
+        let keys = [
+            ("time_steps", study.time_steps.is_some()),
+            ("end", study.end.is_some()),
+            ("time", !study.time.is_empty()),
+        ];
+        let key = keys.into_iter().find(|(_, is_given)| *is_given).map(|(key, _)| key.to_owned());
+        let timed = self.templates().flat_map(Template::placeholders).find(|it| it.is_time());
+        let Some(found) = key.or_else(|| Some(format!("{{{}}}", timed?.name()))) else {
+            return Ok(());
+        };
+        let message = format!("`{found}`: `{}` is static, and has no time", input.name.shown());
+        let label = "leave it out; the last result of each run counts";
+        Err(self.campaign.mistake(study.field.span, message, label).into())
+    }
+
+    /// Refuses placeholders of parameters that the field of a study does not have.
+    fn hold_parameters(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
+        let parameters = &input.compiled.model.parameters;
+        let known = |name: &str| parameters.iter().any(|it| it.name == name);
+        let Some(unknown) = self.templates().flat_map(Template::parameters).find(|it| !known(it))
+        else {
+            return Ok(());
+        };
+        let names = parameters.iter().map(|it| it.name.as_str());
+        let help = advice(unknown, names, |all| format!("it has {all}"));
+        let message = format!(
+            "`{{{PARAMETER}{}}}`: `{}` has no such parameter; {help}",
+            foreign::shown(unknown),
+            input.name.shown()
+        );
+        Err(self.campaign.mistake(study.field.span, message, "this field").into())
+    }
+
+    /// Particles in each direction of a cell, as the file says it or as usual.
+    fn per_cell(&self, study: &Study, input: &Input) -> anyhow::Result<Division> {
+        let Some(word) = &study.particles_per_cell else { return Ok(PER_CELL) };
+        let dimension = input.compiled.field.dimension;
+        let found = word.value.parse::<Division>().map_err(|error| error.to_string());
+        let held = found.and_then(|it| {
+            hold_division("particles_per_cell", &it, dimension)
+                .map_err(|error| error.to_string())?;
+            Ok(it)
+        });
+        self.option(word, "particles_per_cell", held)
+    }
+
+    fn judging(&self, study: &Study, own: &[Own]) -> anyhow::Result<Judging> {
+        let text =
+            |word: &str| quantities(own, &[word.to_owned()]).map_err(|error| error.to_string());
+        let quantities = self.options(&study.quantity, "quantity", text)?.concat();
+        let own = own_roles(own);
+        let map = self.options(&study.map, "map", |word| Mapping::read(word, &own))?;
+        let columns = study.columns.iter().map(|word| word.value.clone()).collect();
+        let profile = |word: &Spanned<String>| {
+            let path = self.here.join(&word.value).to_string_lossy().into_owned();
+            let given = if word.value.ends_with(".toml") { &path } else { &word.value };
+            self.option(word, "from", profile::find(given).map_err(|error| format!("{error:#}")))
+        };
+        let profile = study.from.as_ref().map(profile).transpose()?;
+        let over = |word: &Spanned<String>| self.option(word, "over", Over::of(&word.value));
+        let over = study.over.as_ref().map(over).transpose()?;
+        let names = Names { map, columns, profile, own };
+        let order = |word: &str| word.parse::<Order>().map_err(str::to_owned);
+        let orders = Orders::new(&self.options(&study.order, "order", order)?, study.tolerance);
+        let of = |word: &Spanned<String>| {
+            self.option(word, "weight", weight(&word.value).map_err(str::to_owned))
+        };
+        let weight = study.weight.as_ref().map(of).transpose()?;
+        let start = |word: &Spanned<String>| self.option(word, "start", How::of(&word.value));
+        let orders = Orders { start: study.start.as_ref().map(start).transpose()?, ..orders };
+        Ok(Judging { quantities, names, over, orders, weight })
+    }
+}
+
+/// What all runs of a study share.
+struct Place<'a> {
+    setting: &'a Setting<'a>,
+    study: &'a Study,
+    input: &'a Input,
+    window: [f64; 2],
+    per_cell: Division,
+    /// The greatest c0.
+    speed: f64,
+}
+
+impl Place<'_> {
+    fn job(&self, level: usize) -> anyhow::Result<Job> {
+        let study = self.study;
+        let cells = study.cells_of(level);
+        let scene = self.input.scene::<f64>(&study.set, |code| code.double)?;
+        let cell_size = scene.cell_size(&Division::Uniform(cells));
+        let (time_step, steps) = match self.input.is_static() {
+            true => (None, None),
+            false => self.steps(level, cell_size).map(|(step, steps)| (Some(step), Some(steps)))?,
+        };
+        let name = format!("{}/{level}", study.name);
+        let key = Key {
+            version: env!("CARGO_PKG_VERSION"),
+            solver: None,
+            command: Vec::new(),
+            directory: String::new(),
+            output: String::new(),
+            files: BTreeMap::new(),
+            folder: None,
+            emit: self.setting.target.map(|target| target.name),
+            state: self
+                .setting
+                .campaign
+                .solver
+                .state()
+                .map(|it| Start::new(it, cells, self.per_cell)),
+            field: self.input.compiled.input_hash(),
+            set: study.set.clone(),
+        };
+        let job =
+            Job { name, level, cells, cell_size, time_step, steps, key, dependencies: Vec::new() };
+        Ok(self.with_command(job))
+    }
+
+    /// dt as the file says it, or the longest of the Courant number that divides the window; and how many there are.
+    fn steps(&self, level: usize, cell_size: f64) -> anyhow::Result<(f64, u64)> {
+        let duration = self.window[1] - self.window[0];
+        let given = self.study.time_step_of(level);
+        let longest = given.unwrap_or(self.study.courant * cell_size / self.speed);
+        // Round-off must not add a step to a whole number of steps.
+        let steps = (duration / longest * (1.0 - 1e-6)).ceil().max(1.0);
+        if !(steps.is_finite() && steps < 1e12) {
+            bail!(
+                "`{}`: level {} would take {steps:e} steps of {longest:e}; give `time_steps`, or fewer `cells`",
+                foreign::shown(&self.study.name),
+                level
+            );
+        }
+        Ok((given.unwrap_or(duration / steps), steps as u64))
+    }
+
+    /// Says what the result depends on.
+    fn with_command(&self, mut job: Job) -> Job {
+        let Setting { campaign, here, .. } = *self.setting;
+        let solver = &campaign.solver;
+        let value = |it: Placeholder| match it.is_path() {
+            true => format!("{{{}}}", it.name()),
+            false => self.value(&job, it),
+        };
+        let fill = |template: &Template| template.fill(value, |name| self.parameter(name));
+        let command: Vec<String> = solver.run.iter().map(fill).collect();
+        let directory = solver.directory.as_ref().map_or("{here}".to_owned(), fill);
+        let output = fill(&solver.output);
+        let found = self.dependencies(&job);
+        job.key.folder = (!found.is_complete).then(|| here.to_string_lossy().into_owned());
+        job.dependencies =
+            found.files.into_values().chain(self.setting.sources.iter().cloned()).collect();
+        let digest = |it: &Dependency| (it.name.clone(), it.content.text().to_owned());
+        job.key.files = job.dependencies.iter().map(digest).collect();
+        job.key.solver = solver.version.clone();
+        (job.key.command, job.key.directory, job.key.output) = (command, directory, output);
+        job
+    }
+
+    /// The files that the command of a run depends on.
+    fn dependencies(&self, job: &Job) -> Dependencies {
+        let Setting { campaign, here, digests, .. } = *self.setting;
+        let value = |it: Placeholder| match it {
+            Placeholder::Here => here.to_string_lossy().into_owned(),
+            it if it.is_path() => UNKNOWN.to_string(),
+            it => self.value(job, it),
+        };
+        let solver = &campaign.solver;
+        let fill = |template: &Template| template.fill(value, |name| self.parameter(name));
+        let words: Vec<String> = solver.run.iter().map(fill).collect();
+        let directory = solver.directory.as_ref().map_or(String::new(), fill);
+        let directory = (!directory.contains(UNKNOWN)).then(|| here.join(directory));
+        dependencies::Place { here, directory: directory.as_deref(), digests }.dependencies(&words)
+    }
+
+    fn value(&self, job: &Job, placeholder: Placeholder) -> String {
+        let of = (self.study, self.input, self.per_cell);
+        value(of, self.window, job, placeholder)
+    }
+
+    fn parameter(&self, name: &str) -> String {
+        parameter(self.study, self.input, name)
+    }
+}
+
+/// The value of a parameter of a study, in the digits of a double.
+fn parameter(study: &Study, input: &Input, name: &str) -> String {
+    let set = input.settings(&study.set).unwrap_or_default();
+    let values = input.compiled.parameters::<f64>(&set);
+    let at = input.compiled.model.parameters.iter().position(|it| it.name == name);
+    at.and_then(|at| values.get(at)).map_or_else(String::new, |value| format!("{value:?}"))
+}
+
+/// What stands for a placeholder that is no path.
+fn value(
+    (study, input, per_cell): (&Study, &Input, Division),
+    [start, end]: [f64; 2],
+    job: &Job,
+    placeholder: Placeholder,
+) -> String {
+    match placeholder {
+        Placeholder::Name => study.name.clone(),
+        Placeholder::Field => input.name.raw().to_owned(),
+        Placeholder::Level => job.level.to_string(),
+        Placeholder::Cells => job.cells.to_string(),
+        Placeholder::ParticlesPerCell => per_cell.to_string(),
+        Placeholder::CellSize => format!("{:?}", job.cell_size),
+        Placeholder::TimeStep => job.time_step.map_or_else(String::new, |it| format!("{it:?}")),
+        Placeholder::Steps => job.steps.map_or_else(String::new, |it| it.to_string()),
+        Placeholder::Start => format!("{start:?}"),
+        Placeholder::End => format!("{end:?}"),
+        Placeholder::Output | Placeholder::Emitted | Placeholder::State | Placeholder::Here => {
+            String::new()
+        }
+    }
+}
+
+/// The folders and files of a run that its command may name.
+pub struct Paths {
+    /// For its results.
+    pub output: String,
+    /// With the source of the field.
+    pub emitted: String,
+    /// The exact state at the start.
+    pub state: String,
+    /// That of the campaign file.
+    pub here: String,
+}
+
+impl Planned {
+    /// A text of the file for one of the runs.
+    pub fn fill(&self, template: &Template, job: &Job, paths: &Paths) -> String {
+        template.fill(|it| self.value(job, paths, it), |name| self.parameter(name))
+    }
+
+    /// The same, where what is put in is taken literally in a pattern.
+    pub fn pattern(&self, template: &Template, job: &Job, paths: &Paths) -> String {
+        let plain = self.fill(template, job, paths);
+        let own = template.fill(|_| String::new(), |_| String::new());
+        if !own.contains(['*', '?', '[']) {
+            return plain;
+        }
+        template.fill(
+            |it| glob::Pattern::escape(&self.value(job, paths, it)),
+            |name| glob::Pattern::escape(&self.parameter(name)),
+        )
+    }
+
+    fn parameter(&self, name: &str) -> String {
+        parameter(&self.study, &self.input, name)
+    }
+
+    fn value(&self, job: &Job, paths: &Paths, placeholder: Placeholder) -> String {
+        match placeholder {
+            Placeholder::Output => paths.output.clone(),
+            Placeholder::Emitted => paths.emitted.clone(),
+            Placeholder::State => paths.state.clone(),
+            Placeholder::Here => paths.here.clone(),
+            other => value((&self.study, &self.input, self.per_cell), self.window, job, other),
+        }
+    }
+}
+
+/// A path as a text, which it has to be to stand in a command.
+pub fn text(path: &Path) -> anyhow::Result<String> {
+    let text = path.to_str().map(str::to_owned);
+    text.ok_or_else(|| anyhow!("`{}`: expected a path in UTF-8", foreign::path(path)))
+}

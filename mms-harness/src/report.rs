@@ -1,0 +1,110 @@
+//! The result of a campaign, and its document.
+
+use mms_convergence::Verdict;
+use mms_documents::campaign::{self as documents, CampaignRun, CampaignStudy};
+use mms_documents::provenance::Provenance;
+use mms_judge::{Judgements, Together};
+
+use crate::judged::Judged;
+use crate::plan::{Job, Plan, Planned};
+use crate::work::Outcome;
+
+/// A campaign that was carried out, or what was asked for of it.
+pub struct Report<'a> {
+    /// The plan of the campaign.
+    pub plan: &'a Plan,
+    /// The judgement of each study.
+    pub studies: Vec<Judged<'a>>,
+    /// Where it is from.
+    pub provenance: Provenance,
+}
+
+impl Report<'_> {
+    /// Each run with its outcome.
+    pub fn outcomes(&self) -> impl Iterator<Item = (&Job, &Outcome)> {
+        self.studies.iter().flat_map(|it| it.planned.jobs.iter().zip(&it.outcomes))
+    }
+
+    /// Whether a run did not come to its end, or its results say nothing.
+    pub fn has_failed(&self) -> bool {
+        let failed = |(_, outcome): (&Job, &Outcome)| !matches!(outcome, Outcome::Finished(_));
+        self.outcomes().any(failed) || self.studies.iter().any(|it| it.mistake.is_some())
+    }
+
+    /// Whether a verdict is no pass.
+    pub fn is_refuted(&self) -> bool {
+        let mut verdicts = self.studies.iter().filter_map(Judged::verdict);
+        !verdicts.all(Verdict::is_good)
+    }
+
+    /// The mistakes that all passing studies exclude together.
+    pub fn excluded(&self) -> Option<Together> {
+        Together::new(self.studies.iter().filter_map(|it| {
+            let exclusions = it.judgements.as_ref()?.exclusions.as_ref()?;
+            Some((it.planned.study.name.as_str(), exclusions))
+        }))
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> documents::Campaign {
+        let solver = &self.plan.campaign.solver;
+        let passes = |it: &&Judged| it.verdict().is_some_and(Verdict::is_good);
+        documents::Campaign {
+            solver: solver.name.clone(),
+            solver_version: solver.version.clone(),
+            studies: self.studies.iter().map(Judged::document).collect(),
+            excluded: self.excluded().map(|it| it.document()),
+            passed: self.studies.iter().filter(passes).count(),
+            provenance: self.provenance.clone(),
+        }
+    }
+}
+
+impl Judged<'_> {
+    /// The verdict; none where there are no results, or where these say nothing.
+    pub fn verdict(&self) -> Option<Verdict> {
+        self.judgements.as_ref().map(Judgements::verdict)
+    }
+
+    fn document(&self) -> CampaignStudy {
+        let Planned { study, input, jobs, .. } = self.planned;
+        let runs = jobs.iter().zip(&self.outcomes).map(|(job, outcome)| run(job, outcome));
+        CampaignStudy {
+            name: study.name.clone(),
+            study: study.family.clone(),
+            set: study.set.clone(),
+            field: input.name.raw().to_owned(),
+            runs: runs.collect(),
+            mistake: self.mistake.clone(),
+            verdict: self.verdict().map(|it| it.to_string()),
+            judgement: self.judgements.as_ref().map(|it| it.document()),
+        }
+    }
+}
+
+fn run(job: &Job, outcome: &Outcome) -> CampaignRun {
+    let (status, reason, last_words, folder) = match outcome {
+        Outcome::Finished(it) => ("done", None, None, Some(&it.folder)),
+        Outcome::Failed { reason, last_words, folder } => {
+            ("failed", Some(reason), Some(last_words), Some(folder))
+        }
+        Outcome::Interrupted => ("interrupted", None, None, None),
+    };
+    let (seconds, left_behind) = match outcome {
+        Outcome::Finished(it) => (Some(it.seconds), Some(&it.left_behind)),
+        _ => (None, None),
+    };
+    CampaignRun {
+        level: job.level,
+        cells: job.cells,
+        cell_size: job.cell_size,
+        time_step: job.time_step,
+        steps: job.steps,
+        status: status.to_owned(),
+        reason: reason.cloned(),
+        last_words: last_words.cloned(),
+        folder: folder.cloned(),
+        seconds,
+        left_behind: left_behind.cloned(),
+    }
+}

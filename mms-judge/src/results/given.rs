@@ -1,0 +1,40 @@
+//! Values that a solver is given, and does not compute: they are no evidence.
+
+use mms_spec::Claim;
+use mms_spec::quantity::Quantity;
+
+use super::taken::Taken;
+use crate::measured::Objection;
+
+impl Taken<'_> {
+    /// Whether a solver is given all values of a quantity at places X: at the start, on walls, as loads.
+    ///
+    /// # Errors
+    /// The motion cannot be evaluated.
+    pub fn is_given(&mut self, quantity: Quantity, places: &[f64]) -> anyhow::Result<bool> {
+        let rounding = self.motion.reference.rounding;
+        let are_on = |claims: &[Claim]| self.exact.are_on(claims, places, rounding);
+        let is_given = match quantity {
+            Quantity::BodyForce
+            | Quantity::BodyForceDensity
+            | Quantity::CurrentBodyForceDensity => true,
+            Quantity::Position
+            | Quantity::Displacement
+            | Quantity::Velocity
+            | Quantity::Acceleration => match self.mesh.dimension {
+                1 => are_on(&[Claim::Fixed, Claim::Prescribed, Claim::Roller]),
+                _ => are_on(&[Claim::Fixed, Claim::Prescribed]),
+            },
+            Quantity::Traction => are_on(&[Claim::Free, Claim::Traction]),
+            _ => false,
+        };
+        Ok(is_given || self.exact.is_start(&[self.time])?)
+    }
+}
+
+/// The objection to results all values of which are given.
+pub fn objection() -> Objection {
+    let why = "a solver is given all these values: they are at the start, on walls whose motion is prescribed, or loads. They \
+               show nothing of what it computes: give results of later times that all meshes have, inside the body";
+    Objection { why: why.into(), is_to_all: true }
+}

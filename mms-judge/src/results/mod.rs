@@ -1,0 +1,354 @@
+//! Results of any solver against a field: their errors, as [`Measured`].
+//!
+//! [`files`] reads them, with `mms-results`; [`times`] finds those at which meshes can be compared; [`level`] measures a
+//! snapshot against the field's program ([`Exact`]), and finds the floor that the rounding of the file makes;
+//! [`baseline`] and [`same`] compare results with results; [`excluded`] finds the mistakes that a small error excludes.
+
+mod baseline;
+mod degree;
+mod excluded;
+mod expected;
+mod explained;
+mod extent;
+mod files;
+mod given;
+mod iterative;
+mod level;
+mod remarks;
+mod same;
+mod start;
+mod taken;
+mod times;
+mod traction;
+mod units;
+
+use anyhow::{bail, ensure};
+use mms_spec::foreign::shown;
+use mms_spec::quantity::Quantity;
+
+pub use baseline::{Baseline, Compared};
+pub use excluded::{Exclusions, exclusions};
+pub use explained::Explained;
+pub use extent::{distances, motion};
+pub use files::{Results, placed, room};
+pub use level::{Over, Reading, Sampling, own_roles, weight, without_positions};
+pub use same::{Same, same};
+pub use start::Start;
+
+use self::level::{Errors, Found, Measure};
+use self::start::Lowered;
+use crate::measured::{Measured, Norm, Objection, Run};
+use crate::table::Orders;
+use mms_exact::Exact;
+
+/// What was measured, and what is to be said of it.
+pub struct Measurement {
+    /// The errors.
+    pub measured: Measured,
+    /// Over what each quantity was measured.
+    pub samplings: Vec<Sampling>,
+    /// The times at which levels were compared.
+    pub times: Vec<f64>,
+    /// Iterative errors, root mean squares, of quantities of which they are known.
+    pub iterative: Vec<(&'static str, f64)>,
+    /// Why they are no evidence, where that is so.
+    pub objection: Option<Objection>,
+    /// The part of the body that results cover, if a part is enough.
+    pub part: Option<String>,
+    /// What was done, and why.
+    pub notes: Vec<String>,
+    /// What may be wrong.
+    pub warnings: Vec<String>,
+}
+
+/// What part of the largest value may be hidden by rounding in a file whose values are called exact: a little more than
+/// single precision hides.
+const FINE: f64 = 1e-6;
+
+/// One mesh, measured at all times.
+struct Level {
+    name: String,
+    /// Of quantities, the largest errors over times.
+    errors: Vec<Errors>,
+    found: Found,
+}
+
+/// By how much cells of one mesh, or meshes of one study, may differ before it is said.
+const ALIKE: f64 = 1.01;
+
+/// How meshes are compared.
+pub struct Comparison<'a> {
+    /// h, in the order of the results; without them they are those of cells, or of points.
+    pub sizes: &'a [f64],
+    /// The times that are wanted; without them all that meshes have in common.
+    pub times: &'a [f64],
+    /// The expected orders.
+    pub orders: &'a Orders,
+    /// Whether dt of each mesh is known, so that an order in time may be expected.
+    pub has_steps: bool,
+    /// Results of one of the meshes with a smaller tolerance of the solver.
+    pub tighter: Option<Results>,
+}
+
+/// Measures results of meshes.
+///
+/// # Errors
+/// Results that are none of the field, and where.
+pub fn measure(
+    mut all: Vec<Results>,
+    reading: &Reading<'_>,
+    exact: &mut Exact,
+    comparison: Comparison<'_>,
+) -> anyhow::Result<Measurement> {
+    let Comparison { sizes, times, orders, has_steps, tighter } = comparison;
+    let meshes = all.len();
+    all.extend(tighter);
+    let own = all.iter_mut().map(Results::keep_own).collect::<anyhow::Result<Vec<_>>>()?;
+    let common = times::common(&mut all, times, exact)?;
+    let (all, tighter) = all.split_at(meshes);
+    let mut levels = Vec::new();
+    for (results, snapshots) in all.iter().zip(&common.snapshots) {
+        levels.push(level(results, snapshots, reading, exact)?);
+    }
+    let mut quantities = quantities(&levels)?;
+    let mut notes = vec![remarks::compared(&common), remarks::meshes(&levels)];
+    if let [tighter] = tighter {
+        let (snapshots, own) = common.snapshots.split_at(meshes);
+        let given = ((all, snapshots), (tighter, own[0].as_slice()));
+        notes.push(iterative::raise(&mut levels, given.0, given.1, reading, exact)?);
+    }
+    let mut warnings = Vec::new();
+    let sizes = lengths(&levels, sizes, &mut notes, &mut warnings)?;
+    notes.push(format!("X: {}", levels[0].found.how));
+    hold_evidence(&levels[0], &quantities, reading.over)?;
+    let degree = levels.iter().filter_map(|it| it.found.degree).min();
+    notes.extend(remarks::order(degree, orders));
+    let orders = &expected::named(orders).of_degree(degree);
+    expected::hold_orders(&quantities, orders, has_steps)?;
+    if reading.over.is_none() {
+        degree::hold_linear(&levels, &sizes, orders)?;
+    }
+    let lowered = Lowered::new(orders, (&levels, &sizes), exact)?;
+    notes.extend(quantities.iter().filter_map(|(it, _)| lowered.note(*it, orders)));
+    let all = quantities.clone();
+    quantities.retain(|(it, _)| !lowered.is_blind_to(*it, orders));
+    let is_blind = quantities.is_empty();
+    if is_blind {
+        quantities = all;
+    }
+    notes.extend(remarks::norms(&quantities));
+    notes.push(remarks::left_out(&common, &levels, &own));
+    let is_given = levels.iter().flat_map(|it| &it.errors).all(|it| it.is_given);
+    remarks::suspicions(&levels, is_given, &mut warnings);
+    let runs = sizes.iter().map(|&cell_size| Run { cell_size, time_step: None }).collect();
+    let measured: Vec<_> =
+        quantities.iter().map(|it| quantity(*it, &levels, (orders, &lowered))).collect();
+    let part = levels.iter().find_map(|level| {
+        level.found.covered.part.as_ref().map(|part| format!("`{}`: {part}", shown(&level.name)))
+    });
+    let objection = match &part {
+        _ if is_given => Some(given::objection()),
+        _ if is_blind => Some(start::objection()),
+        Some(part) if !reading.is_part => Some(extent::objection(part)),
+        _ => None,
+    };
+    let part = part.filter(|_| reading.is_part);
+    remarks::floors(&measured, &levels, &mut notes);
+    let measured = Measured { runs, quantities: measured };
+    let iterative = levels[0]
+        .errors
+        .iter()
+        .filter_map(|it| Some((it.quantity.name(), it.iterative?)))
+        .collect();
+    Ok(Measurement {
+        measured,
+        samplings: quantities.iter().map(|(_, sampling)| *sampling).collect(),
+        times: common.times,
+        iterative,
+        objection,
+        part,
+        notes,
+        warnings,
+    })
+}
+
+fn level(
+    results: &Results,
+    snapshots: &[usize],
+    reading: &Reading<'_>,
+    exact: &mut Exact,
+) -> anyhow::Result<Level> {
+    let what = |errors: &Errors| (errors.quantity, errors.sampling);
+    let mut level: Option<Level> = None;
+    for snapshot in snapshots.iter().map(|&at| &results.snapshots[at]) {
+        let Some(time) = snapshot.time else { continue };
+        let found = reading.measure(snapshot, time.value, time.rounding, exact)?;
+        match &mut level {
+            None => {
+                level =
+                    Some(Level { name: results.name.clone(), errors: found.errors.clone(), found })
+            }
+            Some(level) => {
+                ensure!(
+                    level.errors.iter().map(what).eq(found.errors.iter().map(what)),
+                    "{}: it has other quantities than the result before it, or cells where that has none",
+                    snapshot.path
+                );
+                level.errors.iter_mut().zip(found.errors).for_each(|(most, one)| most.raise(one));
+                let part = &mut level.found.covered.part;
+                *part = part.take().or(found.covered.part);
+            }
+        }
+    }
+    match level {
+        Some(level) => Ok(level),
+        None => bail!("`{}`: no results", results.name),
+    }
+}
+
+impl Errors {
+    /// Whether no error is more than rounding of the file makes.
+    fn is_noise(&self) -> bool {
+        self.norms.iter().all(|(_, measure)| measure.error <= measure.floor)
+    }
+
+    /// Whether none is, and the file has digits enough to tell.
+    fn is_exact(&self) -> bool {
+        let is_fine = |(_, measure): &(_, Measure)| measure.floor <= FINE * self.largest;
+        self.is_noise() && self.norms.iter().filter(|(name, _)| *name != "h1").all(is_fine)
+    }
+
+    /// Keeps the larger of each norm.
+    fn raise(&mut self, other: Errors) {
+        self.largest = self.largest.max(other.largest);
+        self.at_points = self.at_points.zip(other.at_points).map(|(a, b)| a.max(b));
+        self.unit = self.unit.filter(|unit| other.unit == Some(*unit));
+        self.is_given &= other.is_given;
+        if other.of_time[0] > self.of_time[0] {
+            self.of_time = other.of_time;
+        }
+        for ((_, most), (_, one)) in self.norms.iter_mut().zip(other.norms) {
+            *most = Measure { error: most.error.max(one.error), floor: most.floor.max(one.floor) };
+        }
+    }
+}
+
+/// The quantities that all levels have, each with its sampling.
+fn quantities(levels: &[Level]) -> anyhow::Result<Vec<(Quantity, Sampling)>> {
+    let mut all = Vec::new();
+    for errors in &levels[0].errors {
+        for level in levels {
+            match level.errors.iter().find(|it| it.quantity == errors.quantity) {
+                Some(it) if it.sampling == errors.sampling => {}
+                Some(_) => bail!(
+                    "`{}`: {} is over {} there, and over {} in `{}`",
+                    shown(&level.name),
+                    errors.quantity.name(),
+                    level.errors[0].sampling.name(),
+                    errors.sampling.name(),
+                    shown(&levels[0].name)
+                ),
+                None => bail!(
+                    "`{}`: no {}, which `{}` has; leave it out with `--quantity`",
+                    shown(&level.name),
+                    errors.quantity.name(),
+                    shown(&levels[0].name)
+                ),
+            }
+        }
+        all.push((errors.quantity, errors.sampling));
+    }
+    Ok(all)
+}
+
+/// Refuses to judge a mesh by points or by middles of cells alone: orders there may be higher than elsewhere. Polygons have
+/// nothing else.
+fn hold_evidence(
+    level: &Level,
+    quantities: &[(Quantity, Sampling)],
+    over: Option<Over>,
+) -> anyhow::Result<()> {
+    let is_over_cells = quantities.iter().any(|(_, it)| *it == Sampling::Cells);
+    ensure!(
+        level.found.sizes.is_none()
+            || level.found.unknown.is_some()
+            || is_over_cells
+            || over == Some(Over::Points),
+        "`{}`: only values at {} would be judged, where they may be more accurate than elsewhere (superconvergence); \
+         judge a quantity of the points over the cells as well, such as u",
+        shown(&level.name),
+        quantities[0].1.name()
+    );
+    Ok(())
+}
+
+/// h of each level, from the user, from cells or from points.
+fn lengths(
+    levels: &[Level],
+    given: &[f64],
+    notes: &mut Vec<String>,
+    warnings: &mut Vec<String>,
+) -> anyhow::Result<Vec<f64>> {
+    if !given.is_empty() {
+        ensure!(
+            given.len() == levels.len(),
+            "`--h`: {} values for {} files",
+            given.len(),
+            levels.len()
+        );
+        return Ok(given.to_vec());
+    }
+    let covered = || levels.iter().map(|level| &level.found.covered);
+    let of_cells: Option<Vec<[f64; 2]>> = levels.iter().map(|level| level.found.sizes).collect();
+    let says = match &of_cells {
+        Some(_) => "(measure of the cells / their number)^(1/D)",
+        None if covered().all(|it| it.is_even) => {
+            "the distance of neighbouring points, for there are no cells"
+        }
+        None => {
+            "(measure of the body / points)^(1/D), for there are no cells; of a point on a face half is counted"
+        }
+    };
+    notes.push(format!("h: {says}; give others with `--h`"));
+    if let Some(sizes) = of_cells {
+        let ratios: Vec<f64> = sizes.iter().map(|[least, most]| most / least).collect();
+        if ratios.iter().any(|it| it / ratios[0] > ALIKE || ratios[0] / it > ALIKE) {
+            let ratios: Vec<_> = ratios.iter().map(|it| format!("{it:.2}")).collect();
+            warnings.push(format!(
+                "h_max/h_min varies from mesh to mesh ({}): orders are those of meshes that are refined evenly",
+                ratios.join(", ")
+            ));
+        }
+    }
+    Ok(covered().map(|it| it.size).collect())
+}
+
+/// What is judged of a quantity.
+fn quantity(
+    (of, sampling): (Quantity, Sampling),
+    levels: &[Level],
+    (orders, lowered): (&Orders, &Lowered),
+) -> crate::measured::Quantity {
+    let errors: Vec<&Errors> = levels
+        .iter()
+        .filter_map(|level| level.errors.iter().find(|it| it.quantity == of))
+        .collect();
+    let norm = |at: usize| {
+        let name = errors[0].norms[at].0;
+        let measures: Vec<Measure> = errors.iter().map(|it| it.norms[at].1).collect();
+        Norm {
+            name: name.into(),
+            expected: expected::expected((orders, lowered), (of, sampling), name),
+            errors: measures.iter().map(|it| Some(it.error)).collect(),
+            floors: measures.iter().map(|it| it.floor).collect(),
+            rounding: 0.0,
+            is_exact: errors.iter().all(|it| it.is_exact()),
+        }
+    };
+    // A start excites waves whose energy is bounded, and so means of errors, but no maximum.
+    let is_judged = |at: &usize| lowered.of(of).is_none() || errors[0].norms[*at].0 != "linf";
+    crate::measured::Quantity {
+        name: of.name().into(),
+        norms: (0..errors[0].norms.len()).filter(is_judged).map(norm).collect(),
+    }
+}

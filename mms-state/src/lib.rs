@@ -1,0 +1,262 @@
+//! Exact states of a field, at any points and times, for any solver.
+//!
+//! [`points`] says where: at the points of a file, at the particles of a grid, or at what is at given places
+//! ([`present`](mms_analysis::present)). [`State`]s are made of the field's quantities there, and [`file`] writes them;
+//! [`domain`] tells beside them what a solver needs to know once.
+
+pub mod domain;
+pub mod file;
+pub mod points;
+
+use anyhow::{bail, ensure};
+use mms_exact::Exact;
+use mms_files::machine::memory;
+use mms_files::words::bytes;
+use mms_results::write::{Column, Shape, State};
+use mms_spec::Face;
+use mms_spec::quantity::{self, Quantity};
+
+use self::domain::Domain;
+use self::points::Points;
+
+/// A term that a solver is not given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Term {
+    /// b, in all its forms.
+    BodyForce,
+    /// The stress in every measure, and what follows from it: divergences, pressure.
+    Stress,
+    /// Tractions on the faces.
+    Traction,
+}
+
+impl Term {
+    /// All of them.
+    pub const ALL: [Term; 3] = [Term::BodyForce, Term::Stress, Term::Traction];
+
+    /// The term of that name.
+    pub fn from_name(name: &str) -> Option<Term> {
+        Term::ALL.into_iter().find(|term| term.name() == name)
+    }
+
+    /// A description of it.
+    pub fn says(self) -> &'static str {
+        match self {
+            Term::BodyForce => "b, in all its forms",
+            Term::Stress => {
+                "The stress in every measure, and what follows from it: divergences, pressure"
+            }
+            Term::Traction => "Tractions on the faces",
+        }
+    }
+
+    /// How the command calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Term::BodyForce => "body_force",
+            Term::Stress => "stress",
+            Term::Traction => "traction",
+        }
+    }
+
+    /// The term that a quantity belongs to.
+    fn of(quantity: Quantity) -> Option<Term> {
+        match quantity {
+            Quantity::BodyForce
+            | Quantity::BodyForceDensity
+            | Quantity::CurrentBodyForceDensity => Some(Term::BodyForce),
+            Quantity::FirstPiolaKirchhoff
+            | Quantity::NominalStress
+            | Quantity::CauchyStress
+            | Quantity::KirchhoffStress
+            | Quantity::SecondPiolaKirchhoff
+            | Quantity::Pressure
+            | Quantity::VonMises
+            | Quantity::DivP
+            | Quantity::DivSigma => Some(Term::Stress),
+            Quantity::Traction => Some(Term::Traction),
+            _ => None,
+        }
+    }
+}
+
+/// What columns are called: by symbols in tables and NumPy, in words in VTK, as `mms run --vtk` does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Names {
+    /// X, u, F.
+    Symbols,
+    /// reference_position, displacement, deformation_gradient.
+    Words,
+}
+
+impl Names {
+    fn of(self, quantity: Quantity) -> &'static str {
+        match (self, quantity) {
+            (Names::Words, _) | (_, Quantity::Own(_)) => quantity.name(),
+            (Names::Symbols, Quantity::MassDensity) => "density",
+            (Names::Symbols, _) => quantity.symbol(),
+        }
+    }
+
+    fn reference(self) -> &'static str {
+        match self {
+            Names::Symbols => "X",
+            Names::Words => "reference_position",
+        }
+    }
+}
+
+/// The quantities of a state that names none.
+pub const USUAL: [Quantity; 9] = [
+    Quantity::Position,
+    Quantity::Displacement,
+    Quantity::Velocity,
+    Quantity::DeformationGradient,
+    Quantity::FirstPiolaKirchhoff,
+    Quantity::CauchyStress,
+    Quantity::MassDensity,
+    Quantity::BodyForce,
+    Quantity::Traction,
+];
+
+/// What a state holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted<'a> {
+    /// The quantities; tractions are those of the faces that have points.
+    pub quantities: &'a [Quantity],
+    /// Terms that are 0 in it.
+    pub without: &'a [Term],
+    /// What columns are called.
+    pub names: Names,
+    /// What a solver needs to know of the field once.
+    pub domain: &'a Domain,
+}
+
+impl Wanted<'_> {
+    /// Refuses states at so many times that do not fit into what memory is free.
+    ///
+    /// # Errors
+    /// How much they take, and how much there is.
+    pub fn hold_memory(&self, exact: &Exact, points: &Points, times: usize) -> anyhow::Result<()> {
+        let points = points.reference.len() / exact.dimension;
+        let numbers: usize = self.quantities.iter().map(|it| exact.components(*it)).sum();
+        // X and x for the file, two volumes and the mass.
+        let numbers = numbers + 2 * exact.dimension + 3;
+        let need = 8.0 * numbers as f64 * points as f64 * times as f64;
+        ensure!(
+            need < memory() as f64,
+            "{points} points at {times} times take {} of memory, and {} are free; give fewer at once",
+            bytes(need),
+            bytes(memory() as f64)
+        );
+        Ok(())
+    }
+
+    /// The exact state at points X.
+    ///
+    /// # Errors
+    /// A quantity that is not finite somewhere.
+    pub fn state(&self, exact: &mut Exact, points: &Points, time: f64) -> anyhow::Result<State> {
+        let dimension = exact.dimension;
+        let mut columns = vec![Column {
+            name: self.names.reference().into(),
+            shape: Shape::Vector,
+            values: points.reference.clone(),
+        }];
+        for &quantity in self.quantities {
+            match quantity {
+                // The points of VTK are x.
+                Quantity::Position if self.names == Names::Words => {}
+                _ if quantity.takes_normal() => {
+                    for (face, on_face) in points.faces(exact) {
+                        let values =
+                            self.on_face(quantity, exact, points, (face, &on_face), time)?;
+                        let name = format!("{}_{}", quantity.name(), face.name());
+                        columns.push(Column { name, shape: shape(quantity, exact), values });
+                    }
+                }
+                _ => {
+                    let values = exact.values(quantity, time, &points.reference)?;
+                    let values =
+                        self.held(quantity, values, (&points.reference, dimension), time)?;
+                    let name = self.names.of(quantity).to_owned();
+                    columns.push(Column { name, shape: shape(quantity, exact), values });
+                }
+            }
+        }
+        columns.extend(weights(exact, points, time)?);
+        Ok(State { time, dimension, facts: self.domain.facts(), columns })
+    }
+
+    /// A quantity that takes a normal at the points of a face; 0 at all others.
+    fn on_face(
+        &self,
+        quantity: Quantity,
+        exact: &mut Exact,
+        points: &Points,
+        (face, on_face): (Face, &[usize]),
+        time: f64,
+    ) -> anyhow::Result<Vec<f64>> {
+        let dimension = exact.dimension;
+        let place = |point: &usize| &points.reference[point * dimension..][..dimension];
+        let places: Vec<f64> = on_face.iter().flat_map(place).copied().collect();
+        let found = exact.on_face(quantity, face, time, &places)?;
+        let found = self.held(quantity, found, (&places, dimension), time)?;
+        let components = exact.components(quantity);
+        let mut all = vec![0.0; points.reference.len() / dimension * components];
+        for (point, value) in on_face.iter().zip(found.chunks(components)) {
+            all[point * components..][..components].copy_from_slice(value);
+        }
+        Ok(all)
+    }
+
+    /// The values, or 0 where their term is left out.
+    fn held(
+        &self,
+        quantity: Quantity,
+        mut values: Vec<f64>,
+        (points, dimension): (&[f64], usize),
+        time: f64,
+    ) -> anyhow::Result<Vec<f64>> {
+        if Term::of(quantity).is_some_and(|term| self.without.contains(&term)) {
+            values.fill(0.0);
+        }
+        let components = values.len() * dimension / points.len().max(1);
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            bail!(
+                "{} is {} at X = {:?}, t = {time}: not defined there, or beyond the range of f64",
+                quantity.name(),
+                values[at],
+                &points[at / components * dimension..][..dimension]
+            );
+        }
+        Ok(values)
+    }
+}
+
+fn shape(quantity: Quantity, exact: &Exact) -> Shape {
+    match quantity.shape() {
+        quantity::Shape::Tensor if exact.rows() > exact.dimension => Shape::Nine,
+        quantity::Shape::Scalar => Shape::Scalar,
+        quantity::Shape::Vector => Shape::Vector,
+        quantity::Shape::Tensor => Shape::Tensor,
+    }
+}
+
+/// Present and reference volume, which are one at small strain, and the mass, where volumes are known: mass = density x
+/// volume, if the field gives a density.
+fn weights(exact: &mut Exact, points: &Points, time: f64) -> anyhow::Result<Vec<Column>> {
+    let Some(reference) = &points.volume else { return Ok(Vec::new()) };
+    let stretched = match exact.is_small_strain() {
+        true => vec![1.0; reference.len()],
+        false => exact.values(Quantity::Jacobian, time, &points.reference)?,
+    };
+    let times = |factor: &[f64]| reference.iter().zip(factor).map(|(a, b)| a * b).collect();
+    let column = |name: &str, values| Column { name: name.into(), shape: Shape::Scalar, values };
+    let mut columns =
+        vec![column("volume", times(&stretched)), column("reference_volume", reference.clone())];
+    if exact.input().compiled.model.has_density {
+        columns.push(column("mass", times(&exact.densities(&points.reference)?)));
+    }
+    Ok(columns)
+}

@@ -1,0 +1,139 @@
+//! The result of a campaign as text and files.
+
+use std::path::Path;
+
+use anyhow::Context as _;
+use mms_convergence::Verdict;
+use mms_files::words::duration;
+use mms_files::write::{pretty, refuse_link, write_files};
+use mms_harness::judged::Judged;
+use mms_harness::plan::Job;
+use mms_harness::report::Report;
+use mms_harness::work::{Finished, Outcome, left_behind_too};
+use mms_spec::foreign::{self, one_line, shown};
+
+use super::judge::View as JudgementView;
+use super::{excluded, plain, to_the_right};
+
+/// The text of a campaign.
+pub struct View<'a>(pub &'a Report<'a>);
+
+impl View<'_> {
+    /// All of it for a terminal.
+    pub fn text(&self) -> String {
+        let mut parts: Vec<String> = self.0.studies.iter().flat_map(parts).collect();
+        if self.0.studies.iter().any(|it| it.planned.is_whole()) {
+            parts.push(self.matrix());
+        }
+        parts.extend(self.0.excluded().map(|it| excluded::together(&it)));
+        parts.push(self.tally());
+        parts.join("\n\n")
+    }
+
+    /// A row for each study.
+    fn matrix(&self) -> String {
+        let mut table = plain(["study", "field", "expected", "observed", "of", "verdict"]);
+        for judged in self.0.studies.iter().filter(|it| it.planned.is_whole()) {
+            table.add_row(row(judged));
+        }
+        to_the_right(table).to_string()
+    }
+
+    fn tally(&self) -> String {
+        let finished =
+            self.0.outcomes().filter(|(_, it)| matches!(it, Outcome::Finished(_))).count();
+        let runs = format!("{finished} of {} runs are done", self.0.outcomes().count());
+        let judged: Vec<_> = self.0.studies.iter().filter(|it| it.planned.is_whole()).collect();
+        let passed = judged.iter().filter(|it| it.verdict().is_some_and(Verdict::is_good)).count();
+        match judged.len() {
+            0 => runs,
+            all => format!("{runs}; {passed} of {all} studies pass"),
+        }
+    }
+
+    /// Writes campaign.json, and for each study its picture and its table; returns their paths.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        let mut paths = write_files(folder, "campaign", [("json", pretty(&self.0.document())?)])?;
+        for judged in &self.0.studies {
+            if let Some(judgements) = &judged.judgements {
+                let own = folder.join(&judged.planned.study.name);
+                let cannot = || format!("cannot write to `{}`", foreign::path(&own));
+                refuse_link(&own, "folder").with_context(cannot)?;
+                paths.extend(JudgementView(judgements).write_parts(&own)?);
+            }
+        }
+        Ok(paths)
+    }
+}
+
+/// The parts of the text about a study: runs that failed, processes that they left, and its judgement.
+fn parts(judged: &Judged<'_>) -> Vec<String> {
+    let mut parts = Vec::new();
+    let name = shown(&judged.planned.study.name);
+    let runs = judged.planned.jobs.iter().zip(&judged.outcomes);
+    parts.extend(runs.clone().filter_map(|(job, outcome)| failure(job, outcome)));
+    parts.extend(runs.filter_map(|(job, outcome)| left_behind(job, outcome)));
+    parts.extend(judged.mistake.as_ref().map(|it| format!("{name}: {it}")));
+    let tables = judged.judgements.as_ref().map(|it| JudgementView(it).table());
+    parts.extend(tables.map(|tables| format!("study {name}\n{tables}")));
+    parts
+}
+
+/// The row of a study in the table of all.
+fn row(judged: &Judged<'_>) -> Vec<String> {
+    let dash = || "-".to_owned();
+    let deciding = judged.judgements.as_ref().and_then(|it| JudgementView(it).deciding());
+    let word = match (judged.verdict(), &judged.mistake) {
+        (Some(verdict), _) => verdict.to_string(),
+        (None, Some(_)) => "not judged: its results say nothing".into(),
+        (None, None) => "not judged: no results".into(),
+    };
+    vec![
+        shown(&judged.planned.study.name),
+        judged.planned.input.name.shown(),
+        deciding.as_ref().map_or_else(dash, |it| it.expected.to_string()),
+        deciding.as_ref().and_then(|it| it.observed.clone()).unwrap_or_else(dash),
+        deciding.map_or_else(dash, |it| it.of),
+        word,
+    ]
+}
+
+/// The message for a run that failed.
+fn failure(job: &Job, outcome: &Outcome) -> Option<String> {
+    let Outcome::Failed { reason, last_words, folder } = outcome else { return None };
+    let words: String = last_words.iter().map(|line| format!("\n    {}", one_line(line))).collect();
+    let words = if words.is_empty() { "\n    (it printed nothing)".to_owned() } else { words };
+    Some(format!(
+        "{} failed: {}{words}\n  all of it is in {}",
+        shown(&job.name),
+        reason,
+        shown(folder)
+    ))
+}
+
+/// The processes that a run left behind.
+fn left_behind(job: &Job, outcome: &Outcome) -> Option<String> {
+    let Outcome::Finished(Finished { left_behind, .. }) = outcome else { return None };
+    let names: Vec<_> = left_behind.iter().map(|name| shown(name)).collect();
+    (!names.is_empty()).then(|| {
+        let name = shown(&job.name);
+        format!("{name} left processes behind, which were ended: {}", names.join(", "))
+    })
+}
+
+/// A run that ended, in a line.
+pub fn line(job: &Job, outcome: &Outcome, is_new: bool) -> String {
+    let name = shown(&job.name);
+    match outcome {
+        Outcome::Finished(it) if is_new => {
+            let behind = left_behind_too(&it.left_behind);
+            format!("{name}: done in {}{behind}", duration(it.seconds))
+        }
+        Outcome::Finished(_) => format!("{name}: was done before"),
+        Outcome::Failed { reason, .. } => format!("{name}: {reason}"),
+        Outcome::Interrupted => format!("{name}: interrupted"),
+    }
+}
