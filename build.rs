@@ -1,12 +1,10 @@
-//! Lists the field files for the tests, the profiles of codes, and the sources of `mms-math` for the workbench.
+//! Lists the field files for the tests: one set of tests per file for `tests/fields.rs`.
 //!
-//! The lists go to `OUT_DIR`: one set of tests per field file is for `tests/fields.rs`.
 //! Names that no module can have are refused (`spec/field_name.rs`), and so are files that are no fields: a
 //! mistake in one of them breaks the build at its place. What derivatives say of it, `mms-gallery` finds. Cargo
 //! runs this again when the folder or a file in it changes: `fields/` is its own list.
 
-use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::{env, fs, io, process};
 
 use mms_codegen::Options;
@@ -46,8 +44,6 @@ fn main() -> io::Result<()> {
             process::exit(1);
         }
     }
-    fs::write(out.join("profiles.rs"), sources(&root.join("profiles"), "toml")?)?;
-    fs::write(out.join("math.rs"), sources(&root.join("mms-math").join("src"), "rs")?)?;
     fs::write(out.join("field_tests.rs"), field_tests(&files))
 }
 
@@ -66,32 +62,6 @@ fn read(file: &FieldFile) -> Result<(), String> {
     compile_unproved(&file.name, &path, &file.text, &|_| file.load_material(), &options)
         .map(drop)
         .map_err(|failure| failure.to_string())
-}
-
-/// The paths and texts of the files below a folder that end so; none if there is no such folder, as in a package.
-fn sources(folder: &Path, end: &str) -> io::Result<String> {
-    let (mut folders, mut files) = (vec![folder.to_path_buf()], Vec::new());
-    while let Some(folder) = folders.pop().filter(|folder| folder.is_dir()) {
-        println!("cargo::rerun-if-changed={}", folder.display());
-        for entry in fs::read_dir(folder)? {
-            let path = entry?.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == end) {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    let mut text = String::from("&[\n");
-    for path in &files {
-        let below = path.strip_prefix(folder).unwrap_or(path).components();
-        let below: Vec<_> = below.map(|part| part.as_os_str().to_string_lossy()).collect();
-        writeln!(text, "    ({:?}, include_str!({path:?})),", below.join("/"))
-            .expect("writing to a string");
-    }
-    text.push_str("]\n");
-    Ok(text)
 }
 
 /// The properties that hold for every field, once per field.

@@ -9,23 +9,15 @@
 
 mod checkpoint;
 pub mod cli;
-mod extremes;
 mod history;
-mod page;
 mod provenance;
-pub mod report;
-mod rows;
 #[cfg(test)]
 #[path = "../tests/support/sampled.rs"]
 mod sampled;
 pub mod schema;
 mod session;
 mod terminal;
-mod tradeoff;
-mod trial;
-mod verify;
 mod vtk;
-pub mod workbench;
 
 /// The README's programs.
 #[cfg(doctest)]

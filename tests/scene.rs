@@ -9,7 +9,7 @@ mod page;
 #[path = "../examples/scene/table.rs"]
 mod table;
 
-use mms::workbench::Workbench;
+use mms_lab::workbench::Workbench;
 
 use crate::sampled::sampled;
 use cost::{Subject, subjects};

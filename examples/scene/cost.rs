@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use anyhow::{Context as _, anyhow};
-use mms::workbench::{self, Module, Time, Way, Workbench};
 use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::{Compiled, compile_with};
+use mms_lab::workbench::{self, Module, Time, Way, Workbench};
 use mms_mechanics::Output;
 use mms_program::Stage;
 use mms_spec::quantity::Quantity;

@@ -1,6 +1,6 @@
 //! The tables, as a page of Markdown.
 
-use mms::workbench::Workbench;
+use mms_lab::workbench::Workbench;
 
 use super::cost::{Subject, subjects, times};
 use super::table::{TABLES, Table, Variant};

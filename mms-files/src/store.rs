@@ -2,7 +2,7 @@
 //!
 //! A result depends on its key: what tells this program from any other (its version, its length and when it was
 //! built), the field's text, method, precision and form, cells, parameters and motion, the deliberate mistake if there
-//! is one, and of what errors are measured; what one of a campaign depends on says `src/campaign/plan.rs`. There is
+//! is one, and of what errors are measured; what one of a campaign depends on says `mms-harness/src/plan.rs`. There is
 //! one file per result, named by a digest of the key, with the key and a checksum in it. A file appears whole or not
 //! at all, and is trusted only if its checksum, its key and its name agree. Opening a store checks every file in it:
 //! one that is cut off, changed, of another format, or not what its name says is renamed to `.aside1` and so on, said

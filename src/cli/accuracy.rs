@@ -10,16 +10,16 @@ use mms_codegen::selection::Selection;
 use mms_codegen::{Compiled, Options};
 use mms_exact::Source;
 use mms_exact::{hold_body, quantities, settings};
+use mms_lab::workbench::{Module, Time, Way, Workbench, time};
+use mms_options::field::{Motion, open, precision};
 use mms_program::precision::Precision;
+use mms_report::accuracy::Report;
 use mms_spec::Form;
 use mms_spec::foreign::{Foreign, one_line, shown};
 use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::report::accuracy::Report;
-use crate::session::input::{Motion, open, precision};
-use crate::workbench::{Module, Time, Way, Workbench, time};
 
 /// Measure the errors of a field against arbitrary precision: every quantity, in single, double and
 /// twice double precision, in the stable and the fast form, as declared and at extremes.

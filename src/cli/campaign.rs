@@ -16,15 +16,15 @@ use mms_files::shell::{command, quoted};
 use mms_files::store::Store;
 use mms_harness::judged::Judged;
 use mms_harness::plan::{Job, Only, Plan, Planned};
+use mms_harness::report::Report;
 use mms_harness::work::{self, Watcher, Work, hash, side_by_side_of};
+use mms_options::field::open;
+use mms_report::campaign::{View, line};
 use mms_spec::foreign;
 
 use super::follow::Interrupted;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::provenance::{Input, Provenance};
-use crate::report::campaign::{View, line};
-use crate::session::input::open;
-use mms_harness::report::Report;
 
 /// Run your own solver on the meshes of several studies, and judge each as `mms judge` does it.
 ///

@@ -21,6 +21,7 @@ use mms_codegen::selection::{Entry, Freeze, Selection};
 use mms_diagnosis::answer::Ranked;
 use mms_documents::check::{self as documents, CheckedFile, ClosedForm, UndefinedComponent};
 use mms_exact::settings;
+use mms_options::field::{Variant, file as open_file};
 use mms_spec::diagnostic::{Diagnostic, render_styled};
 use mms_spec::foreign::{Foreign, shown};
 use mms_spec::source::Sources;
@@ -29,7 +30,6 @@ use mms_stability::solve::solve;
 use mms_stability::warnings::warnings;
 
 use super::{Outcome, print, print_json, say, say_styled};
-use crate::session::input::{self, Variant};
 
 /// Check field files: mistakes, boundary claims, J > 0, and closed forms.
 ///
@@ -72,8 +72,7 @@ impl Check {
         let mut documents = Vec::new();
         for file in &self.files {
             let path = Foreign::from(file.to_string_lossy());
-            let (outcome, document) = match input::file(file).map(|source| source.compile(&options))
-            {
+            let (outcome, document) = match open_file(file).map(|source| source.compile(&options)) {
                 Ok(Ok(compiled)) => self.report(&path, &Arc::new(compiled))?,
                 Ok(Err(mut failure)) => {
                     // What is frozen here is what is set, and its mistakes are said of that.

@@ -21,6 +21,9 @@ use mms_files::results::Disk;
 use mms_judge::diagnose::{Alone, Factors, Reading, falls, find, gradients, left_out, read};
 use mms_judge::results::Results;
 use mms_judge::table::{Order, Orders};
+use mms_options::field::{Variant, open};
+use mms_options::method::{MethodOptions, finite, length, positive};
+use mms_report::{Diagnosed, Hypotheses, Plan, Step};
 use mms_runtime::Method;
 use mms_runtime::scene::Scene;
 use mms_spec::own::Own;
@@ -28,9 +31,6 @@ use mms_spec::quantity::Quantity;
 
 use super::naming::Naming;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::report::{Diagnosed, Hypotheses, Plan, Step};
-use crate::session::input::{Variant, open};
-use crate::session::method::{MethodOptions, finite, length, positive};
 
 /// Name the mistake of a solver by the error that it makes.
 ///

@@ -14,12 +14,12 @@ use mms_exact::gallery::FIELDS;
 use mms_exact::{Input, quantities, settings};
 use mms_files::shell::{command, quoted, words};
 use mms_files::write::refuse_link;
+use mms_options::field::{Variant, open};
 use mms_spec::foreign::{self, Foreign};
 use mms_spec::own::Own;
 
 use self::folder::{State, compare, write};
 use super::{Outcome, print, print_json, say};
-use crate::session::input::{Variant, open};
 
 /// Write the source of a field for another solver: all of it, or only what is needed.
 ///

@@ -11,6 +11,7 @@ use mms_exact::{Input, evaluated};
 use mms_mechanics::extent::{Extent, is_between};
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Program};
+use mms_options::field::{Variant, find_some, open, precision};
 use mms_program::interpret::{Interpreter, Number, Point};
 use mms_program::precise::Precise;
 use mms_program::precision::Precision;
@@ -23,7 +24,6 @@ use serde_json::value::RawValue;
 
 use super::naming::Naming;
 use super::{Outcome, print, print_json, say};
-use crate::session::input::{Variant, find_some, open, precision};
 
 /// Evaluate quantities of a field at points.
 ///

@@ -6,7 +6,18 @@ use anyhow::bail;
 use clap::Args;
 use mms_codegen::{Options, Selection};
 use mms_exact::settings;
+use mms_exact::wave::without_bound;
 use mms_files::write::{pretty, write_files};
+use mms_lab::extremes::rows::{Row, rows};
+use mms_lab::extremes::stable;
+use mms_lab::extremes::subject::Subject;
+use mms_lab::extremes::theory::{Elasticity, courant};
+use mms_lab::extremes::verdict::{Declared, Seen, judge};
+use mms_lab::rows::Named as _;
+use mms_lab::tradeoff::setting::Setting;
+use mms_options::field::Motion;
+use mms_options::method::{Arithmetic, MethodOptions, Precision};
+use mms_report::extremes::{Judged, Report, Stability};
 use mms_runtime::scene::usual_cells;
 use mms_runtime::study::Observer;
 use mms_runtime::{Division, IntegratorName, Method, Transfer};
@@ -14,17 +25,7 @@ use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::extremes::rows::{Row, rows};
-use crate::extremes::stable;
-use crate::extremes::subject::Subject;
-use crate::extremes::theory::{Elasticity, courant};
-use crate::extremes::verdict::{Declared, Seen, judge};
-use crate::report::extremes::{Judged, Report, Stability};
-use crate::rows::Named as _;
-use crate::session::input::Motion;
-use crate::session::method::{Arithmetic, MethodOptions, Precision};
 use crate::session::progress::Progress;
-use crate::tradeoff::setting::Setting;
 
 /// Run a field at the limits of the solver: each run meets its bound, or stops with the right diagnosis.
 ///
@@ -77,7 +78,8 @@ impl Extremes {
         };
         let dimension = declared.input.compiled.field.dimension;
         // What is set is a default already.
-        let mut method = self.method.method_for(&declared.input, &[])?;
+        let (mut method, note) = self.method.method_for(&declared.input, &[])?;
+        note.iter().for_each(say);
         // What is too large for the solver is so on any machine.
         method.setup.memory = None;
         let progress = Progress::new();
@@ -175,6 +177,9 @@ impl Extremes {
             Ok(subject) => {
                 let allow_unstable = self.method.allow_unstable;
                 let (method, cells) = subject.method(base, row, self.quick, allow_unstable);
+                if !row.allows_unstable(allow_unstable) && method.setup.fastest_wave.is_none() {
+                    progress.say(&without_bound(&subject.input));
+                }
                 if row.single {
                     arithmetic.precision = Precision::F32;
                 }

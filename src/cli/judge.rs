@@ -11,13 +11,13 @@ use mms_files::read::{self, Kind};
 use mms_files::store::digest;
 use mms_judge::Judgements;
 use mms_judge::table::{self, Order, Orders};
+use mms_options::method::positive;
+use mms_report::View;
 use mms_spec::foreign;
 use serde::Serialize;
 
 use super::{Outcome, hold_output, print, print_json, this_command};
 use crate::provenance::Input;
-use crate::report::View;
-use crate::session::method::positive;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
 ///

@@ -5,8 +5,7 @@
 
 use clap::error::ErrorKind;
 use clap::{ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
-
-use crate::session::method::MethodOptions;
+use mms_options::method::MethodOptions;
 
 /// Every combination of what the options in [`LISTS`] are given, one method at least.
 #[derive(Clone, Debug)]

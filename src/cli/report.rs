@@ -7,10 +7,10 @@ use clap::Args;
 use mms_exact::gallery::{self, FIELDS};
 use mms_files::write::write_files;
 use mms_files::write::{write_own, write_whole};
+use mms_report::page::{self, Page, Verdicts};
 use mms_spec::foreign;
 
 use super::{Outcome, print, say, spare};
-use crate::page::{self, Page, Verdicts};
 
 /// Put all results of a folder on one page of HTML, complete in itself: verdicts first, then tables, pictures of
 /// convergence, diagnoses, campaigns of other solvers, the verification matrix, error against cost, the solver at its limits, states of runs, the formulas
@@ -69,7 +69,7 @@ fn gallery(folder: &Path) -> anyhow::Result<Verdicts> {
     let mut fields = Vec::new();
     for (entry, field) in FIELDS.iter().zip(gallery::fields()) {
         say(entry.name);
-        let page = page::gallery::page(entry)?;
+        let page = page::gallery::page(entry, &super::study::Study::anywhere)?;
         write(entry.name, page.html())?;
         fields.push((field, page.verdicts()));
     }

@@ -11,6 +11,10 @@ use mms_files::shell::words;
 use mms_files::store::{digest, program};
 use mms_files::write::is_same;
 use mms_files::write::{pretty, write_files};
+use mms_options::field::{Motion, find};
+use mms_options::method::{MethodOptions, Precision};
+use mms_report::Refused;
+use mms_report::run::Run as Report;
 use mms_runtime::scene::usual_cells;
 use mms_runtime::study::Watch;
 use mms_runtime::{Division, Method};
@@ -21,10 +25,6 @@ use super::{Outcome, hold_output, print, print_json, say, spare};
 use crate::checkpoint::{Found, Head, Keeper};
 use crate::history::History;
 use crate::provenance;
-use crate::report::Refused;
-use crate::report::run::Run as Report;
-use crate::session::input::{Motion, find};
-use crate::session::method::{MethodOptions, Precision};
 use crate::session::progress::Progress;
 use crate::vtk::Writer;
 
@@ -77,7 +77,8 @@ impl Run {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let input = find(&self.field, &self.method.variant(&self.motion))?;
         let dimension = input.compiled.field.dimension;
-        let method = self.method.method_for(&input, &self.set)?;
+        let (method, note) = self.method.method_for(&input, &self.set)?;
+        note.iter().for_each(say);
         let cells = self.cells.unwrap_or(Division::Uniform(usual_cells(dimension)));
         hold_division("--cells", &cells, dimension)?;
         self.output.as_deref().map_or(Ok(()), hold_output)?;

@@ -15,6 +15,7 @@ use mms_documents::show::{self as documents, AbsentTerm, OperationCounts, ShownQ
 use mms_exact::quantities;
 use mms_mechanics::Output;
 use mms_mechanics::TooLarge;
+use mms_options::field::{Variant, find};
 use mms_program::Stage;
 use mms_show::language::Language;
 use mms_show::{Document, Line, Section, latex, mathml, sympy, text};
@@ -25,7 +26,6 @@ use mms_stability::wavelength::shortest_wavelength;
 
 use super::check::stability;
 use super::{Outcome, print, print_json, say};
-use crate::session::input::{Variant, find};
 
 /// Show what follows from a field: its derivation with every step named, its claims, how many
 /// operations each quantity takes, and which terms of the equations it can and cannot see.

@@ -12,6 +12,8 @@ use mms_exact::Exact;
 use mms_exact::hold_division;
 use mms_exact::{Input, evaluated};
 use mms_mechanics::extent::is_between;
+use mms_options::field::{Variant, open};
+use mms_options::method::finite;
 use mms_runtime::Division;
 use mms_runtime::scene::usual_cells;
 use mms_spec::own::Part;
@@ -23,8 +25,6 @@ use mms_state::{Term, USUAL, Wanted};
 
 use super::naming::Naming;
 use super::{Outcome, print, print_json, spare};
-use crate::session::input::{Variant, open};
-use crate::session::method::finite;
 
 /// Write exact states: to start a solver in the middle of a motion, to look at, or to feed a solver that reads tables.
 ///

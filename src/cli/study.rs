@@ -12,6 +12,9 @@ use mms_exact::Input;
 use mms_exact::hold_division;
 use mms_judge::results::Exclusions;
 use mms_mechanics::sample::domain;
+use mms_options::field::{Motion, find};
+use mms_options::method::{MethodOptions, Precision, finite, positive};
+use mms_report::{Comparison, Phases as InPhase, Refused, Study as Report, method, run};
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
 use mms_runtime::{Division, Method, Real, Run};
@@ -19,10 +22,7 @@ use mms_runtime::{Division, Method, Real, Run};
 use super::methods::Methods;
 use super::{Outcome, output_folder, print, print_json, say};
 use crate::provenance::{self, Provenance};
-use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method, run};
 use crate::session::effort::announce;
-use crate::session::input::{Motion, find};
-use crate::session::method::{MethodOptions, Precision, finite, positive};
 use crate::session::progress::Progress;
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.
@@ -217,7 +217,8 @@ impl Study {
             for cells in &self.cells {
                 hold_division("--cells", cells, input.compiled.field.dimension)?;
             }
-            let method = options.method_for(&input, &self.set)?;
+            let (method, note) = options.method_for(&input, &self.set)?;
+            note.iter().for_each(say);
             cases.push(Case { options, input, method });
         }
         Ok(cases)

@@ -9,7 +9,14 @@ use mms_exact::Input;
 use mms_exact::wave::sound;
 use mms_files::shell;
 use mms_files::store::Store;
+use mms_lab::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
+use mms_lab::tradeoff::setting::Setting;
+use mms_lab::trial::Trials;
 use mms_mechanics::sample::domain;
+use mms_options::field::{Motion, Variant, find};
+use mms_options::method::positive;
+use mms_report::tradeoff::Report;
+use mms_report::tradeoff::page::Page;
 use mms_runtime::Division;
 use mms_runtime::scene::usual_cells;
 use mms_spec::Form;
@@ -17,13 +24,7 @@ use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
 use super::{Outcome, print, print_json, say, this_command};
-use crate::report::tradeoff::Report;
-use crate::report::tradeoff::page::Page;
-use crate::session::input::{Motion, Variant, find};
-use crate::session::method::positive;
-use crate::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
-use crate::tradeoff::setting::Setting;
-use crate::trial::Trials;
+use crate::session::progress::Progress;
 
 /// Find the cheapest method, numbers and grid for an error, or the least error for a time.
 ///
@@ -81,7 +82,7 @@ impl Tradeoff {
         }
         let (store, set_aside) = Store::open(&self.store)?;
         set_aside.iter().for_each(|what| say(format_args!("warning: {what}")));
-        let mut trials = Trials::new(store)?;
+        let mut trials = Trials::new(store, Box::new(Progress::new()))?;
         if self.page {
             return self.print_page(&mut trials);
         }
@@ -141,7 +142,7 @@ impl Tradeoff {
 
     /// The page, of some fields and targets.
     fn print_page(&self, trials: &mut Trials) -> anyhow::Result<Outcome> {
-        let mut page = Page::new();
+        let mut page = Page::default();
         for field in Page::FIELDS {
             let input = self.input(field)?;
             for target in Page::TARGETS {

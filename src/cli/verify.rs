@@ -15,18 +15,18 @@ use mms_documents::verify::{ListedRow, VerifyList};
 use mms_exact::gallery::FIELDS;
 use mms_files::store::{Store, digest, program};
 use mms_files::write::{pretty, write_files};
+use mms_lab::rows::Named as _;
+use mms_options::field::find;
+use mms_report::verify::{Judged, Report};
 use mms_spec::suggest::advice;
+use mms_verify::matrix::{MATRIX, Row, rows};
+use mms_verify::plan::{Job, Plan};
+use mms_verify::verdict::judge;
+use mms_verify::work::{Fields, Watcher, outcomes};
 use serde::Serialize;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::provenance;
-use crate::rows::Named as _;
-use crate::session::input::find;
-use crate::verify::matrix::{MATRIX, Row, rows};
-use crate::verify::plan::{Job, Plan};
-use crate::verify::report::{Judged, Report};
-use crate::verify::verdict::judge;
-use crate::verify::work::{self, Fields, Watcher, outcomes};
 
 /// Run the verification matrix: every mode of the solver, one at a time, by the field that isolates it, each
 /// verdict held to theory.
@@ -246,7 +246,7 @@ impl Watcher for Progress {
         self.bar.inc(self.units(job, step, steps) - self.units(job, step - 1, steps));
     }
 
-    fn done(&self, job: &Job, outcome: &work::Outcome) {
+    fn done(&self, job: &Job, outcome: &mms_lab::outcome::Outcome) {
         let count = self.count();
         if self.bar.is_hidden() {
             let end = outcome.failure().unwrap_or_else(|| "done".into());

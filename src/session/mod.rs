@@ -2,6 +2,4 @@
 //! method, the time steps that are stable, what runs will take, and progress.
 
 pub(crate) mod effort;
-pub(crate) mod input;
-pub(crate) mod method;
 pub(crate) mod progress;

@@ -3,6 +3,7 @@
 use std::io::IsTerminal as _;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mms_lab::trial;
 use mms_runtime::Division;
 use mms_runtime::study::Observer;
 
@@ -40,6 +41,20 @@ impl Progress {
 
     pub fn finish(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+impl trial::Progress for Progress {
+    fn of(&self, cells: Division) -> Box<dyn Observer + '_> {
+        Box::new(Progress::of(self, cells))
+    }
+
+    fn say(&self, line: &str) {
+        Progress::say(self, line);
+    }
+
+    fn finish(&self) {
+        Progress::finish(self);
     }
 }
 

@@ -3,9 +3,9 @@
 use mms_campaign::Can;
 use mms_documents::campaign::{AffineMotion, CampaignSuggest, ProposedField, UnseenTerm};
 use mms_harness::suggest::{Affine, Proposed, Suggestion, Unseen, suggest};
+use mms_options::field::open;
 
 use super::super::{Outcome, print, print_json};
-use crate::session::input::open;
 
 /// Prints what is proposed.
 pub fn propose(can: &Can, as_json: bool) -> anyhow::Result<Outcome> {

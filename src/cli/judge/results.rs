@@ -17,6 +17,9 @@ use mms_judge::results::{
     same, weight,
 };
 use mms_judge::table::Orders;
+use mms_options::field::{Variant, find};
+use mms_options::method::{finite, length};
+use mms_report::{differences, with_baseline};
 use mms_results::names::{Names, Role, everything};
 use mms_spec::foreign;
 use mms_spec::foreign::shown;
@@ -25,9 +28,6 @@ use mms_spec::quantity::Quantity;
 use super::super::naming::Naming;
 use super::super::{Outcome, say, this_command};
 use super::{Judge, outcome};
-use crate::report::{differences, with_baseline};
-use crate::session::input::{Variant, find};
-use crate::session::method::{finite, length};
 
 /// How results are read.
 #[derive(Args)]

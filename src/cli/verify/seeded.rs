@@ -6,15 +6,15 @@ use std::num::NonZero;
 use anyhow::bail;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_files::store::{Store, program};
+use mms_lab::pictures::Looks;
+use mms_report::defects::{Report, Showing};
+use mms_verify::defects::{Defect, Shown, Stage, validate};
+use mms_verify::matrix::Row;
+use mms_verify::plan::Job;
+use mms_verify::work::Watcher;
 
 use super::super::{Outcome, say, this_command};
 use super::{Verify, input};
-use crate::verify::defects::report::{Report, Showing};
-use crate::verify::defects::{Defect, Shown, Stage, validate};
-use crate::verify::matrix::Row;
-use crate::verify::plan::Job;
-use crate::verify::pseudo::Looks;
-use crate::verify::work::{self, Watcher};
 
 /// The folder in a store where results of defects are kept: none of them is trusted without.
 const FOLDER: &str = "defects";
@@ -118,7 +118,7 @@ impl Watcher for Progress {
 
     fn step(&self, _: &Job, _: usize, _: usize) {}
 
-    fn done(&self, job: &Job, _: &work::Outcome) {
+    fn done(&self, job: &Job, _: &mms_lab::outcome::Outcome) {
         self.bar.set_message(job.command.clone());
     }
 

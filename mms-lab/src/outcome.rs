@@ -1,0 +1,153 @@
+//! The outcome of a run, and what it depends on.
+
+use mms_runtime::study::Details;
+use mms_runtime::{Errors, Level};
+use serde::{Deserialize, Serialize};
+
+/// Everything that a result depends on.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Key {
+    /// What tells this program from any other.
+    pub program: String,
+    /// The digest of the field's text, and of its own material's.
+    pub field: String,
+    /// Method, cells, precision, form, parameters and motion.
+    pub run: String,
+    /// Of what errors are measured.
+    pub quantity: &'static str,
+    /// The deliberate mistake that the program made meanwhile.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub defect: Option<&'static str>,
+}
+
+/// Of what an error is measured.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// u.
+    #[default]
+    Displacement,
+    /// v.
+    Velocity,
+    /// F.
+    DeformationGradient,
+    /// P.
+    FirstPiolaKirchhoff,
+    /// Momentum over mass at the end, which is this.
+    MeanVelocity(Vec<f64>),
+}
+
+impl Quantity {
+    /// The glossary's identifier.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Quantity::Displacement => "displacement",
+            Quantity::Velocity => "velocity",
+            Quantity::DeformationGradient => "deformation_gradient",
+            Quantity::FirstPiolaKirchhoff => "first_piola_kirchhoff",
+            Quantity::MeanVelocity(_) => "mean_velocity",
+        }
+    }
+}
+
+/// l1, l2 and linf, the largest over all steps.
+pub type Norms = [f64; 3];
+
+/// What comes of a run, and is stored.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Outcome {
+    /// It reached its end.
+    Finished {
+        /// What it was.
+        run: Size,
+        /// Of the quantity that is measured.
+        errors: Norms,
+        /// At the end, the momentum over the mass.
+        mean_velocity: Vec<f64>,
+    },
+    /// It stopped.
+    Stopped {
+        /// What it was.
+        run: Size,
+        /// Why.
+        failure: String,
+    },
+    /// It was not started.
+    Refused {
+        /// Why.
+        reason: String,
+    },
+}
+
+/// How large a run is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Size {
+    /// Grid spacing h, the longest edge of a cell.
+    pub cell_size: f64,
+    /// Time step dt.
+    pub time_step: f64,
+    /// Steps.
+    pub steps: usize,
+    /// Particles.
+    pub particles: usize,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}
+
+impl Outcome {
+    /// What it was, if it was started.
+    pub fn run(&self) -> Option<&Size> {
+        match self {
+            Outcome::Finished { run, .. } | Outcome::Stopped { run, .. } => Some(run),
+            Outcome::Refused { .. } => None,
+        }
+    }
+
+    /// l1, l2 and linf of the quantity that was measured, if it reached its end.
+    pub fn norms(&self) -> Option<Norms> {
+        match self {
+            Outcome::Finished { errors, .. } => Some(*errors),
+            _ => None,
+        }
+    }
+
+    /// Why there are no errors.
+    pub fn failure(&self) -> Option<String> {
+        match self {
+            Outcome::Finished { .. } => None,
+            Outcome::Stopped { failure, .. } => Some(failure.clone()),
+            Outcome::Refused { reason } => Some(format!("not started: {reason}")),
+        }
+    }
+}
+
+impl AsRef<Outcome> for Outcome {
+    fn as_ref(&self) -> &Outcome {
+        self
+    }
+}
+
+/// What came of a run that was started, with the errors of a quantity.
+pub fn outcome(level: &Level, details: Option<&Details>, quantity: &Quantity) -> Outcome {
+    let run = Size {
+        cell_size: level.cell_size,
+        time_step: level.time_step,
+        steps: level.steps,
+        particles: level.particles,
+        seconds: level.seconds,
+    };
+    let Some(Details { largest, diagnostics: state, .. }) = details else {
+        let failure = level.errors.as_ref().err().map(ToString::to_string);
+        return Outcome::Stopped { run, failure: failure.unwrap_or_default() };
+    };
+    let Errors { l1, l2, linf } = match quantity {
+        Quantity::Displacement | Quantity::MeanVelocity(_) => largest.displacement,
+        Quantity::Velocity => largest.velocity,
+        Quantity::DeformationGradient => largest.deformation_gradient,
+        Quantity::FirstPiolaKirchhoff => largest.first_piola_kirchhoff,
+    };
+    let mean_velocity = state.momentum.iter().map(|p| p / state.mass).collect();
+    Outcome::Finished { run, errors: [l1, l2, linf], mean_velocity }
+}

@@ -1,0 +1,577 @@
+//! The search: from a few coarse runs of everything to a few fine runs of what is best.
+//!
+//! | step | runs |
+//! |---|---|
+//! | screen | every formulation and shape function on two coarse grids: which error, which order |
+//! | tune | the best of them, one axis at a time, on the finer of these grids |
+//! | reach | what is then predicted to be best, on finer and coarser grids, until the goal is met with little to spare |
+//! | surround | the choice on two coarser grids, and the default on the one that it needs |
+//!
+//! A prediction follows a power law in the number of cells n: the error is of the observed order, memory grows
+//! with n^D, particle-steps and time with n^(D+1). It decides what is run next, and nothing else: what is chosen
+//! was run, and meets the goal. `docs/reference/study.md` has the numbers.
+
+use anyhow::Context as _;
+use mms_files::words::{bytes, duration};
+
+use super::setting::{Axis, Setting};
+
+/// What is to be as small as can be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Cost {
+    /// Particle-steps times what one takes in the longest runs with the same method.
+    #[default]
+    Seconds,
+    /// Particles times steps: the same on every machine.
+    ParticleSteps,
+    /// The most bytes at a time.
+    Memory,
+}
+
+impl Cost {
+    /// A value for a person.
+    pub fn show(self, value: f64) -> String {
+        match self {
+            Cost::Seconds => duration(value),
+            Cost::ParticleSteps => format!("{value:.2e} particle-steps"),
+            Cost::Memory => bytes(value),
+        }
+    }
+
+    /// The words after a factor of the cost, as in "2 times as long".
+    pub fn verb(self) -> &'static str {
+        match self {
+            Cost::Seconds => "times as long",
+            Cost::ParticleSteps => "times as many particle-steps",
+            Cost::Memory => "times the memory",
+        }
+    }
+}
+
+/// What the choice has to meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// An error of at most this, at the least cost.
+    Error(f64),
+    /// A cost of at most this, with the least error.
+    Cost(f64),
+}
+
+/// A run and what came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// How.
+    pub setting: Setting,
+    /// Cells along the longest edge of the body.
+    pub cells: usize,
+    /// Particles; 0 if it was not started.
+    pub particles: usize,
+    /// Steps; 0 if it was not started.
+    pub steps: usize,
+    /// The largest error of the displacement over time and particles, or why there is none.
+    pub error: Result<f64, String>,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// The most bytes that it held at a time.
+    pub memory: f64,
+}
+
+impl Trial {
+    /// Particles times steps.
+    pub fn particle_steps(&self) -> f64 {
+        self.particles as f64 * self.steps as f64
+    }
+}
+
+/// Makes runs.
+pub trait Runner {
+    /// The outcome of a run.
+    ///
+    /// # Errors
+    /// It could not be tried.
+    fn run(&mut self, setting: &Setting, cells: usize) -> anyhow::Result<Trial>;
+}
+
+/// What is searched, and how far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// Of the body.
+    pub dimension: usize,
+    /// Numbers of cells are multiples of this.
+    pub grain: usize,
+    /// What the choice has to meet.
+    pub goal: Goal,
+    /// What is to be small.
+    pub cost: Cost,
+    /// No run is begun that is predicted to take more particle-steps.
+    pub most_work: f64,
+    /// About how many those are on one cell, with one particle in it and a Courant number of 1.
+    pub unit_work: f64,
+}
+
+impl Plan {
+    /// The coarse grids that everything is tried on.
+    pub fn screen(&self) -> [usize; 2] {
+        let coarse = [32, 16, 4][self.dimension - 1];
+        let coarse = self.whole(coarse as f64);
+        [coarse, 2 * coarse]
+    }
+
+    /// How many particle-steps a setting is predicted to take on a grid, before any run.
+    pub fn work(&self, setting: &Setting, cells: usize) -> f64 {
+        let dimension = self.dimension as i32;
+        let particles = (setting.particles as f64).powi(dimension);
+        self.unit_work * particles * (cells as f64).powi(dimension + 1) / setting.courant
+    }
+
+    /// The nearest number of cells that is not less.
+    fn whole(&self, cells: f64) -> usize {
+        ((cells / self.grain as f64).ceil().max(1.0) as usize).saturating_mul(self.grain)
+    }
+
+    /// By which power of the number of cells the cost grows.
+    fn growth(&self) -> f64 {
+        let dimension = self.dimension as f64;
+        if self.cost == Cost::Memory { dimension } else { dimension + 1.0 }
+    }
+}
+
+/// A power law through a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Cells of the run.
+    pub cells: f64,
+    /// Its error.
+    pub error: f64,
+    /// Its cost.
+    pub cost: f64,
+    /// Its particle-steps.
+    pub work: f64,
+    /// The order of the error; none if it does not shrink.
+    pub order: Option<f64>,
+}
+
+/// What a power law says of another grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prediction {
+    /// Its cells.
+    pub cells: f64,
+    /// The error there.
+    pub error: f64,
+    /// The cost there.
+    pub cost: f64,
+    /// The particle-steps there.
+    pub work: f64,
+}
+
+/// Orders below this are none, and none above the other is believed of coarse grids.
+const ORDERS: [f64; 2] = [0.5, 2.2];
+
+/// The order of what has a single run, since coarser ones stopped: what the methods are made for.
+const ASSUMED: f64 = 2.0;
+
+/// What another setting has to gain to be preferred: times are not known better than that.
+const GAIN: f64 = 0.9;
+
+/// How many settings are tuned, at most, and by what factor their predictions may be worse than the best.
+const TUNED: (usize, f64) = (3, 4.0);
+
+/// Runs of the longest's particle-steps over this are long, too; the quickest of them says what a particle takes in a step,
+/// since others may use the processor.
+const LONG: f64 = 8.0;
+
+/// How many runs a setting is given to meet the goal.
+const TRIES: usize = 8;
+
+impl Line {
+    fn at(&self, ratio: f64, dimension: usize, growth: f64) -> Prediction {
+        let order = self.order.unwrap_or(0.0);
+        Prediction {
+            cells: self.cells * ratio,
+            error: self.error * ratio.powf(-order),
+            cost: self.cost * ratio.powf(growth),
+            work: self.work * ratio.powi(dimension as i32 + 1),
+        }
+    }
+
+    /// The grid that just meets a goal; none where nothing does.
+    pub fn meet(&self, plan: &Plan) -> Option<Prediction> {
+        let growth = plan.growth();
+        let ratio = match (plan.goal, self.order) {
+            (Goal::Error(target), Some(order)) => {
+                let coarsest = plan.grain as f64 / self.cells;
+                (self.error / target).powf(1.0 / order).max(coarsest)
+            }
+            // What does not shrink does not grow: coarser grids are not looked at.
+            (Goal::Error(target), None) => (self.error <= target).then_some(1.0)?,
+            (Goal::Cost(budget), _) => (budget / self.cost).powf(1.0 / growth),
+        };
+        Some(self.at(ratio, plan.dimension, growth))
+    }
+}
+
+/// A search.
+pub struct Search<'a> {
+    runner: &'a mut dyn Runner,
+    plan: Plan,
+    /// All runs, in the order in which they were made.
+    pub trials: Vec<Trial>,
+}
+
+/// What came of a search.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// All runs, in the order in which they were made.
+    pub trials: Vec<Trial>,
+    /// The run that meets the goal best, by position.
+    pub choice: Option<usize>,
+    /// The setting that is predicted to be best, and what is predicted, where nothing that was run meets the goal.
+    pub predicted: Option<(Setting, Prediction)>,
+    /// What the default would take to meet the goal, or what it would leave, in the cost that was searched for.
+    pub default: Option<Prediction>,
+}
+
+impl<'a> Search<'a> {
+    /// Searches.
+    ///
+    /// # Errors
+    /// A run that could not be tried.
+    pub fn run(runner: &'a mut dyn Runner, plan: Plan) -> anyhow::Result<Found> {
+        let mut search = Search { runner, plan, trials: Vec::new() };
+        let mut candidates = search.screen()?;
+        let mut tuned = Vec::new();
+        for candidate in &candidates {
+            tuned.extend(search.tune(*candidate)?);
+        }
+        candidates.extend(tuned);
+        search.reach_best(candidates)?;
+        search.reach_others()?;
+        search.surround()?;
+        let predicted = match search.choice() {
+            Some(_) => None,
+            None => search.best_prediction(),
+        };
+        let default = search.line(&Setting::default()).and_then(|line| line.meet(&plan));
+        Ok(Found { choice: search.choice(), predicted, default, trials: search.trials })
+    }
+
+    /// Makes a run that has not been made, unless it is predicted to take too much.
+    fn trial(&mut self, setting: &Setting, cells: usize) -> anyhow::Result<()> {
+        let same = |trial: &Trial| trial.setting == *setting && trial.cells == cells;
+        if !self.trials.iter().any(same) && self.work(setting, cells) <= self.plan.most_work {
+            let trial = self.runner.run(setting, cells)?;
+            self.trials.push(trial);
+        }
+        Ok(())
+    }
+
+    /// How many particle-steps a setting is predicted to take on a grid: by its finest run, if there is one.
+    fn work(&self, setting: &Setting, cells: usize) -> f64 {
+        match self.finished(setting).last() {
+            Some(run) => {
+                let ratio = cells as f64 / run.cells as f64;
+                run.particle_steps() * ratio.powi(self.plan.dimension as i32 + 1)
+            }
+            None => self.plan.work(setting, cells),
+        }
+    }
+
+    /// What a run costs.
+    fn cost(&self, trial: &Trial) -> f64 {
+        cost(&self.trials, trial, self.plan.cost)
+    }
+
+    /// The settings that are worth to be tuned, the best first.
+    fn screen(&mut self) -> anyhow::Result<Vec<Setting>> {
+        let mut predicted = Vec::new();
+        for kind in Setting::kinds() {
+            for cells in self.plan.screen() {
+                self.trial(&kind, cells)?;
+            }
+        }
+        for kind in Setting::kinds() {
+            predicted.extend(self.loss(&kind).map(|loss| (loss, kind)));
+        }
+        predicted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let least = predicted.first().map_or(0.0, |(loss, _)| *loss);
+        let (most, factor) = TUNED;
+        let good = predicted.into_iter().filter(|(loss, _)| *loss <= least * factor);
+        Ok(good.take(most).map(|(_, setting)| setting).collect())
+    }
+
+    /// The best settings around one: in the precision and form that are best, and in those of the default.
+    fn tune(&mut self, start: Setting) -> anyhow::Result<Vec<Setting>> {
+        let [coarse, fine] = self.plan.screen();
+        let mut best = start;
+        for round in 0..2 {
+            let before = best;
+            for axis in [Axis::Transfer, Axis::Integrator, Axis::Courant, Axis::Particles] {
+                // What a method is made of is tried once.
+                if round == 0 || matches!(axis, Axis::Courant | Axis::Particles) {
+                    best = self.improve(best, axis, fine)?;
+                }
+            }
+            if best == before {
+                break;
+            }
+        }
+        let mut found = vec![best];
+        // The other form may be interpreted, and take long.
+        for (axis, cells) in [(Axis::Precision, fine), (Axis::Form, coarse)] {
+            let better = self.improve(best, axis, cells)?;
+            if better != best {
+                found.push(better);
+                best = better;
+            }
+        }
+        Ok(found)
+    }
+
+    /// Follows the neighbours of a setting along an axis as long as they are better on a grid.
+    fn improve(&mut self, start: Setting, axis: Axis, cells: usize) -> anyhow::Result<Setting> {
+        self.trial(&start, cells)?;
+        let mut best = start;
+        for row in start.neighbours(axis) {
+            for setting in row {
+                self.trial(&setting, cells)?;
+                let [old, new] = [&best, &setting].map(|it| self.loss_on(it, cells));
+                match (old, new) {
+                    (None, Some(_)) => best = setting,
+                    (Some(old), Some(new)) if new < GAIN * old => best = setting,
+                    // A step of a ladder may gain too little by itself.
+                    (Some(old), Some(new)) if new < old / GAIN => {}
+                    _ => break,
+                }
+            }
+        }
+        Ok(best)
+    }
+
+    /// The setting's power law through its run on a grid, with the order of its kind.
+    fn line_on(&self, setting: &Setting, cells: usize) -> Option<Line> {
+        let same = |trial: &&Trial| trial.setting == *setting && trial.cells == cells;
+        let trial = self.trials.iter().find(same)?;
+        let kind = Setting {
+            formulation: setting.formulation,
+            shape: setting.shape,
+            ..Setting::default()
+        };
+        let order = self.order(setting).or_else(|| self.order(&kind)).unwrap_or(ASSUMED);
+        self.through(trial, order)
+    }
+
+    /// The setting's power law through its finest run.
+    fn line(&self, setting: &Setting) -> Option<Line> {
+        let runs = self.finished(setting);
+        self.line_on(setting, runs.last()?.cells)
+    }
+
+    fn through(&self, trial: &Trial, order: f64) -> Option<Line> {
+        let error = *trial.error.as_ref().ok()?;
+        let order = (order >= ORDERS[0]).then_some(order.min(ORDERS[1]));
+        let (cells, cost, work) = (trial.cells as f64, self.cost(trial), trial.particle_steps());
+        Some(Line { cells, error, cost, work, order })
+    }
+
+    /// The finished runs of a setting, coarse to fine.
+    fn finished(&self, setting: &Setting) -> Vec<&Trial> {
+        let own = |trial: &&Trial| trial.setting == *setting && trial.error.is_ok();
+        let mut runs: Vec<_> = self.trials.iter().filter(own).collect();
+        runs.sort_by_key(|trial| trial.cells);
+        runs
+    }
+
+    /// The order between the finest run and the finest that is coarser by a quarter; nothing where there are none.
+    fn order(&self, setting: &Setting) -> Option<f64> {
+        let runs = self.finished(setting);
+        let fine = runs.last()?;
+        let coarse = runs.iter().rev().find(|trial| 5 * trial.cells <= 4 * fine.cells)?;
+        let [Ok(coarse_error), Ok(fine_error)] = [&coarse.error, &fine.error] else { return None };
+        let order =
+            (coarse_error / fine_error).ln() / (fine.cells as f64 / coarse.cells as f64).ln();
+        order.is_finite().then_some(order)
+    }
+
+    /// How far from the goal a power law ends: the cost that meets an error, or the error that meets a cost.
+    fn loss_of(&self, line: &Line) -> Option<f64> {
+        let met = line.meet(&self.plan)?;
+        Some(match self.plan.goal {
+            Goal::Error(_) => met.cost,
+            Goal::Cost(_) => met.error,
+        })
+    }
+
+    fn loss_on(&self, setting: &Setting, cells: usize) -> Option<f64> {
+        self.loss_of(&self.line_on(setting, cells)?)
+    }
+
+    fn loss(&self, setting: &Setting) -> Option<f64> {
+        self.loss_of(&self.line(setting)?)
+    }
+
+    /// The best of some settings that was predicted, if it is within what may be run; and the others after it, as
+    /// long as they are predicted to be better than what is found.
+    fn reach_best(&mut self, mut candidates: Vec<Setting>) -> anyhow::Result<()> {
+        while !candidates.is_empty() {
+            let loss = |at: &usize| self.loss(&candidates[*at]).unwrap_or(f64::INFINITY);
+            let best = (0..candidates.len()).min_by(|a, b| loss(a).total_cmp(&loss(b)));
+            let best = best.context("there are candidates")?;
+            let predicted = loss(&best);
+            let found =
+                self.choice().map(|at| &self.trials[at]).map(|trial| match self.plan.goal {
+                    Goal::Error(_) => self.cost(trial),
+                    Goal::Cost(_) => trial.error.clone().unwrap_or(f64::INFINITY),
+                });
+            if predicted.is_infinite() || found.is_some_and(|found| predicted > GAIN * found) {
+                break;
+            }
+            let setting = candidates.remove(best);
+            self.reach(&setting)?;
+        }
+        Ok(())
+    }
+
+    /// While nothing meets the goal: what is predicted to, of all that was run.
+    fn reach_others(&mut self) -> anyhow::Result<()> {
+        while self.choice().is_none() {
+            let Some((setting, _)) = self.best_prediction() else { break };
+            if self.next(&setting).is_none() {
+                break;
+            }
+            self.reach(&setting)?;
+        }
+        Ok(())
+    }
+
+    /// Runs a setting on ever better grids.
+    fn reach(&mut self, setting: &Setting) -> anyhow::Result<()> {
+        for _ in 0..TRIES {
+            let Some(cells) = self.next(setting) else { break };
+            self.trial(setting, cells)?;
+        }
+        Ok(())
+    }
+
+    /// The next grid for a setting; none where the goal is met with little to spare, or cannot be met.
+    fn next(&self, setting: &Setting) -> Option<usize> {
+        let line = self.line_near(setting)?;
+        let met = line.meet(&self.plan)?;
+        let own = self.trials.iter().filter(|trial| trial.setting == *setting);
+        let (good, bad): (Vec<&Trial>, Vec<&Trial>) = own.partition(|trial| self.meets(trial));
+        let [good, bad] =
+            [good, bad].map(|runs| runs.into_iter().map(|it| it.cells).collect::<Vec<_>>());
+        let grain = self.plan.grain;
+        // Between what is known to be too coarse and too fine.
+        let (low, high) = match self.plan.goal {
+            Goal::Error(_) => {
+                let high = good.iter().copied().min();
+                (bad.into_iter().filter(|&it| high.is_none_or(|high| it < high)).max(), high)
+            }
+            Goal::Cost(_) => {
+                let low = good.iter().copied().max();
+                (low, bad.into_iter().filter(|&it| low.is_none_or(|low| it > low)).min())
+            }
+        };
+        // What is predicted with nothing to spare is missed by a hair.
+        let cells = match self.plan.goal {
+            Goal::Error(_) => self.plan.whole(met.cells * 1.01),
+            Goal::Cost(_) => self.plan.whole(met.cells * 0.99).saturating_sub(grain).max(grain),
+        };
+        let least = low.map_or(grain, |low| low + grain);
+        let most = high.map_or(4 * line.cells as usize + grain, |high| high.saturating_sub(grain));
+        let near = low.zip(high).is_some_and(|(low, high)| high as f64 <= 1.04 * low as f64);
+        if least > most || near {
+            return None;
+        }
+        let cells = cells.clamp(least, most);
+        let spare = match (self.plan.goal, low, high) {
+            (Goal::Error(_), _, Some(high)) => high as f64 / cells as f64,
+            (Goal::Cost(_), Some(low), _) => cells as f64 / low as f64,
+            _ => f64::INFINITY,
+        };
+        (spare > 1.04 && self.work(setting, cells) <= self.plan.most_work).then_some(cells)
+    }
+
+    /// The setting's power law through the run that is nearest to the goal.
+    fn line_near(&self, setting: &Setting) -> Option<Line> {
+        let distance = |line: &Line| match self.plan.goal {
+            Goal::Error(target) => (line.error / target).ln().abs(),
+            Goal::Cost(budget) => (line.cost / budget).ln().abs(),
+        };
+        let runs = self.finished(setting).into_iter();
+        let lines = runs.filter_map(|trial| self.line_on(setting, trial.cells));
+        lines.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// Whether a run meets the goal.
+    fn meets(&self, trial: &Trial) -> bool {
+        let Ok(error) = trial.error else { return false };
+        match self.plan.goal {
+            Goal::Error(target) => error <= target,
+            Goal::Cost(budget) => self.cost(trial) <= budget,
+        }
+    }
+
+    /// The best run that meets the goal; of equals the first.
+    fn choice(&self) -> Option<usize> {
+        let loss = |at: &usize| match (self.plan.goal, &self.trials[*at].error) {
+            (Goal::Error(_), _) => self.cost(&self.trials[*at]),
+            (_, Ok(error)) => *error,
+            (_, Err(_)) => f64::INFINITY,
+        };
+        let met = (0..self.trials.len()).filter(|at| self.meets(&self.trials[*at]));
+        met.min_by(|a, b| loss(a).total_cmp(&loss(b)))
+    }
+
+    /// Runs that say what lies around the choice.
+    fn surround(&mut self) -> anyhow::Result<()> {
+        if let Some(choice) = self.choice().map(|at| self.trials[at].clone()) {
+            for part in [2f64.sqrt(), 2.0] {
+                let cells = self.plan.whole(choice.cells as f64 / part);
+                self.trial(&choice.setting, cells)?;
+            }
+        }
+        let default = Setting::default();
+        for _ in 0..2 {
+            let Some(cells) = self.next(&default) else { break };
+            self.trial(&default, cells)?;
+        }
+        Ok(())
+    }
+
+    /// The setting with the best prediction.
+    fn best_prediction(&self) -> Option<(Setting, Prediction)> {
+        let mut settings: Vec<Setting> = Vec::new();
+        for trial in &self.trials {
+            if !settings.contains(&trial.setting) {
+                settings.push(trial.setting);
+            }
+        }
+        let lines = settings.into_iter().filter_map(|it| {
+            let line = self.line(&it)?;
+            // A finer run has stopped: its power law has ended.
+            let stopped = |trial: &Trial| trial.error.is_err() && trial.cells as f64 > line.cells;
+            let has_ended = self.trials.iter().any(|trial| trial.setting == it && stopped(trial));
+            let met = line.meet(&self.plan).filter(|_| !has_ended)?;
+            Some((self.loss_of(&line)?, it, met))
+        });
+        let best = lines.min_by(|a, b| a.0.total_cmp(&b.0));
+        best.map(|(_, setting, prediction)| (setting, prediction))
+    }
+}
+
+/// What one of some runs costs.
+pub fn cost(trials: &[Trial], trial: &Trial, cost: Cost) -> f64 {
+    match cost {
+        Cost::Memory => trial.memory,
+        Cost::ParticleSteps => trial.particle_steps(),
+        Cost::Seconds => {
+            let same = |it: &&Trial| it.error.is_ok() && it.setting.same_step(&trial.setting);
+            let runs = || trials.iter().filter(same).chain([trial]);
+            let longest = runs().map(Trial::particle_steps).fold(0.0, f64::max);
+            let long = runs().filter(|it| it.particle_steps() * LONG >= longest);
+            let each = long.map(|it| it.seconds / it.particle_steps().max(1.0));
+            each.fold(f64::INFINITY, f64::min) * trial.particle_steps()
+        }
+    }
+}

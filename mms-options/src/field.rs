@@ -1,0 +1,200 @@
+//! What every command takes: a field, and settings of its parameters.
+
+use std::path::Path;
+
+use anyhow::bail;
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+#[cfg(not(feature = "gallery"))]
+use mms_bar as linked;
+use mms_codegen::{Options, Selection};
+use mms_exact::gallery::{self, Entry};
+use mms_exact::{Input, Source};
+use mms_files::read::{self, Kind};
+#[cfg(feature = "gallery")]
+use mms_gallery as linked;
+use mms_program::precision::Precision;
+use mms_spec::Form;
+use mms_spec::foreign::shown;
+use mms_spec::quantity::Quantity;
+use mms_spec::suggest::advice;
+use mms_spec::twin::Twin;
+
+/// Which motion is taken, and within which limits.
+#[derive(Clone, Debug, PartialEq, Args)]
+pub struct Motion {
+    /// Take another time window: two numbers, or formulas in the parameters, as in '0,length/c'. Everything is of it: claims,
+    /// proofs, runs, and what is emitted.
+    #[arg(long, value_name = "FROM,TO", value_parser = window, allow_hyphen_values = true)]
+    window: Option<Window>,
+    /// Take the rigid twin of the field: the same motion, followed by a rotation about the origin and
+    /// a translation. MOTION has the keys of [rigid], as in 'rotation = "pi*t", translation = ["t",
+    /// "0"]'; without it the motion is a large and accelerated one. Faces that were at rest are then
+    /// prescribed, and closed forms left out.
+    #[arg(long, value_name = "MOTION", num_args = 0..=1, default_missing_value = "", value_parser = motion)]
+    rigid: Option<String>,
+    /// How many nodes and operands the expressions of a field may have together; a field that needs
+    /// more is refused.
+    #[arg(long, value_name = "N", default_value_t = Motion::default().max_nodes)]
+    max_nodes: u32,
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Motion { window: None, rigid: None, max_nodes: Options::default().max_nodes as u32 }
+    }
+}
+
+impl Motion {
+    /// The arguments that ask for it.
+    pub fn arguments(&self) -> Vec<String> {
+        let mut arguments = Vec::new();
+        if self.max_nodes != Motion::default().max_nodes {
+            arguments.push(format!("--max-nodes={}", self.max_nodes));
+        }
+        if let Some(Window([from, to])) = &self.window {
+            arguments.push(format!("--window={from},{to}"));
+        }
+        match self.rigid.as_deref() {
+            None => {}
+            Some("") => arguments.push("--rigid".into()),
+            Some(motion) => arguments.push(format!("--rigid={motion}")),
+        }
+        arguments
+    }
+
+    /// Everything of the field, or a part of it.
+    pub fn options(&self, selection: Selection) -> Options {
+        let twin = match self.rigid.as_deref() {
+            None => Twin::Nothing,
+            Some("") => Twin::Standard,
+            Some(motion) => Twin::Given(motion.into()),
+        };
+        let window = self.window.as_ref().map(|Window(window)| window.clone());
+        let selection = Selection { twin, window, ..selection };
+        Options { selection, max_nodes: self.max_nodes as usize, ..Options::default() }
+    }
+}
+
+/// How a field is taken.
+#[derive(Clone, Debug, Default, PartialEq, Args)]
+pub struct Variant {
+    #[command(flatten)]
+    motion: Motion,
+    /// How quantities are computed: `stable` holds each to 64 eps of its largest magnitude, at any
+    /// strain; `fast` takes the fewest operations, and loses eps/e where the strain e is small.
+    #[arg(long, value_name = "stable|fast", default_value = Form::default().name(), value_parser = Form::from_name)]
+    form: Form,
+}
+
+impl Variant {
+    /// With a motion and a form.
+    pub fn new(motion: Motion, form: Form) -> Self {
+        Variant { motion, form }
+    }
+
+    /// Its form.
+    pub fn form(&self) -> Form {
+        self.form
+    }
+
+    /// Everything of the field, or a part of it.
+    pub fn options(&self, selection: Selection) -> Options {
+        Options { form: self.form, ..self.motion.options(selection) }
+    }
+}
+
+/// The keys of a rigid motion, as far as can be told from a distance: an option that may stand
+/// without a value takes the name of a field for one.
+fn motion(text: &str) -> Result<String, String> {
+    if text.is_empty() || text.contains('=') {
+        return Ok(text.to_string());
+    }
+    Err("expected keys such as 'translation = [\"t\", \"0\"]'; without a value, `--rigid` goes behind the field".into())
+}
+
+/// A first and a last time.
+#[derive(Clone, Debug, PartialEq)]
+struct Window([String; 2]);
+
+/// Two formulas, parted by the comma that stands in no parentheses.
+fn window(text: &str) -> Result<Window, String> {
+    let mut depth = 0;
+    let commas = text.char_indices().filter(|(_, char)| {
+        depth += i32::from(*char == '(') - i32::from(*char == ')');
+        *char == ',' && depth == 0
+    });
+    match commas.map(|(at, _)| at).collect::<Vec<_>>()[..] {
+        [comma] => Ok(Window([&text[..comma], &text[comma + 1..]].map(|part| part.trim().into()))),
+        _ => Err("expected the first and the last time, as in 0,0.02".into()),
+    }
+}
+
+/// Opens the field of a gallery name, or of a path to a TOML file.
+///
+/// # Errors
+/// A name that the gallery lacks, a file that cannot be read.
+pub fn open(field: &str) -> anyhow::Result<Source> {
+    if !field.ends_with(".toml") {
+        return entry(field).map(|entry| Source::shipped(entry, linked::find(entry.name)));
+    }
+    file(Path::new(field))
+}
+
+/// Opens a field file.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn file(path: &Path) -> anyhow::Result<Source> {
+    let text = read::text(path, Kind::Field)?;
+    let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
+    Ok(Source::file(path.to_path_buf(), text, move |material| {
+        let text = read::text(&folder.join(material), Kind::Field);
+        text.map_err(|error| error.root_cause().to_string())
+    }))
+}
+
+/// Opens and compiles the field of a gallery name, or of a path to a TOML file.
+///
+/// # Errors
+/// A field that cannot be opened, or does not compile.
+pub fn find(field: &str, variant: &Variant) -> anyhow::Result<Input> {
+    Input::new(open(field)?, &variant.options(Selection::default()))
+}
+
+/// Opens a field and compiles it without proofs, to be interpreted.
+///
+/// # Errors
+/// As of [`find`].
+pub fn interpreted(field: &str, variant: &Variant) -> anyhow::Result<Input> {
+    Input::interpreted(open(field)?, &variant.options(Selection::default()))
+}
+
+/// Opens a field and compiles some quantities of it, which takes less time than all: their values are the same.
+///
+/// # Errors
+/// As of [`find`].
+pub fn find_some(field: &str, variant: &Variant, quantities: &[Quantity]) -> anyhow::Result<Input> {
+    let compiled = quantities.iter().filter(|quantity| !quantity.is_on_request());
+    let selection =
+        Selection { quantities: Some(compiled.copied().collect()), ..Selection::default() };
+    Input::new(open(field)?, &variant.options(selection))
+}
+
+/// The field of the gallery of that name.
+fn entry(field: &str) -> anyhow::Result<&'static Entry> {
+    if let Some(entry) = gallery::find(field) {
+        return Ok(entry);
+    }
+    let names = gallery::FIELDS.iter().map(|entry| entry.name);
+    let advice = advice(field, names, |all| {
+        format!("it holds {all}; a file of your own is given by its path, ending in .toml")
+    });
+    bail!("no field `{}` in the gallery; {advice}", shown(field))
+}
+
+/// Reads one of all precisions; a solver has two of them, of its own.
+pub fn precision() -> impl TypedValueParser<Value = Precision> {
+    let names = PossibleValuesParser::new(Precision::ALL.map(Precision::name));
+    names.try_map(|name| Precision::from_name(&name).ok_or("no precision"))
+}

@@ -1,0 +1,163 @@
+//! Several methods on one field, beside each other.
+
+use std::path::Path;
+
+use anyhow::Context as _;
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use mms_convergence::Verdict;
+use mms_documents::provenance::Provenance;
+use mms_documents::study::{self as documents, Studies, StudyOfOne};
+use mms_files::write::{pretty, write_files};
+use serde::Serialize;
+
+use super::{Study, picture};
+
+/// The document of one study, or of several methods.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub enum Document {
+    One(Box<documents::Study>),
+    Several(Box<Studies>),
+}
+
+/// Studies of one field with methods that differ.
+pub struct Comparison {
+    /// The studies, one at least.
+    pub studies: Vec<Study>,
+    /// Where they are from.
+    pub provenance: Provenance,
+}
+
+impl Comparison {
+    /// How many studies pass.
+    fn passed(&self) -> usize {
+        let passes = |study: &&Study| study.verdict == Verdict::Pass;
+        self.studies.iter().filter(passes).count()
+    }
+
+    /// Whether there are studies, and all pass.
+    pub fn is_passed(&self) -> bool {
+        !self.studies.is_empty() && self.passed() == self.studies.len()
+    }
+
+    /// The names that tell the methods from each other.
+    pub fn names(&self) -> Vec<String> {
+        let words: Vec<[String; 6]> = self.studies.iter().map(words).collect();
+        let differs = |at: usize| words.iter().any(|word| word[at] != words[0][at]);
+        let name = |word: &[String; 6]| {
+            let told = (0..word.len()).filter(|&at| differs(at));
+            told.map(|at| word[at].as_str()).collect::<Vec<_>>().join(" ")
+        };
+        words.iter().map(name).collect()
+    }
+
+    /// Each study with its name.
+    fn named(&self) -> impl Iterator<Item = (String, &Study)> {
+        self.names().into_iter().zip(&self.studies)
+    }
+
+    /// The JSON document: that of the study if there is one alone.
+    pub fn document(&self) -> Document {
+        if let [alone] = self.studies.as_slice() {
+            return Document::One(Box::new(alone.document()));
+        }
+        let studies = self.named().map(|(name, study)| StudyOfOne { name, study: study.content() });
+        let first = &self.studies[0];
+        Document::Several(Box::new(Studies {
+            field: first.field.raw().to_owned(),
+            refinement: first.refinement.name().to_owned(),
+            studies: studies.collect(),
+            passed: self.passed(),
+            provenance: self.provenance.clone(),
+        }))
+    }
+
+    /// The tables for a terminal, with each verdict.
+    pub fn table(&self) -> String {
+        if let [alone] = self.studies.as_slice() {
+            return alone.table();
+        }
+        let first = &self.studies[0];
+        let mut parts = vec![
+            format!("{}: {}", first.field.shown(), first.title.shown()),
+            self.errors().to_string(),
+        ];
+        let verdict = |(name, study): (String, &Study)| format!("{name}: {}", study.conclusion());
+        let conclusions: Vec<_> = self.named().map(verdict).collect();
+        parts.push(conclusions.join("\n"));
+        for (name, study) in self.named() {
+            parts.extend(study.phase_table().map(|table| format!("{name}\n{table}")));
+        }
+        parts.push(format!("{} of {} methods pass", self.passed(), self.studies.len()));
+        parts.join("\n\n")
+    }
+
+    /// l2 of each method on each level, or in time its difference to the next.
+    fn errors(&self) -> Table {
+        let first = &self.studies[0];
+        let mut table = Table::new();
+        let ends = ["order", "constant", "verdict"].map(str::to_owned);
+        table
+            .load_style(NOTHING)
+            .set_header(["l2".to_owned()].into_iter().chain(first.names_of_levels()).chain(ends));
+        for (name, study) in self.named() {
+            let mut cells = vec![name];
+            cells.extend(study.errors_of_levels());
+            cells.extend([
+                study.judgement.observed_order().map_or("-".into(), |order| format!("{order:.2}")),
+                study.error_constant.map_or("-".into(), |constant| format!("{constant:.2e}")),
+                study.verdict.to_string(),
+            ]);
+            table.add_row(cells);
+        }
+        for column in table.column_iter_mut().skip(1) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+        table
+    }
+
+    /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        if let [alone] = self.studies.as_slice() {
+            return alone.write(folder);
+        }
+        let files = [
+            ("svg", picture::draw_all(&self.studies, &self.names())?),
+            ("csv", self.csv()?),
+            ("json", pretty(&self.document())?),
+        ];
+        write_files(folder, "convergence", files)
+    }
+
+    /// The rows of all studies, with a column for the method in front.
+    fn csv(&self) -> anyhow::Result<String> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for (at, (name, study)) in self.named().enumerate() {
+            let own = study.csv()?;
+            let mut reader =
+                csv::ReaderBuilder::new().has_headers(false).from_reader(own.as_bytes());
+            for (line, row) in reader.records().enumerate() {
+                let row = row.context("cannot read back a row of a study")?;
+                let first = if line == 0 { "method" } else { name.as_str() };
+                if at == 0 || line > 0 {
+                    writer.write_record(std::iter::once(first).chain(row.iter()))?;
+                }
+            }
+        }
+        Ok(String::from_utf8(writer.into_inner()?)?)
+    }
+}
+
+/// The words in which the methods of a study may differ.
+fn words(study: &Study) -> [String; 6] {
+    let method = &study.method;
+    [
+        method.formulation.to_string(),
+        method.shape.to_string(),
+        method.integrator.to_string(),
+        method.setup.transfer.to_string(),
+        study.arithmetic.precision.name().to_owned(),
+        study.arithmetic.form.name().to_owned(),
+    ]
+}

@@ -1,0 +1,222 @@
+//! Defects and what caught them, as a table, as a JSON document, and as a page.
+
+use comfy_table::Table;
+use comfy_table::presets::NOTHING;
+use mms_documents::provenance::Provenance;
+use mms_documents::verify::{ShownDefect, ShownRow, VerifyDefects};
+use mms_lab::pictures::{Check, Looks};
+use mms_verify::defects::{Defect, Shown};
+use mms_verify::matrix::Row;
+
+/// A row that catches what at most so many rows catch earns its place by that.
+const FEW: usize = 6;
+
+/// A defect, and the rows that it was shown to.
+pub struct Showing<'a> {
+    /// The defect.
+    pub defect: Defect,
+    /// The rows, with it.
+    pub rows: Vec<Shown<'a>>,
+    /// The objections of checks of plausibility to these runs, if they do not object to right runs as well.
+    pub looks: Looks,
+}
+
+impl<'a> Showing<'a> {
+    /// The rows whose verdict is not the expected one.
+    pub fn caught(&self) -> impl Iterator<Item = &Shown<'a>> {
+        self.rows.iter().filter(|shown| !shown.judgement.as_expected())
+    }
+
+    fn document(&self) -> ShownDefect {
+        let row = |shown: &Shown<'_>| ShownRow {
+            name: shown.row.name.clone(),
+            caught: !shown.judgement.as_expected(),
+            verdict: shown.judgement.verdict.to_string(),
+            reason: shown.judgement.reason.clone(),
+        };
+        let checks = Check::ALL.into_iter().map(Check::name);
+        ShownDefect {
+            name: self.defect.name().to_owned(),
+            place: self.defect.place().to_owned(),
+            what: self.defect.what().to_owned(),
+            rows: self.rows.iter().map(row).collect(),
+            pseudo: checks.zip(self.looks.0).collect(),
+        }
+    }
+
+    /// Rows that claim to catch it, and do not.
+    fn missed(&self) -> impl Iterator<Item = &Shown<'a>> {
+        let claims = |row: &Row| row.catches.iter().any(|name| name == self.defect.name());
+        self.rows.iter().filter(move |shown| claims(shown.row) && shown.judgement.as_expected())
+    }
+}
+
+/// Defects, with what came of them.
+pub struct Report<'a> {
+    /// The rows that were shown defects.
+    pub rows: Vec<&'a Row>,
+    /// The defects.
+    pub showings: Vec<Showing<'a>>,
+    /// Whether every defect was shown to every row.
+    pub whole: bool,
+    /// Where it is from.
+    pub provenance: Provenance,
+}
+
+impl<'a> Report<'a> {
+    fn uncaught(&self) -> impl Iterator<Item = &Showing<'a>> {
+        self.showings.iter().filter(|showing| showing.caught().next().is_none())
+    }
+
+    /// Pairs of a row and a defect that it claims to catch, and does not.
+    fn missed(&self) -> impl Iterator<Item = (&'a Row, Defect)> {
+        self.showings
+            .iter()
+            .flat_map(|showing| showing.missed().map(|shown| (shown.row, showing.defect)))
+    }
+
+    /// Rows that catch no defect that few others catch, and are no witness of anything; known of the whole table.
+    fn idle(&self) -> Vec<&'a Row> {
+        let catches =
+            |row: &Row, showing: &&Showing| showing.caught().any(|it| it.row.name == row.name);
+        let rare: Vec<_> = self.showings.iter().filter(|it| it.caught().count() <= FEW).collect();
+        let idle = |row: &&&Row| {
+            row.witness.is_none() && !rare.iter().any(|showing| catches(row, showing))
+        };
+        if self.whole { self.rows.iter().filter(idle).copied().collect() } else { Vec::new() }
+    }
+
+    /// Whether there are defects, and every one was caught, by the rows that say so; and every row earns its place.
+    pub fn as_expected(&self) -> bool {
+        !self.showings.is_empty()
+            && self.uncaught().next().is_none()
+            && self.missed().next().is_none()
+            && self.idle().is_empty()
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> VerifyDefects {
+        let names = |rows: &[&Row]| rows.iter().map(|row| row.name.clone()).collect();
+        let missed = |(row, defect): (&Row, Defect)| [row.name.clone(), defect.name().to_owned()];
+        VerifyDefects {
+            rows: names(&self.rows),
+            every_row: self.whole,
+            defects: self.showings.iter().map(Showing::document).collect(),
+            uncaught: self.uncaught().map(|it| it.defect.name().to_owned()).collect(),
+            missed: self.missed().map(missed).collect(),
+            idle: names(&self.idle()),
+            provenance: self.provenance.clone(),
+        }
+    }
+
+    /// The table for a terminal.
+    pub fn table(&self) -> String {
+        let mut table = Table::new();
+        let checks = Check::ALL.map(Check::name);
+        table.load_style(NOTHING).set_header(["defect", "caught by"].into_iter().chain(checks));
+        for showing in &self.showings {
+            let by = self.caught_by(showing);
+            let cells =
+                [showing.defect.name().to_owned(), by].into_iter().chain(words(showing.looks));
+            table.add_row(cells);
+        }
+        let mut text = format!("{table}\n");
+        for showing in self.uncaught() {
+            text +=
+                &format!("\n{} is not caught: {}", showing.defect.name(), showing.defect.what());
+        }
+        for (row, defect) in self.missed() {
+            text += &format!("\n{} does not catch {}, as it says", row.name, defect.name());
+        }
+        for row in self.idle() {
+            text +=
+                &format!("\n{} catches nothing that few others do, and has no `witness`", row.name);
+        }
+        text + "\n" + &self.summary()
+    }
+
+    /// How many were caught by what.
+    fn summary(&self) -> String {
+        let all = self.showings.len();
+        let caught = all - self.uncaught().count();
+        let objects = |at: usize| {
+            let said = |showing: &&Showing| showing.looks.0[at] == Some(true);
+            self.showings.iter().filter(said).count()
+        };
+        let by_check = Check::ALL.iter().enumerate();
+        let by_check: Vec<_> =
+            by_check.map(|(at, check)| format!("{} {}", check.name(), objects(at))).collect();
+        let blind =
+            |showing: &&Showing| showing.looks.0[1..].iter().all(|look| *look != Some(true));
+        let blind = self.showings.iter().filter(blind).count();
+        format!(
+            "the matrix catches {caught} of {all} defects; by looking at the same runs: {}; {blind} look right in \
+             all but the picture of the exact solution",
+            by_check.join(", ")
+        )
+    }
+
+    fn caught_by(&self, showing: &Showing<'_>) -> String {
+        let caught: Vec<_> = showing.caught().map(|shown| shown.row.name.as_str()).collect();
+        match caught.len() {
+            0 => "NOTHING".to_owned(),
+            n if n > FEW => format!("{} and {} more", caught[..2].join(", "), n - 2),
+            _ => caught.join(", "),
+        }
+    }
+
+    /// The page: what does not depend on a machine.
+    pub fn page(&self) -> String {
+        let mut page = INTRODUCTION.to_owned();
+        for place in ["compiler", "solver"] {
+            page += &format!(
+                "\n## In the {place}\n\n| defect | what is wrong | caught by | picture | bounded | symmetric | energy | settles |\n|---|---|---|---|---|---|---|---|\n"
+            );
+            for showing in self.showings.iter().filter(|showing| showing.defect.place() == place) {
+                let (name, what) = (showing.defect.name(), showing.defect.what());
+                let looks = words(showing.looks).join(" | ");
+                page += &format!("| `{name}` | {what} | {} | {looks} |\n", self.caught_by(showing));
+            }
+        }
+        let witnesses = self.rows.iter().filter_map(|row| Some((row, row.witness.as_ref()?)));
+        page += "\n## Rows that are there for another reason\n\n| row | no other row looks at |\n|---|---|\n";
+        for (row, witness) in witnesses {
+            page += &format!("| {} | {witness} |\n", row.name);
+        }
+        format!("{page}\n{}.\n", capitalised(&self.summary()))
+    }
+}
+
+fn capitalised(text: &str) -> String {
+    let (first, rest) = text.split_at(1);
+    first.to_uppercase() + rest
+}
+
+/// The words for the answers of checks: an objection, none, or not known.
+fn words(looks: Looks) -> [String; Check::ALL.len()] {
+    looks.0.map(|objects| match objects {
+        Some(true) => "objects".to_owned(),
+        Some(false) => "content".to_owned(),
+        None => "-".to_owned(),
+    })
+}
+
+/// The text before the tables of the page.
+const INTRODUCTION: &str = "\
+# Deliberate mistakes
+
+A suite that does not fail for a seeded defect is no verification suite. Each of these mistakes was made in the
+solver, or in what derives b, and rows of the quick [verification matrix](verification.md) were run with it. The
+columns on the right are what \"pseudo verification\" says of the very same runs: `objects` where it sees that
+something is wrong, `content` where it does not, `-` where it cannot tell, or objects to the right program as well.
+
+| check | objects where |
+|---|---|
+| picture | u is off by a tenth, seen beside the exact solution on the finest grid |
+| bounded | a run stops, or something moves further than the body is long |
+| symmetric | a motion that is its own mirror image does not stay it, to a millionth |
+| energy | kinetic and strain energy differ from what b has put in by a twentieth |
+| settles | half the cell size changes the size of the motion by more than a twentieth |
+
+Made by `cargo run --release --features defects -- verify --defects --page > docs/defects.md`.
+";

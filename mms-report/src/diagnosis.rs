@@ -1,0 +1,303 @@
+//! Diagnoses as text and as a JSON document.
+
+use std::path::Path;
+
+use mms_diagnosis::answer::{Diagnosis, Fields, Finding, Like, Place, Ranked};
+use mms_diagnosis::falls::{Falls, OfOrder};
+use mms_diagnosis::list::Listed;
+use mms_documents::diagnose as documents;
+use mms_documents::provenance::Provenance;
+use mms_files::write::{pretty, write_files};
+use mms_spec::foreign::Foreign;
+
+use super::text::plain;
+
+/// How many hypotheses a text shows.
+const SHOWN: usize = 5;
+
+/// A diagnosis of results of a field.
+pub struct Diagnosed<'a> {
+    /// The field.
+    pub field: &'a Foreign,
+    /// The files.
+    pub files: &'a [String],
+    /// The diagnosis.
+    pub diagnosis: &'a Diagnosis,
+    /// Where it is from.
+    pub provenance: Provenance,
+}
+
+impl Diagnosed<'_> {
+    /// The text for a terminal.
+    pub fn text(&self) -> String {
+        let it = self.diagnosis;
+        let mut parts = vec![format!(
+            "{}: {}\nthe error is {:.2e} of the solution; {}",
+            self.field.shown(),
+            it.rung.says(),
+            it.error,
+            ordinary(it.expected)
+        )];
+        parts.extend(it.falls.as_ref().map(|falls| order(falls, it.of_order.as_ref())));
+        parts.push(self.finding());
+        if it.finding != Finding::Nothing {
+            parts.push(self.table());
+        }
+        parts.extend(it.pair.as_ref().map(|pair| {
+            let [a, b] = &pair.hypotheses;
+            format!("two at once? {a} and {b} together explain {:.1} %", 100.0 * pair.explained)
+        }));
+        parts.extend(it.like.as_ref().map(alike));
+        if it.finding == Finding::Unexplained {
+            parts.extend(it.place.as_ref().map(|at| place(at, it.falls.is_none())));
+        }
+        if !it.cannot_be_seen.is_empty() {
+            parts.push(format!("these results cannot show: {}", it.cannot_be_seen.join(", ")));
+        }
+        parts.push(format!("next: {}", it.rung.next(it.finding)));
+        parts.join("\n\n")
+    }
+
+    /// Writes diagnosis.json into a folder, and returns its path.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<String> {
+        let written = write_files(folder, "diagnosis", [("json", pretty(&self.document())?)])?;
+        Ok(written.join(", "))
+    }
+
+    fn finding(&self) -> String {
+        let it = self.diagnosis;
+        match (it.finding, it.ranked.first()) {
+            (Finding::Nothing, _) => {
+                "nothing: the error is of the size that a right solver makes".into()
+            }
+            (Finding::Named, Some(best)) => named(best),
+            _ if it.falls.as_ref().is_some_and(|it| !it.is_right) => {
+                "unexplained: the error does not fall as expected, and no hypothesis explains enough of it".into()
+            }
+            _ => "unexplained: there is an error, and no hypothesis explains enough of it".into(),
+        }
+    }
+
+    fn table(&self) -> String {
+        let mut table = plain(["hypothesis", "factor", "explains", ""]);
+        for it in self.diagnosis.ranked.iter().take(SHOWN) {
+            let factor: Vec<String> =
+                it.factor.iter().map(|factor| format!("{factor:.4}")).collect();
+            let note = if it.is_plausible { "" } else { "of a size that it cannot have" };
+            let explained = format!("{:.1} %", 100.0 * it.explained);
+            table.add_row([it.title(), factor.join(", "), explained, note.into()]);
+        }
+        table.to_string()
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> documents::Diagnose {
+        let it = self.diagnosis;
+        documents::Diagnose {
+            field: self.field.raw().to_owned(),
+            files: self.files.to_vec(),
+            evidence: it.rung.says().to_owned(),
+            finding: it.finding.name().to_owned(),
+            error: it.error,
+            least_expected_error: it.expected[0],
+            expected_error: it.expected[1],
+            order: it.falls.as_ref().map(|falls| error_order(falls, it.of_order.as_ref())),
+            ranked: it.ranked.iter().map(hypothesis).collect(),
+            cannot_be_seen: it.cannot_be_seen.iter().map(ToString::to_string).collect(),
+            pair: it.pair.as_ref().map(|it| documents::Pair {
+                hypotheses: it.hypotheses.iter().map(ToString::to_string).collect(),
+                explained: it.explained,
+            }),
+            like: it.like.as_ref().map(|it| documents::Like {
+                method: it.method.to_string(),
+                factor: it.factor,
+                apart: it.apart,
+            }),
+            place: it.place.as_ref().map(place_document),
+            fields: it.fields.as_ref().map(fields),
+            next: it.rung.next(it.finding).to_string(),
+            provenance: self.provenance.clone(),
+        }
+    }
+}
+
+/// The sentence about the errors of right solvers.
+fn ordinary([least, most]: [f64; 2]) -> String {
+    match least == most {
+        true => format!("a right solver would be at about {most:.1e}"),
+        false => {
+            format!(
+                "from {least:.1e} to {most:.1e} is taken for that of a right method on such a grid"
+            )
+        }
+    }
+}
+
+/// How the error falls from mesh to mesh, and where to look.
+fn order(it: &Falls, of_order: Option<&OfOrder>) -> String {
+    let observed = it.observed.map_or("no order".into(), |order| format!("order {order:.2}"));
+    let mut lines = vec![format!(
+        "from mesh to mesh {} {} falls with {observed}, {} expected: {} (`mms judge`)",
+        it.quantity, it.norm, it.expected, it.verdict
+    )];
+    lines.extend(it.hint().map(String::from));
+    lines.extend(of_order.map(|own| {
+        format!(
+            "if your method has that order, `--like {}` holds you to it: this right method has order {:.2} here",
+            own.method, own.order
+        )
+    }));
+    lines.join("\n")
+}
+
+/// The sentence about the mistake that is named.
+fn named(best: &Ranked) -> String {
+    let mut lines =
+        vec![format!("named: {} ({})", best.title(), best.kind.name()), best.says.clone()];
+    if !best.equivalent_always.is_empty() {
+        lines
+            .push(format!("the same formula for any field: {}", best.equivalent_always.join(", ")));
+    }
+    if !best.equivalent_here.is_empty() {
+        lines.push(format!("not told apart here: {}", best.equivalent_here.join(", ")));
+    }
+    if !best.needs.is_empty() {
+        lines.push(format!("what tells them apart: {}", best.needs.join("; ")));
+    }
+    lines.join("\n")
+}
+
+/// The method whose error is such a one.
+fn alike(it: &Like) -> String {
+    format!(
+        "like {}: the error is {:.2} times that of this right method on such a grid, {:.0} % apart",
+        it.method,
+        it.factor,
+        100.0 * it.apart
+    )
+}
+
+/// Says where an error sits that nothing explains, and its order if that was not said.
+fn place(it: &Place, has_order: bool) -> String {
+    let at: Vec<String> = it.at.iter().map(|x| format!("{x:.4}")).collect();
+    let mut lines = vec![format!("it is largest at X = [{}], t = {:.4e}", at.join(", "), it.time)];
+    if let Some(face) = it.face {
+        lines.push(format!("more than half of it is beside the face {face}"));
+    }
+    if let Some((axis, at)) = it.plane {
+        let axis = AXES[axis];
+        lines.push(format!(
+            "more than half of it is beside the plane {axis} = {at:.4}, which is no face: of parts of the mesh, of ranks?"
+        ));
+    }
+    if let Some(order) = it.order.filter(|_| has_order) {
+        lines.push(format!("from mesh to mesh it falls with order {order:.2}"));
+    }
+    if it.smooth < SMOOTH {
+        lines.push(format!(
+            "{:.0} % of it is not smooth: particles that cross cells, iterations that stop early (not_converged), or \
+             single_precision",
+            100.0 * (1.0 - it.smooth)
+        ));
+    }
+    lines.join("\n")
+}
+
+/// The names of the axes of X.
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+/// Less of an error than this is smooth: it is called noise.
+const SMOOTH: f64 = 0.5;
+
+fn fields(it: &Fields) -> documents::ErrorFields {
+    documents::ErrorFields {
+        quantity: it.quantity.to_string(),
+        time: it.time,
+        points: it.points.clone(),
+        error: it.error.clone(),
+        named: it.named.clone(),
+    }
+}
+
+fn error_order(it: &Falls, of_order: Option<&OfOrder>) -> documents::ErrorOrder {
+    documents::ErrorOrder {
+        quantity: it.quantity.to_string(),
+        norm: it.norm.to_string(),
+        observed_order: it.observed,
+        expected_order: it.expected,
+        verdict: it.verdict.to_string(),
+        says: it.hint().map(|hint| hint.to_string()),
+        like: of_order.map(|own| documents::MethodOfOrder {
+            method: own.method.to_string(),
+            order: own.order,
+        }),
+    }
+}
+
+fn place_document(it: &Place) -> documents::Place {
+    documents::Place {
+        at: it.at.clone(),
+        time: it.time,
+        face: it.face.map(|face| face.to_string()),
+        plane: it.plane.map(|(axis, at)| documents::Plane { axis: AXES[axis].to_owned(), at }),
+        order: it.order,
+        smooth: it.smooth,
+    }
+}
+
+fn hypothesis(it: &Ranked) -> documents::Hypothesis {
+    let texts = |all: &[String]| all.to_vec();
+    let factor = it.factor.first().copied().filter(|_| it.factor.len() == 1);
+    documents::Hypothesis {
+        hypothesis: it.name.to_string(),
+        says: it.says.to_string(),
+        kind: it.kind.name().to_owned(),
+        factor,
+        interval: factor.map(|factor| [factor - it.margin, factor + it.margin]),
+        vector: (it.factor.len() > 1).then(|| it.factor.clone()),
+        explained: it.explained,
+        plausible: it.is_plausible,
+        face: it.face.map(|face| face.to_string()),
+        which: it.which.as_ref().map(ToString::to_string),
+        equivalent_always: texts(&it.equivalent_always),
+        equivalent_here: texts(&it.equivalent_here),
+        needs: texts(&it.needs),
+    }
+}
+
+/// The hypotheses about a field.
+pub struct Hypotheses<'a> {
+    /// The field.
+    pub field: &'a Foreign,
+    /// All of them.
+    pub all: Vec<Listed>,
+}
+
+impl Hypotheses<'_> {
+    /// The table for a terminal.
+    pub fn table(&self) -> String {
+        let mut table = plain(["hypothesis", "changes", "kind", "shown by", "what it is"]);
+        for it in &self.all {
+            let title = it.size_of.map_or(it.title.clone(), |_| format!("  {}", it.title));
+            table.add_row([&title, it.changes, it.kind.name(), it.shown_by, &it.says]);
+        }
+        table.to_string()
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> documents::Hypotheses {
+        let each = self.all.iter().map(|it| documents::ListedHypothesis {
+            hypothesis: it.title.clone(),
+            changes: it.changes.to_owned(),
+            kind: it.kind.name().to_owned(),
+            shown_by: it.shown_by.to_owned(),
+            says: it.says.to_string(),
+            of: it
+                .size_of
+                .map(|(name, factor)| documents::SizeOf { hypothesis: name.to_owned(), factor }),
+        });
+        documents::Hypotheses { field: self.field.raw().to_owned(), hypotheses: each.collect() }
+    }
+}

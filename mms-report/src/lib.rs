@@ -1,0 +1,41 @@
+//! What the command says of results: tables, JSON documents, CSV files, pictures, and pages of HTML.
+//!
+//! A module for each kind of result makes its text and its files; [`page`] reads the documents of a folder and makes a page of
+//! them. Nothing here runs the solver or prints.
+
+#![warn(clippy::disallowed_methods)]
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
+pub mod accuracy;
+pub mod campaign;
+mod comparison;
+#[cfg(feature = "defects")]
+pub mod defects;
+mod diagnosis;
+pub mod excluded;
+pub mod extremes;
+pub mod front;
+mod judge;
+pub mod method;
+pub mod page;
+mod phase;
+pub mod picture;
+mod plan;
+mod results;
+pub mod run;
+#[cfg(test)]
+#[path = "../../tests/support/sampled.rs"]
+mod sampled;
+mod study;
+mod text;
+pub mod tradeoff;
+pub mod verify;
+
+pub use comparison::Comparison;
+pub use diagnosis::{Diagnosed, Hypotheses};
+pub use judge::View;
+pub use phase::Phases;
+pub use plan::{Plan, Step};
+pub use results::{differences, with_baseline};
+pub use study::{Refused, Study};
+pub use text::{plain, tally, to_the_right};

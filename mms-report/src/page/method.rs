@@ -1,0 +1,44 @@
+//! The method of a result.
+
+use maud::{Markup, html};
+use mms_documents::study::Method;
+use mms_options::method::Arithmetic;
+use serde_json::Value;
+
+use super::mark::list;
+
+/// The keys that tell results from each other. Documents of older versions lack some.
+const NEEDED: [&str; 4] = ["shape", "integrator", "precision", "form"];
+
+/// Why a document is not shown: its method lacks a key that tells it from others.
+pub fn lack(document: &Value) -> Option<String> {
+    let method = document.get("method")?.as_object()?;
+    let key = NEEDED.into_iter().find(|&key| !method.get(key).is_some_and(Value::is_string))?;
+    Some(format!(
+        "its method does not say its `{key}`, as those of older versions; its command makes it again"
+    ))
+}
+
+/// The name of a method, with its precision and form if they are not the usual ones.
+pub fn name(method: &Method) -> String {
+    let mut name = [method.shape.as_str(), &method.integrator].join(" ");
+    let usual = Arithmetic::default();
+    if method.precision != usual.precision.name() {
+        name += &format!(", {}", method.precision);
+    }
+    if method.form != usual.form.name() {
+        name += &format!(", {} form", method.form);
+    }
+    name
+}
+
+/// All keys of a method, to be opened.
+pub fn method(method: &Method) -> Markup {
+    let keys = serde_json::to_value(method).unwrap_or_default();
+    html! {
+        details {
+            summary { "The method" }
+            @if let Some(keys) = keys.as_object() { (list(keys)) }
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! All results of a folder on one page of HTML: complete in itself, readable without a script, and well-formed
+//! XML.
+//!
+//! `mms report` reads documents, and runs nothing. What of a document the page says, it says with all digits
+//! behind the shown ones, `<data value="...">`, and tests compare every cell of every table with the document.
+//! Pictures are drawn from the documents anew, in colours that the style sheet owns, so that they are right on
+//! dark screens, light ones and paper; nothing is told by colour alone. Formulas and motions are those of the
+//! fields whose text is still the one of the hash.
+//!
+//! A kind of result is one file that implements [`Section`], and one line in [`KINDS`].
+
+mod accuracy;
+mod campaign;
+mod comparison;
+mod defects;
+mod diagnosis;
+mod excluded;
+mod extremes;
+mod field;
+mod folder;
+mod frame;
+pub mod gallery;
+mod judge;
+mod mark;
+mod method;
+mod motion;
+mod phase;
+mod picture;
+mod plot;
+mod run;
+mod states;
+mod study;
+mod tradeoff;
+mod verify;
+
+use std::path::PathBuf;
+
+use field::Shown;
+use maud::{Markup, html};
+use mms_documents::provenance::Provenance;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use crate::tally;
+
+/// A result, ready to be shown.
+pub trait Section {
+    /// The title of the result.
+    fn title(&self) -> String;
+
+    /// The verdicts on the result.
+    fn verdicts(&self) -> Verdicts;
+
+    /// The content below the heading, which is an `h3`. Names of places in it begin with `id`.
+    fn body(&self, id: &str) -> Markup;
+}
+
+/// How many verdicts a result has, and how many of them are the expected ones.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Verdicts {
+    /// The number of expected verdicts.
+    pub expected: usize,
+    /// All.
+    pub all: usize,
+    /// The verdicts in a word or two.
+    pub word: String,
+}
+
+impl Verdicts {
+    /// One verdict.
+    fn one(word: &str, is_expected: bool) -> Self {
+        Self { expected: is_expected.into(), all: 1, word: word.into() }
+    }
+
+    /// Several verdicts. None at all is no good one: something was to be judged.
+    pub fn several(expected: usize, all: usize, word: &str) -> Self {
+        match all {
+            0 => Self::one("nothing was judged", false),
+            _ => Self { expected, all, word: format!("{expected} of {all} {word}") },
+        }
+    }
+
+    /// Whether there is none that is not.
+    pub fn are_expected(&self) -> bool {
+        self.expected == self.all
+    }
+}
+
+/// How a kind of document is read.
+struct Kind {
+    /// The `kind` of its provenance.
+    name: &'static str,
+    /// The heading above all documents of the kind.
+    heading: &'static str,
+    read: fn(&Value) -> serde_json::Result<Box<dyn Section>>,
+}
+
+impl Kind {
+    const fn of<T: Section + DeserializeOwned + 'static>(
+        name: &'static str,
+        heading: &'static str,
+    ) -> Self {
+        let read = |document: &Value| -> serde_json::Result<Box<dyn Section>> {
+            Ok(Box::new(T::deserialize(document)?))
+        };
+        Self { name, heading, read }
+    }
+}
+
+/// The kinds of documents, in their order on a page.
+const KINDS: &[Kind] = &[
+    Kind { name: "study", heading: "Convergence studies", read: study::read },
+    Kind::of::<mms_documents::judge::Judge>("judge", "Judged results"),
+    Kind::of::<mms_documents::diagnose::Diagnose>("diagnose", "Diagnoses"),
+    Kind::of::<mms_documents::campaign::Campaign>("campaign", "Campaigns"),
+    Kind::of::<mms_documents::verify::Verify>("verify", "Verification matrix"),
+    Kind::of::<mms_documents::tradeoff::Tradeoff>("tradeoff", "Error against cost"),
+    Kind::of::<mms_documents::extremes::Extremes>("extremes", "At the limits"),
+    Kind::of::<mms_documents::verify::VerifyDefects>("defects", "Deliberate mistakes"),
+    Kind::of::<mms_documents::accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
+    Kind::of::<mms_documents::run::Run>("run", "Single runs"),
+];
+
+/// A result with what is known of it.
+struct Entry {
+    /// The name of its place on the page.
+    id: String,
+    /// The heading above all results of its kind.
+    heading: &'static str,
+    /// Its file, below the folder.
+    file: String,
+    /// Where it is from, if that is written down.
+    provenance: Option<Provenance>,
+    section: Box<dyn Section>,
+}
+
+/// A page.
+pub struct Page {
+    title: String,
+    /// In the order of [`KINDS`], then of their files.
+    entries: Vec<Entry>,
+    /// The fields of the entries.
+    fields: Vec<Shown>,
+    /// Files that are not shown, and why.
+    set_aside: Vec<String>,
+    /// The files of the folder that it is made of.
+    read: Vec<PathBuf>,
+}
+
+impl Page {
+    fn new(title: &str, mut entries: Vec<Entry>, set_aside: Vec<String>) -> Self {
+        let place = |entry: &Entry| KINDS.iter().position(|kind| kind.heading == entry.heading);
+        entries.sort_by_key(|entry| place(entry).unwrap_or(KINDS.len()));
+        for (number, entry) in entries.iter_mut().enumerate() {
+            entry.id = format!("result-{}", number + 1);
+        }
+        let fields = field::fields(entries.iter().filter_map(|entry| entry.provenance.as_ref()));
+        Self { title: title.to_owned(), entries, fields, set_aside, read: Vec::new() }
+    }
+
+    /// The files that are not shown, each with the reason.
+    pub fn set_aside(&self) -> &[String] {
+        &self.set_aside
+    }
+
+    /// The files that it is made of: results, and the fields that they are of.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.read.iter().chain(self.fields.iter().flat_map(Shown::files))
+    }
+
+    /// The verdicts on all results together.
+    pub fn verdicts(&self) -> Verdicts {
+        let each = || self.entries.iter().map(|entry| entry.section.verdicts());
+        let expected = each().map(|verdicts| verdicts.expected).sum();
+        let all = each().map(|verdicts| verdicts.all).sum();
+        let word = match all {
+            0 => "nothing here has a verdict".into(),
+            _ => tally(all - expected, all, "as expected"),
+        };
+        Verdicts { expected, all, word }
+    }
+
+    /// The page.
+    pub fn html(&self) -> String {
+        frame::page(self)
+    }
+}
+
+/// The result of a document.
+fn entry(file: &str, document: &Value) -> Result<Entry, String> {
+    let provenance = document.get("provenance").ok_or("it does not say what made it")?;
+    let provenance = Provenance::deserialize(provenance)
+        .map_err(|error| format!("where it is from cannot be read: {error}"))?;
+    let known = KINDS.iter().find(|kind| kind.name == provenance.kind);
+    let kind = known.ok_or_else(|| format!("nothing is known of a `{}`", provenance.kind))?;
+    let section = match method::lack(document) {
+        Some(lack) => Err(lack),
+        None => (kind.read)(document).map_err(|error| error.to_string()),
+    }
+    .map_err(|error| format!("not what `mms {}` writes: {error}", kind.name))?;
+    let [id, file] = [String::new(), file.to_owned()];
+    Ok(Entry { id, heading: kind.heading, file, provenance: Some(provenance), section })
+}
+
+/// Where a result is from.
+fn origin(entry: &Entry) -> Markup {
+    let Some(Provenance { version, command, input, machine, .. }) = &entry.provenance else {
+        return html! { dl.origin { dt { "file" } dd { code { (entry.file) } } } };
+    };
+    html! {
+        dl.origin {
+            dt { "command" } dd { code { (command) } }
+            dt { "file" } dd { code { (entry.file) } }
+            dt { "version" } dd { "mms " (version) ", input " code { (input.hash) } }
+            @if let Some(machine) = machine {
+                dt { "machine" } dd { (machine.processor) ", " (machine.cores) " cores" }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_nothing_was_judged_nothing_is_as_expected() {
+        let none = Verdicts::several(0, 0, "pass");
+        assert_eq!((none.are_expected(), none.word.as_str()), (false, "nothing was judged"));
+        assert!(Verdicts::several(2, 2, "pass").are_expected());
+        assert!(!Verdicts::several(1, 2, "pass").are_expected());
+    }
+}

@@ -1,0 +1,386 @@
+//! Error against cost, as a table, a sentence, a JSON document and a picture.
+
+pub mod page;
+mod picture;
+
+use std::path::Path;
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use mms_documents::provenance::Provenance;
+use mms_documents::tradeoff as documents;
+use mms_files::words::{bytes, duration};
+use mms_files::write::{pretty, write_files};
+use mms_lab::tradeoff::search::{Cost, Found, Goal, Plan, Prediction, Trial, cost};
+use mms_lab::tradeoff::setting::{Axis, Setting};
+use mms_spec::foreign::Foreign;
+
+use super::front::front;
+
+/// The result of a search for a field.
+pub struct Report<'a> {
+    /// The field's name.
+    pub field: Foreign,
+    /// The field's title.
+    pub title: Foreign,
+    /// The plan of the search.
+    pub plan: Plan,
+    /// The runs and predictions of the search.
+    pub found: Found,
+    /// The command that runs a setting on a grid.
+    pub command: &'a dyn Fn(&Setting, usize) -> String,
+    /// Where it is from.
+    pub provenance: Provenance,
+}
+
+/// Errors within this factor of the choice's say what more accuracy costs there.
+const NEAR: f64 = 10.0;
+
+/// A factor for a person.
+fn factor(value: f64) -> String {
+    if value < 10.0 { format!("{value:.1}") } else { format!("{value:.0}") }
+}
+
+impl Report<'_> {
+    fn trials(&self) -> &[Trial] {
+        &self.found.trials
+    }
+
+    /// The cost of a run.
+    pub fn cost(&self, trial: &Trial, measure: Cost) -> f64 {
+        cost(self.trials(), trial, measure)
+    }
+
+    /// Cost and error of a run that has both.
+    fn point(&self, trial: &Trial) -> Option<(f64, f64)> {
+        let error = trial.error.clone().ok()?;
+        let cost = self.cost(trial, self.plan.cost);
+        (cost > 0.0).then_some((cost, error))
+    }
+
+    /// The runs that no other one beats in both, from cheap to accurate.
+    pub fn front(&self) -> Vec<&Trial> {
+        let all = self.trials().iter().filter_map(|trial| Some((trial, self.point(trial)?)));
+        let (trials, points): (Vec<_>, Vec<_>) = all.unzip();
+        front(&points).into_iter().map(|at| trials[at]).collect()
+    }
+
+    /// The run to choose.
+    pub fn choice(&self) -> Option<&Trial> {
+        self.found.choice.map(|at| &self.trials()[at])
+    }
+
+    /// Whether the choice makes no error at all.
+    fn is_exact(&self) -> bool {
+        self.choice().is_some_and(|trial| trial.error == Ok(0.0))
+    }
+
+    /// s of cost = C error^-s, of the runs on the front around the choice.
+    pub fn exponent(&self) -> Option<f64> {
+        let (_, error) = self.point(self.choice()?)?;
+        let points = self.front().into_iter().filter_map(|trial| self.point(trial));
+        let near = points.filter(|point| point.1 < NEAR * error && error < NEAR * point.1);
+        let logarithms: Vec<_> = near.map(|(cost, error)| (error.ln(), cost.ln())).collect();
+        slope(&logarithms).map(|slope| -slope)
+    }
+
+    /// What was tried, and in no run was worth its cost; with the reason, where it never came to an end. Nothing is
+    /// said of it where there is no error to be had for more cost.
+    pub fn dominated(&self) -> Vec<String> {
+        if self.is_exact() {
+            return Vec::new();
+        }
+        let front = self.front();
+        let mut dominated = Vec::new();
+        for axis in Axis::ALL {
+            let mut seen: Vec<String> = Vec::new();
+            for trial in self.trials() {
+                let word = trial.setting.word(axis);
+                let same = |other: &Trial| other.setting.word(axis) == word;
+                if seen.contains(&word) {
+                    continue;
+                }
+                seen.push(word.clone());
+                if front.iter().any(|other| same(other)) {
+                    continue;
+                }
+                let ended = self.trials().iter().any(|other| same(other) && other.error.is_ok());
+                dominated.push(if ended { word } else { format!("{word} (stops)") });
+            }
+        }
+        dominated
+    }
+
+    /// The cost of the default method over that of the choice, by their power laws.
+    pub fn gain(&self) -> Option<f64> {
+        let (default, choice) = (self.found.default?, self.choice()?);
+        match self.plan.goal {
+            Goal::Error(_) => Some(default.cost / self.cost(choice, self.plan.cost)),
+            Goal::Cost(_) => Some(default.error / choice.error.clone().ok()?),
+        }
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> documents::Tradeoff {
+        let front = self.front();
+        let runs = self.trials().iter().map(|trial| {
+            let on_front = front.iter().any(|other| std::ptr::eq(*other, trial));
+            self.run(trial, on_front)
+        });
+        let (target, budget) = match self.plan.goal {
+            Goal::Error(target) => (Some(target), None),
+            Goal::Cost(budget) => (None, Some(budget)),
+        };
+        let cost = self.plan.cost;
+        let prediction = |setting: &Setting, it: &Prediction| documents::Prediction {
+            setting: setting.to_string(),
+            cells: it.cells,
+            linf: it.error,
+            seconds: (cost == Cost::Seconds).then_some(it.cost),
+            memory: (cost == Cost::Memory).then_some(it.cost),
+            particle_steps: it.work,
+        };
+        documents::Tradeoff {
+            field: self.field.raw().to_owned(),
+            cost: match cost {
+                Cost::Seconds => documents::Cost::Seconds,
+                Cost::ParticleSteps => documents::Cost::ParticleSteps,
+                Cost::Memory => documents::Cost::Memory,
+            },
+            target_linf: target,
+            budget_seconds: budget,
+            runs: runs.collect(),
+            choice: self.choice().map(|trial| self.run(trial, true)),
+            predicted: self.found.predicted.as_ref().map(|(setting, it)| prediction(setting, it)),
+            default: self.found.default.as_ref().map(|it| prediction(&Setting::default(), it)),
+            gain: self.gain(),
+            exponent: self.exponent(),
+            dominated: self.dominated(),
+            provenance: self.provenance.clone(),
+        }
+    }
+
+    fn run(&self, trial: &Trial, front: bool) -> documents::Trial {
+        let Setting { formulation, shape, integrator, transfer, .. } = trial.setting;
+        let started = trial.steps > 0;
+        documents::Trial {
+            command: (self.command)(&trial.setting, trial.cells),
+            formulation: formulation.name().to_owned(),
+            shape: shape.name().to_owned(),
+            integrator: integrator.name().to_owned(),
+            transfer: transfer.to_string(),
+            particles_per_cell: trial.setting.particles,
+            courant: trial.setting.courant,
+            precision: trial.setting.arithmetic.precision.name().to_owned(),
+            form: trial.setting.arithmetic.form.name().to_owned(),
+            cells: trial.cells,
+            particles: started.then_some(trial.particles),
+            steps: started.then_some(trial.steps),
+            linf: trial.error.as_ref().ok().copied(),
+            particle_steps: started.then(|| trial.particle_steps()),
+            seconds: trial.error.is_ok().then(|| self.cost(trial, Cost::Seconds)),
+            memory: started.then_some(trial.memory),
+            front,
+            failure: trial.error.as_ref().err().cloned(),
+        }
+    }
+
+    /// The text for a terminal: all runs, or those on the front, those of the default and those that stopped.
+    pub fn text(&self, all: bool) -> String {
+        format!(
+            "{}: {}\n\n{}\n\n{}",
+            self.field.shown(),
+            self.title.shown(),
+            self.table(all),
+            self.advice()
+        )
+    }
+
+    /// The runs from cheap to dear, and those that stopped.
+    fn table(&self, all: bool) -> Table {
+        let mut table = Table::new();
+        table.load_style(NOTHING).set_header([
+            "",
+            "cells",
+            "linf",
+            "particle-steps",
+            "time",
+            "memory",
+            "setting",
+        ]);
+        let front = self.front();
+        let mut ended: Vec<_> =
+            self.trials().iter().filter_map(|trial| Some((self.point(trial)?, trial))).collect();
+        ended.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
+        for ((_, error), trial) in ended {
+            let is = |other: &Trial| std::ptr::eq(other, trial);
+            let is_best = front.iter().any(|other| is(other));
+            if !all && !is_best && trial.setting != Setting::default() {
+                continue;
+            }
+            table.add_row([
+                match () {
+                    () if self.choice().is_some_and(is) => "=>",
+                    () if is_best => "*",
+                    () => "",
+                }
+                .to_owned(),
+                trial.cells.to_string(),
+                format!("{error:.2e}"),
+                format!("{:.2e}", trial.particle_steps()),
+                duration(self.cost(trial, Cost::Seconds)),
+                bytes(trial.memory),
+                trial.setting.to_string(),
+            ]);
+        }
+        for trial in self.trials() {
+            let Err(reason) = &trial.error else { continue };
+            let what = format!("{}: {}", trial.setting, cause(reason));
+            let [cells, none] = [trial.cells.to_string(), "-".to_owned()];
+            let stopped = "stopped".to_owned();
+            table.add_row([String::new(), cells, stopped, none.clone(), none.clone(), none, what]);
+        }
+        for column in 1..6 {
+            if let Some(column) = table.column_mut(column) {
+                column.set_cell_alignment(CellAlignment::Right);
+            }
+        }
+        table
+    }
+
+    /// The recommendation in sentences.
+    pub fn advice(&self) -> String {
+        let measure = self.plan.cost;
+        let mut sentences = Vec::new();
+        match (self.choice(), self.plan.goal) {
+            _ if self.trials().is_empty() => sentences.push(format!(
+                "No run was made: each is predicted to take more than {:.1e} particle-steps; raise `--most-work`.",
+                self.plan.most_work
+            )),
+            (Some(trial), goal) => {
+                let error = trial.error.as_ref().map_or(f64::INFINITY, |error| *error);
+                let asked = match goal {
+                    Goal::Error(target) => format!("For a largest error of {target:e}"),
+                    Goal::Cost(budget) => format!("Within {}", measure.show(budget)),
+                };
+                let took = measure.show(self.cost(trial, measure));
+                sentences.push(format!(
+                    "{asked} choose {}, on {} cells: {error:.2e} in {took}.\n  {}",
+                    trial.setting,
+                    trial.cells,
+                    (self.command)(&trial.setting, trial.cells)
+                ));
+            }
+            (None, Goal::Error(target)) => sentences.push(self.unreached(target)),
+            (None, Goal::Cost(budget)) => sentences.push(format!(
+                "No run that was made costs as little as {}: give more.",
+                measure.show(budget)
+            )),
+        }
+        if self.is_exact() {
+            sentences.push(self.exact());
+        }
+        if self.choice().is_some() {
+            sentences.push(self.compared());
+        }
+        if let Some(exponent) = self.exponent() {
+            sentences.push(format!(
+                "Half the error costs {} {} there: along the front the cost grows as 1/error^{exponent:.2}.",
+                factor(2f64.powf(exponent)),
+                measure.verb()
+            ));
+        }
+        let dominated = self.dominated();
+        if !dominated.is_empty() {
+            sentences.push(format!(
+                "Dominated in every run, whatever else was chosen: {}.",
+                dominated.join(", ")
+            ));
+        }
+        sentences.join("\n")
+    }
+
+    /// How many runs are as exact as the choice.
+    fn exact(&self) -> String {
+        let errors: Vec<_> = self.trials().iter().filter_map(|it| it.error.clone().ok()).collect();
+        let exact = errors.iter().filter(|error| **error == 0.0).count();
+        format!(
+            "{exact} of the {} runs that came to their end make no error: nothing but their cost tells these apart.",
+            errors.len()
+        )
+    }
+
+    /// The default beside the choice.
+    fn compared(&self) -> String {
+        let setting = Setting::default();
+        if self.choice().is_some_and(|trial| trial.setting == setting) {
+            return "That is the default method.".into();
+        }
+        let (gain, default) = match (self.gain(), self.found.default) {
+            (Some(gain), Some(default)) => (gain, default),
+            _ => return format!("The default, {setting}, does not get there: {}.", self.why_not()),
+        };
+        match self.plan.goal {
+            Goal::Error(_) => format!(
+                "The default, {setting}, takes {} {} for that, on about {:.0} cells.",
+                factor(gain),
+                self.plan.cost.verb(),
+                default.cells
+            ),
+            Goal::Cost(_) => {
+                format!(
+                    "The default, {setting}, leaves {} times that error, {:.2e}.",
+                    factor(gain),
+                    default.error
+                )
+            }
+        }
+    }
+
+    /// Why the default meets no goal.
+    pub fn why_not(&self) -> String {
+        let own = self.trials().iter().filter(|trial| trial.setting == Setting::default());
+        let reason = own.filter_map(|trial| trial.error.as_ref().err()).next();
+        reason.cloned().unwrap_or_else(|| "its error does not shrink with the cells".into())
+    }
+
+    /// Why no run meets a target.
+    pub fn unreached(&self, target: f64) -> String {
+        let least = self.front().last().and_then(|trial| Some((trial.error.clone().ok()?, *trial)));
+        let least = least.map_or("no run came to its end".into(), |(error, trial)| {
+            format!("the least is {error:.2e}, of {} on {} cells", trial.setting, trial.cells)
+        });
+        let more = match &self.found.predicted {
+            Some((setting, it)) => format!(
+                "{setting} is predicted to get there on {:.0} cells in {:.1e} particle-steps, where runs of more \
+                 than {:.1e} are left out: raise `--most-work`",
+                it.cells, it.work, self.plan.most_work
+            ),
+            None => "no setting is predicted to get there: errors no longer shrink with the cells, or runs stop".into(),
+        };
+        format!("An error of {target:e} is not reached: {least}; {more}.")
+    }
+
+    /// Writes tradeoff.json and tradeoff.svg, and says where.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        let files = [("json", pretty(&self.document())?), ("svg", picture::draw(self)?)];
+        write_files(folder, "tradeoff", files)
+    }
+}
+
+/// The reason why a run stopped, without its place and advice.
+fn cause(reason: &str) -> &str {
+    let from = reason.find(": ").map_or(0, |at| at + 2);
+    let rest = &reason[from..];
+    rest.split([',', ';']).next().unwrap_or(rest)
+}
+
+/// The slope of the line that is nearest to some points, by least squares.
+fn slope(points: &[(f64, f64)]) -> Option<f64> {
+    let count = points.len() as f64;
+    let (x, y) = points.iter().fold((0.0, 0.0), |sum, point| (sum.0 + point.0, sum.1 + point.1));
+    let (x, y) = (x / count, y / count);
+    let along: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
+    let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
+    (square > 1e-6).then(|| along / square)
+}

@@ -1,0 +1,221 @@
+//! The matrix as a table, as a JSON document, and as a page.
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use mms_documents::provenance::Provenance;
+use mms_documents::study::{Level, LevelErrors};
+use mms_documents::verify::{VerifiedRow, Verify};
+use mms_files::words::duration;
+use mms_lab::outcome::Outcome;
+use mms_lab::rows::Named as _;
+use mms_options::Study;
+use mms_verify::matrix::Row;
+use mms_verify::verdict::Judgement;
+
+use crate::method::division;
+use crate::tally;
+
+/// Rows, with what came of them.
+pub struct Report<'a> {
+    /// Whether `--quick` was asked for.
+    pub quick: bool,
+    /// The rows that were run.
+    pub rows: Vec<Judged<'a>>,
+    /// Where it is from.
+    pub provenance: Provenance,
+}
+
+/// A row, with what came of it.
+pub struct Judged<'a> {
+    /// The row.
+    pub row: &'a Row,
+    /// Its study.
+    pub study: Study,
+    /// Its levels, coarse to fine.
+    pub levels: Vec<Outcome>,
+    /// The judgement of the levels.
+    pub judgement: Judgement,
+}
+
+impl Judged<'_> {
+    fn seconds(&self) -> f64 {
+        self.levels.iter().filter_map(Outcome::run).map(|run| run.seconds).sum()
+    }
+
+    fn document(&self) -> VerifiedRow {
+        let Judgement { constant, verdict, expected, reason, .. } = &self.judgement;
+        VerifiedRow {
+            name: self.row.name.clone(),
+            study: self.row.study.clone(),
+            refined: if self.row.halvings > 0 { "time" } else { "space and time" }.to_owned(),
+            quantity: self.row.quantity.name().to_owned(),
+            formal_order: self.row.order.to_string(),
+            tolerance: self.row.tolerance,
+            theory: self.row.theory.clone(),
+            levels: (0..self.levels.len()).map(|at| self.level(at)).collect(),
+            observed_order: self.judgement.observed_order(),
+            error_constant: *constant,
+            expected_error_constant: self.row.constant,
+            verdict: verdict.to_string(),
+            expected_verdict: expected.to_string(),
+            reason: reason.clone(),
+            seconds: self.seconds(),
+        }
+    }
+
+    fn level(&self, at: usize) -> Level {
+        let (level, [order_l1, order_l2, order_linf]) =
+            (&self.levels[at], self.judgement.orders[at]);
+        let (run, errors) = (level.run(), self.row.errors(level));
+        let norm = |norm: usize| errors.map(|errors| errors[norm]);
+        let [l1, l2, linf] = [0, 1, 2].map(norm);
+        Level {
+            cells: division(&self.study.cells[if self.row.halvings > 0 { 0 } else { at }]),
+            cell_size: run.map(|run| run.cell_size),
+            time_step: run.map(|run| run.time_step),
+            steps: run.map(|run| run.steps),
+            particles: run.map(|run| run.particles),
+            errors: LevelErrors { l1, l2, linf, order_l1, order_l2, order_linf },
+            seconds: run.map(|run| run.seconds),
+            failure: level.failure().map(|it| it.to_string()),
+            round_off: None,
+            residual_ratio: None,
+        }
+    }
+}
+
+impl Report<'_> {
+    /// The rows whose verdict is not the expected one.
+    pub fn unexpected(&self) -> impl Iterator<Item = &Judged<'_>> {
+        self.rows.iter().filter(|row| !row.judgement.as_expected())
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> Verify {
+        Verify {
+            matrix: if self.quick { "quick" } else { "full" }.to_owned(),
+            rows: self.rows.iter().map(Judged::document).collect(),
+            unexpected: self.unexpected().map(|judged| judged.row.name.clone()).collect(),
+            provenance: self.provenance.clone(),
+        }
+    }
+
+    /// The table for a terminal.
+    pub fn table(&self) -> String {
+        let mut table = Table::new();
+        table
+            .load_style(NOTHING)
+            .set_header(["mode", "field", "formal", "observed", "constant", "verdict", "", "time"]);
+        for judged in &self.rows {
+            let Judgement { constant, verdict, .. } = &judged.judgement;
+            table.add_row([
+                judged.row.name.clone(),
+                judged.study.field.clone(),
+                judged.row.order.to_string(),
+                decimals(judged.judgement.observed_order()),
+                constant.map_or("-".into(), |constant| format!("{constant:.2e}")),
+                verdict.to_string(),
+                if judged.judgement.as_expected() { "" } else { "UNEXPECTED" }.to_owned(),
+                duration(judged.seconds()),
+            ]);
+        }
+        for column in [2, 3, 4, 7] {
+            if let Some(column) = table.column_mut(column) {
+                column.set_cell_alignment(CellAlignment::Right);
+            }
+        }
+        let mut text = format!("{table}\n");
+        for judged in self.unexpected() {
+            let Row { name, study, theory, .. } = judged.row;
+            let Judgement { verdict, expected, reason, .. } = &judged.judgement;
+            let reason = reason.as_deref().unwrap_or_default();
+            text += &format!(
+                "\n{name}: {verdict}, expected {expected}: {reason}\n  theory: {theory}\n  mms study {study}\n"
+            );
+        }
+        text + "\n" + &tally(self.unexpected().count(), self.rows.len(), "as theory expects")
+    }
+
+    /// The page: what does not depend on a machine.
+    pub fn page(&self) -> String {
+        let mut page = String::from(INTRODUCTION);
+        let mut group = "";
+        for judged in &self.rows {
+            let Judged { row, judgement, .. } = judged;
+            if row.group() != group {
+                group = row.group();
+                page += &format!(
+                    "\n## {group}\n\n| mode | study | refined | formal order | observed | constant | verdict | theory |\n|---|---|---|---|---|---|---|---|\n"
+                );
+            }
+            let observed: Vec<_> =
+                judgement.orders.iter().skip(1).map(|orders| decimals(orders[1])).collect();
+            page += &format!(
+                "{}{} | {} | {} |\n",
+                fixed(row),
+                observed.join(", "),
+                judgement.constant.map_or("-".into(), |constant| format!("{constant:.3e}")),
+                format_args!("{} | {}", judgement.verdict, row.theory)
+            );
+        }
+        page
+    }
+}
+
+/// The text before the tables of the page.
+const INTRODUCTION: &str = "\
+# Verification matrix
+
+One mode at a time, each by the field that isolates it. Rows are data, in `mms-verify/src/matrix.toml`, with what
+theory expects beside it; here is what is observed. Made by `cargo run --release -- verify --page >
+docs/verification.md`.
+
+Where the time step alone is refined, the order is that in time. Orders are those of l2 between neighbouring
+levels, coarse to fine; the constant is l2 over h^order or dt^order, in the units of the field, and held to one
+percent. `none` as a formal order means that the error must not shrink, or the run stop, and `exact` that
+there must be no error but rounding.
+";
+
+/// The cells of a line of the page that follow from the row alone.
+fn fixed(row: &Row) -> String {
+    let mode = row.name.split('/').nth(1).unwrap_or_default();
+    let refined = match row.halvings {
+        0 => String::from("h and dt"),
+        halvings => format!("dt, halved {halvings} times"),
+    };
+    let quantity = match row.quantity.name() {
+        "displacement" => String::new(),
+        name => format!(", error of {}", name.replace('_', " ")),
+    };
+    format!("| {mode} | `{}`{quantity} | {refined} | {} | ", row.study, row.order)
+}
+
+fn decimals(number: Option<f64>) -> String {
+    number.map_or("-".into(), |number| format!("{number:.2}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use mms_verify::matrix::{Expected, Word, rows};
+
+    use super::fixed;
+
+    /// What is observed is written by the command; what is in the rows is held here.
+    #[test]
+    fn the_page_has_these_rows() {
+        let page = include_str!("../../docs/verification.md");
+        let lines: Vec<_> = page.lines().filter(|line| line.contains("| `")).collect();
+        let rows = rows().unwrap();
+        let write = "write it anew: cargo run --release -- verify --page > docs/verification.md";
+        assert_eq!(lines.len(), rows.len(), "{write}");
+        for (line, row) in lines.into_iter().zip(&rows) {
+            assert!(line.starts_with(&fixed(row)), "{}: {write}", row.name);
+            assert!(line.ends_with(&format!("| {} |", row.theory)), "{}: {write}", row.name);
+            let verdict = match row.order {
+                Expected::Word(Word::None) => "| does not converge |",
+                _ => "| pass |",
+            };
+            assert!(line.contains(verdict), "{}: {line}", row.name);
+        }
+    }
+}

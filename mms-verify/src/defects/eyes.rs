@@ -1,0 +1,90 @@
+//! Runs a row once more and looks at the result as people do: the observers of pseudo verification.
+
+use mms_lab::outcome::{Outcome, outcome};
+use mms_lab::pictures::Seen;
+use mms_runtime::scene::{Scene, Solvable};
+use mms_runtime::study::{Frame, Observer, Watch};
+use serde::{Deserialize, Serialize};
+
+use crate::plan::Job;
+use crate::work::{Bench, Fields, Step, watch_of};
+
+/// What the key of a run ends with whose energy is measured. Where fields are interpreted it takes as long as all the
+/// rest; so it is the coarsest run of each row.
+pub const WEIGHED: &str = ", with its energy";
+
+/// How often a run is looked at, the end included.
+const LOOKS: usize = 4;
+
+/// A run, and what is to be seen of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Watched {
+    /// What the row judges.
+    pub outcome: Outcome,
+    /// What people look at; of a run that did not end, nothing.
+    pub seen: Option<Seen>,
+}
+
+impl AsRef<Outcome> for Watched {
+    fn as_ref(&self) -> &Outcome {
+        &self.outcome
+    }
+}
+
+/// Makes runs and looks at them.
+pub struct Eyes {
+    /// Where fields are.
+    pub fields: Fields,
+}
+
+impl Bench for Eyes {
+    type Result = Watched;
+
+    fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Watched> {
+        self.fields.with_scene(job, step, look::<f32>, look::<f64>)
+    }
+}
+
+fn look<T: Solvable>(job: &Job, scene: &Scene<T>, step: &mut Step<'_>) -> Watched {
+    let mut album = Album { step, frames: Vec::new() };
+    let weighed = job.key.run.ends_with(WEIGHED);
+    let watch = if weighed { Watch::Everything } else { watch_of(&job.quantity) };
+    let run = match scene.run(&job.method, &job.study.cells[0], watch, &mut album) {
+        Ok(run) => run,
+        Err(refusal) => {
+            let outcome = Outcome::Refused { reason: refusal.to_string() };
+            return Watched { outcome, seen: None };
+        }
+    };
+    let outcome = outcome(&run.level, run.details.as_ref(), &job.quantity);
+    let balance = run.details.and_then(|details| details.diagnostics.balance);
+    let energy = balance.and_then(|balance| {
+        let energy = balance.kinetic_energy + balance.strain_energy?;
+        let put_in = balance.body_work.abs().max(energy);
+        Some(balance.energy_residual?.abs() / put_in)
+    });
+    let seen = outcome.norms().map(|_| Seen::of(&album.frames, energy));
+    Watched { outcome, seen }
+}
+
+/// Some states of a run.
+struct Album<'a> {
+    step: &'a mut (dyn FnMut(usize, usize) + Send),
+    frames: Vec<Frame>,
+}
+
+impl Observer for Album<'_> {
+    fn step(&mut self, step: usize, steps: usize) {
+        (self.step)(step, steps);
+    }
+
+    fn wants(&self, step: usize, steps: usize) -> bool {
+        step == steps || step > 0 && step.is_multiple_of(steps.div_ceil(LOOKS))
+    }
+
+    fn see(&mut self, frame: &Frame) -> Result<(), String> {
+        self.frames.push(frame.clone());
+        Ok(())
+    }
+}

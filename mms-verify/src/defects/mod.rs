@@ -1,0 +1,177 @@
+//! Deliberate mistakes (fault injection), and the rows that must catch them.
+//!
+//! A suite that does not fail for a seeded defect is no verification suite. Each defect is switched on for the
+//! whole process and shown to the quick levels of the rows that list it under `catches`; to all rows, if none
+//! does, or with `--all-rows`. First the rows are run without any, in the same way: a verdict that is not the
+//! expected one ends the command. It expects that every defect is caught, by each row that says so, and, if all
+//! rows were shown all defects, that each row catches one of those that at most six rows catch, or has a
+//! `witness`: what no other row looks at. Results are kept in a folder of their own in the store. Beside the
+//! verdicts, each run is looked at as people look at runs ([`pictures`](mms_lab::pictures)).
+
+mod eyes;
+
+use std::num::NonZero;
+
+use anyhow::ensure;
+use eyes::{Eyes, Watched};
+use mms_files::store::Store;
+use mms_lab::outcome::Outcome;
+use mms_lab::pictures::Looks;
+use mms_mechanics::defect as compiler;
+use mms_options::field::{find, interpreted};
+use mms_runtime::defect as solver;
+use mms_spec::suggest::did_you_mean;
+
+use super::matrix::Row;
+use super::plan::Plan;
+use super::verdict::{Judgement, judge};
+use super::work::{Fields, Watcher, outcomes};
+
+/// A deliberate mistake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Defect {
+    /// Of `mms-runtime`.
+    Solver(solver::Defect),
+    /// Of `mms-codegen`: fields are compiled anew, and interpreted.
+    Compiler(compiler::Defect),
+}
+
+impl Defect {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let of_compiler = compiler::Defect::ALL.iter().map(|&defect| Defect::Compiler(defect));
+        of_compiler.chain(solver::Defect::ALL.iter().map(|&defect| Defect::Solver(defect)))
+    }
+
+    /// The name that users write.
+    pub fn name(self) -> &'static str {
+        match self {
+            Defect::Solver(defect) => defect.name(),
+            Defect::Compiler(defect) => defect.name(),
+        }
+    }
+
+    /// What is wrong.
+    pub fn what(self) -> &'static str {
+        match self {
+            Defect::Solver(defect) => defect.what(),
+            Defect::Compiler(defect) => defect.what(),
+        }
+    }
+
+    /// Where it is.
+    pub fn place(self) -> &'static str {
+        match self {
+            Defect::Solver(_) => "solver",
+            Defect::Compiler(_) => "compiler",
+        }
+    }
+
+    /// Those of some names; all, if there are none.
+    ///
+    /// # Errors
+    /// A name that no defect has.
+    pub fn named(names: &[String]) -> anyhow::Result<Vec<Self>> {
+        for name in names {
+            let known = Self::all().map(Self::name);
+            let near = did_you_mean(name, known).map(|near| format!("; did you mean `{near}`?"));
+            let is_known = Self::all().any(|defect| defect.name() == name);
+            ensure!(is_known, "`--defects={name}`: no such defect{}", near.unwrap_or_default());
+        }
+        let asked = |defect: &Self| names.is_empty() || names.iter().any(|it| it == defect.name());
+        Ok(Self::all().filter(asked).collect())
+    }
+}
+
+/// Refuses rows that catch what there is not.
+///
+/// # Errors
+/// The row, and the name.
+pub fn validate(rows: &[Row]) -> anyhow::Result<()> {
+    for row in rows {
+        for name in &row.catches {
+            let is_known = Defect::all().any(|defect| defect.name() == name);
+            ensure!(is_known, "row `{}` catches `{name}`: no such defect", row.name);
+        }
+    }
+    Ok(())
+}
+
+/// The process makes a mistake until this is dropped.
+struct Made;
+
+impl Made {
+    fn new(defect: Option<Defect>) -> Self {
+        match defect {
+            Some(Defect::Solver(defect)) => solver::select(Some(defect)),
+            Some(Defect::Compiler(defect)) => compiler::select(Some(defect)),
+            None => {}
+        }
+        Made
+    }
+}
+
+impl Drop for Made {
+    fn drop(&mut self) {
+        solver::select(None);
+        compiler::select(None);
+    }
+}
+
+/// A row under a defect, or without one.
+pub struct Shown<'a> {
+    /// The row.
+    pub row: &'a Row,
+    /// Its verdict.
+    pub judgement: Judgement,
+    /// What people would say of its runs.
+    pub looks: Looks,
+}
+
+/// Where rows are shown defects.
+pub struct Stage<'a> {
+    /// What tells this program from any other.
+    pub program: String,
+    /// Results with defects, and none that is trusted without.
+    pub store: Store,
+    /// How many runs go side by side.
+    pub threads: NonZero<usize>,
+    /// Who is told.
+    pub watcher: &'a dyn Watcher,
+}
+
+impl Stage<'_> {
+    /// The verdicts of the quick levels of some rows, while the program makes a mistake or makes none.
+    ///
+    /// # Errors
+    /// The store cannot be read or written.
+    pub fn show<'a>(
+        &self,
+        defect: Option<Defect>,
+        rows: &[&'a Row],
+    ) -> anyhow::Result<Vec<Shown<'a>>> {
+        let mut plan = Plan::new(rows, true, &self.program)?;
+        let coarsest: Vec<usize> =
+            plan.levels.iter().filter_map(|levels| levels.first().copied()).collect();
+        for (at, job) in plan.jobs.iter_mut().enumerate() {
+            job.key.defect = Some(defect.map_or("none", Defect::name));
+            if coarsest.contains(&at) {
+                job.key.run += eyes::WEIGHED;
+            }
+        }
+        let fields = Fields::new(match defect {
+            Some(Defect::Compiler(_)) => interpreted,
+            _ => find,
+        });
+        let bench = Eyes { fields };
+        let _made = Made::new(defect);
+        let all = outcomes(&plan.jobs, &self.store, self.threads, &bench, self.watcher)?;
+        let shown = rows.iter().zip(&plan.levels).map(|(row, levels)| {
+            let levels: Vec<&Watched> = levels.iter().map(|&at| &all[at]).collect();
+            let outcomes: Vec<Outcome> = levels.iter().map(|level| level.outcome.clone()).collect();
+            let seen: Vec<_> = levels.iter().map(|level| level.seen.as_ref()).collect();
+            Shown { row, judgement: judge(row, &outcomes), looks: Looks::of(&seen) }
+        });
+        Ok(shown.collect())
+    }
+}

@@ -1,0 +1,27 @@
+//! The verification matrix: every mode of the solver, one at a time, by the field that isolates it.
+//!
+//! `matrix.toml` is the list of rows, and is embedded. A row is a study, in the words of `mms study`, with what
+//! theory expects of it and why; `mms verify` holds it to that.
+//!
+//! | step | from -> to | where |
+//! |---|---|---|
+//! | read | `matrix.toml` -> rows, refused where they mean nothing | [`matrix`] |
+//! | plan | rows -> runs, each once; the longest comes first, so that no thread is left with it | [`plan`] |
+//! | run | runs -> outcomes, one thread each, from the store where it has them | [`work`] |
+//! | judge | outcomes of a row -> its verdict | [`verdict`] |
+//!
+//! With the feature `defects`, `defects` shows rows deliberate mistakes of solver and compiler, which they have to
+//! catch.
+//!
+//! "Sufficient, not just necessary, if we test all modes [...] but not all in the same test": Wallstedt, Guilkey,
+//! "Manufactured Solutions Suitable for Verification of MPM and GIMP Codes".
+
+#[cfg(feature = "defects")]
+pub mod defects;
+pub mod matrix;
+pub mod plan;
+pub mod verdict;
+pub mod work;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,187 @@
+//! The verdict of a row of the matrix, from its levels.
+//!
+//! Where time alone is refined (`halvings`), the field must leave no error in space, or the order would be that of
+//! the rest: a body without strain that b(t) carries along is such a field. The verdict is the first that holds:
+//!
+//! 1. `fail`: a level was not started; or the row expects an exact solution, and an error exceeds 5e-12.
+//! 2. `does not converge`: a level stopped, or the order of `l2` on the finest pair is below 1/2. Some rows expect
+//!    this.
+//! 3. `fail`: `l2` or `linf` is below the order expected of it by more than the tolerance, or the error constant
+//!    is not within one percent of the one in the row.
+//! 4. `not asymptotic`: as in a study.
+//! 5. `pass`.
+//!
+//! The constant is l2 over h^order, at the finest level of `--quick`, so that both matrices hold it to the same
+//! number. Runs differ by rounding alone from machine to machine, and one percent is far more.
+
+use std::fmt;
+
+use mms_convergence::{is_near, observed_order};
+use mms_lab::outcome::Outcome;
+
+use super::matrix::{Expected, Row, Word};
+
+/// An observed order below this is none: the theory knows orders from 1 on.
+const LEAST_ORDER: f64 = 0.5;
+
+/// Errors of rounding, relative to the natural size of a quantity: 20,000 eps, for some thousand steps.
+const ROUNDING: f64 = 5e-12;
+
+/// What is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// What theory expects: the order and its error constant, or no error at all.
+    Pass,
+    /// A lower order, another constant, an error where there is none, or a run that was not started.
+    Fail,
+    /// No settled order, or a higher one.
+    NotAsymptotic,
+    /// The error does not shrink, or a run stopped.
+    DoesNotConverge,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Verdict::Pass => "pass",
+            Verdict::Fail => "fail",
+            Verdict::NotAsymptotic => "not asymptotic",
+            Verdict::DoesNotConverge => "does not converge",
+        })
+    }
+}
+
+/// A row's outcome, and what it rests on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judgement {
+    /// The orders of l1, l2 and linf between each level and the one before; the first has none, nor has rounding.
+    pub orders: Vec<[Option<f64>; 3]>,
+    /// l2 over h^order or dt^order.
+    pub constant: Option<f64>,
+    /// What is seen.
+    pub verdict: Verdict,
+    /// What should be.
+    pub expected: Verdict,
+    /// Why it is not what should be.
+    pub reason: Option<String>,
+}
+
+impl Judgement {
+    /// The order of l2 between the two finest levels.
+    pub fn observed_order(&self) -> Option<f64> {
+        self.orders.last().and_then(|orders| orders[1])
+    }
+
+    /// Whether theory is right.
+    pub fn as_expected(&self) -> bool {
+        self.verdict == self.expected
+    }
+}
+
+/// Judges a row by its levels, coarse to fine. The first that holds:
+///
+/// * `fail`: a level was not started; or, if the row expects an exact solution, an error is not of rounding.
+/// * `does not converge`: a level stopped, or the order of l2 between the two finest levels is below 1/2.
+/// * `fail`: l2 or linf is below its expected order by more than the tolerance there; or the constant is not
+///   the one that is written.
+/// * `not asymptotic`: l2 is above it by more than the tolerance; or its order differs by more than the tolerance
+///   from that of the pair before, if there is one.
+/// * `pass`.
+pub fn judge(row: &Row, levels: &[Outcome]) -> Judgement {
+    let orders = match row.order {
+        Expected::Word(Word::Exact) => vec![[None; 3]; levels.len()],
+        _ => orders(row, levels),
+    };
+    let constant = constant(row, levels);
+    let expected = match row.order {
+        Expected::Word(Word::None) => Verdict::DoesNotConverge,
+        _ => Verdict::Pass,
+    };
+    let (verdict, reason) = see(row, levels, &orders, constant);
+    let reason = (verdict != expected).then_some(reason);
+    Judgement { orders, constant, verdict, expected, reason }
+}
+
+fn orders(row: &Row, levels: &[Outcome]) -> Vec<[Option<f64>; 3]> {
+    let order = |[coarse, fine]: [&Outcome; 2], norm: usize| {
+        let [e1, e2] = [row.errors(coarse)?, row.errors(fine)?];
+        observed_order([e1[norm], e2[norm]], [row.size(coarse)?, row.size(fine)?])
+    };
+    let pairs = levels.windows(2);
+    let pairs = pairs.map(|pair| [0, 1, 2].map(|norm| order([&pair[0], &pair[1]], norm)));
+    std::iter::once([None; 3]).chain(pairs).take(levels.len()).collect()
+}
+
+/// The error constant at the level that the row's is of.
+fn constant(row: &Row, levels: &[Outcome]) -> Option<f64> {
+    let Expected::Order(order) = row.order else { return None };
+    let at = if row.quick > 0 { row.quick } else { levels.len() };
+    let level = levels.get(at.checked_sub(1)?)?;
+    let [_, l2, _] = row.errors(level)?;
+    Some(l2 / row.size(level)?.powf(order))
+}
+
+fn see(
+    row: &Row,
+    levels: &[Outcome],
+    orders: &[[Option<f64>; 3]],
+    constant: Option<f64>,
+) -> (Verdict, String) {
+    for level in levels {
+        if let Outcome::Refused { reason } = level {
+            return (Verdict::Fail, format!("not started: {reason}"));
+        }
+    }
+    if row.order == Expected::Word(Word::Exact) {
+        return exact(row, levels);
+    }
+    for level in levels {
+        if let Outcome::Stopped { failure, .. } = level {
+            return (Verdict::DoesNotConverge, failure.clone());
+        }
+    }
+    let Some(&[_, Some(l2), Some(linf)]) = orders.last() else {
+        return (Verdict::NotAsymptotic, "there is no order".into());
+    };
+    let seen = format!("order {l2:.2} in l2, {linf:.2} in linf");
+    let Expected::Order(order) = row.order else {
+        let verdict = if l2 < LEAST_ORDER { Verdict::DoesNotConverge } else { Verdict::Fail };
+        return (verdict, seen);
+    };
+    if l2 < LEAST_ORDER {
+        return (Verdict::DoesNotConverge, seen);
+    }
+    if l2 < order - row.tolerance || linf < row.linf.unwrap_or(order) - row.tolerance {
+        return (Verdict::Fail, seen);
+    }
+    let written = row.constant.unwrap_or(f64::NAN);
+    if !constant.is_some_and(|constant| is_near(constant, written)) {
+        let found = constant.map_or("none".into(), |constant| format!("{constant:.4e}"));
+        return (Verdict::Fail, format!("error constant {found}, not {written:.4e}"));
+    }
+    let before = orders.len().checked_sub(2).and_then(|at| orders[at][1]);
+    let settled = before.is_none_or(|before| (l2 - before).abs() <= row.tolerance);
+    if l2 > order + row.tolerance || !settled {
+        let before = before.map_or(String::new(), |before| format!(" after {before:.2}"));
+        return (Verdict::NotAsymptotic, format!("order {l2:.2}{before} in l2"));
+    }
+    (Verdict::Pass, seen)
+}
+
+/// A solution that the method holds exactly.
+fn exact(row: &Row, levels: &[Outcome]) -> (Verdict, String) {
+    if levels.is_empty() {
+        return (Verdict::NotAsymptotic, "there is no level".into());
+    }
+    for level in levels {
+        let largest = match level {
+            Outcome::Finished { .. } => row.errors(level).map_or(f64::NAN, |errors| errors[2]),
+            Outcome::Stopped { failure, .. } => return (Verdict::Fail, failure.clone()),
+            Outcome::Refused { .. } => continue,
+        };
+        if largest.is_nan() || largest > ROUNDING {
+            return (Verdict::Fail, format!("an error of {largest:.1e} in linf"));
+        }
+    }
+    (Verdict::Pass, String::new())
+}

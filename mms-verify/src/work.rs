@@ -1,0 +1,175 @@
+//! Runs, side by side, each from the store if it is there and into it if it is not.
+
+use std::collections::BTreeMap;
+use std::num::NonZero;
+use std::sync::{Arc, Mutex};
+
+use mms_exact::Input;
+use mms_files::store::{Entry, Store, side_by_side};
+use mms_lab::outcome::{Outcome, Quantity, outcome};
+use mms_options::field::Variant;
+use mms_options::method::Precision;
+use mms_runtime::scene::{Scene, Solvable};
+use mms_runtime::study::Watch;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::plan::Job;
+
+/// Hears of every step of a run, and of how many there are.
+pub type Step<'a> = dyn FnMut(usize, usize) + Send + 'a;
+
+/// What makes runs.
+pub trait Bench: Sync {
+    /// What comes of one, and is stored.
+    type Result: AsRef<Outcome> + Clone + Serialize + DeserializeOwned + Send;
+
+    /// Makes a run, and calls `step` after each of its steps.
+    ///
+    /// # Errors
+    /// A field of the gallery does not compile.
+    fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Self::Result>;
+}
+
+/// What is said while runs go on. All of it may come from several threads.
+pub trait Watcher: Sync {
+    /// A run was taken from the store.
+    fn found(&self, job: &Job);
+    /// A run has made some of its steps.
+    fn step(&self, job: &Job, step: usize, steps: usize);
+    /// A run has ended.
+    fn done(&self, job: &Job, outcome: &Outcome);
+    /// A file of the store was set aside.
+    fn set_aside(&self, what: &str);
+}
+
+/// What comes of runs, in their order.
+///
+/// # Errors
+/// The store cannot be read or written, a field of the gallery does not compile.
+pub fn outcomes<B: Bench>(
+    jobs: &[Job],
+    store: &Store,
+    threads: NonZero<usize>,
+    bench: &B,
+    watcher: &dyn Watcher,
+) -> anyhow::Result<Vec<B::Result>> {
+    let work = Work { store, bench, watcher };
+    side_by_side(jobs, threads, |job, wait| work.outcome(job, wait))
+}
+
+struct Work<'a, B> {
+    store: &'a Store,
+    bench: &'a B,
+    watcher: &'a dyn Watcher,
+}
+
+impl<B: Bench> Work<'_, B> {
+    /// The outcome of a run; nothing, if another process has claimed it and there is to be no waiting.
+    fn outcome(&self, job: &Job, wait: bool) -> anyhow::Result<Option<B::Result>> {
+        if let Some(outcome) = self.stored(job)? {
+            return Ok(Some(outcome));
+        }
+        let Some(_claim) = self.store.claim(&job.key, wait)? else { return Ok(None) };
+        // Whoever held the claim before may have finished.
+        if let Some(outcome) = self.stored(job)? {
+            return Ok(Some(outcome));
+        }
+        let mut step = |step: usize, steps: usize| self.watcher.step(job, step, steps);
+        let outcome = self.bench.run(job, &mut step)?;
+        self.store.save(&job.key, &outcome)?;
+        self.watcher.done(job, outcome.as_ref());
+        Ok(Some(outcome))
+    }
+
+    fn stored(&self, job: &Job) -> anyhow::Result<Option<B::Result>> {
+        Ok(match self.store.load(&job.key)? {
+            Entry::Stored(outcome) => {
+                self.watcher.found(job);
+                Some(outcome)
+            }
+            Entry::Missing => None,
+            Entry::SetAside(what) => {
+                self.watcher.set_aside(&what);
+                None
+            }
+        })
+    }
+}
+
+/// How a field is found.
+type Find = fn(&str, &Variant) -> anyhow::Result<Input>;
+
+/// Fields with everything derived.
+pub struct Fields {
+    find: Find,
+    /// By name and variant.
+    inputs: Mutex<BTreeMap<String, Arc<Input>>>,
+}
+
+/// Measures what the row of a run looks at.
+impl Bench for Fields {
+    type Result = Outcome;
+
+    fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Outcome> {
+        self.with_scene(job, step, solve::<f32>, solve::<f64>)
+    }
+}
+
+/// What has to be watched for the errors of a quantity.
+pub fn watch_of(quantity: &Quantity) -> Watch {
+    match quantity {
+        Quantity::Displacement => Watch::Displacement,
+        _ => Watch::Everything,
+    }
+}
+
+fn solve<T: Solvable>(job: &Job, scene: &Scene<T>, mut step: &mut Step<'_>) -> Outcome {
+    match scene.run(&job.method, &job.study.cells[0], watch_of(&job.quantity), &mut step) {
+        Err(refusal) => Outcome::Refused { reason: refusal.to_string() },
+        Ok(run) => outcome(&run.level, run.details.as_ref(), &job.quantity),
+    }
+}
+
+impl Fields {
+    /// What `single` or `double` makes of the scene of a run, whichever its precision is.
+    ///
+    /// # Errors
+    /// The field does not compile.
+    pub fn with_scene<R>(
+        &self,
+        job: &Job,
+        step: &mut Step<'_>,
+        single: fn(&Job, &Scene<f32>, &mut Step<'_>) -> R,
+        double: fn(&Job, &Scene<f64>, &mut Step<'_>) -> R,
+    ) -> anyhow::Result<R> {
+        let input = self.input(job)?;
+        let set = &job.study.set;
+        Ok(match job.study.method.arithmetic.precision {
+            Precision::F32 => single(job, &input.scene(set, |code| code.single)?, step),
+            Precision::F64 => double(job, &input.scene(set, |code| code.double)?, step),
+        })
+    }
+
+    /// None yet.
+    pub fn new(find: Find) -> Self {
+        Fields { find, inputs: Mutex::default() }
+    }
+
+    /// The field of a run, derived once for all of its runs.
+    ///
+    /// # Errors
+    /// It does not compile.
+    pub fn input(&self, job: &Job) -> anyhow::Result<Arc<Input>> {
+        let variant = job.study.variant();
+        let name = format!("{} {variant:?}", job.entry.name);
+        // Whoever else needs a field has to wait for it anyway.
+        let mut inputs = self.inputs.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if let Some(input) = inputs.get(&name) {
+            return Ok(input.clone());
+        }
+        let input = Arc::new((self.find)(job.entry.name, &variant)?);
+        inputs.insert(name, input.clone());
+        Ok(input)
+    }
+}
