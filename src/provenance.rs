@@ -1,5 +1,6 @@
 //! Where a document is from: who made it, of what, on which machine, and how to make it again.
 
+use mms_documents::provenance::VERSION;
 pub use mms_documents::provenance::{Input, Machine, Provenance};
 
 use mms_files::machine::processors;
@@ -15,6 +16,7 @@ pub fn new(kind: &str, arguments: &[String], input: Input) -> Provenance {
     Provenance {
         kind: kind.to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        document_version: VERSION,
         command: command(arguments.iter().skip(1)),
         input,
         machine: Some(machine()),

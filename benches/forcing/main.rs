@@ -216,9 +216,7 @@ fn print(rows: &[serde_json::Value]) {
         Some(value) => format!("{value:.digits$}"),
         None => "-".into(),
     };
-    let mut table = comfy_table::Table::new();
-    table.load_style(comfy_table::presets::NOTHING);
-    table.set_header([
+    let header = [
         "field",
         "contender",
         "precision",
@@ -229,7 +227,8 @@ fn print(rows: &[serde_json::Value]) {
         "ratio",
         "median eps",
         "max eps",
-    ]);
+    ];
+    let mut table = mms_report::table::Table::new("forcing", header);
     for row in rows {
         let text = |key: &str| row[key].as_str().unwrap_or_default().to_string();
         let reached = match (row["floor_ns"].as_f64(), row["ns_per_point"].as_f64()) {

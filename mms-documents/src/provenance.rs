@@ -2,6 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The version of the forms of documents. It grows when a key changes its meaning or is lost; a new key does not change it.
+pub const VERSION: u32 = 2;
+
+/// The version of documents that do not say theirs.
+fn unsaid() -> u32 {
+    1
+}
+
 /// The origin of a document, and how to make it again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -10,6 +18,9 @@ pub struct Provenance {
     pub kind: String,
     /// The version of `mms`.
     pub version: String,
+    /// The version of the form of the document; 1 if the key is missing.
+    #[serde(default = "unsaid")]
+    pub document_version: u32,
     /// The command to type.
     pub command: String,
     /// The input.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::Context as _;
 use mms_convergence::Verdict;
+use mms_documents::campaign::Campaign;
 use mms_files::words::duration;
 use mms_files::write::{pretty, refuse_link, write_files};
 use mms_harness::judged::Judged;
@@ -12,31 +13,24 @@ use mms_harness::report::Report;
 use mms_harness::work::{Finished, Outcome, left_behind_too};
 use mms_spec::foreign::{self, one_line, shown};
 
+use super::excluded;
 use super::judge::View as JudgementView;
-use super::{excluded, plain, to_the_right};
+use super::shown::Shown;
+use super::table::Table;
 
 /// The text of a campaign.
 pub struct View<'a>(pub &'a Report<'a>);
 
 impl View<'_> {
-    /// All of it for a terminal.
-    pub fn text(&self) -> String {
-        let mut parts: Vec<String> = self.0.studies.iter().flat_map(parts).collect();
-        if self.0.studies.iter().any(|it| it.planned.is_whole()) {
-            parts.push(self.matrix());
-        }
-        parts.extend(self.0.excluded().map(|it| excluded::together(&it)));
-        parts.push(self.tally());
-        parts.join("\n\n")
-    }
-
     /// A row for each study.
-    fn matrix(&self) -> String {
-        let mut table = plain(["study", "field", "expected", "observed", "of", "verdict"]);
+    fn matrix(&self) -> Table {
+        let header = ["study", "field", "expected", "observed", "of", "verdict"];
+        let caption = format!("studies of {}", shown(&self.0.plan.campaign.solver.name));
+        let mut table = Table::new(caption, header).right_from(0);
         for judged in self.0.studies.iter().filter(|it| it.planned.is_whole()) {
             table.add_row(row(judged));
         }
-        to_the_right(table).to_string()
+        table
     }
 
     fn tally(&self) -> String {
@@ -69,6 +63,28 @@ impl View<'_> {
     }
 }
 
+impl Shown for View<'_> {
+    type Document = Campaign;
+
+    fn text(&self) -> String {
+        let mut parts: Vec<String> = self.0.studies.iter().flat_map(parts).collect();
+        if self.0.studies.iter().any(|it| it.planned.is_whole()) {
+            parts.push(self.matrix().to_string());
+        }
+        parts.extend(self.0.excluded().map(|it| excluded::together(&it)));
+        parts.push(self.tally());
+        parts.join("\n\n")
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        vec![self.matrix()]
+    }
+
+    fn document(&self) -> Campaign {
+        self.0.document()
+    }
+}
+
 /// The parts of the text about a study: runs that failed, processes that they left, and its judgement.
 fn parts(judged: &Judged<'_>) -> Vec<String> {
     let mut parts = Vec::new();
@@ -77,7 +93,7 @@ fn parts(judged: &Judged<'_>) -> Vec<String> {
     parts.extend(runs.clone().filter_map(|(job, outcome)| failure(job, outcome)));
     parts.extend(runs.filter_map(|(job, outcome)| left_behind(job, outcome)));
     parts.extend(judged.mistake.as_ref().map(|it| format!("{name}: {it}")));
-    let tables = judged.judgements.as_ref().map(|it| JudgementView(it).table());
+    let tables = judged.judgements.as_ref().map(|it| JudgementView(it).text());
     parts.extend(tables.map(|tables| format!("study {name}\n{tables}")));
     parts
 }

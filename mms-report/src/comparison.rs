@@ -3,15 +3,17 @@
 use std::path::Path;
 
 use anyhow::Context as _;
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
 use mms_convergence::Verdict;
 use mms_documents::provenance::Provenance;
 use mms_documents::study::{self as documents, Studies, StudyOfOne};
 use mms_files::write::{pretty, write_files};
 use serde::Serialize;
 
-use super::{Study, picture};
+use super::Study;
+use super::page;
+use super::plot::Width;
+use crate::shown::Shown;
+use crate::table::Table;
 
 /// The document of one study, or of several methods.
 #[derive(Serialize)]
@@ -57,50 +59,26 @@ impl Comparison {
         self.names().into_iter().zip(&self.studies)
     }
 
-    /// The JSON document: that of the study if there is one alone.
-    pub fn document(&self) -> Document {
-        if let [alone] = self.studies.as_slice() {
-            return Document::One(Box::new(alone.document()));
-        }
+    /// The document of several methods.
+    fn several(&self) -> Studies {
         let studies = self.named().map(|(name, study)| StudyOfOne { name, study: study.content() });
         let first = &self.studies[0];
-        Document::Several(Box::new(Studies {
+        Studies {
             field: first.field.raw().to_owned(),
             refinement: first.refinement.name().to_owned(),
             studies: studies.collect(),
             passed: self.passed(),
             provenance: self.provenance.clone(),
-        }))
-    }
-
-    /// The tables for a terminal, with each verdict.
-    pub fn table(&self) -> String {
-        if let [alone] = self.studies.as_slice() {
-            return alone.table();
         }
-        let first = &self.studies[0];
-        let mut parts = vec![
-            format!("{}: {}", first.field.shown(), first.title.shown()),
-            self.errors().to_string(),
-        ];
-        let verdict = |(name, study): (String, &Study)| format!("{name}: {}", study.conclusion());
-        let conclusions: Vec<_> = self.named().map(verdict).collect();
-        parts.push(conclusions.join("\n"));
-        for (name, study) in self.named() {
-            parts.extend(study.phase_table().map(|table| format!("{name}\n{table}")));
-        }
-        parts.push(format!("{} of {} methods pass", self.passed(), self.studies.len()));
-        parts.join("\n\n")
     }
 
     /// l2 of each method on each level, or in time its difference to the next.
     fn errors(&self) -> Table {
         let first = &self.studies[0];
-        let mut table = Table::new();
         let ends = ["order", "constant", "verdict"].map(str::to_owned);
-        table
-            .load_style(NOTHING)
-            .set_header(["l2".to_owned()].into_iter().chain(first.names_of_levels()).chain(ends));
+        let header = ["l2".to_owned()].into_iter().chain(first.names_of_levels()).chain(ends);
+        let caption = format!("{}: l2 of {} methods", first.field.shown(), self.studies.len());
+        let mut table = Table::new(caption, header).right_from(1);
         for (name, study) in self.named() {
             let mut cells = vec![name];
             cells.extend(study.errors_of_levels());
@@ -111,9 +89,6 @@ impl Comparison {
             ]);
             table.add_row(cells);
         }
-        for column in table.column_iter_mut().skip(1) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
         table
     }
 
@@ -122,16 +97,55 @@ impl Comparison {
         if let [alone] = self.studies.as_slice() {
             return alone.write(folder);
         }
-        let files = [
-            ("svg", picture::draw_all(&self.studies, &self.names())?),
-            ("csv", self.csv()?),
-            ("json", pretty(&self.document())?),
-        ];
+        let document = self.several();
+        let caption =
+            format!("{}: l2 of {} methods", self.studies[0].field.shown(), self.studies.len());
+        let figure = page::comparison::plot(&document).figure(&caption, Width::Page);
+        let files = [("svg", figure), ("csv", self.csv()?), ("json", pretty(&document)?)];
         write_files(folder, "convergence", files)
     }
+}
 
-    /// The rows of all studies, with a column for the method in front.
+impl Shown for Comparison {
+    type Document = Document;
+
+    fn text(&self) -> String {
+        if let [alone] = self.studies.as_slice() {
+            return alone.text();
+        }
+        let first = &self.studies[0];
+        let mut parts = vec![
+            format!("{}: {}", first.field.shown(), first.title.shown()),
+            self.errors().to_string(),
+        ];
+        let verdict = |(name, study): (String, &Study)| format!("{name}: {}", study.conclusion());
+        let conclusions: Vec<_> = self.named().map(verdict).collect();
+        parts.push(conclusions.join("\n"));
+        for (name, study) in self.named() {
+            parts.extend(study.phase_text().map(|table| format!("{name}\n{table}")));
+        }
+        parts.push(format!("{} of {} methods pass", self.passed(), self.studies.len()));
+        parts.join("\n\n")
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        if let [alone] = self.studies.as_slice() {
+            return alone.tables();
+        }
+        vec![self.errors()]
+    }
+
+    fn document(&self) -> Document {
+        if let [alone] = self.studies.as_slice() {
+            return Document::One(Box::new(alone.document()));
+        }
+        Document::Several(Box::new(self.several()))
+    }
+
     fn csv(&self) -> anyhow::Result<String> {
+        if let [alone] = self.studies.as_slice() {
+            return alone.csv();
+        }
         let mut writer = csv::Writer::from_writer(Vec::new());
         for (at, (name, study)) in self.named().enumerate() {
             let own = study.csv()?;

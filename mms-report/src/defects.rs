@@ -1,12 +1,13 @@
 //! Defects and what caught them, as a table, as a JSON document, and as a page.
 
-use comfy_table::Table;
-use comfy_table::presets::NOTHING;
 use mms_documents::provenance::Provenance;
 use mms_documents::verify::{ShownDefect, ShownRow, VerifyDefects};
 use mms_lab::pictures::{Check, Looks};
-use mms_verify::defects::{Defect, Shown};
+use mms_verify::defects::{Defect, Shown as RowUnder};
 use mms_verify::matrix::Row;
+
+use crate::shown::Shown;
+use crate::table::Table;
 
 /// A row that catches what at most so many rows catch earns its place by that.
 const FEW: usize = 6;
@@ -16,19 +17,19 @@ pub struct Showing<'a> {
     /// The defect.
     pub defect: Defect,
     /// The rows, with it.
-    pub rows: Vec<Shown<'a>>,
+    pub rows: Vec<RowUnder<'a>>,
     /// The objections of checks of plausibility to these runs, if they do not object to right runs as well.
     pub looks: Looks,
 }
 
 impl<'a> Showing<'a> {
     /// The rows whose verdict is not the expected one.
-    pub fn caught(&self) -> impl Iterator<Item = &Shown<'a>> {
+    pub fn caught(&self) -> impl Iterator<Item = &RowUnder<'a>> {
         self.rows.iter().filter(|shown| !shown.judgement.as_expected())
     }
 
     fn document(&self) -> ShownDefect {
-        let row = |shown: &Shown<'_>| ShownRow {
+        let row = |shown: &RowUnder<'_>| ShownRow {
             name: shown.row.name.clone(),
             caught: !shown.judgement.as_expected(),
             verdict: shown.judgement.verdict.to_string(),
@@ -45,7 +46,7 @@ impl<'a> Showing<'a> {
     }
 
     /// Rows that claim to catch it, and do not.
-    fn missed(&self) -> impl Iterator<Item = &Shown<'a>> {
+    fn missed(&self) -> impl Iterator<Item = &RowUnder<'a>> {
         let claims = |row: &Row| row.catches.iter().any(|name| name == self.defect.name());
         self.rows.iter().filter(move |shown| claims(shown.row) && shown.judgement.as_expected())
     }
@@ -94,45 +95,17 @@ impl<'a> Report<'a> {
             && self.idle().is_empty()
     }
 
-    /// The JSON document.
-    pub fn document(&self) -> VerifyDefects {
-        let names = |rows: &[&Row]| rows.iter().map(|row| row.name.clone()).collect();
-        let missed = |(row, defect): (&Row, Defect)| [row.name.clone(), defect.name().to_owned()];
-        VerifyDefects {
-            rows: names(&self.rows),
-            every_row: self.whole,
-            defects: self.showings.iter().map(Showing::document).collect(),
-            uncaught: self.uncaught().map(|it| it.defect.name().to_owned()).collect(),
-            missed: self.missed().map(missed).collect(),
-            idle: names(&self.idle()),
-            provenance: self.provenance.clone(),
-        }
-    }
-
-    /// The table for a terminal.
-    pub fn table(&self) -> String {
-        let mut table = Table::new();
+    fn table(&self) -> Table {
         let checks = Check::ALL.map(Check::name);
-        table.load_style(NOTHING).set_header(["defect", "caught by"].into_iter().chain(checks));
+        let header = ["defect", "caught by"].into_iter().chain(checks);
+        let mut table = Table::new("deliberate mistakes and what catches them", header);
         for showing in &self.showings {
             let by = self.caught_by(showing);
             let cells =
                 [showing.defect.name().to_owned(), by].into_iter().chain(words(showing.looks));
             table.add_row(cells);
         }
-        let mut text = format!("{table}\n");
-        for showing in self.uncaught() {
-            text +=
-                &format!("\n{} is not caught: {}", showing.defect.name(), showing.defect.what());
-        }
-        for (row, defect) in self.missed() {
-            text += &format!("\n{} does not catch {}, as it says", row.name, defect.name());
-        }
-        for row in self.idle() {
-            text +=
-                &format!("\n{} catches nothing that few others do, and has no `witness`", row.name);
-        }
-        text + "\n" + &self.summary()
+        table
     }
 
     /// How many were caught by what.
@@ -184,6 +157,44 @@ impl<'a> Report<'a> {
             page += &format!("| {} | {witness} |\n", row.name);
         }
         format!("{page}\n{}.\n", capitalised(&self.summary()))
+    }
+}
+
+impl Shown for Report<'_> {
+    type Document = VerifyDefects;
+
+    fn text(&self) -> String {
+        let mut text = format!("{}\n", self.table());
+        for showing in self.uncaught() {
+            text +=
+                &format!("\n{} is not caught: {}", showing.defect.name(), showing.defect.what());
+        }
+        for (row, defect) in self.missed() {
+            text += &format!("\n{} does not catch {}, as it says", row.name, defect.name());
+        }
+        for row in self.idle() {
+            text +=
+                &format!("\n{} catches nothing that few others do, and has no `witness`", row.name);
+        }
+        text + "\n" + &self.summary()
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        vec![self.table()]
+    }
+
+    fn document(&self) -> VerifyDefects {
+        let names = |rows: &[&Row]| rows.iter().map(|row| row.name.clone()).collect();
+        let missed = |(row, defect): (&Row, Defect)| [row.name.clone(), defect.name().to_owned()];
+        VerifyDefects {
+            rows: names(&self.rows),
+            every_row: self.whole,
+            defects: self.showings.iter().map(Showing::document).collect(),
+            uncaught: self.uncaught().map(|it| it.defect.name().to_owned()).collect(),
+            missed: self.missed().map(missed).collect(),
+            idle: names(&self.idle()),
+            provenance: self.provenance.clone(),
+        }
     }
 }
 

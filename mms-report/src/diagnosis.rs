@@ -10,7 +10,8 @@ use mms_documents::provenance::Provenance;
 use mms_files::write::{pretty, write_files};
 use mms_spec::foreign::Foreign;
 
-use super::text::plain;
+use crate::shown::Shown;
+use crate::table::Table;
 
 /// How many hypotheses a text shows.
 const SHOWN: usize = 5;
@@ -28,36 +29,6 @@ pub struct Diagnosed<'a> {
 }
 
 impl Diagnosed<'_> {
-    /// The text for a terminal.
-    pub fn text(&self) -> String {
-        let it = self.diagnosis;
-        let mut parts = vec![format!(
-            "{}: {}\nthe error is {:.2e} of the solution; {}",
-            self.field.shown(),
-            it.rung.says(),
-            it.error,
-            ordinary(it.expected)
-        )];
-        parts.extend(it.falls.as_ref().map(|falls| order(falls, it.of_order.as_ref())));
-        parts.push(self.finding());
-        if it.finding != Finding::Nothing {
-            parts.push(self.table());
-        }
-        parts.extend(it.pair.as_ref().map(|pair| {
-            let [a, b] = &pair.hypotheses;
-            format!("two at once? {a} and {b} together explain {:.1} %", 100.0 * pair.explained)
-        }));
-        parts.extend(it.like.as_ref().map(alike));
-        if it.finding == Finding::Unexplained {
-            parts.extend(it.place.as_ref().map(|at| place(at, it.falls.is_none())));
-        }
-        if !it.cannot_be_seen.is_empty() {
-            parts.push(format!("these results cannot show: {}", it.cannot_be_seen.join(", ")));
-        }
-        parts.push(format!("next: {}", it.rung.next(it.finding)));
-        parts.join("\n\n")
-    }
-
     /// Writes diagnosis.json into a folder, and returns its path.
     ///
     /// # Errors
@@ -81,8 +52,9 @@ impl Diagnosed<'_> {
         }
     }
 
-    fn table(&self) -> String {
-        let mut table = plain(["hypothesis", "factor", "explains", ""]);
+    fn table(&self) -> Table {
+        let header = ["hypothesis", "factor", "explains", ""];
+        let mut table = Table::new(format!("diagnosis of {}", self.field.shown()), header);
         for it in self.diagnosis.ranked.iter().take(SHOWN) {
             let factor: Vec<String> =
                 it.factor.iter().map(|factor| format!("{factor:.4}")).collect();
@@ -90,11 +62,47 @@ impl Diagnosed<'_> {
             let explained = format!("{:.1} %", 100.0 * it.explained);
             table.add_row([it.title(), factor.join(", "), explained, note.into()]);
         }
-        table.to_string()
+        table
+    }
+}
+
+impl Shown for Diagnosed<'_> {
+    type Document = documents::Diagnose;
+
+    fn text(&self) -> String {
+        let it = self.diagnosis;
+        let mut parts = vec![format!(
+            "{}: {}\nthe error is {:.2e} of the solution; {}",
+            self.field.shown(),
+            it.rung.says(),
+            it.error,
+            ordinary(it.expected)
+        )];
+        parts.extend(it.falls.as_ref().map(|falls| order(falls, it.of_order.as_ref())));
+        parts.push(self.finding());
+        if it.finding != Finding::Nothing {
+            parts.push(self.table().to_string());
+        }
+        parts.extend(it.pair.as_ref().map(|pair| {
+            let [a, b] = &pair.hypotheses;
+            format!("two at once? {a} and {b} together explain {:.1} %", 100.0 * pair.explained)
+        }));
+        parts.extend(it.like.as_ref().map(alike));
+        if it.finding == Finding::Unexplained {
+            parts.extend(it.place.as_ref().map(|at| place(at, it.falls.is_none())));
+        }
+        if !it.cannot_be_seen.is_empty() {
+            parts.push(format!("these results cannot show: {}", it.cannot_be_seen.join(", ")));
+        }
+        parts.push(format!("next: {}", it.rung.next(it.finding)));
+        parts.join("\n\n")
     }
 
-    /// The JSON document.
-    pub fn document(&self) -> documents::Diagnose {
+    fn tables(&self) -> Vec<Table> {
+        vec![self.table()]
+    }
+
+    fn document(&self) -> documents::Diagnose {
         let it = self.diagnosis;
         documents::Diagnose {
             field: self.field.raw().to_owned(),
@@ -276,18 +284,29 @@ pub struct Hypotheses<'a> {
 }
 
 impl Hypotheses<'_> {
-    /// The table for a terminal.
-    pub fn table(&self) -> String {
-        let mut table = plain(["hypothesis", "changes", "kind", "shown by", "what it is"]);
+    fn table(&self) -> Table {
+        let header = ["hypothesis", "changes", "kind", "shown by", "what it is"];
+        let mut table = Table::new(format!("hypotheses about {}", self.field.shown()), header);
         for it in &self.all {
             let title = it.size_of.map_or(it.title.clone(), |_| format!("  {}", it.title));
             table.add_row([&title, it.changes, it.kind.name(), it.shown_by, &it.says]);
         }
-        table.to_string()
+        table
+    }
+}
+
+impl Shown for Hypotheses<'_> {
+    type Document = documents::Hypotheses;
+
+    fn text(&self) -> String {
+        self.table().to_string()
     }
 
-    /// The JSON document.
-    pub fn document(&self) -> documents::Hypotheses {
+    fn tables(&self) -> Vec<Table> {
+        vec![self.table()]
+    }
+
+    fn document(&self) -> documents::Hypotheses {
         let each = self.all.iter().map(|it| documents::ListedHypothesis {
             hypothesis: it.title.clone(),
             changes: it.changes.to_owned(),

@@ -1,7 +1,5 @@
 //! The solver at its limits, as a table and as a JSON document.
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
 use mms_documents::extremes::{ExtremeRow, Extremes, StabilityLimit};
 use mms_documents::provenance::Provenance;
 use mms_lab::extremes::rows::Row;
@@ -12,6 +10,8 @@ use mms_spec::foreign::Foreign;
 
 use super::method;
 use super::text::tally;
+use crate::shown::Shown;
+use crate::table::Table;
 
 /// The results of a field at its extremes.
 pub struct Report {
@@ -165,31 +165,9 @@ impl Report {
         rows.chain(limits.map(|it| format!("stability/{}", name(&it.method)))).collect()
     }
 
-    /// The JSON document.
-    pub fn document(&self) -> Extremes {
-        let stability = self.stability.iter().map(|it| StabilityLimit {
-            method: name(&it.method),
-            theory: it.theory,
-            measured: it.measured,
-            verdict: it.verdict().to_owned(),
-            expected: it.is_expected(),
-        });
-        Extremes {
-            field: self.field.raw().to_owned(),
-            method: method::document(&self.method, self.arithmetic),
-            quick: self.quick,
-            declared_l2: self.declared.l2,
-            rows: self.rows.iter().map(|row| row.document(self.declared)).collect(),
-            stability: stability.collect(),
-            unexpected: self.unexpected(),
-            provenance: self.provenance.clone(),
-        }
-    }
-
-    /// The text for a terminal.
-    pub fn text(&self) -> String {
-        let mut table = Table::new();
-        table.load_style(NOTHING).set_header(["row", "setting", "expected", "seen", "verdict", ""]);
+    fn rows_table(&self) -> Table {
+        let header = ["row", "setting", "expected", "seen", "verdict", ""];
+        let mut table = Table::new(format!("{} at its limits", self.field.shown()), header);
         for row in &self.rows {
             table.add_row([
                 row.row.name.clone(),
@@ -200,14 +178,12 @@ impl Report {
                 mark(row.verdict.is_expected()),
             ]);
         }
-        let mut limits = Table::new();
-        limits.load_style(NOTHING).set_header([
-            "largest stable Courant number",
-            "theory",
-            "measured",
-            "",
-            "",
-        ]);
+        table
+    }
+
+    fn limits_table(&self) -> Table {
+        let header = ["largest stable Courant number", "theory", "measured", "verdict", ""];
+        let mut limits = Table::new("largest stable Courant numbers", header).right([1, 2]);
         for it in &self.stability {
             limits.add_row([
                 name(&it.method),
@@ -217,11 +193,15 @@ impl Report {
                 mark(it.is_expected()),
             ]);
         }
-        for column in [1, 2] {
-            if let Some(column) = limits.column_mut(column) {
-                column.set_cell_alignment(CellAlignment::Right);
-            }
-        }
+        limits
+    }
+}
+
+impl Shown for Report {
+    type Document = Extremes;
+
+    fn text(&self) -> String {
+        let (table, limits) = (self.rows_table(), self.limits_table());
         let mut text = format!(
             "{}: {}\n{}\nas declared, l2 is {:.2e} of the largest displacement\n",
             self.field.shown(),
@@ -249,6 +229,31 @@ impl Report {
         }
         let (unexpected, count) = (self.unexpected().len(), self.rows.len() + self.stability.len());
         text + "\n" + &tally(unexpected, count, "as theory expects")
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let limits = (!self.stability.is_empty()).then(|| self.limits_table());
+        [self.rows_table()].into_iter().chain(limits).collect()
+    }
+
+    fn document(&self) -> Extremes {
+        let stability = self.stability.iter().map(|it| StabilityLimit {
+            method: name(&it.method),
+            theory: it.theory,
+            measured: it.measured,
+            verdict: it.verdict().to_owned(),
+            expected: it.is_expected(),
+        });
+        Extremes {
+            field: self.field.raw().to_owned(),
+            method: method::document(&self.method, self.arithmetic),
+            quick: self.quick,
+            declared_l2: self.declared.l2,
+            rows: self.rows.iter().map(|row| row.document(self.declared)).collect(),
+            stability: stability.collect(),
+            unexpected: self.unexpected(),
+            provenance: self.provenance.clone(),
+        }
     }
 }
 

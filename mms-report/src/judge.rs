@@ -2,16 +2,18 @@
 
 use std::path::Path;
 
-use comfy_table::Table;
 use mms_convergence::RULE;
+use mms_documents::judge::Judge;
 use mms_files::write::{pretty, write_files};
 use mms_judge::Judgements;
 use mms_judge::measured::{Norm, Quantity, Refined};
 use mms_spec::foreign::shown;
 
 use super::excluded;
-use super::picture::{Line, Picture};
-use super::text::{plain, to_the_right};
+use super::page;
+use super::plot::Width;
+use super::shown::Shown;
+use super::table::Table;
 
 /// The text, the table and the picture of judgements.
 pub struct View<'a>(pub &'a Judgements);
@@ -45,18 +47,83 @@ impl View<'_> {
         Some(Deciding { expected: deciding.expected.order, observed, of })
     }
 
-    /// The tables for a terminal, with the verdicts.
-    pub fn table(&self) -> String {
+    /// The levels of a quantity, or the runs of a grid of h and dt.
+    fn table(&self, quantity: &Quantity) -> Table {
+        match self.0.refined {
+            Refined::Grid => self.grid_table(quantity),
+            _ => self.levels_table(quantity),
+        }
+    }
+
+    fn caption(&self, quantity: &Quantity) -> String {
+        let of = match self.0.judged.len() {
+            1 => String::new(),
+            _ => format!(" of {}", quantity.name.shown()),
+        };
+        format!("{}: errors{of}", shown(&self.0.source))
+    }
+
+    fn levels_table(&self, quantity: &Quantity) -> Table {
+        let length = if self.0.refined == Refined::Time { "dt" } else { "h" };
+        let mut header = vec![length.to_owned(), "runs".into()];
+        let norms: Vec<_> = quantity.norms.iter().map(|norm| self.0.levels(norm)).collect();
+        header.extend(quantity.norms.iter().flat_map(|it| [it.name.shown(), "order".into()]));
+        let mut table = Table::new(self.caption(quantity), header).right_from(0);
+        for at in 0..norms.first().map_or(0, Vec::len) {
+            let (level, _) = &norms[0][at];
+            let mut row = vec![format!("{:.3e}", level.length), level.errors.len().to_string()];
+            for (level, observed) in norms.iter().map(|levels| &levels[at]) {
+                let is_there = !level.errors.is_empty();
+                let error = is_there.then(|| format!("{:.2e}", level.error()));
+                row.extend([error.unwrap_or("stopped".into()), order(*observed)]);
+            }
+            table.add_row(row);
+        }
+        table
+    }
+
+    fn grid_table(&self, quantity: &Quantity) -> Table {
+        let mut header = vec!["h".to_owned(), "dt".into()];
+        header.extend(quantity.norms.iter().map(|it| it.name.shown()));
+        let mut table = Table::new(self.caption(quantity), header).right_from(0);
+        for (at, run) in self.0.measured.runs.iter().enumerate() {
+            let number = |it: Option<f64>| it.map_or("-".into(), |it| format!("{it:.3e}"));
+            let mut row = vec![number(Some(run.cell_size)), number(run.time_step)];
+            row.extend(quantity.norms.iter().map(|norm| number(norm.errors[at])));
+            table.add_row(row);
+        }
+        table
+    }
+
+    /// Writes convergence.svg and .csv into a folder, and returns their paths.
+    pub fn write_parts(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        write_files(folder, "convergence", [("svg", self.figure()), ("csv", self.csv()?)])
+    }
+
+    /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        let files =
+            [("svg", self.figure()), ("csv", self.csv()?), ("json", pretty(&self.0.document())?)];
+        write_files(folder, "convergence", files)
+    }
+
+    /// The figure of the judgement.
+    fn figure(&self) -> String {
+        page::judge::figure(&self.0.document()).figure(&self.0.source, Width::Page)
+    }
+}
+
+impl Shown for View<'_> {
+    type Document = Judge;
+
+    fn text(&self) -> String {
         let head = format!("{}: {} runs", self.0.source, self.0.measured.runs.len());
         let mut parts = vec![[&[head], self.0.notes.as_slice()].concat().join("\n")];
         let several = self.0.judged.len() > 1;
         for (quantity, judged) in self.0.each() {
             let mut lines = Vec::new();
             lines.extend(several.then(|| quantity.name.shown()));
-            lines.push(match self.0.refined {
-                Refined::Grid => self.grid_table(quantity).to_string(),
-                _ => self.levels_table(quantity).to_string(),
-            });
+            lines.push(self.table(quantity).to_string());
             parts.push(lines.join("\n"));
             parts.push(self.0.says(quantity, judged).join("\n"));
         }
@@ -70,55 +137,14 @@ impl View<'_> {
         parts.join("\n\n")
     }
 
-    fn levels_table(&self, quantity: &Quantity) -> Table {
-        let mut table = plain([if self.0.refined == Refined::Time { "dt" } else { "h" }, "runs"]);
-        let mut header: Vec<String> = table.header().map(cells).unwrap_or_default();
-        let norms: Vec<_> = quantity.norms.iter().map(|norm| self.0.levels(norm)).collect();
-        header.extend(quantity.norms.iter().flat_map(|it| [it.name.shown(), "order".into()]));
-        table.set_header(header);
-        for at in 0..norms.first().map_or(0, Vec::len) {
-            let (level, _) = &norms[0][at];
-            let mut row = vec![format!("{:.3e}", level.length), level.errors.len().to_string()];
-            for (level, observed) in norms.iter().map(|levels| &levels[at]) {
-                let is_there = !level.errors.is_empty();
-                let error = is_there.then(|| format!("{:.2e}", level.error()));
-                row.extend([error.unwrap_or("stopped".into()), order(*observed)]);
-            }
-            table.add_row(row);
-        }
-        to_the_right(table)
+    fn tables(&self) -> Vec<Table> {
+        self.0.each().map(|(quantity, _)| self.table(quantity)).collect()
     }
 
-    fn grid_table(&self, quantity: &Quantity) -> Table {
-        let mut table = plain(["h", "dt"]);
-        let mut header: Vec<String> = table.header().map(cells).unwrap_or_default();
-        header.extend(quantity.norms.iter().map(|it| it.name.shown()));
-        table.set_header(header);
-        for (at, run) in self.0.measured.runs.iter().enumerate() {
-            let number = |it: Option<f64>| it.map_or("-".into(), |it| format!("{it:.3e}"));
-            let mut row = vec![number(Some(run.cell_size)), number(run.time_step)];
-            row.extend(quantity.norms.iter().map(|norm| number(norm.errors[at])));
-            table.add_row(row);
-        }
-        to_the_right(table)
+    fn document(&self) -> Judge {
+        self.0.document()
     }
 
-    /// Writes convergence.svg and .csv into a folder, and returns their paths.
-    pub fn write_parts(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        write_files(folder, "convergence", [("svg", self.picture().svg()?), ("csv", self.csv()?)])
-    }
-
-    /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
-    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        let files = [
-            ("svg", self.picture().svg()?),
-            ("csv", self.csv()?),
-            ("json", pretty(&self.0.document())?),
-        ];
-        write_files(folder, "convergence", files)
-    }
-
-    /// A row for each run, in columns that can be read again.
     fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let columns = || {
@@ -147,49 +173,4 @@ impl View<'_> {
         }
         Ok(String::from_utf8(writer.into_inner()?)?)
     }
-
-    /// A line for each norm; of several quantities for that which decides. In a grid of h and dt, points over h.
-    fn picture(&self) -> Picture {
-        let several = self.0.judged.len() > 1;
-        let lines = self.0.each().flat_map(|(quantity, _)| {
-            quantity.norms.iter().map(move |norm| -> Line {
-                let own = several && quantity.name != norm.name;
-                let of = if own { format!("{} ", quantity.name.shown()) } else { String::new() };
-                (format!("{of}{}", norm.name.shown()), self.points(norm))
-            })
-        });
-        let runs = self.0.measured.runs.iter();
-        Picture {
-            caption: self.0.source.clone(),
-            axes: [
-                if self.0.refined == Refined::Time { "time step dt" } else { "cell size h" },
-                "error",
-            ],
-            lines: lines.collect(),
-            lengths: runs.map(|run| self.0.measured.length(self.0.refined, run)).collect(),
-            stopped: self.stopped(),
-            order: self.0.judged.first().map_or(2.0, |it| it.judgement.norms[0].expected.order),
-        }
-    }
-
-    /// h or dt of runs that stopped.
-    fn stopped(&self) -> Vec<f64> {
-        let norms = || self.0.measured.quantities.iter().flat_map(|it| &it.norms);
-        let runs = self.0.measured.runs.iter().enumerate();
-        let stopped = runs.filter(|(at, _)| norms().any(|it| it.errors[*at].is_none()));
-        stopped.map(|(_, run)| self.0.measured.length(self.0.refined, run)).collect()
-    }
-
-    /// The points of a norm on logarithmic axes: the means of replicates.
-    fn points(&self, norm: &Norm) -> Vec<(f64, f64)> {
-        let refined = if self.0.refined == Refined::Grid { Refined::Space } else { self.0.refined };
-        let levels = self.0.measured.sequence(refined, norm);
-        let levels = levels.levels().iter().filter(|it| !it.errors.is_empty());
-        levels.map(|it| (it.length, it.error())).filter(|(_, error)| *error > 0.0).collect()
-    }
-}
-
-/// The texts of a row of a table.
-fn cells(row: &comfy_table::Row) -> Vec<String> {
-    row.cell_iter().map(|cell| cell.content()).collect()
 }

@@ -7,6 +7,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod accuracy;
+mod axis;
 pub mod campaign;
 mod comparison;
 #[cfg(feature = "defects")]
@@ -19,14 +20,16 @@ mod judge;
 pub mod method;
 pub mod page;
 mod phase;
-pub mod picture;
 mod plan;
+pub mod plot;
 mod results;
 pub mod run;
 #[cfg(test)]
 #[path = "../../tests/support/sampled.rs"]
 mod sampled;
+mod shown;
 mod study;
+pub mod table;
 mod text;
 pub mod tradeoff;
 pub mod verify;
@@ -36,6 +39,7 @@ pub use diagnosis::{Diagnosed, Hypotheses};
 pub use judge::View;
 pub use phase::Phases;
 pub use plan::{Plan, Step};
-pub use results::{differences, with_baseline};
+pub use results::{Compared, differences, with_baseline};
+pub use shown::{Format, Shown};
 pub use study::{Refused, Study};
-pub use text::{plain, tally, to_the_right};
+pub use text::tally;

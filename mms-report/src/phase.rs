@@ -1,11 +1,10 @@
 //! Amplitude and phase of the levels of a study, in some periods of the motion.
 
-use comfy_table::Table;
 use mms_convergence::observed_order;
 use mms_documents::study::{self as documents, PhaseLevel};
 use mms_runtime::study::{Phase, Refinement};
 
-use super::text::{plain, to_the_right};
+use super::table::Table;
 
 /// The amplitudes and phases of some periods.
 pub struct Phases {
@@ -54,8 +53,8 @@ impl Phases {
     /// The table for a terminal.
     pub fn table(&self, lengths: &[Option<f64>], refinement: Refinement) -> Table {
         let length = if refinement == Refinement::Time { "time step" } else { "cell size" };
-        let mut table =
-            plain(["in period", length, "amplitude error", "order", "phase lag", "order"]);
+        let header = ["in period", length, "amplitude error", "order", "phase lag", "order"];
+        let mut table = Table::new("amplitude and phase", header).right_from(0);
         for (which, number) in self.measured.iter().enumerate() {
             let rows = self.rows(which, lengths, refinement);
             for (row, length) in rows.into_iter().zip(lengths) {
@@ -72,7 +71,7 @@ impl Phases {
                 ]);
             }
         }
-        to_the_right(table)
+        table
     }
 }
 

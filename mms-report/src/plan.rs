@@ -5,6 +5,9 @@ use mms_diagnosis::list::Listed;
 use mms_documents::diagnose::{DiagnosePlan, DiagnoseStep};
 use mms_spec::foreign::Foreign;
 
+use super::shown::Shown;
+use super::table::Table;
+
 /// A step of the ladder; each takes for granted what the one before it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
 pub enum Step {
@@ -107,9 +110,12 @@ impl<'a> Plan<'a> {
         names.dedup();
         names
     }
+}
 
-    /// The text for a person.
-    pub fn text(&self) -> String {
+impl Shown for Plan<'_> {
+    type Document = DiagnosePlan;
+
+    fn text(&self) -> String {
         let field = self.field.shown();
         let each = self.steps.iter().enumerate().map(|(at, step)| {
             format!(
@@ -127,8 +133,23 @@ impl<'a> Plan<'a> {
         std::iter::once(head.to_owned()).chain(each).collect::<Vec<_>>().join("\n\n")
     }
 
-    /// The JSON document.
-    pub fn document(&self) -> DiagnosePlan {
+    fn tables(&self) -> Vec<Table> {
+        let field = self.field.shown();
+        let caption = format!("steps of a diagnosis with {field}");
+        let mut table = Table::new(caption, ["step", "needs", "costs", "run", "sees"]);
+        for step in &self.steps {
+            table.add_row([
+                step.name().to_owned(),
+                step.needs().to_owned(),
+                step.costs().to_owned(),
+                step.command(&field),
+                self.seen(*step).join(", "),
+            ]);
+        }
+        vec![table]
+    }
+
+    fn document(&self) -> DiagnosePlan {
         let field = self.field.shown();
         let step = |step: &Step| DiagnoseStep {
             step: step.name().to_owned(),

@@ -2,14 +2,40 @@
 
 use mms_convergence::Verdict;
 use mms_documents::judge::{DifferenceOfResults, JudgeBaseline, JudgeSame, SavedError};
-use mms_judge::results::{Compared, Same};
+use mms_judge::results::{Compared as Saved, Same};
 use mms_spec::foreign::shown;
+use serde::Serialize;
 
-use super::text::{plain, to_the_right};
+use super::shown::Shown;
+use super::table::Table;
 
-/// Errors and what they were.
-pub fn with_baseline(title: &str, all: &[Compared], verdict: Verdict) -> (String, JudgeBaseline) {
-    let mut table = plain(["quantity", "norm", "h", "error", "saved", "change"]);
+/// A comparison of results with what was saved, or with each other.
+pub struct Compared<D> {
+    text: String,
+    table: Table,
+    document: D,
+}
+
+impl<D: Clone + Serialize> Shown for Compared<D> {
+    type Document = D;
+
+    fn text(&self) -> String {
+        self.text.clone()
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        vec![self.table.clone()]
+    }
+
+    fn document(&self) -> D {
+        self.document.clone()
+    }
+}
+
+/// Errors beside those that were saved.
+pub fn with_baseline(title: &str, all: &[Saved], verdict: Verdict) -> Compared<JudgeBaseline> {
+    let header = ["quantity", "norm", "h", "error", "saved", "change"];
+    let mut table = Table::new(title, header).right_from(0);
     for it in all {
         let change = 100.0 * (it.error / it.saved - 1.0);
         table.add_row([
@@ -31,16 +57,16 @@ pub fn with_baseline(title: &str, all: &[Compared], verdict: Verdict) -> (String
     });
     let document = JudgeBaseline { errors: errors.collect(), verdict: verdict.to_string() };
     let text = format!(
-        "{title}\n\n{}\n\n{verdict}: errors may differ from those that were saved by 1 %",
-        to_the_right(table)
+        "{title}\n\n{table}\n\n{verdict}: errors may differ from those that were saved by 1 %"
     );
-    (text, document)
+    Compared { text, table, document }
 }
 
 /// How far two results differ.
-pub fn differences(a: &str, b: &str, same: &Same) -> (String, JudgeSame) {
+pub fn differences(a: &str, b: &str, same: &Same) -> Compared<JudgeSame> {
     let Same { differences: all, alone, words, paired, .. } = same;
-    let mut table = plain(["array", "time", "largest", "relative", "where"]);
+    let header = ["array", "time", "largest", "relative", "where"];
+    let mut table = Table::new(format!("{} and {}", shown(a), shown(b)), header);
     for it in all {
         table.add_row([
             shown(&it.name),
@@ -76,5 +102,5 @@ pub fn differences(a: &str, b: &str, same: &Same) -> (String, JudgeSame) {
         alone: alone.clone(),
         words: words.clone(),
     };
-    (text, document)
+    Compared { text, table, document }
 }

@@ -1,7 +1,5 @@
 //! A run as a text and as a JSON document.
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
 use mms_documents::provenance::Provenance;
 use mms_documents::run as documents;
 use mms_files::words::duration;
@@ -12,6 +10,7 @@ use mms_runtime::{Division, Errors, Method};
 use mms_spec::foreign::Foreign;
 
 use super::{Refused, method};
+use crate::table::Table;
 
 /// A run.
 pub struct Run {
@@ -143,16 +142,8 @@ fn times(run: &mms_runtime::Run) -> String {
 }
 
 fn table(details: &Details) -> Table {
-    let mut table = Table::new();
-    table.load_style(NOTHING).set_header([
-        "error of",
-        "l1",
-        "l2",
-        "linf",
-        "at the end: l1",
-        "l2",
-        "linf",
-    ]);
+    let header = ["error of", "l1", "l2", "linf", "at the end: l1", "l2", "linf"];
+    let mut table = Table::new("errors over time and at the end", header).right_from(1);
     let rows = quantities(&details.largest).into_iter().zip(quantities(&details.last));
     // A body in equilibrium is at rest.
     let moves = details.residual.is_none();
@@ -163,9 +154,6 @@ fn table(details: &Details) -> Table {
         let norms = [largest, last].map(|errors| [errors.l1, errors.l2, errors.linf]);
         let numbers = norms.concat().into_iter().map(|error| format!("{error:.2e}"));
         table.add_row(std::iter::once(symbol.to_owned()).chain(numbers));
-    }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }

@@ -3,7 +3,6 @@
 use std::fmt;
 use std::path::Path;
 
-use comfy_table::Table;
 use mms_convergence::{CONSTANT_TOLERANCE, Expected, Fit, Judgement, RULE, Verdict, is_near};
 use mms_documents::provenance::Provenance;
 use mms_documents::study::{self as documents, LevelErrors, StudyErrors, StudyOfMethod};
@@ -16,9 +15,11 @@ use mms_runtime::study::{Deviations, Orders, Point, Refinement, Series};
 use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
 use mms_spec::foreign::Foreign;
 
+use super::plot::Width;
 use super::run::quantities;
-use super::text::{plain, to_the_right};
-use super::{Phases, method, picture};
+use super::shown::Shown;
+use super::table::Table;
+use super::{Phases, method, page};
 
 /// A finished study.
 pub struct Study {
@@ -267,11 +268,6 @@ impl Study {
             .collect()
     }
 
-    /// The JSON document.
-    pub fn document(&self) -> documents::Study {
-        documents::Study { study: self.content(), provenance: self.provenance.clone() }
-    }
-
     /// The document without its provenance. The list of excluded mistakes is there if it was asked for.
     pub(super) fn content(&self) -> StudyOfMethod {
         let rows = self.rows();
@@ -308,41 +304,26 @@ impl Study {
         StudyErrors { displacement, velocity, deformation_gradient, first_piola_kirchhoff }
     }
 
-    /// The tables for a terminal, with the verdict.
-    pub fn table(&self) -> String {
-        let mut parts = vec![
-            format!(
-                "{}: {}\n{}",
-                self.field.shown(),
-                self.title.shown(),
-                method::line(&self.method, self.arithmetic)
-            ),
-            self.levels_table().to_string(),
-        ];
-        parts.extend(self.steps().map(|steps| self.differences_table(&steps).to_string()));
-        parts.push(self.conclusions());
-        if self.differences.is_none() {
-            parts.push(self.quantities_table().to_string());
-        }
-        parts.extend(self.phase_table());
-        parts.extend(self.exclusions.as_ref().map(super::excluded::text));
-        parts.join("\n\n")
+    /// Amplitude and phase, where they were asked for.
+    pub(super) fn phase_text(&self) -> Option<String> {
+        let table = self.phase_table()?;
+        Some(format!("{table}\n\na phase lag is in radians, and negative where the run is ahead"))
     }
 
-    /// Amplitude and phase, where they were asked for.
-    pub(super) fn phase_table(&self) -> Option<String> {
+    /// The table of amplitude and phase.
+    fn phase_table(&self) -> Option<Table> {
         let table = self.phases.as_ref()?.table(&self.lengths(), self.refinement);
-        Some(format!("{table}\n\na phase lag is in radians, and negative where the run is ahead"))
+        Some(table.of(&self.field.shown()))
     }
 
     fn levels_table(&self) -> Table {
         let heads =
             ["cells", "particles", "steps", "l1", "order", "l2", "order", "linf", "order", "time"];
         let relaxes = self.method.setup.relax;
-        let mut table = plain(heads);
-        if relaxes {
-            table.set_header(heads.into_iter().chain(["residual"]));
-        }
+        let header = heads.into_iter().chain(relaxes.then_some("residual"));
+        let when = if relaxes { "at equilibrium" } else { "the largest over time" };
+        let caption = format!("{}: errors of u, {when}", self.field.shown());
+        let mut table = Table::new(caption, header).right_from(0);
         for row in self.rows() {
             let dead = if row.steps.is_some() { "stopped" } else { "not started" };
             let error = |error: Option<f64>| error.map_or(dead.into(), |e| format!("{e:.2e}"));
@@ -368,12 +349,14 @@ impl Study {
             }
             table.add_row(cells);
         }
-        to_the_right(table)
+        table
     }
 
     /// The orders of every quantity between the two finest levels.
     fn quantities_table(&self) -> Table {
-        let mut table = plain(["finest pair", "l1", "l2", "linf"]);
+        let caption = format!("{}: orders on the finest pair", self.field.shown());
+        let header = ["finest pair", "l1", "l2", "linf"];
+        let mut table = Table::new(caption, header).right_from(0);
         // A body in equilibrium is at rest.
         let is_shown = |symbol: &str| symbol != "v" || !self.method.setup.relax;
         for (symbol, _, levels) in self.quantities().into_iter().filter(|it| is_shown(it.0)) {
@@ -382,12 +365,13 @@ impl Study {
             let cells = cells.map(|order| order.map_or("-".into(), |o| format!("{o:.2}")));
             table.add_row([&[format!("order of {symbol}")][..], &cells].concat());
         }
-        to_the_right(table)
+        table
     }
 
     fn differences_table(&self, steps: &[(Point, Orders)]) -> Table {
-        let mut table =
-            plain(["time step", "to the next: l1", "order", "l2", "order", "linf", "order"]);
+        let header = ["time step", "to the next: l1", "order", "l2", "order", "linf", "order"];
+        let caption = format!("{}: differences to the next level", self.field.shown());
+        let mut table = Table::new(caption, header).right_from(0);
         for (point, observed) in steps {
             let of = |norm: fn(&Errors) -> f64, order: Option<f64>| {
                 let error = point.errors.as_ref().map(norm);
@@ -404,7 +388,7 @@ impl Study {
             ];
             table.add_row([&[format!("{:.3e}", point.length)][..], &norms.concat()].concat());
         }
-        to_the_right(table)
+        table
     }
 
     /// The verdict, with the norm and the levels that decided it.
@@ -474,16 +458,51 @@ impl Study {
 
     /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        let files = [
-            ("svg", picture::draw(self)?),
-            ("csv", self.csv()?),
-            ("json", pretty(&self.document())?),
-        ];
+        let document = self.document();
+        let caption =
+            format!("{}: {}", self.field.shown(), method::line(&self.method, self.arithmetic));
+        let figure = page::study::plot(&document.study).figure(&caption, Width::Page);
+        let files = [("svg", figure), ("csv", self.csv()?), ("json", pretty(&document)?)];
         write_files(folder, "convergence", files)
     }
+}
 
-    /// A row for each level.
-    pub(super) fn csv(&self) -> anyhow::Result<String> {
+impl Shown for Study {
+    type Document = documents::Study;
+
+    fn text(&self) -> String {
+        let mut parts = vec![
+            format!(
+                "{}: {}\n{}",
+                self.field.shown(),
+                self.title.shown(),
+                method::line(&self.method, self.arithmetic)
+            ),
+            self.levels_table().to_string(),
+        ];
+        parts.extend(self.steps().map(|steps| self.differences_table(&steps).to_string()));
+        parts.push(self.conclusions());
+        if self.differences.is_none() {
+            parts.push(self.quantities_table().to_string());
+        }
+        parts.extend(self.phase_text());
+        parts.extend(self.exclusions.as_ref().map(super::excluded::text));
+        parts.join("\n\n")
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut tables = vec![self.levels_table()];
+        tables.extend(self.steps().map(|steps| self.differences_table(&steps)));
+        tables.extend(self.differences.is_none().then(|| self.quantities_table()));
+        tables.extend(self.phase_table());
+        tables
+    }
+
+    fn document(&self) -> documents::Study {
+        documents::Study { study: self.content(), provenance: self.provenance.clone() }
+    }
+
+    fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(COLUMNS)?;
         for row in self.rows() {

@@ -1,10 +1,8 @@
 //! The matrix as a table, as a JSON document, and as a page.
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
 use mms_documents::provenance::Provenance;
 use mms_documents::study::{Level, LevelErrors};
-use mms_documents::verify::{VerifiedRow, Verify};
+use mms_documents::verify::{ListedRow, VerifiedRow, Verify, VerifyList};
 use mms_files::words::duration;
 use mms_lab::outcome::Outcome;
 use mms_lab::rows::Named as _;
@@ -13,6 +11,8 @@ use mms_verify::matrix::Row;
 use mms_verify::verdict::Judgement;
 
 use crate::method::division;
+use crate::shown::Shown;
+use crate::table::Table;
 use crate::tally;
 
 /// Rows, with what came of them.
@@ -38,10 +38,6 @@ pub struct Judged<'a> {
 }
 
 impl Judged<'_> {
-    fn seconds(&self) -> f64 {
-        self.levels.iter().filter_map(Outcome::run).map(|run| run.seconds).sum()
-    }
-
     fn document(&self) -> VerifiedRow {
         let Judgement { constant, verdict, expected, reason, .. } = &self.judgement;
         VerifiedRow {
@@ -61,6 +57,10 @@ impl Judged<'_> {
             reason: reason.clone(),
             seconds: self.seconds(),
         }
+    }
+
+    fn seconds(&self) -> f64 {
+        self.levels.iter().filter_map(Outcome::run).map(|run| run.seconds).sum()
     }
 
     fn level(&self, at: usize) -> Level {
@@ -90,22 +90,9 @@ impl Report<'_> {
         self.rows.iter().filter(|row| !row.judgement.as_expected())
     }
 
-    /// The JSON document.
-    pub fn document(&self) -> Verify {
-        Verify {
-            matrix: if self.quick { "quick" } else { "full" }.to_owned(),
-            rows: self.rows.iter().map(Judged::document).collect(),
-            unexpected: self.unexpected().map(|judged| judged.row.name.clone()).collect(),
-            provenance: self.provenance.clone(),
-        }
-    }
-
-    /// The table for a terminal.
-    pub fn table(&self) -> String {
-        let mut table = Table::new();
-        table
-            .load_style(NOTHING)
-            .set_header(["mode", "field", "formal", "observed", "constant", "verdict", "", "time"]);
+    fn table(&self) -> Table {
+        let header = ["mode", "field", "formal", "observed", "constant", "verdict", "", "time"];
+        let mut table = Table::new("verification matrix", header).right([2, 3, 4, 7]);
         for judged in &self.rows {
             let Judgement { constant, verdict, .. } = &judged.judgement;
             table.add_row([
@@ -119,21 +106,7 @@ impl Report<'_> {
                 duration(judged.seconds()),
             ]);
         }
-        for column in [2, 3, 4, 7] {
-            if let Some(column) = table.column_mut(column) {
-                column.set_cell_alignment(CellAlignment::Right);
-            }
-        }
-        let mut text = format!("{table}\n");
-        for judged in self.unexpected() {
-            let Row { name, study, theory, .. } = judged.row;
-            let Judgement { verdict, expected, reason, .. } = &judged.judgement;
-            let reason = reason.as_deref().unwrap_or_default();
-            text += &format!(
-                "\n{name}: {verdict}, expected {expected}: {reason}\n  theory: {theory}\n  mms study {study}\n"
-            );
-        }
-        text + "\n" + &tally(self.unexpected().count(), self.rows.len(), "as theory expects")
+        table
     }
 
     /// The page: what does not depend on a machine.
@@ -159,6 +132,82 @@ impl Report<'_> {
             );
         }
         page
+    }
+}
+
+impl Shown for Report<'_> {
+    type Document = Verify;
+
+    fn text(&self) -> String {
+        let mut text = format!("{}\n", self.table());
+        for judged in self.unexpected() {
+            let Row { name, study, theory, .. } = judged.row;
+            let Judgement { verdict, expected, reason, .. } = &judged.judgement;
+            let reason = reason.as_deref().unwrap_or_default();
+            text += &format!(
+                "\n{name}: {verdict}, expected {expected}: {reason}\n  theory: {theory}\n  mms study {study}\n"
+            );
+        }
+        text + "\n" + &tally(self.unexpected().count(), self.rows.len(), "as theory expects")
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        vec![self.table()]
+    }
+
+    fn document(&self) -> Verify {
+        Verify {
+            matrix: if self.quick { "quick" } else { "full" }.to_owned(),
+            rows: self.rows.iter().map(Judged::document).collect(),
+            unexpected: self.unexpected().map(|judged| judged.row.name.clone()).collect(),
+            provenance: self.provenance.clone(),
+        }
+    }
+}
+
+/// The rows of the matrix before they are run.
+pub struct List<'a> {
+    /// The rows.
+    pub rows: &'a [&'a Row],
+    /// Whether `--quick` was asked for.
+    pub quick: bool,
+}
+
+impl Shown for List<'_> {
+    type Document = VerifyList;
+
+    fn text(&self) -> String {
+        let lines = self.rows.iter().map(|row| {
+            let Row { name, study, order, theory, .. } = row;
+            format!("{name}: order {order}; {theory}\n  mms study {study}\n")
+        });
+        lines.collect()
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let header = ["mode", "study", "levels", "formal order", "theory"];
+        let mut table = Table::new("rows of the verification matrix", header).right([2, 3]);
+        for row in self.rows {
+            table.add_row([
+                row.name.clone(),
+                row.study.clone(),
+                row.levels(self.quick).to_string(),
+                row.order.to_string(),
+                row.theory.clone(),
+            ]);
+        }
+        vec![table]
+    }
+
+    fn document(&self) -> VerifyList {
+        let rows = self.rows.iter().map(|row| ListedRow {
+            name: row.name.clone(),
+            study: row.study.clone(),
+            levels: row.levels(self.quick),
+            formal_order: row.order.to_string(),
+            theory: row.theory.clone(),
+        });
+        VerifyList { rows: rows.collect() }
     }
 }
 

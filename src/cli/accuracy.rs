@@ -19,7 +19,8 @@ use mms_spec::foreign::{Foreign, one_line, shown};
 use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 
-use super::{Outcome, hold_output, print, print_json, say, this_command};
+use super::format::Printing;
+use super::{Outcome, hold_output, say, this_command};
 
 /// Measure the errors of a field against arbitrary precision: every quantity, in single, double and
 /// twice double precision, in the stable and the fast form, as declared and at extremes.
@@ -73,9 +74,8 @@ pub struct Accuracy {
     /// --time.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Print one JSON document.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 /// The regimes, for --help.
@@ -119,13 +119,10 @@ impl Accuracy {
             points: request.points,
             accuracy,
             times: times.unwrap_or_default(),
+            all: self.all,
             provenance: this_command("accuracy", input),
         };
-        if self.json {
-            print_json(&report.document())?;
-        } else {
-            print(&report.table(self.all))?;
-        }
+        self.printing.print(&report)?;
         if let Some(folder) = &self.output {
             for path in report.write(folder)? {
                 say(path);

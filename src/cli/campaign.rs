@@ -23,7 +23,8 @@ use mms_report::campaign::{View, line};
 use mms_spec::foreign;
 
 use super::follow::Interrupted;
-use super::{Outcome, hold_output, print, print_json, say, this_command};
+use super::format::Printing;
+use super::{Outcome, hold_output, print, say, this_command};
 use crate::provenance::{Input, Provenance};
 
 /// Run your own solver on the meshes of several studies, and judge each as `mms judge` does it.
@@ -70,9 +71,8 @@ pub struct Campaign {
     /// Write campaign.json there, and convergence.svg and .csv to a folder for each study.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Print one JSON document.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 impl Campaign {
@@ -134,14 +134,10 @@ impl Campaign {
     }
 
     fn tell(&self, report: &Report<'_>, work: &Work<'_>) -> anyhow::Result<Outcome> {
-        if self.json {
-            print_json(&report.document())?;
-        } else {
-            print(&View(report).text())?;
-        }
+        self.printing.print(&View(report))?;
         if let Some(folder) = &self.output {
             let written = View(report).write(folder)?;
-            if !self.json {
+            if self.printing.is_text() {
                 print(&format!("\nwrote {}", written.join(", ")))?;
             }
         }
@@ -206,10 +202,11 @@ impl Campaign {
                 }
             }
         }
-        match (self.json, lines.is_empty()) {
-            (true, _) => print_json(&CampaignRuns { runs: documents })?,
-            (false, true) => say(none),
-            (false, false) => print(&lines.join("\n"))?,
+        if lines.is_empty() && self.printing.is_text() {
+            say(none);
+        } else {
+            let document = CampaignRuns { runs: documents };
+            self.printing.print_without_table(&lines.join("\n"), &document)?;
         }
         Ok(Outcome::AsExpected)
     }
@@ -221,7 +218,7 @@ impl Campaign {
                 foreign::path(&self.file)
             );
         };
-        suggest::propose(can, self.json)
+        suggest::propose(can, self.printing)
     }
 }
 

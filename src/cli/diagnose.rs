@@ -29,8 +29,9 @@ use mms_runtime::scene::Scene;
 use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 
+use super::format::Printing;
 use super::naming::Naming;
-use super::{Outcome, hold_output, print, print_json, say, this_command};
+use super::{Outcome, hold_output, print, say, this_command};
 
 /// Name the mistake of a solver by the error that it makes.
 ///
@@ -116,9 +117,8 @@ pub struct Diagnose {
     set: Vec<String>,
     #[command(flatten)]
     variant: Variant,
-    /// Print one JSON document.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    printing: Printing,
     /// Write the document there, as diagnosis.json, for `mms report`.
     #[arg(long, short, value_name = "FOLDER", conflicts_with = "list")]
     output: Option<PathBuf>,
@@ -184,12 +184,12 @@ impl Diagnose {
         let scene = input.scene(&self.set, |code| code.double)?;
         if self.list {
             let report = Hypotheses { field: &input.name, all: scene::hypotheses(&scene) };
-            self.show(|| report.table(), || report.document())?;
+            self.printing.print(&report)?;
             return Ok(Outcome::AsExpected);
         }
         if let Some(steps) = &self.plan {
             let plan = Plan::new(&input.name, steps, scene::hypotheses(&scene));
-            self.show(|| plan.text(), || plan.document())?;
+            self.printing.print(&plan)?;
             return Ok(Outcome::AsExpected);
         }
         let provenance = this_command("diagnose", input.provenance(&self.set));
@@ -256,10 +256,10 @@ impl Diagnose {
         let input = exact.input();
         let report =
             Diagnosed { field: &input.name, files: &self.files, diagnosis: &diagnosis, provenance };
-        self.show(|| report.text(), || report.document())?;
+        self.printing.print(&report)?;
         if let Some(folder) = &self.output {
             let written = report.write(folder)?;
-            if !self.json {
+            if self.printing.is_text() {
                 print(&format!("\nwrote {written}"))?;
             }
         }
@@ -302,13 +302,5 @@ impl Diagnose {
             }
         }
         Ok(orders)
-    }
-
-    fn show<D: serde::Serialize>(
-        &self,
-        text: impl FnOnce() -> String,
-        document: impl FnOnce() -> D,
-    ) -> anyhow::Result<()> {
-        if self.json { print_json(&document()) } else { print(&text()) }
     }
 }

@@ -17,6 +17,7 @@ use mms_lab::rows::Named as _;
 use mms_lab::tradeoff::setting::Setting;
 use mms_options::field::Motion;
 use mms_options::method::{Arithmetic, MethodOptions, Precision};
+use mms_report::Shown as _;
 use mms_report::extremes::{Judged, Report, Stability};
 use mms_runtime::scene::usual_cells;
 use mms_runtime::study::Observer;
@@ -24,7 +25,8 @@ use mms_runtime::{Division, IntegratorName, Method, Transfer};
 use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
 
-use super::{Outcome, hold_output, print, print_json, say, this_command};
+use super::format::Printing;
+use super::{Outcome, hold_output, print, say, this_command};
 use crate::session::progress::Progress;
 
 /// Run a field at the limits of the solver: each run meets its bound, or stops with the right diagnosis.
@@ -58,9 +60,8 @@ pub struct Extremes {
     /// Write extremes.json there, which is what `--json` prints.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Print one JSON document.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 /// The name of what is measured behind the rows.
@@ -122,14 +123,10 @@ impl Extremes {
             stability,
             provenance: this_command("extremes", declared.input.provenance(&self.set)),
         };
-        if self.json {
-            print_json(&report.document())?;
-        } else {
-            print(&report.text())?;
-        }
+        self.printing.print(&report)?;
         if let Some(folder) = &self.output {
             let written = write_files(folder, "extremes", [("json", pretty(&report.document())?)])?;
-            if !self.json {
+            if self.printing.is_text() {
                 print(&format!("\nwrote {}", written.join(", ")))?;
             }
         }

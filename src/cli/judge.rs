@@ -14,9 +14,9 @@ use mms_judge::table::{self, Order, Orders};
 use mms_options::method::positive;
 use mms_report::View;
 use mms_spec::foreign;
-use serde::Serialize;
 
-use super::{Outcome, hold_output, print, print_json, this_command};
+use super::format::Printing;
+use super::{Outcome, hold_output, print, this_command};
 use crate::provenance::Input;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
@@ -71,9 +71,8 @@ pub struct Judge {
     /// Write convergence.svg, .csv and .json there.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Print one JSON document.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 impl Judge {
@@ -100,19 +99,14 @@ impl Judge {
 
     /// Prints a report, and writes it where that is asked for.
     fn tell(&self, report: &Judgements) -> anyhow::Result<Outcome> {
-        self.show((View(report).table(), report.document()))?;
+        self.printing.print(&View(report))?;
         if let Some(folder) = &self.output {
             let written = View(report).write(folder)?;
-            if !self.json {
+            if self.printing.is_text() {
                 print(&format!("\nwrote {}", written.join(", ")))?;
             }
         }
         Ok(outcome(report.verdict()))
-    }
-
-    /// Prints a text, or the document that says the same.
-    fn show(&self, (text, document): (String, impl Serialize)) -> anyhow::Result<()> {
-        if self.json { print_json(&document) } else { print(&text) }
     }
 
     fn orders(&self) -> Orders {

@@ -1,16 +1,17 @@
 //! `mms list`: what there is to choose from.
 
 use clap::Args;
-use comfy_table::Table;
-use comfy_table::presets::NOTHING;
 use mms_codegen::materials::MATERIALS;
 use mms_documents::list::{self as documents, ListedField, ListedStudy};
 use mms_exact::gallery;
 use mms_harness::profile;
+use mms_report::Shown;
+use mms_report::table::Table;
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use mms_spec::{Claim, FORMS, FieldSpec, PRECISIONS, StudySpec};
 
-use super::{Outcome, print, print_json};
+use super::Outcome;
+use super::format::Printing;
 
 /// List the fields, materials and methods, and the codes whose files have a profile.
 ///
@@ -18,66 +19,93 @@ use super::{Outcome, print, print_json};
 /// whether its body is deformed and moves at first, and what it is. `--json` tells face by face, and which closed forms and studies the file has.
 #[derive(Args)]
 pub struct List {
-    /// Print one JSON document.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 impl List {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let fields = gallery::fields();
-        let materials: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
-        let profiles: Vec<_> = profile::names().collect();
-        if self.json {
-            let texts = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
-            print_json(&documents::List {
-                fields: fields.iter().map(document).collect(),
-                materials: texts(&materials),
-                shapes: texts(ShapeName::NAMES),
-                integrators: texts(IntegratorName::NAMES),
-                formulations: texts(FormulationName::NAMES),
-                transfers: texts(Transfer::NAMES),
-                precisions: texts(PRECISIONS),
-                forms: texts(FORMS),
-                profiles: texts(&profiles),
-            })?;
-            return Ok(Outcome::AsExpected);
-        }
-        let choices = [
-            ("materials", materials.as_slice()),
-            ("shapes", ShapeName::NAMES),
-            ("integrators", IntegratorName::NAMES),
-            ("formulations", FormulationName::NAMES),
-            ("transfers", Transfer::NAMES),
-            ("precisions", PRECISIONS),
-            ("forms", FORMS),
-            ("profiles", &profiles),
-        ];
-        let line = |(what, words): (&str, &[&str])| {
-            format!("\n{:13} {}", format!("{what}:"), words.join(", "))
-        };
-        print(&format!("{}\n{}", table(&fields), choices.map(line).concat()))?;
+        self.printing.print(&Listing::new())?;
         Ok(Outcome::AsExpected)
     }
 }
 
-/// A line per field, for a person to choose from.
-fn table(fields: &[FieldSpec]) -> Table {
-    let mut table = Table::new();
-    table.load_style(NOTHING);
-    table.set_header(["field", "dimension", "material", "body", "faces", "starts", "title"]);
-    for field in fields {
-        table.add_row([
-            field.name.shown(),
-            field.dimension.to_string(),
-            field.material.model.value.shown(),
-            field.domain.body.name().into(),
-            claims(field),
-            start(field).unwrap_or_default().into(),
-            field.title.shown(),
-        ]);
+/// All that can be named on a command line.
+struct Listing {
+    fields: Vec<FieldSpec>,
+    /// The words of each kind.
+    words: [(&'static str, Vec<&'static str>); 8],
+}
+
+impl Listing {
+    fn new() -> Self {
+        let words = [
+            ("materials", MATERIALS.iter().map(|(stem, _)| *stem).collect()),
+            ("shapes", ShapeName::NAMES.to_vec()),
+            ("integrators", IntegratorName::NAMES.to_vec()),
+            ("formulations", FormulationName::NAMES.to_vec()),
+            ("transfers", Transfer::NAMES.to_vec()),
+            ("precisions", PRECISIONS.to_vec()),
+            ("forms", FORMS.to_vec()),
+            ("profiles", profile::names().collect()),
+        ];
+        Listing { fields: gallery::fields(), words }
     }
-    table
+
+    /// A row for each field, to choose from.
+    fn table(&self) -> Table {
+        let header = ["field", "dimension", "material", "body", "faces", "starts", "title"];
+        let mut table = Table::new("fields of the gallery", header);
+        for field in &self.fields {
+            table.add_row([
+                field.name.shown(),
+                field.dimension.to_string(),
+                field.material.model.value.shown(),
+                field.domain.body.name().into(),
+                claims(field),
+                start(field).unwrap_or_default().into(),
+                field.title.shown(),
+            ]);
+        }
+        table
+    }
+}
+
+impl Shown for Listing {
+    type Document = documents::List;
+
+    fn text(&self) -> String {
+        let line = |(what, words): &(&str, Vec<&str>)| {
+            format!("\n{:13} {}", format!("{what}:"), words.join(", "))
+        };
+        format!("{}\n{}", self.table(), self.words.iter().map(line).collect::<String>())
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut words = Table::new("words of options", ["kind", "words"]);
+        for (kind, all) in &self.words {
+            words.add_row([(*kind).to_owned(), all.join(", ")]);
+        }
+        vec![self.table(), words]
+    }
+
+    fn document(&self) -> documents::List {
+        let [materials, shapes, integrators, formulations, transfers, precisions, forms, profiles] =
+            self.words
+                .each_ref()
+                .map(|(_, words)| words.iter().map(|it| (*it).to_owned()).collect());
+        documents::List {
+            fields: self.fields.iter().map(document).collect(),
+            materials,
+            shapes,
+            integrators,
+            formulations,
+            transfers,
+            precisions,
+            forms,
+            profiles,
+        }
+    }
 }
 
 /// How a field starts.

@@ -20,6 +20,7 @@ mod emit;
 mod eval;
 mod extremes;
 mod follow;
+mod format;
 mod judge;
 mod list;
 mod methods;

@@ -19,8 +19,9 @@ use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
 use mms_runtime::{Division, Method, Real, Run};
 
+use super::format::Printing;
 use super::methods::Methods;
-use super::{Outcome, output_folder, print, print_json, say};
+use super::{Outcome, output_folder, print, say};
 use crate::provenance::{self, Provenance};
 use crate::session::effort::announce;
 use crate::session::progress::Progress;
@@ -87,9 +88,8 @@ pub struct Study {
     output: Option<PathBuf>,
     #[command(flatten)]
     motion: Motion,
-    /// Print one JSON document.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 /// At the ends of so many equal parts of the time window, runs of a study in time are compared.
@@ -174,17 +174,15 @@ impl Study {
         let studies = self.reports(&cases, &provenance)?;
         let is_started = studies.iter().any(Report::is_started);
         let report = Comparison { studies, provenance };
-        if self.json {
-            print_json(&report.document())?;
-        } else if is_started {
-            print(&report.table())?;
+        if is_started || self.printing.is_json() {
+            self.printing.print(&report)?;
         }
         if !is_started {
             say(format_args!("error: the study of `{}` cannot be started", input.name.shown()));
             return Ok(Outcome::RunFailed);
         }
         let written = report.write(&folder)?;
-        if !self.json {
+        if self.printing.is_text() {
             print(&format!("\nwrote {}", written.join(", ")))?;
         }
         Ok(if report.is_passed() { Outcome::AsExpected } else { Outcome::Refuted })

@@ -23,7 +23,8 @@ use mms_spec::Form;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
-use super::{Outcome, print, print_json, say, this_command};
+use super::format::Printing;
+use super::{Outcome, print, say, this_command};
 use crate::session::progress::Progress;
 
 /// Find the cheapest method, numbers and grid for an error, or the least error for a time.
@@ -67,11 +68,10 @@ pub struct Tradeoff {
     /// Show every run, not the front, the default and what stopped alone.
     #[arg(long)]
     all: bool,
-    /// Print one JSON document.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    printing: Printing,
     /// Print the page docs/tradeoff.md.
-    #[arg(long, conflicts_with_all = ["field", "json", "output", "budget_seconds", "target_linf", "set", "rigid"])]
+    #[arg(long, conflicts_with_all = ["field", "json", "format", "output", "budget_seconds", "target_linf", "set", "rigid"])]
     page: bool,
 }
 
@@ -103,10 +103,8 @@ impl Tradeoff {
         let command = |setting: &Setting, cells: usize| self.command(field, setting, cells);
         let report = self.report(&input, plan, found, &command)?;
         let written = report.write(&folder)?;
-        if self.json {
-            print_json(&report.document())?;
-        } else {
-            print(&report.text(self.all))?;
+        self.printing.print(&report)?;
+        if self.printing.is_text() {
             print(&format!("\nwrote {}", written.join(", ")))?;
         }
         Ok(if report.choice().is_some() { Outcome::AsExpected } else { Outcome::Refuted })
@@ -127,7 +125,7 @@ impl Tradeoff {
     ) -> anyhow::Result<Report<'a>> {
         let [field, title] = [input.name.clone(), input.compiled.field.title.clone()];
         let provenance = this_command("tradeoff", input.provenance(&self.set));
-        Ok(Report { field, title, plan, found, command, provenance })
+        Ok(Report { field, title, plan, found, all: self.all, command, provenance })
     }
 
     fn plan(&self, input: &Input, goal: Goal) -> anyhow::Result<Plan> {

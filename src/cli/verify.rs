@@ -11,21 +11,21 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mms_documents::verify::{ListedRow, VerifyList};
 use mms_exact::gallery::FIELDS;
 use mms_files::store::{Store, digest, program};
 use mms_files::write::{pretty, write_files};
 use mms_lab::rows::Named as _;
 use mms_options::field::find;
-use mms_report::verify::{Judged, Report};
+use mms_report::Shown;
+use mms_report::verify::{Judged, List, Report};
 use mms_spec::suggest::advice;
 use mms_verify::matrix::{MATRIX, Row, rows};
 use mms_verify::plan::{Job, Plan};
 use mms_verify::verdict::judge;
 use mms_verify::work::{Fields, Watcher, outcomes};
-use serde::Serialize;
 
-use super::{Outcome, hold_output, print, print_json, say, this_command};
+use super::format::Printing;
+use super::{Outcome, hold_output, print, say, this_command};
 use crate::provenance;
 
 /// Run the verification matrix: every mode of the solver, one at a time, by the field that isolates it, each
@@ -61,11 +61,10 @@ pub struct Verify {
     /// How many runs go side by side; by default as many as there are processors.
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
-    /// Print one JSON document.
-    #[arg(long, conflicts_with = "page")]
-    json: bool,
+    #[command(flatten)]
+    printing: Printing,
     /// Print the page docs/verification.md, or docs/defects.md.
-    #[arg(long, conflicts_with = "list")]
+    #[arg(long, conflicts_with_all = ["list", "json", "format"])]
     page: bool,
 }
 
@@ -74,7 +73,7 @@ impl Verify {
         let all = rows()?;
         let rows = self.select(&all)?;
         if self.list {
-            self.print_list(&rows)?;
+            self.printing.print(&List { rows: &rows, quick: self.quick })?;
             return Ok(Outcome::AsExpected);
         }
         self.output.as_deref().map_or(Ok(()), hold_output)?;
@@ -100,7 +99,7 @@ impl Verify {
             rows: judged.collect::<anyhow::Result<_>>()?,
             provenance: this_command("verify", input()),
         };
-        self.tell("verification", &report.document(), || report.table(), || report.page())?;
+        self.tell("verification", &report, || report.page())?;
         Ok(match report.unexpected().next() {
             None => Outcome::AsExpected,
             Some(_) => Outcome::Refuted,
@@ -111,20 +110,15 @@ impl Verify {
     fn tell(
         &self,
         name: &str,
-        document: &impl Serialize,
-        table: impl FnOnce() -> String,
+        report: &impl Shown,
         page: impl FnOnce() -> String,
     ) -> anyhow::Result<()> {
         if let Some(folder) = &self.output {
-            for path in write_files(folder, name, [("json", pretty(document)?)])? {
+            for path in write_files(folder, name, [("json", pretty(&report.document())?)])? {
                 say(path);
             }
         }
-        match (self.json, self.page) {
-            (true, _) => print_json(document),
-            (false, true) => print(&page()),
-            (false, false) => print(&table()),
-        }
+        if self.page { print(&page()) } else { self.printing.print(report) }
     }
 
     #[cfg(not(feature = "defects"))]
@@ -159,24 +153,6 @@ impl Verify {
             bail!("`--quick` leaves out all of the rows that `--row` names");
         }
         Ok(quick)
-    }
-
-    fn print_list(&self, rows: &[&Row]) -> anyhow::Result<()> {
-        if self.json {
-            let rows = rows.iter().map(|row| ListedRow {
-                name: row.name.clone(),
-                study: row.study.clone(),
-                levels: row.levels(self.quick),
-                formal_order: row.order.to_string(),
-                theory: row.theory.clone(),
-            });
-            return print_json(&VerifyList { rows: rows.collect() });
-        }
-        let lines = rows.iter().map(|row| {
-            let Row { name, study, order, theory, .. } = row;
-            format!("{name}: order {order}; {theory}\n  mms study {study}\n")
-        });
-        print(&lines.collect::<String>())
     }
 }
 

@@ -18,6 +18,7 @@ mod extremes;
 mod files;
 mod foreign;
 mod form;
+mod formats;
 mod judge;
 mod judge_evidence;
 mod judge_files;

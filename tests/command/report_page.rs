@@ -136,8 +136,13 @@ fn what_is_no_result_is_named_and_left_where_it_is() {
     folder.write("all/h.pvd", timeless);
     // Before a method had a form, a result did not say which one it was of.
     folder.write("all/g.json", &study.replace("\"form\": \"stable\",", ""));
+    let version = "\"document_version\": 2,";
+    assert!(study.contains(version));
+    folder.write("all/i.json", &study.replace(version, "\"document_version\": 3,"));
+    folder.write("all/first.json", &study.replace(version, ""));
     let run: Run = folder.mms("report all --output page.html");
     let page = folder.read("page.html");
+    assert!(page.contains("first.json") && !run.stderr.contains("first.json"), "{run}");
     for (file, reason) in [
         ("a.json", "not JSON"),
         ("b.json", "it does not say what made it"),
@@ -146,6 +151,7 @@ fn what_is_no_result_is_named_and_left_where_it_is() {
         ("e.json", "nothing is known of a `dance`"),
         ("f.pvd", "no states in it"),
         ("h.pvd", "a state without a time or a file"),
+        ("i.json", "its form is of version 3, and this `mms` reads versions up to 2"),
         ("g.json", "not what `mms study` writes: its method does not say its `form`"),
     ] {
         run.complains(&format!("{file}: {reason}"));

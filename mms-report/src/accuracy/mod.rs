@@ -1,11 +1,7 @@
 //! Measured errors as a table, a JSON document and a picture.
 
-mod picture;
-
 use std::path::Path;
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
 use mms_analysis::accuracy::{Accuracy, Errors, Row};
 use mms_documents::accuracy as documents;
 use mms_documents::provenance::Provenance;
@@ -15,6 +11,11 @@ use mms_program::precision::Precision;
 use mms_spec::Form;
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
+
+use super::page;
+use super::plot::Width;
+use crate::shown::Shown;
+use crate::table::Table;
 
 /// The bound of the stable form, in eps of the largest value of a quantity.
 pub const BOUND: f64 = 64.0;
@@ -33,6 +34,8 @@ pub struct Report {
     pub accuracy: Accuracy,
     /// The times of the emitted code; empty if they were not measured.
     pub times: Vec<(Form, Time)>,
+    /// Whether all rows are shown, or the worst of each quantity.
+    pub all: bool,
     /// Where it is from.
     pub provenance: Provenance,
 }
@@ -93,40 +96,6 @@ impl Report {
         self.times.iter().find(same).map(|(_, time)| time.ns_per_point)
     }
 
-    /// The JSON document.
-    pub fn document(&self) -> documents::Accuracy {
-        let row = |row: &Row| documents::AccuracyRow {
-            quantity: row.quantity.name().to_owned(),
-            precision: row.precision.name().to_owned(),
-            form: row.form.name().to_owned(),
-            regime: row.regime.raw().to_owned(),
-            median_eps: measured(row, |it| it.median_eps),
-            p99_eps: measured(row, |it| it.p99_eps),
-            max_eps: measured(row, |it| it.max_eps),
-            max_scaled_eps: measured(row, |it| it.max_scaled_eps),
-            compared: row.errors.compared,
-            not_finite: row.errors.not_finite,
-            overflowed: row.errors.overflowed,
-            undefined: row.errors.undefined,
-            within_bound: within_bound(row),
-            ns_per_point: self.time(row.quantity, row.precision, row.form),
-        };
-        let left_out = self.accuracy.left_out.iter().map(|it| documents::LeftOut {
-            regime: it.regime.raw().to_owned(),
-            quantity: it.quantity.map(|it| it.name().to_owned()),
-            precision: it.precision.map(|it| it.name().to_owned()),
-            reason: it.reason.to_string(),
-        });
-        documents::Accuracy {
-            field: self.field.raw().to_owned(),
-            points: self.points,
-            bound_eps: BOUND,
-            rows: self.accuracy.rows.iter().map(row).collect(),
-            left_out: left_out.collect(),
-            provenance: self.provenance.clone(),
-        }
-    }
-
     /// The rows that are shown: all, or of each quantity, precision and form that of the largest
     /// error.
     fn shown(&self, all: bool) -> Vec<&Row> {
@@ -149,10 +118,9 @@ impl Report {
         shown
     }
 
-    /// The table for a terminal, and below it what was left out and what broke its promise.
-    pub fn table(&self, all: bool) -> String {
-        let mut table = Table::new();
-        table.load_style(NOTHING).set_header([
+    fn table(&self) -> Table {
+        let caption = format!("{}, {} points, errors in eps", self.field.shown(), self.points);
+        let header = [
             "quantity",
             "precision",
             "form",
@@ -163,8 +131,9 @@ impl Report {
             "max/largest",
             "not finite",
             "ns/point",
-        ]);
-        for row in self.shown(all) {
+        ];
+        let mut table = Table::new(caption, header).right_from(4);
+        for row in self.shown(self.all) {
             let errors = row.errors;
             let lost = match (errors.not_finite, errors.overflowed) {
                 (0, _) => "-".into(),
@@ -186,9 +155,27 @@ impl Report {
                 time.map_or("-".into(), |time| format!("{time:.2}")),
             ]);
         }
-        for column in table.column_iter_mut().skip(4) {
-            column.set_cell_alignment(CellAlignment::Right);
+        table
+    }
+
+    /// Writes accuracy.json and, where there are times, accuracy.svg into a folder; returns their
+    /// paths.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        let mut paths = write_files(folder, "accuracy", [("json", pretty(&self.document())?)])?;
+        if !self.times.is_empty() {
+            let caption = format!("{}: {} points", self.field.shown(), self.points);
+            let figure = page::accuracy::plot(&self.document()).figure(&caption, Width::Page);
+            paths.extend(write_files(folder, "accuracy", [("svg", figure)])?);
         }
+        Ok(paths)
+    }
+}
+
+impl Shown for Report {
+    type Document = documents::Accuracy;
+
+    fn text(&self) -> String {
+        let table = self.table();
         let mut text =
             format!("{}, {} points, errors in eps\n\n{table}\n", self.field.shown(), self.points);
         for left_out in &self.accuracy.left_out {
@@ -228,14 +215,41 @@ impl Report {
         text
     }
 
-    /// Writes accuracy.json and, where there are times, accuracy.svg into a folder; returns their
-    /// paths.
-    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        let mut paths = write_files(folder, "accuracy", [("json", pretty(&self.document())?)])?;
-        if !self.times.is_empty() {
-            paths.extend(write_files(folder, "accuracy", [("svg", picture::draw(self)?)])?);
+    fn tables(&self) -> Vec<Table> {
+        vec![self.table()]
+    }
+
+    fn document(&self) -> documents::Accuracy {
+        let row = |row: &Row| documents::AccuracyRow {
+            quantity: row.quantity.name().to_owned(),
+            precision: row.precision.name().to_owned(),
+            form: row.form.name().to_owned(),
+            regime: row.regime.raw().to_owned(),
+            median_eps: measured(row, |it| it.median_eps),
+            p99_eps: measured(row, |it| it.p99_eps),
+            max_eps: measured(row, |it| it.max_eps),
+            max_scaled_eps: measured(row, |it| it.max_scaled_eps),
+            compared: row.errors.compared,
+            not_finite: row.errors.not_finite,
+            overflowed: row.errors.overflowed,
+            undefined: row.errors.undefined,
+            within_bound: within_bound(row),
+            ns_per_point: self.time(row.quantity, row.precision, row.form),
+        };
+        let left_out = self.accuracy.left_out.iter().map(|it| documents::LeftOut {
+            regime: it.regime.raw().to_owned(),
+            quantity: it.quantity.map(|it| it.name().to_owned()),
+            precision: it.precision.map(|it| it.name().to_owned()),
+            reason: it.reason.to_string(),
+        });
+        documents::Accuracy {
+            field: self.field.raw().to_owned(),
+            points: self.points,
+            bound_eps: BOUND,
+            rows: self.accuracy.rows.iter().map(row).collect(),
+            left_out: left_out.collect(),
+            provenance: self.provenance.clone(),
         }
-        Ok(paths)
     }
 }
 

@@ -6,10 +6,10 @@ use mms_program::precision::Precision;
 use mms_spec::Form;
 
 use super::mark::{Column, count, number, numbers, table, verdict, words};
-use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
 use crate::accuracy::{eps, is_promised};
 use crate::front::front;
+use crate::plot::{Curve, Line, Plot};
 
 /// Whether nothing is known of an error that has a bound.
 fn is_unmeasured(row: &AccuracyRow) -> bool {
@@ -130,7 +130,7 @@ fn regime(accuracy: &Accuracy) -> &str {
 }
 
 /// Error over time, where times were measured.
-fn plot(accuracy: &Accuracy) -> Plot {
+pub fn plot(accuracy: &Accuracy) -> Plot {
     let mut curves = Vec::new();
     for (style, precision) in Precision::ALL.into_iter().enumerate() {
         for form in Form::ALL {
@@ -154,6 +154,7 @@ fn plot(accuracy: &Accuracy) -> Plot {
                     style,
                     is_hollow: form == Form::Fast,
                     line: Line::None,
+                    ..Curve::default()
                 });
             }
         }
@@ -168,16 +169,14 @@ fn plot(accuracy: &Accuracy) -> Plot {
     let description = format!("{}.", described.collect::<Vec<_>>().join("; "));
     if front.len() > 1 {
         let name = "Pareto front".to_owned();
-        curves.push(Curve { name, points: front, style: 0, is_hollow: false, line: Line::Dashed });
+        curves.push(Curve { name, points: front, line: Line::Dashed, ..Curve::default() });
     }
     Plot {
         title: format!("Error over time of {}", accuracy.field),
         description,
         axes: ["all quantities, ns per point", "largest error over largest value"],
         curves,
-        slope: None,
-        floor: Vec::new(),
-        marks_points: false,
+        ..Plot::default()
     }
 }
 

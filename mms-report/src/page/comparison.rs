@@ -4,12 +4,9 @@ use maud::{Markup, html};
 use mms_documents::study::Studies;
 
 use super::mark::{Column, numbers, order, small, table, verdict, words};
-use super::plot::{Curve, Line, Plot};
-use super::study::{l2, names_of_levels};
+use super::study::{judged, l2, names_of_levels, stopped};
 use super::{Section, Verdicts};
-
-/// How many colours with their marks there are; then they come once more, hollow.
-const STYLES: usize = 3;
+use crate::plot::{Curve, Line, Plot, STYLES};
 
 impl Section for Studies {
     fn title(&self) -> String {
@@ -47,7 +44,8 @@ impl Section for Studies {
     }
 }
 
-fn plot(studies: &Studies) -> Plot {
+/// l2 of each method over h or dt.
+pub fn plot(studies: &Studies) -> Plot {
     let curves: Vec<Curve> = studies
         .studies
         .iter()
@@ -55,6 +53,7 @@ fn plot(studies: &Studies) -> Plot {
         .map(|(at, it)| Curve {
             name: it.name.clone(),
             points: l2(&it.study).into_iter().filter_map(|(at, l2)| Some([at?, l2?])).collect(),
+            order: it.study.observed_order,
             style: at % STYLES,
             is_hollow: at / STYLES % 2 == 1,
             line: Line::Solid,
@@ -74,8 +73,9 @@ fn plot(studies: &Studies) -> Plot {
         },
         slope: studies.studies.first().map(|it| it.study.expected_order),
         curves,
-        floor: Vec::new(),
+        stopped: studies.studies.iter().flat_map(|it| stopped(&judged(&it.study))).collect(),
         marks_points: true,
+        ..Plot::default()
     }
 }
 

@@ -5,8 +5,8 @@ use mms_documents::extremes::Extremes;
 
 use super::mark::{number, numbers, small, table, verdict, words};
 use super::method::method;
-use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
+use crate::plot::{Curve, Line, Plot};
 
 /// The verdict on a row that was not run.
 const LEFT_OUT: &str = "left out";
@@ -130,9 +130,8 @@ fn compared(
     let curve = |name: &str, line, points| Curve {
         name: name.to_owned(),
         points,
-        style: 0,
-        is_hollow: false,
         line,
+        ..Curve::default()
     };
     let line = if points.is_empty() { Vec::new() } else { ends.map(|end| [end, end]).to_vec() };
     Plot {
@@ -143,8 +142,6 @@ fn compared(
             curve(name, Line::None, points.iter().map(|(_, point)| *point).collect()),
             curve("equal", Line::Dashed, line),
         ],
-        slope: None,
-        floor: Vec::new(),
-        marks_points: false,
+        ..Plot::default()
     }
 }

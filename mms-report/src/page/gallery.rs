@@ -7,7 +7,7 @@ use mms_spec::{FieldSpec, StudySpec};
 
 use super::mark::{table, words};
 use super::{Page, Verdicts, field, frame};
-use crate::Study;
+use crate::{Shown as _, Study};
 
 /// Runs the study of a command line, as any machine makes it; `None` if no level could be started.
 pub type RunStudy<'a> = &'a dyn Fn(&[String]) -> anyhow::Result<Option<Study>>;

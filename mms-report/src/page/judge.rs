@@ -6,11 +6,9 @@ use mms_documents::study::{JudgedLevel, JudgedNorm};
 
 use super::excluded::exclusions;
 use super::mark::{Column, count, is_good, number, numbers, order, small, table, verdict};
-use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
-
-/// How many colours with their marks there are.
-const STYLES: usize = 3;
+use crate::axis::short;
+use crate::plot::{Curve, Line, Plot, STYLES};
 
 impl Section for Judge {
     fn title(&self) -> String {
@@ -118,9 +116,68 @@ fn levels(judge: &Judge, quantity: &JudgedQuantity) -> Markup {
     table(&errors_of(judge, quantity), &columns, rows)
 }
 
+/// The lengths of levels of a quantity at which a run stopped.
+fn stopped(quantity: &JudgedQuantity) -> Vec<f64> {
+    let levels = quantity.norms.iter().flat_map(known);
+    let mut places: Vec<f64> = levels.filter(|it| it.error.is_none()).map(|it| it.length).collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    places
+}
+
+/// The figure of a judgement: a line for each norm, or for the deciding norm of each of several quantities. A grid of h and dt
+/// has points over h.
+pub fn figure(judge: &Judge) -> Plot {
+    if let [quantity] = judge.quantities.as_slice() {
+        let plot = plot(judge, quantity);
+        return if judge.refinement == "space and time" { of_grid(judge, plot) } else { plot };
+    }
+    let deciding = |it: &JudgedQuantity| it.norms.iter().position(|norm| norm.norm == it.norm);
+    let curve = |(at, quantity): (usize, &JudgedQuantity)| {
+        let mut plot = plot(judge, quantity);
+        let own = plot.curves.swap_remove(deciding(quantity)?);
+        let name = format!("{} {}", quantity.name, own.name);
+        let (style, is_hollow) = (at % STYLES, at / STYLES % 2 == 1);
+        Some(Curve { name, style, is_hollow, ..own })
+    };
+    let curves: Vec<Curve> = judge.quantities.iter().enumerate().filter_map(curve).collect();
+    let mut stopped: Vec<f64> = judge.quantities.iter().flat_map(stopped).collect();
+    stopped.sort_by(f64::total_cmp);
+    stopped.dedup();
+    Plot {
+        title: format!("Convergence of {}", judge.source),
+        description: format!("The deciding norm of {} quantities.", curves.len()),
+        axes: [axis(judge), "error"],
+        curves,
+        slope: judge.expected_order,
+        stopped,
+        marks_points: true,
+        ..Plot::default()
+    }
+}
+
+/// The plot of a grid of h and dt: the errors of its runs over h.
+fn of_grid(judge: &Judge, plot: Plot) -> Plot {
+    let norms = ["l1", "l2", "linf"];
+    let curve = |(style, name): (usize, &str)| {
+        let points = judge.levels.iter().filter_map(|it| {
+            Some([it.cell_size?, [it.errors.l1, it.errors.l2, it.errors.linf][style]?])
+        });
+        let points = points.collect();
+        Curve { name: name.to_owned(), points, style, line: Line::None, ..Curve::default() }
+    };
+    let curves = norms.into_iter().enumerate().map(curve).collect();
+    Plot { curves, slope: None, ..plot }
+}
+
+fn axis(judge: &Judge) -> &'static str {
+    if judge.refinement == "time" { "time step dt" } else { "cell size h" }
+}
+
 fn plot(judge: &Judge, quantity: &JudgedQuantity) -> Plot {
     let curve = |(at, norm): (usize, &JudgedNorm)| Curve {
         name: norm.norm.clone(),
+        order: norm.observed_order,
         points: known(norm).iter().filter_map(|it| Some([it.length, it.error?])).collect(),
         style: at % STYLES,
         is_hollow: at / STYLES % 2 == 1,
@@ -131,14 +188,14 @@ fn plot(judge: &Judge, quantity: &JudgedQuantity) -> Plot {
         let of = |[at, error]: &[f64; 2]| format!("{} {} {error:.2e}", curve.name, short(*at));
         curve.points.iter().map(of)
     });
-    let what = if judge.refinement == "time" { "time step dt" } else { "cell size h" };
     Plot {
         title: format!("Convergence of {} of {}", quantity.name, judge.source),
         description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
-        axes: [what, "error"],
+        axes: [axis(judge), "error"],
         curves,
         slope: judge.expected_order,
-        floor: Vec::new(),
+        stopped: stopped(quantity),
         marks_points: true,
+        ..Plot::default()
     }
 }

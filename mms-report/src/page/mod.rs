@@ -9,9 +9,9 @@
 //!
 //! A kind of result is one file that implements [`Section`], and one line in [`KINDS`].
 
-mod accuracy;
+pub mod accuracy;
 mod campaign;
-mod comparison;
+pub mod comparison;
 mod defects;
 mod diagnosis;
 mod excluded;
@@ -20,24 +20,23 @@ mod field;
 mod folder;
 mod frame;
 pub mod gallery;
-mod judge;
+pub mod judge;
 mod mark;
 mod method;
 mod motion;
 mod phase;
 mod picture;
-mod plot;
 mod run;
 mod states;
-mod study;
-mod tradeoff;
+pub mod study;
+pub mod tradeoff;
 mod verify;
 
 use std::path::PathBuf;
 
 use field::Shown;
 use maud::{Markup, html};
-use mms_documents::provenance::Provenance;
+use mms_documents::provenance::{Provenance, VERSION};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -192,6 +191,12 @@ fn entry(file: &str, document: &Value) -> Result<Entry, String> {
     let provenance = document.get("provenance").ok_or("it does not say what made it")?;
     let provenance = Provenance::deserialize(provenance)
         .map_err(|error| format!("where it is from cannot be read: {error}"))?;
+    if provenance.document_version > VERSION {
+        return Err(format!(
+            "its form is of version {}, and this `mms` reads versions up to {VERSION}: use the `mms` that wrote it, {}",
+            provenance.document_version, provenance.version
+        ));
+    }
     let known = KINDS.iter().find(|kind| kind.name == provenance.kind);
     let kind = known.ok_or_else(|| format!("nothing is known of a `{}`", provenance.kind))?;
     let section = match method::lack(document) {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use maud::{Markup, html};
 
-use super::plot::short;
+use crate::axis::short;
 
 /// Steps of the colour scale.
 pub const STEPS: usize = 8;

@@ -5,8 +5,8 @@ use mms_documents::run::{Diagnostics, OverTime, Run, RunErrors};
 
 use super::mark::{count, number, numbers, seconds, small, table, words};
 use super::method::{method, name};
-use super::plot::short;
 use super::{Section, Verdicts};
+use crate::axis::short;
 
 impl Section for Run {
     fn title(&self) -> String {

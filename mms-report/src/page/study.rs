@@ -11,8 +11,9 @@ use super::excluded::exclusions;
 use super::mark::{Column, count, number, numbers, order, seconds, small, table, words};
 use super::method::{method, name};
 use super::phase::phase;
-use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
+use crate::axis::short;
+use crate::plot::{Curve, Plot};
 
 /// Each error and its order.
 fn norms(errors: &LevelErrors) -> [Markup; 6] {
@@ -120,21 +121,24 @@ fn refined(study: &StudyOfMethod, level: &Level) -> Option<f64> {
 }
 
 /// The errors that are judged: those of levels, or in time the differences to the next level.
-fn judged(study: &StudyOfMethod) -> Vec<(Option<f64>, &LevelErrors)> {
+pub fn judged(study: &StudyOfMethod) -> Vec<(Option<f64>, &LevelErrors)> {
     match &study.differences {
         Some(steps) => steps.iter().map(|it| (Some(it.time_step), &it.errors)).collect(),
         None => study.levels.iter().map(|it| (refined(study, it), &it.errors)).collect(),
     }
 }
 
-fn plot(study: &StudyOfMethod) -> Plot {
+/// The errors of a study over h or dt.
+pub fn plot(study: &StudyOfMethod) -> Plot {
     let rows = judged(study);
     let curve = |(style, name): (usize, &str)| {
         let points = rows
             .iter()
             .filter_map(|(at, norms)| Some([(*at)?, [norms.l1, norms.l2, norms.linf][style]?]));
         let points = points.collect();
-        Curve { name: name.to_owned(), points, style, is_hollow: false, line: Line::Solid }
+        let order = study.norms.iter().find(|it| it.norm == name);
+        let order = order.and_then(|it| it.observed_order);
+        Curve { name: name.to_owned(), order, points, style, ..Curve::default() }
     };
     let curves: Vec<_> = ["l1", "l2", "linf"].into_iter().enumerate().map(curve).collect();
     let floor = match study.differences {
@@ -162,8 +166,14 @@ fn plot(study: &StudyOfMethod) -> Plot {
         curves,
         slope: Some(study.expected_order),
         floor,
+        stopped: stopped(&rows),
         marks_points: true,
     }
+}
+
+/// The places of levels without an error.
+pub fn stopped(rows: &[(Option<f64>, &LevelErrors)]) -> Vec<f64> {
+    rows.iter().filter(|(_, norms)| norms.l2.is_none()).filter_map(|(at, _)| *at).collect()
 }
 
 /// The caption of the picture.

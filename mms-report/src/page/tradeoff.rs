@@ -5,8 +5,8 @@ use mms_documents::tradeoff::{Cost, Tradeoff, Trial};
 use mms_files::words::{bytes, duration};
 
 use super::mark::{count, number, numbers, seconds, small, table, words};
-use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
+use crate::plot::{Curve, Line, Plot};
 
 /// The cost of a run; nothing if the run stopped.
 fn cost_of(tradeoff: &Tradeoff, run: &Trial) -> Option<f64> {
@@ -122,7 +122,8 @@ fn point(tradeoff: &Tradeoff, run: &Trial) -> Option<[f64; 2]> {
     Some([cost_of(tradeoff, run)?, run.linf?])
 }
 
-fn plot(tradeoff: &Tradeoff) -> Plot {
+/// The errors of runs over their cost.
+pub fn plot(tradeoff: &Tradeoff) -> Plot {
     let points = |on_front: bool| -> Vec<[f64; 2]> {
         let runs = tradeoff.runs.iter().filter(|run| run.front == on_front);
         runs.filter_map(|run| point(tradeoff, run)).collect()
@@ -137,6 +138,7 @@ fn plot(tradeoff: &Tradeoff) -> Plot {
         style,
         is_hollow,
         line,
+        ..Curve::default()
     };
     let chosen = tradeoff.choice.iter().filter_map(|run| point(tradeoff, run)).collect();
     let all = [points(true), points(false)].concat();
@@ -164,9 +166,7 @@ fn plot(tradeoff: &Tradeoff) -> Plot {
             curve("choice", 2, false, Line::None, chosen),
             curve("goal", 2, false, Line::Dashed, goal),
         ],
-        slope: None,
-        floor: Vec::new(),
-        marks_points: false,
+        ..Plot::default()
     }
 }
 

@@ -1,12 +1,9 @@
 //! Error against cost, as a table, a sentence, a JSON document and a picture.
 
 pub mod page;
-mod picture;
 
 use std::path::Path;
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
 use mms_documents::provenance::Provenance;
 use mms_documents::tradeoff as documents;
 use mms_files::words::{bytes, duration};
@@ -16,6 +13,9 @@ use mms_lab::tradeoff::setting::{Axis, Setting};
 use mms_spec::foreign::Foreign;
 
 use super::front::front;
+use super::plot::Width;
+use crate::shown::Shown;
+use crate::table::Table;
 
 /// The result of a search for a field.
 pub struct Report<'a> {
@@ -27,6 +27,8 @@ pub struct Report<'a> {
     pub plan: Plan,
     /// The runs and predictions of the search.
     pub found: Found,
+    /// Whether all runs are shown, or those on the front, those of the default and those that stopped.
+    pub all: bool,
     /// The command that runs a setting on a grid.
     pub command: &'a dyn Fn(&Setting, usize) -> String,
     /// Where it is from.
@@ -120,46 +122,6 @@ impl Report<'_> {
         }
     }
 
-    /// The JSON document.
-    pub fn document(&self) -> documents::Tradeoff {
-        let front = self.front();
-        let runs = self.trials().iter().map(|trial| {
-            let on_front = front.iter().any(|other| std::ptr::eq(*other, trial));
-            self.run(trial, on_front)
-        });
-        let (target, budget) = match self.plan.goal {
-            Goal::Error(target) => (Some(target), None),
-            Goal::Cost(budget) => (None, Some(budget)),
-        };
-        let cost = self.plan.cost;
-        let prediction = |setting: &Setting, it: &Prediction| documents::Prediction {
-            setting: setting.to_string(),
-            cells: it.cells,
-            linf: it.error,
-            seconds: (cost == Cost::Seconds).then_some(it.cost),
-            memory: (cost == Cost::Memory).then_some(it.cost),
-            particle_steps: it.work,
-        };
-        documents::Tradeoff {
-            field: self.field.raw().to_owned(),
-            cost: match cost {
-                Cost::Seconds => documents::Cost::Seconds,
-                Cost::ParticleSteps => documents::Cost::ParticleSteps,
-                Cost::Memory => documents::Cost::Memory,
-            },
-            target_linf: target,
-            budget_seconds: budget,
-            runs: runs.collect(),
-            choice: self.choice().map(|trial| self.run(trial, true)),
-            predicted: self.found.predicted.as_ref().map(|(setting, it)| prediction(setting, it)),
-            default: self.found.default.as_ref().map(|it| prediction(&Setting::default(), it)),
-            gain: self.gain(),
-            exponent: self.exponent(),
-            dominated: self.dominated(),
-            provenance: self.provenance.clone(),
-        }
-    }
-
     fn run(&self, trial: &Trial, front: bool) -> documents::Trial {
         let Setting { formulation, shape, integrator, transfer, .. } = trial.setting;
         let started = trial.steps > 0;
@@ -185,29 +147,11 @@ impl Report<'_> {
         }
     }
 
-    /// The text for a terminal: all runs, or those on the front, those of the default and those that stopped.
-    pub fn text(&self, all: bool) -> String {
-        format!(
-            "{}: {}\n\n{}\n\n{}",
-            self.field.shown(),
-            self.title.shown(),
-            self.table(all),
-            self.advice()
-        )
-    }
-
     /// The runs from cheap to dear, and those that stopped.
-    fn table(&self, all: bool) -> Table {
-        let mut table = Table::new();
-        table.load_style(NOTHING).set_header([
-            "",
-            "cells",
-            "linf",
-            "particle-steps",
-            "time",
-            "memory",
-            "setting",
-        ]);
+    fn table(&self) -> Table {
+        let caption = format!("{}: error against cost", self.field.shown());
+        let header = ["", "cells", "linf", "particle-steps", "time", "memory", "setting"];
+        let mut table = Table::new(caption, header).right(1..6);
         let front = self.front();
         let mut ended: Vec<_> =
             self.trials().iter().filter_map(|trial| Some((self.point(trial)?, trial))).collect();
@@ -215,7 +159,7 @@ impl Report<'_> {
         for ((_, error), trial) in ended {
             let is = |other: &Trial| std::ptr::eq(other, trial);
             let is_best = front.iter().any(|other| is(other));
-            if !all && !is_best && trial.setting != Setting::default() {
+            if !self.all && !is_best && trial.setting != Setting::default() {
                 continue;
             }
             table.add_row([
@@ -239,11 +183,6 @@ impl Report<'_> {
             let [cells, none] = [trial.cells.to_string(), "-".to_owned()];
             let stopped = "stopped".to_owned();
             table.add_row([String::new(), cells, stopped, none.clone(), none.clone(), none, what]);
-        }
-        for column in 1..6 {
-            if let Some(column) = table.column_mut(column) {
-                column.set_cell_alignment(CellAlignment::Right);
-            }
         }
         table
     }
@@ -363,8 +302,68 @@ impl Report<'_> {
 
     /// Writes tradeoff.json and tradeoff.svg, and says where.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        let files = [("json", pretty(&self.document())?), ("svg", picture::draw(self)?)];
+        let document = self.document();
+        let caption = format!("{}: error against cost", self.field.shown());
+        let figure = crate::page::tradeoff::plot(&document).figure(&caption, Width::Page);
+        let files = [("json", pretty(&document)?), ("svg", figure)];
         write_files(folder, "tradeoff", files)
+    }
+}
+
+impl Shown for Report<'_> {
+    type Document = documents::Tradeoff;
+
+    fn text(&self) -> String {
+        format!(
+            "{}: {}\n\n{}\n\n{}",
+            self.field.shown(),
+            self.title.shown(),
+            self.table(),
+            self.advice()
+        )
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        vec![self.table()]
+    }
+
+    fn document(&self) -> documents::Tradeoff {
+        let front = self.front();
+        let runs = self.trials().iter().map(|trial| {
+            let on_front = front.iter().any(|other| std::ptr::eq(*other, trial));
+            self.run(trial, on_front)
+        });
+        let (target, budget) = match self.plan.goal {
+            Goal::Error(target) => (Some(target), None),
+            Goal::Cost(budget) => (None, Some(budget)),
+        };
+        let cost = self.plan.cost;
+        let prediction = |setting: &Setting, it: &Prediction| documents::Prediction {
+            setting: setting.to_string(),
+            cells: it.cells,
+            linf: it.error,
+            seconds: (cost == Cost::Seconds).then_some(it.cost),
+            memory: (cost == Cost::Memory).then_some(it.cost),
+            particle_steps: it.work,
+        };
+        documents::Tradeoff {
+            field: self.field.raw().to_owned(),
+            cost: match cost {
+                Cost::Seconds => documents::Cost::Seconds,
+                Cost::ParticleSteps => documents::Cost::ParticleSteps,
+                Cost::Memory => documents::Cost::Memory,
+            },
+            target_linf: target,
+            budget_seconds: budget,
+            runs: runs.collect(),
+            choice: self.choice().map(|trial| self.run(trial, true)),
+            predicted: self.found.predicted.as_ref().map(|(setting, it)| prediction(setting, it)),
+            default: self.found.default.as_ref().map(|it| prediction(&Setting::default(), it)),
+            gain: self.gain(),
+            exponent: self.exponent(),
+            dominated: self.dominated(),
+            provenance: self.provenance.clone(),
+        }
     }
 }
 

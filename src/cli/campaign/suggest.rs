@@ -5,16 +5,13 @@ use mms_documents::campaign::{AffineMotion, CampaignSuggest, ProposedField, Unse
 use mms_harness::suggest::{Affine, Proposed, Suggestion, Unseen, suggest};
 use mms_options::field::open;
 
-use super::super::{Outcome, print, print_json};
+use super::super::Outcome;
+use super::super::format::Printing;
 
 /// Prints what is proposed.
-pub fn propose(can: &Can, as_json: bool) -> anyhow::Result<Outcome> {
+pub fn propose(can: &Can, printing: Printing) -> anyhow::Result<Outcome> {
     let found = suggest(can, &open)?;
-    if as_json {
-        print_json(&document(&found))?;
-    } else {
-        print(&text(&found))?;
-    }
+    printing.print_without_table(&text(&found), &document(&found))?;
     Ok(Outcome::AsExpected)
 }
 

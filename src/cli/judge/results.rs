@@ -135,7 +135,7 @@ impl Judge {
         }
         let texts: Vec<String> = all.iter().map(Explained::text).collect();
         let files = all.iter().map(Explained::document).collect();
-        self.show((texts.join("\n"), JudgeExplained { files }))?;
+        self.printing.print_without_table(&texts.join("\n"), &JudgeExplained { files })?;
         Ok(Outcome::AsExpected)
     }
 
@@ -197,7 +197,7 @@ impl Judge {
             if compared.iter().all(|it| it.is_near()) { Verdict::Pass } else { Verdict::Fail };
         let is_no_evidence = measurement.objection.as_ref().is_some_and(|it| it.is_to_all);
         let verdict = if is_no_evidence { Verdict::NoEvidence } else { verdict };
-        self.show(with_baseline(title, &compared, verdict))?;
+        self.printing.print(&with_baseline(title, &compared, verdict))?;
         Ok(outcome(verdict))
     }
 
@@ -208,7 +208,7 @@ impl Judge {
         let names = self.results.naming.names(&[])?;
         let find = |given| Results::find(given, &everything(&names).within(room, advice), &Disk);
         let found = same(&find(a)?, &find(b)?, &names)?;
-        self.show(differences(a, b, &found))?;
+        self.printing.print(&differences(a, b, &found))?;
         Ok(if found.is_finite() { Outcome::AsExpected } else { Outcome::Refuted })
     }
 }

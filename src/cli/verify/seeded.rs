@@ -69,7 +69,7 @@ impl Verify {
         let provenance = this_command("defects", input());
         let report =
             Report { rows, showings, whole: self.all_rows && names.is_empty(), provenance };
-        self.tell("defects", &report.document(), || report.table(), || report.page())?;
+        self.tell("defects", &report, || report.page())?;
         Ok(if report.as_expected() { Outcome::AsExpected } else { Outcome::Refuted })
     }
 }
