@@ -49,7 +49,7 @@ impl<'a> Subject<'a> {
 /// What a target makes of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bundle {
-    /// The files: the one that a solver uses first, and the check program, where there is one, last.
+    /// The files: the one that a solver uses first; the check program, where there is one, and its test vectors last.
     pub files: Vec<File>,
     /// The line that builds and runs the check program in their folder, where there is one.
     pub verify: Option<String>,
@@ -58,10 +58,8 @@ pub struct Bundle {
 impl Bundle {
     /// The files that a solver needs.
     pub fn sources(&self) -> &[File] {
-        match (&self.verify, self.files.split_last()) {
-            (Some(_), Some((_, sources))) => sources,
-            _ => &self.files,
-        }
+        let others = if self.verify.is_some() { 2 } else { 0 };
+        &self.files[..self.files.len() - others]
     }
 }
 

@@ -23,7 +23,7 @@ use super::{Outcome, print, print_json, say};
 
 /// Write the source of a field for another solver: all of it, or only what is needed.
 ///
-/// A check program comes with it, which holds test vectors: the line printed at the end builds and
+/// A check program and its test vectors come with it: the line printed at the end builds and
 /// runs it. With your own compiler and flags in that line it proves your build. The Rust that is
 /// written without --target has none: it shares its code with what this program computes.
 #[derive(Args)]

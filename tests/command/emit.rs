@@ -80,14 +80,16 @@ fn json_holds_the_text_or_its_path() {
 fn a_bundle_is_written_with_the_line_that_checks_it() {
     let folder = Folder::new();
     let run = folder.mms("emit bar_1d --target c -o a/b").exits(0);
-    assert_eq!(run.stdout, "a/b/bar_1d.h\na/b/bar_1d.c\na/b/bar_1d_check.c\n");
+    let files = ["bar_1d.h", "bar_1d.c", "bar_1d_check.c", "bar_1d_vectors.txt"];
+    let written = files.map(|file| format!("a/b/{file}"));
+    assert_eq!(run.stdout, written.join("\n") + "\n");
     run.complains(
         "to check the build: cd a/b && cc -std=c99 -O2 -Wall -Wextra -Werror -ffp-contract=off ",
     );
     let run = folder.mms("emit bar_1d --target c -o a/b --json").exits(0).json();
     let paths: Vec<_> =
         run["files"].as_array().expect("files").iter().map(|file| file["path"].as_str()).collect();
-    assert_eq!(paths, [Some("a/b/bar_1d.h"), Some("a/b/bar_1d.c"), Some("a/b/bar_1d_check.c")]);
+    assert_eq!(paths, written.each_ref().map(|path| Some(path.as_str())));
     assert!(run["verify"].as_str().expect("a line").starts_with("cd a/b && cc "));
     // Without a folder the document has the texts.
     let run = folder.mms("emit bar_1d --target c --json").exits(0).json();
@@ -121,7 +123,7 @@ fn what_is_stale_or_missing_is_named_and_nothing_is_written() {
     let run = folder.mms(&format!("{check} --json")).exits(1).json();
     let states: Vec<_> =
         run["files"].as_array().expect("files").iter().map(|file| file["state"].as_str()).collect();
-    assert_eq!(states, [Some("current"), Some("stale"), Some("missing")]);
+    assert_eq!(states, ["current", "stale", "missing", "current"].map(Some));
     // Another selection makes other files.
     folder.mms("emit bar_1d --target c -o out").exits(0);
     folder.mms(&format!("{check} --set young=2e6")).exits(1);
@@ -173,7 +175,10 @@ fn a_wrong_word_is_refused_with_advice() {
             "--target cobol",
             "[possible values: rust, rust-mms-math, c, cpp, fortran, python, numpy, sympy, ufl, octave, julia, moose, karamelo]",
         ),
-        ("--target c", "makes bar_1d.h, bar_1d.c, bar_1d_check.c: give the folder for them"),
+        (
+            "--target c",
+            "makes bar_1d.h, bar_1d.c, bar_1d_check.c, bar_1d_vectors.txt: give the folder for them",
+        ),
         ("--check", "--output <DIR>"),
         ("--all", "cannot be used with"),
         ("--set young", "`--set young`: expected name=value"),

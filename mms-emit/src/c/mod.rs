@@ -9,7 +9,6 @@ use self::dialect::RULES;
 use crate::port::Port;
 use crate::target::{Bundle, Subject, Target};
 use crate::text::wrapped;
-use mms_codegen::rust::File;
 
 /// C.
 pub const TARGET: Target = Target {
@@ -26,18 +25,15 @@ const FLAGS: &str = "-std=c99 -O2 -Wall -Wextra -Werror -ffp-contract=off";
 
 fn bundle(subject: &Subject<'_>) -> Bundle {
     let port = Port::new(subject, &RULES);
-    let name = &port.name;
-    let file = |suffix: &str, text: String| File { name: format!("{name}{suffix}"), text };
-    Bundle {
-        files: vec![
-            file(".h", header::text(&port)),
-            file(".c", source::text(&port)),
-            file("_check.c", check::text(&port)),
-        ],
-        verify: Some(format!(
-            "cc {FLAGS} {name}.c {name}_check.c -lm -o {name}_check && ./{name}_check"
-        )),
-    }
+    let texts = [
+        (".h", header::text(&port)),
+        (".c", source::text(&port)),
+        ("_check.c", check::text(&port)),
+    ];
+    port.bundle(
+        texts,
+        &format!("cc {FLAGS} FIELD.c FIELD_check.c -lm -o FIELD_check && ./FIELD_check"),
+    )
 }
 
 /// Paragraphs as one comment.

@@ -8,7 +8,6 @@ use crate::c::dialect::{C_KEYWORDS, CPP_KEYWORDS, HEADERS, MACROS};
 use crate::port::Port;
 use crate::port::names::Rules;
 use crate::target::{Bundle, Subject, Target};
-use mms_codegen::rust::File;
 
 /// C++.
 pub const TARGET: Target = Target {
@@ -31,12 +30,6 @@ const FLAGS: &str = "-std=c++17 -O2 -Wall -Wextra -Werror -ffp-contract=off";
 
 fn bundle(subject: &Subject<'_>) -> Bundle {
     let port = Port::new(subject, &RULES);
-    let name = &port.name;
-    Bundle {
-        files: vec![
-            File { name: format!("{name}.hpp"), text: header::text(&port) },
-            File { name: format!("{name}_check.cpp"), text: check::text(&port) },
-        ],
-        verify: Some(format!("c++ {FLAGS} {name}_check.cpp -o {name}_check && ./{name}_check")),
-    }
+    let texts = [(".hpp", header::text(&port)), ("_check.cpp", check::text(&port))];
+    port.bundle(texts, &format!("c++ {FLAGS} FIELD_check.cpp -o FIELD_check && ./FIELD_check"))
 }

@@ -9,7 +9,6 @@ use crate::port::Port;
 use crate::port::names::{FUNCTIONS, Rules};
 use crate::target::{Bundle, Subject, Target};
 use crate::text::wrapped;
-use mms_codegen::rust::File;
 
 /// Fortran.
 pub const TARGET: Target = Target {
@@ -38,17 +37,13 @@ const FLAGS: &str = "-std=f2008 -O2 -Wall -Wextra -Werror -ffp-contract=off";
 
 fn bundle(subject: &Subject<'_>) -> Bundle {
     let port = Port::new(subject, &RULES);
-    let name = &port.name;
-    Bundle {
-        files: vec![
-            File { name: format!("{name}.f90"), text: module::text(&port) },
-            File { name: format!("{name}_c.f90"), text: face::text(&port) },
-            File { name: format!("{name}_check.f90"), text: check::text(&port) },
-        ],
-        verify: Some(format!(
-            "gfortran {FLAGS} {name}.f90 {name}_c.f90 {name}_check.f90 -o {name}_check && ./{name}_check"
-        )),
-    }
+    let texts = [
+        (".f90", module::text(&port)),
+        ("_c.f90", face::text(&port)),
+        ("_check.f90", check::text(&port)),
+    ];
+    let files = "FIELD.f90 FIELD_c.f90 FIELD_check.f90";
+    port.bundle(texts, &format!("gfortran {FLAGS} {files} -o FIELD_check && ./FIELD_check"))
 }
 
 /// Paragraphs as lines of a comment.

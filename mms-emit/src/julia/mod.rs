@@ -7,7 +7,6 @@ mod module;
 use crate::port::Port;
 use crate::port::names::{FUNCTIONS, Rules};
 use crate::target::{Bundle, Subject, Target};
-use mms_codegen::rust::File;
 
 /// Julia.
 pub const TARGET: Target = Target {
@@ -39,12 +38,6 @@ const NAMES: &str = "\
 
 fn bundle(subject: &Subject<'_>) -> Bundle {
     let port = Port::new(subject, &RULES);
-    let name = &port.name;
-    Bundle {
-        files: vec![
-            File { name: format!("{name}.jl"), text: module::text(&port) },
-            File { name: format!("{name}_check.jl"), text: check::text(&port) },
-        ],
-        verify: Some(format!("julia --startup-file=no {name}_check.jl")),
-    }
+    let texts = [(".jl", module::text(&port)), ("_check.jl", check::text(&port))];
+    port.bundle(texts, "julia --startup-file=no FIELD_check.jl")
 }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::moose::functions;
 use crate::port::Port;
 use crate::port::once::Once;
-use crate::python::check::{CHECK, tables};
+use crate::python::check::checked;
 use crate::python::module::comment;
 
 /// The text of `FIELD_check.py`.
@@ -18,11 +18,9 @@ pub(super) fn text(port: &Port<'_>) -> String {
     let mut text = comment(&header, "");
     let _ = write!(
         text,
-        "\nimport ctypes\nimport math\nimport pathlib\nimport re\nimport sys\n\nFIELD = \"{name}\"\n\
-         EPS, LEAST = 2.0**-23, 2.0**-126\n\n"
+        "\nimport ctypes\nimport math\nimport pathlib\nimport re\nimport sys\n\n{}",
+        checked(port, "EPS, LEAST = 2.0**-23, 2.0**-126\n")
     );
-    text += CHECK;
-    text += &tables(port);
     text += &functions(port, port.accepted_once::<Once<f32>>());
     text + include_str!("support/check.py")
 }

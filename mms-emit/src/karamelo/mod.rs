@@ -15,7 +15,6 @@ use crate::port::callable::Callable;
 use crate::port::names::Rules;
 use crate::python::module::comment;
 use crate::target::{Bundle, Subject, Target};
-use mms_codegen::rust::File;
 use mms_program::Value;
 use mms_symbolic::expr::Function;
 use mms_symbolic::sorted::SortedMap;
@@ -42,14 +41,10 @@ const LONG: u64 = 1_000_000;
 fn bundle(subject: &Subject<'_>) -> Bundle {
     let mut port = Port::once(subject, &RULES, HAS);
     make_way(&mut port);
-    let name = &port.name;
-    Bundle {
-        files: vec![
-            File { name: format!("{name}.kar"), text: text(&port) },
-            File { name: format!("{name}_check.py"), text: check::text(&port) },
-        ],
-        verify: Some(format!("python3 -W error {name}_check.py")),
-    }
+    port.bundle(
+        [(".kar", text(&port)), ("_check.py", check::text(&port))],
+        "python3 -W error FIELD_check.py",
+    )
 }
 
 /// Renames parameters that are called like a result: all variables have one space of names.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::port::Port;
 use crate::port::once::Once;
-use crate::python::check::{CHECK, tables};
+use crate::python::check::{DOUBLE, checked};
 use crate::python::module::comment;
 
 /// The text of `FIELD_check.py`.
@@ -17,26 +17,20 @@ pub(super) fn text(port: &Port<'_>) -> String {
     let mut text = comment(&header, "");
     let _ = write!(
         text,
-        "\nimport math\nimport pathlib\nimport re\nimport sys\n\nFIELD = \"{name}\"\n\
-         EPS, LEAST = sys.float_info.epsilon, sys.float_info.min\n\n"
+        "\nimport math\nimport pathlib\nimport re\nimport sys\n\n{}",
+        checked(port, DOUBLE)
     );
-    text += CHECK;
-    text += &tables(port);
     text += &functions(port, port.accepted_once::<Once<f64>>());
     text + include_str!("support/check.py")
 }
 
 /// The names of the parameters with their defaults, and what is checked.
 pub(crate) fn functions(port: &Port<'_>, accepted: Vec<Option<u32>>) -> String {
-    let defaults = &port.subject.vectors().defaults;
-    let mut text = "\n# The parameters and their defaults.\nDEFAULTS = {\n".to_string();
-    for (parameter, default) in port.parameters.values().zip(defaults) {
-        let _ = writeln!(text, "    \"{parameter}\": {default:?},");
-    }
+    let names: Vec<_> = port.parameters.values().collect();
     let (axes, _) = "txyz".split_at(1 + port.dimension());
-    let _ = write!(
-        text,
-        "}}\n\n# What the numbers of a point are called that functions take.\nAXES = \"{axes}\"\n\n\
+    let mut text = format!(
+        "\n# The parameters and their defaults.\nDEFAULTS = dict(zip({names:?}, FIRST[\"defaults\"][0]))\n\n\
+         # What the numbers of a point are called that functions take.\nAXES = \"{axes}\"\n\n\
          # Name, whether it is of points, its components, and the accepted error.\nFUNCTIONS = [\n"
     );
     let mut unchecked = Vec::new();

@@ -18,7 +18,6 @@ use crate::port::number::decimal;
 use crate::python::module::comment;
 use crate::target::{Bundle, Subject, Target};
 use crate::text::listed;
-use mms_codegen::rust::File;
 use mms_program::{Op, Value};
 use mms_symbolic::expr::{Function, Symbol};
 use mms_symbolic::sorted::SortedSet;
@@ -58,14 +57,10 @@ const HAS: &[Function] = &[
 
 fn bundle(subject: &Subject<'_>) -> Bundle {
     let port = Port::once(subject, &RULES, HAS);
-    let name = &port.name;
-    Bundle {
-        files: vec![
-            File { name: format!("{name}.i"), text: text(&port) },
-            File { name: format!("{name}_check.py"), text: check::text(&port) },
-        ],
-        verify: Some(format!("python3 -W error {name}_check.py")),
-    }
+    port.bundle(
+        [(".i", text(&port)), ("_check.py", check::text(&port))],
+        "python3 -W error FIELD_check.py",
+    )
 }
 
 /// How many operations a formula may have when names stand for formulas. The optimiser of the parser takes

@@ -8,7 +8,6 @@ use crate::port::Port;
 use crate::port::names::Rules;
 use crate::target::{Bundle, Subject, Target};
 use crate::text::wrapped;
-use mms_codegen::rust::File;
 
 /// Octave and MATLAB.
 pub const TARGET: Target = Target {
@@ -43,14 +42,8 @@ const FUNCTIONS: &str = "\
 
 fn bundle(subject: &Subject<'_>) -> Bundle {
     let port = Port::new(subject, &RULES);
-    let name = &port.name;
-    Bundle {
-        files: vec![
-            File { name: format!("{name}.m"), text: file::text(&port) },
-            File { name: format!("{name}_check.m"), text: check::text(&port) },
-        ],
-        verify: Some(format!("octave-cli --norc --no-history --quiet --eval {name}_check")),
-    }
+    let texts = [(".m", file::text(&port)), ("_check.m", check::text(&port))];
+    port.bundle(texts, "octave-cli --norc --no-history --quiet --eval FIELD_check")
 }
 
 /// Paragraphs as lines of a comment.

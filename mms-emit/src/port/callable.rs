@@ -42,6 +42,15 @@ impl Callable {
         !self.inputs.is_empty()
     }
 
+    /// Which of three words it is: for what is of no point, of points, or of points and a time.
+    pub fn owner<'a>(&self, [alone, field, now]: [&'a str; 3]) -> &'a str {
+        match (self.is_of_points(), self.time) {
+            (false, _) => alone,
+            (true, false) => field,
+            (true, true) => now,
+        }
+    }
+
     /// Whether it gives one number, and not a list.
     pub fn is_scalar(&self) -> bool {
         self.shape == Some(Shape::Scalar)

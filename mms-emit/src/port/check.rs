@@ -1,13 +1,24 @@
-//! What check programs have in common: what they say of themselves, and what they run.
+//! What check programs have in common: the file of test vectors that they read, and what they run.
+//!
+//! `FIELD_vectors.txt` is the same in every language. It holds tables: a line of a name, the numbers of rows and of
+//! columns and the errors that are accepted in double and in single precision, and the rows. First come the defaults of the
+//! parameters (`defaults`). For each set of parameters follow their values (`set`), the points (`at`: t, X, N and H) and a
+//! table for each function: what it gives at each point, or once. Numbers are the shortest decimals that read back as them.
 //!
 //! A check program calls a function at all points of one set of parameters, compares the results in one call, and
 //! accepts 64 eps of their largest magnitude. Where the formulas lose more than half of that in the interpreter's
 //! double precision, a set of parameters other than the defaults is left out, and with the defaults four times
 //! that loss is accepted: a port is to be right, not better than its formulas.
 
+use std::fmt::Write as _;
+
+use mms_codegen::rust::File;
+
 use super::Port;
 use super::callable::Callable;
 use super::vectors::Sample;
+use crate::target::Bundle;
+use crate::text::wrapped;
 
 /// A function that a check program runs.
 pub struct Check<'a> {
@@ -15,19 +26,10 @@ pub struct Check<'a> {
     pub callable: &'a Callable,
     /// Its place among the functions of the field.
     pub place: usize,
+    /// The name of its table.
+    pub table: &'a str,
     /// What it must give: for each set of parameters, at its points or once.
     pub expected: Vec<&'a [Vec<f64>]>,
-    /// The error that is accepted, in eps.
-    pub accepted: u32,
-    /// The same in single precision, where that has the range.
-    pub accepted_in_single: Option<u32>,
-}
-
-impl Check<'_> {
-    /// The error that is accepted in either precision.
-    pub fn accepted_in_both(&self) -> u32 {
-        self.accepted.max(self.accepted_in_single.unwrap_or(0))
-    }
 }
 
 impl Port<'_> {
@@ -39,9 +41,8 @@ impl Port<'_> {
             (!rows.is_empty()).then(|| Check {
                 callable,
                 place,
+                table: &vectors.names[place],
                 expected: rows.chunks(rows.len() / vectors.sets.len()).collect(),
-                accepted: vectors.accepted[place],
-                accepted_in_single: vectors.accepted_in_single.as_ref().map(|it| it[place]),
             })
         };
         self.callables.iter().enumerate().filter_map(check).collect()
@@ -53,35 +54,73 @@ impl Port<'_> {
         vectors.samples.len() / vectors.sets.len()
     }
 
-    /// The points of each set of parameters; none where no point has a value.
-    pub fn samples(&self) -> Vec<&[Sample]> {
-        self.subject.vectors().samples.chunks(self.points().max(1)).collect()
+    /// How many numbers a point has: t, X, N and H.
+    pub fn width(&self) -> usize {
+        let dimension = self.dimension();
+        1 + 2 * dimension + dimension * dimension
+    }
+
+    /// The largest number of components of a function.
+    pub fn widest(&self) -> usize {
+        let components = self.callables.iter().map(|callable| callable.components.len());
+        components.max().unwrap_or(0).max(1)
     }
 
     /// The first comment of a program that checks a file.
     pub fn check_header(&self, file: &str) -> Vec<String> {
         let mut header = self.header();
         header.push(format!(
-            "Checks {file}: runs every function at the points below, prints its worst error, and fails where that is not accepted. {}",
+            "Checks {file}: runs every function at the points of {}, prints its worst error, and fails where that is not accepted. {}",
+            self.vectors_name(),
             self.subject.vectors().meaning()
         ));
         header
     }
-}
 
-/// Rows of numbers as columns.
-pub fn columns(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let width = rows.first().map_or(0, Vec::len);
-    (0..width).map(|column| rows.iter().map(|row| row[column]).collect()).collect()
-}
+    /// The name of the file of test vectors.
+    pub fn vectors_name(&self) -> String {
+        format!("{}_vectors.txt", self.name)
+    }
 
-/// A program without its lines from one that begins so up to one that begins so.
-pub fn without(program: &str, first: &str, end: &str) -> String {
-    let lines = program.split_inclusive('\n');
-    let mut is_left = true;
-    let is_kept = |line: &&str| {
-        is_left = (is_left && !line.starts_with(first)) || line.starts_with(end);
-        is_left
-    };
-    lines.filter(is_kept).collect()
+    /// The text of the file of test vectors.
+    fn vectors_text(&self) -> String {
+        let vectors = self.subject.vectors();
+        let [head, meaning] = [self.compiled.provenance(), vectors.meaning()];
+        let about = format!(
+            "Generated by {head}. Tables for check programs: name, rows, columns, errors that are accepted in double and in single precision (0: beyond its range); then the rows. After the defaults of the parameters come, for each set of parameters, their values, the points (t, X, N and H) and what each function gives. {meaning}"
+        );
+        let mut text: String =
+            wrapped(&about, 94).iter().map(|line| format!("# {line}\n")).collect();
+        let mut table = |name: &str, columns: usize, accepted: [u32; 2], rows: &[Vec<f64>]| {
+            let [double, single] = accepted;
+            let _ = writeln!(text, "{name} {} {columns} {double} {single}", rows.len());
+            for row in rows {
+                let numbers: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
+                let _ = writeln!(text, "{}", numbers.join(" "));
+            }
+        };
+        let count = self.parameters.len();
+        table("defaults", count, [1, 1], std::slice::from_ref(&vectors.defaults));
+        let checks = self.checks();
+        for (set, values) in vectors.sets.iter().enumerate() {
+            let points = vectors.samples.iter().filter(|sample| sample.set == set);
+            table("set", count, [0, 0], std::slice::from_ref(values));
+            table("at", self.width(), [0, 0], &points.map(Sample::numbers).collect::<Vec<_>>());
+            for Check { callable, place, table: name, expected } in &checks {
+                let single = vectors.accepted_in_single.as_ref().map_or(0, |it| it[*place]);
+                let columns = callable.components.len();
+                table(name, columns, [vectors.accepted[*place], single], expected[set]);
+            }
+        }
+        text
+    }
+
+    /// The bundle of these texts, each behind the end of its file's name: sources, and the check program last. `FIELD`
+    /// stands for the name in the line that builds it.
+    pub fn bundle<const N: usize>(&self, texts: [(&str, String); N], verify: &str) -> Bundle {
+        let file = |(end, text)| File { name: format!("{}{end}", self.name), text };
+        let mut files: Vec<File> = texts.into_iter().map(file).collect();
+        files.push(File { name: self.vectors_name(), text: self.vectors_text() });
+        Bundle { files, verify: Some(verify.replace("FIELD", &self.name)) }
+    }
 }

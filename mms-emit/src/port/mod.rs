@@ -12,7 +12,7 @@
 //! | `lower` | a program in which functions that a language lacks are written out in those that it has |
 //! | `once` | numbers that are computed with no more digits than they have |
 //! | `vectors` | test vectors |
-//! | `check` | what check programs say of themselves, and which functions they call |
+//! | `check` | the file of test vectors, what check programs say of themselves, and which functions they call |
 //!
 //! A port is flat: one statement per instruction, no shared divisions, no fused products. The stages Parameter and
 //! Time are computed in pairs of doubles, as in Rust, by support text in the language itself, in Julia in its own

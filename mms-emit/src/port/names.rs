@@ -64,7 +64,7 @@ pub fn of_holder(name: &str, rules: &Rules, functions: &[&str]) -> String {
 const INNER: &str = "\
     default_parameters prepare at_time now field fields parameters out t x y z set point found expected of_c \
     rows given at worst failures points_count sets_count compare check_defaults prepare_all defaults value self \
-    wp dp count index result";
+    wp dp count index result check_open check_table check_unit check_accepted";
 
 /// The name of a function of a file's own quantity, beside the functions of these names.
 pub fn of_own(name: &str, rules: &Rules, functions: &[&str]) -> String {

@@ -41,6 +41,8 @@ const REDUCED: i32 = 30;
 /// Inputs and what is expected of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vectors {
+    /// The names of the functions.
+    pub names: Vec<String>,
     /// The defaults of the parameters that are left.
     pub defaults: Vec<f64>,
     /// Sets of values for the parameters that are left: the defaults, others, and extremes.
@@ -112,6 +114,7 @@ impl Port<'_> {
         let compiled = self.compiled;
         let left = |values: &[f64]| self.parameters.keys().map(|index| values[*index]).collect();
         let mut vectors = Vectors {
+            names: self.callables.iter().map(|callable| callable.name.clone()).collect(),
             defaults: left(&compiled.parameters(&SortedMap::new())),
             sets: Vec::new(),
             samples: Vec::new(),

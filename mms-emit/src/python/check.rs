@@ -5,17 +5,13 @@ use std::fmt::Write as _;
 use super::dialect::Library;
 use super::module::comment;
 use crate::port::Port;
-use crate::port::number::hexadecimal;
 use crate::port::once::Once;
-
-/// What check programs in Python begin with: what compares.
-pub(crate) const CHECK: &str = include_str!("support/check.py");
 
 /// The text of `FIELD_check.py`.
 pub(super) fn text(port: &Port<'_>, library: Library) -> String {
     let name = &port.name;
     let mut text = comment(&port.check_header(&format!("{name}.py")), "");
-    text += "\nimport math\nimport sys\n\n";
+    text += "\nimport math\nimport pathlib\nimport sys\n\n";
     text += match library {
         Library::Math => "",
         Library::NumPy => "import numpy as np\n\n",
@@ -25,51 +21,33 @@ pub(super) fn text(port: &Port<'_>, library: Library) -> String {
         }
     };
     let _ = write!(text, "import {name} as field\n\n");
-    text += match library {
-        Library::NumPy => {
-            "# What is computed in: double precision, or what the first argument says, such as float32.\n\
+    text += &checked(
+        port,
+        match library {
+            Library::NumPy => {
+                "# What is computed in: double precision, or what the first argument says, such as float32.\n\
             KIND = np.dtype(sys.argv[1] if len(sys.argv) > 1 else \"float64\")\n\
-            EPS, LEAST = float(np.finfo(KIND).eps), float(np.finfo(KIND).tiny)\n\n"
-        }
-        _ => "EPS, LEAST = sys.float_info.epsilon, sys.float_info.min\n\n",
-    };
-    text += CHECK;
-    text += &tables(port);
+            EPS, LEAST = float(np.finfo(KIND).eps), float(np.finfo(KIND).tiny)\n"
+            }
+            _ => DOUBLE,
+        },
+    );
     text += match library {
-        Library::Math => "\n",
+        Library::Math => "",
         Library::NumPy => include_str!("support/numpy_check.py"),
         Library::SymPy => include_str!("support/sympy_check.py"),
         Library::Ufl => include_str!("support/ufl_check.py"),
     };
-    text + &functions(port, library) + &program(port, library)
+    text + "\n" + &functions(port, library) + &program(library).replace("field_", name)
 }
 
-/// The test vectors, as names of Python: `SETS`, `POINTS` and `EXPECTED`.
-pub(crate) fn tables(port: &Port<'_>) -> String {
-    let line = |values: Vec<f64>| {
-        let numbers: Vec<String> = values.iter().map(|value| hexadecimal(*value)).collect();
-        numbers.join(" ") + "\n"
-    };
-    let mut text = "\n\n# Parameters: the defaults, others, and extremes.\nSETS = [\n".to_string();
-    for set in &port.subject.vectors().sets {
-        let _ = writeln!(text, "    \"{}\",", line(set.clone()).trim_end());
-    }
-    text += "]\n\n# The points of each set of parameters: t, X, N and H.\nPOINTS = [\n";
-    let mut samples = port.samples().into_iter();
-    for _ in &port.subject.vectors().sets {
-        let lines = samples.next().unwrap_or_default().iter().map(|it| line(it.numbers()));
-        let _ = writeln!(text, "    \"\"\"\\\n{}\"\"\",", lines.collect::<String>());
-    }
-    text += "]\n\n# What each function gives: at each point, or for each set of parameters.\nEXPECTED = [\n";
-    for set in 0..port.subject.vectors().sets.len() {
-        text += "    {\n";
-        for check in port.checks() {
-            let lines: String = check.expected[set].iter().cloned().map(line).collect();
-            let _ = writeln!(text, "        \"{}\": \"\"\"\\\n{lines}\"\"\",", check.callable.name);
-        }
-        text += "    },\n";
-    }
-    text + "]\n"
+/// The precision of Python.
+pub(crate) const DOUBLE: &str = "EPS, LEAST = sys.float_info.epsilon, sys.float_info.min\n";
+
+/// What compares in a precision, and the test vectors: `FIRST` has the defaults, `SETS` the tables of each set.
+pub(crate) fn checked(port: &Port<'_>, precision: &str) -> String {
+    let (name, count) = (&port.name, port.subject.vectors().sets.len());
+    format!("FIELD, COUNT = \"{name}\", {count}\n{precision}\n{}", include_str!("support/check.py"))
 }
 
 /// The accepted errors of what a library computes: what the formulas lose in one precision is up to a port
@@ -87,20 +65,20 @@ fn accepted(port: &Port<'_>, library: Library) -> Vec<Option<u32>> {
 fn functions(port: &Port<'_>, library: Library) -> String {
     let accepted = accepted(port, library);
     let mut text =
-        "# Name, what it is of, what it takes of a point, and the accepted error.\nFUNCTIONS = [\n"
+        "# Table, name, what it is of, what it takes of a point, and the accepted error.\nFUNCTIONS = [\n"
             .to_string();
     let mut unchecked = Vec::new();
     for check in port.checks() {
         let callable = check.callable;
-        let of = match (callable.is_of_points(), callable.time) {
-            (true, true) => "now",
-            (true, false) => "field",
-            (false, _) => "domain",
-        };
-        let (name, columns) = (&callable.name, callable.columns(port.dimension()));
+        let of = callable.owner(["domain", "field", "now"]);
+        let (name, table) = (&callable.name, check.table);
+        let columns = callable.columns(port.dimension());
         match accepted[check.place] {
             Some(accepted) => {
-                let _ = writeln!(text, "    (\"{name}\", \"{of}\", {columns:?}, {accepted}),");
+                let _ = writeln!(
+                    text,
+                    "    (\"{table}\", \"{name}\", \"{of}\", {columns:?}, {accepted}),"
+                );
             }
             None => unchecked.push(format!("\"{name}\"")),
         }
@@ -117,41 +95,31 @@ fn functions(port: &Port<'_>, library: Library) -> String {
 }
 
 /// The program itself.
-fn program(port: &Port<'_>, library: Library) -> String {
-    let mut text = "\ndefaults = field.Parameters()\n".to_string();
-    for (parameter, value) in port.parameters.values().zip(&port.subject.vectors().defaults) {
-        let value = hexadecimal(*value);
-        let _ = writeln!(
-            text,
-            "check(\"default of {parameter}\", 1, float.fromhex(\"{value}\"), float(defaults.{parameter}))"
-        );
-    }
-    let values = "flat(rows(values))";
+fn program(library: Library) -> String {
     let [parameters, instant, call] = match library {
         Library::Math => [
-            values,
+            "values",
             "[one.at_time(point[0]) for point in points]",
             "getattr(owner, name)(*(point[k] for k in columns))",
         ],
         Library::NumPy => [
-            values,
+            "values",
             "[one.at_time(point[0]) for point in points]",
             "at_arrays(getattr(owner, name), [point[k] for k in columns])",
         ],
         Library::SymPy => [
-            "exact(flat(rows(values)))",
+            "exact(values)",
             "[one.at_time(*exact(point[:1])) for point in points]",
             "numbers(getattr(owner, name)(*exact(point[k] for k in columns)))",
         ],
         Library::Ufl => [
-            values,
+            "values",
             "[one.at_time(leaf) for leaf in LEAVES[:1]] * len(points)",
             "evaluated(expression(owner, name, *columns), point)",
         ],
     };
-    text + &include_str!("support/main.py")
+    include_str!("support/main.py")
         .replace("PARAMETERS", parameters)
         .replace("INSTANTS", instant)
         .replace("CALL", call)
-        .replace("field_", &port.name)
 }

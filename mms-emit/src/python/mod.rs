@@ -8,7 +8,6 @@ pub(super) use self::dialect::Library;
 use crate::port::Port;
 use crate::port::names::Rules;
 use crate::target::{Bundle, Subject, Target};
-use mms_codegen::rust::File;
 use mms_symbolic::expr::Function;
 
 /// Python.
@@ -66,12 +65,6 @@ pub(super) fn bundle(subject: &Subject<'_>, library: Library) -> Bundle {
         Library::SymPy => Port::once(subject, &RULES, Function::ALL),
         Library::Ufl => Port::once(subject, &RULES, IN_UFL),
     };
-    let name = &port.name;
-    Bundle {
-        files: vec![
-            File { name: format!("{name}.py"), text: module::text(&port, library) },
-            File { name: format!("{name}_check.py"), text: check::text(&port, library) },
-        ],
-        verify: Some(format!("python3 -W error {name}_check.py")),
-    }
+    let texts = [(".py", module::text(&port, library)), ("_check.py", check::text(&port, library))];
+    port.bundle(texts, "python3 -W error FIELD_check.py")
 }

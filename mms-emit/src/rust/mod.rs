@@ -11,7 +11,6 @@ mod module;
 use crate::port::Port;
 use crate::port::names::Rules;
 use crate::target::{Bundle, Subject, Target};
-use mms_codegen::rust::File;
 
 /// Rust that stands alone.
 pub const TARGET: Target = Target {
@@ -41,14 +40,8 @@ const FLAGS: &str = "--edition 2021 -O -D warnings";
 
 fn bundle(subject: &Subject<'_>) -> Bundle {
     let port = Port::new(subject, &RULES);
-    let name = &port.name;
-    Bundle {
-        files: vec![
-            File { name: format!("{name}.rs"), text: module::text(&port) },
-            File { name: format!("{name}_check.rs"), text: check::text(&port) },
-        ],
-        verify: Some(format!("rustc {FLAGS} {name}_check.rs -o {name}_check && ./{name}_check")),
-    }
+    let texts = [(".rs", module::text(&port)), ("_check.rs", check::text(&port))];
+    port.bundle(texts, &format!("rustc {FLAGS} FIELD_check.rs -o FIELD_check && ./FIELD_check"))
 }
 
 /// Paragraphs as lines of a comment, each behind `start`.

@@ -4,7 +4,7 @@ use std::fs;
 
 use mms_codegen::compile::compile_unproved;
 use mms_codegen::{Compiled, Options};
-use mms_emit::{File, Subject, Target};
+use mms_emit::{Subject, Target};
 use mms_spec::quantity::Quantity;
 
 use super::build::{can_build, can_prove, in_turn, ports, prove, quick, scratch, shell, write};
@@ -85,8 +85,7 @@ fn is_refused(target: &Target, wrong: &str) {
     let [right, wrong] = [&right, &wrong].map(|field| (target.emit)(&Subject::new(field)));
     let folder = scratch(&format!("wrong/{}", target.name));
     write(&right, &folder);
-    let is_source = |file: &&File| !file.name.contains("_check");
-    for source in wrong.files.iter().filter(is_source) {
+    for source in wrong.sources() {
         fs::write(folder.join(&source.name), &source.text).expect("a written file");
     }
     let run = shell(&quick(right.verify.expect("a check program")), &folder);
@@ -123,5 +122,67 @@ fn check_programs_refuse_a_batch_without_its_last_point() {
         let out = String::from_utf8_lossy(&run.stdout);
         assert_eq!(run.status.code(), Some(1), "{name}: {out}");
         assert!(out.contains("displacement_gradient"), "{name}: {out}");
+    }
+}
+
+#[test]
+fn test_vectors_are_one_text_in_every_language_and_keep_their_bits() {
+    let field = field("X*t/3 + a*X^2*1e-300", Quantity::DisplacementGradient);
+    let subject = Subject::new(&field);
+    let texts: Vec<String> = ports()
+        .map(|target| {
+            let file = (target.emit)(&subject).files.pop().expect("a file");
+            assert!(file.name.ends_with("_vectors.txt"), "{}: {}", target.name, file.name);
+            file.text
+        })
+        .collect();
+    assert!(texts.iter().all(|text| *text == texts[0]));
+    let vectors = subject.vectors();
+    let mut lines = texts[0].lines().filter(|line| !line.starts_with('#'));
+    let mut table = |name: &str, rows: &[Vec<f64>]| {
+        let head = lines.next().expect("a table");
+        let start = format!("{name} {} {} ", rows.len(), rows[0].len());
+        assert!(head.starts_with(&start), "`{head}` is no `{start}`");
+        for row in rows {
+            let words = lines.next().expect("a row").split(' ').map(|it| it.parse::<f64>());
+            let bits: Vec<u64> = words.map(|it| it.expect("a number").to_bits()).collect();
+            assert_eq!(bits, row.iter().map(|it| it.to_bits()).collect::<Vec<_>>(), "{name}");
+        }
+    };
+    table("defaults", std::slice::from_ref(&vectors.defaults));
+    let points = vectors.samples.len() / vectors.sets.len();
+    for (set, values) in vectors.sets.iter().enumerate() {
+        let of_set = points * set..points * (set + 1);
+        let samples = vectors.samples[of_set.clone()].iter();
+        table("set", std::slice::from_ref(values));
+        table("at", &samples.map(|it| it.numbers()).collect::<Vec<_>>());
+        for (name, expected) in vectors.names.iter().zip(&vectors.expected) {
+            table(name, &expected[of_set.clone()]);
+        }
+    }
+    assert_eq!(lines.next(), None);
+}
+
+/// A check program that read but a part of them would pass what it has not seen.
+#[test]
+fn every_check_program_refuses_test_vectors_that_are_not_whole() {
+    let field = field("X*t/3", Quantity::DisplacementGradient);
+    let subject = Subject::new(&field);
+    for target in sampled(ports().filter(|target| can_build(target)), 3) {
+        let bundle = (target.emit)(&subject);
+        let folder = scratch(&format!("cut/{}", target.name));
+        write(&bundle, &folder);
+        let vectors = bundle.files.last().expect("test vectors");
+        let last = vectors.text.rfind("\nset ").expect("more than one set");
+        let [in_a_table, before_a_set] =
+            [vectors.text.len() - 1 - vectors.text.len() / 50, last + 1];
+        let line = quick(bundle.verify.expect("a check program"));
+        for end in [in_a_table, before_a_set] {
+            fs::write(folder.join(&vectors.name), &vectors.text[..end]).expect("a written file");
+            let run = shell(&line, &folder);
+            let [out, err] = [&run.stdout, &run.stderr].map(|text| String::from_utf8_lossy(text));
+            assert!(!run.status.success(), "{}: {out}{err}", target.name);
+            assert!(!out.contains("worst error"), "{}: {out}", target.name);
+        }
     }
 }

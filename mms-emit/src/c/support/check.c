@@ -4,8 +4,9 @@ static double worst = 0.0;
 static int failures = 0;
 
 /* Compares what a function gives with a set of parameters. */
-static void check(const char *name, int n, int accepted, const double *expected, const real *found)
+static void check(const char *name, int n, const double *expected, const real *found)
 {
+    const int limit = accepted[sizeof(real) < sizeof(double)];
     double error = 0.0, magnitude = least;
     for (int k = 0; k < n; k++) {
         const double difference = fabs((double)found[k] - expected[k]);
@@ -14,29 +15,48 @@ static void check(const char *name, int n, int accepted, const double *expected,
     }
     error = error / magnitude / eps;
     worst = fmax(worst, error);
-    if (error > accepted) {
-        printf("%s: %.3g eps, accepted %d\n", name, error, accepted);
+    if (error > limit) {
+        printf("%s: %.3g eps, accepted %d\n", name, error, limit);
         failures++;
     }
 }
 
 /* Calls a function, which puts COUNT numbers into `out`, at each of so many points. */
-#define CHECK(NAME, ROWS, COUNT, ACCEPTED, CALL)                              \
+#define CHECK(NAME, ROWS, COUNT, CALL)                                        \
+    table(#NAME, ROWS, COUNT);                                                \
     for (int p = 0; p < ROWS; p++) {                                          \
         real *const out = &found[COUNT * p];                                  \
         CALL;                                                                 \
     }                                                                         \
-    check(#NAME, ROWS * COUNT, ACCEPTED, expected_##NAME[set][0], found)
+    check(#NAME, ROWS * COUNT, numbers, found)
 
-int main(void)
+static struct point {
+    real t, X[DIMENSION], N[DIMENSION], H[DIMENSION * DIMENSION];
+} at[ROOM];
+static field_instant now[ROOM];
+static real found[ROOM * WIDEST];
+
+int main(int count, char **arguments)
 {
-    static real found[FOUND];
+    field_parameters parameters = field_default_parameters();
+    open_vectors(count, arguments);
+    table("defaults", 1, PARAMETERS);
     DEFAULTS
     for (int set = 0; set < SETS; set++) {
-        const field_field field = field_prepare(&sets[set]);
-        const struct point *const at = points[set];
-        field_instant now[POINTS];
+        table("set", 1, PARAMETERS);
+        GIVEN
+        const field_field field = field_prepare(&parameters);
+        table("at", POINTS, WIDTH);
         for (int p = 0; p < POINTS; p++) {
+            const double *const row = &numbers[WIDTH * p];
+            at[p].t = (real)row[0];
+            for (int k = 0; k < DIMENSION; k++) {
+                at[p].X[k] = (real)row[1 + k];
+                at[p].N[k] = (real)row[1 + DIMENSION + k];
+            }
+            for (int k = 0; k < DIMENSION * DIMENSION; k++) {
+                at[p].H[k] = (real)row[1 + 2 * DIMENSION + k];
+            }
             now[p] = field_at_time(&field, at[p].t);
         }
         FUNCTIONS

@@ -1,67 +1,89 @@
 int failures = 0;
 double worst = 0.0;
 
-/// Compares what a function gives with a set of parameters.
-template <class T>
-void check(const char *name, int n, int accepted, const double *expected, const T *found)
+/// Compares what a function gives with a set of parameters: the rows of what is found are columns here.
+template <class T> void check(const char *name, int rows, int columns, const double *expected, const T *found)
 {
+    const int limit = accepted[sizeof(T) < sizeof(double)];
     double error = 0.0, magnitude = static_cast<double>(std::numeric_limits<T>::min());
-    for (int k = 0; k < n; k++) {
-        const double difference = std::fabs(static_cast<double>(found[k]) - expected[k]);
+    for (int k = 0; k < rows * columns; k++) {
+        const double wanted = expected[k];
+        const double difference = std::fabs(static_cast<double>(found[k % columns * rows + k / columns]) - wanted);
         error = std::fmax(error, std::isfinite(difference) ? difference : HUGE_VAL);
-        magnitude = std::fmax(magnitude, std::fabs(expected[k]));
+        magnitude = std::fmax(magnitude, std::fabs(wanted));
     }
     error = error / magnitude / static_cast<double>(std::numeric_limits<T>::epsilon());
     worst = std::fmax(worst, error);
-    if (error > accepted) {
-        std::printf("%s: %.3g eps of %zu bytes, accepted %d\n", name, error, sizeof(T), accepted);
+    if (error > limit) {
+        std::printf("%s: %.3g eps of %zu bytes, accepted %d\n", name, error, sizeof(T), limit);
         failures++;
     }
 }
 
+/// The points of a set of parameters.
+template <class T> struct Points {
+    T t[ROOM], X[DIMENSION][ROOM], N[DIMENSION][ROOM], H[DIMENSION * DIMENSION][ROOM];
+};
+
 /// The numbers of a point, of columns of them.
-template <class T, std::size_t N> std::array<T, N> row(const T (&columns)[N][POINTS], int p)
+template <class T, std::size_t N> std::array<T, N> row(const T (&columns)[N][ROOM], int p)
 {
-    std::array<T, N> numbers{};
+    std::array<T, N> result{};
     for (std::size_t k = 0; k < N; k++) {
-        numbers[k] = columns[k][p];
+        result[k] = columns[k][p];
     }
-    return numbers;
+    return result;
 }
 
 /// Calls a function of one point, which puts COUNT numbers into `out`, at each; and that of many, for
 /// each point and all before it, so that what is compared is the last of them.
-#define CHECK(NAME, COUNT, ACCEPTED, ONE, MANY)                                            \
+#define CHECK(NAME, COUNT, ONE, MANY)                                                      \
+    table(#NAME, POINTS, COUNT);                                                           \
     for (int p = 0; p < POINTS; p++) {                                                     \
         ONE;                                                                               \
         for (int k = 0; k < COUNT; k++) {                                                  \
             found[k][p] = out[k];                                                          \
         }                                                                                  \
     }                                                                                      \
-    check(#NAME, COUNT * POINTS, ACCEPTED, expected_##NAME[set][0], found[0]);             \
+    check(#NAME, POINTS, COUNT, numbers, found[0]);                                        \
     for (std::size_t p = POINTS; p-- > 0;) {                                               \
         MANY;                                                                              \
     }                                                                                      \
-    check(#NAME "_batch", COUNT * POINTS, ACCEPTED, expected_##NAME[set][0], found[0])
+    check(#NAME "_batch", POINTS, COUNT, numbers, found[0])
 
 template <class T> void check_all()
 {
-    T out[WIDEST];
+    static T out[WIDEST], found[WIDEST][ROOM];
+    static Points<T> at;
+    static field_::Instant<T> now[ROOM];
+    std::rewind(vectors);
+    table("defaults", 1, PARAMETERS);
+    auto parameters = field_::default_parameters<T>();
     DEFAULTS
     for (int set = 0; set < SETS; set++) {
-        const auto field = field_::prepare(sets<T>[set]);
-        const auto &at = points<T>[set];
-        T found[WIDEST][POINTS];
-        field_::Instant<T> now[POINTS];
+        table("set", 1, PARAMETERS);
+        GIVEN
+        const auto field = field_::prepare(parameters);
+        table("at", POINTS, WIDTH);
         for (int p = 0; p < POINTS; p++) {
+            const double *const given = &numbers[WIDTH * p];
+            at.t[p] = T(given[0]);
+            for (int k = 0; k < DIMENSION; k++) {
+                at.X[k][p] = T(given[1 + k]);
+                at.N[k][p] = T(given[1 + DIMENSION + k]);
+            }
+            for (int k = 0; k < DIMENSION * DIMENSION; k++) {
+                at.H[k][p] = T(given[1 + 2 * DIMENSION + k]);
+            }
             now[p] = field_::at_time(field, at.t[p]);
         }
         FUNCTIONS
     }
 }
 
-int run()
+int run(int count, char **arguments)
 {
+    open_vectors(count, arguments);
     check_all<double>();
     check_all<float>();
     std::printf("field_: worst error %.3g eps\n", worst);
@@ -71,7 +93,7 @@ int run()
 } // namespace
 } // namespace mms_check
 
-int main()
+int main(int count, char **arguments)
 {
-    return mms_check::run();
+    return mms_check::run(count, arguments);
 }

@@ -36,14 +36,14 @@ def variables(x=0.0, y=0.0, z=0.0, t=0.0, parameters={}):
 def main():
     for name in UNCHECKED:
         print(f"{name}: not checked, no digit of it is left")
-    for values, points, expected in zip(SETS, POINTS, EXPECTED):
-        parameters = dict(zip(DEFAULTS, flat(rows(values))))
-        places = [dict(zip(AXES, point)) for point in rows(points)] or [{}]
+    for tables in SETS:
+        parameters = dict(zip(DEFAULTS, flat(tables["set"])))
+        places = [dict(zip(AXES, point)) for point in tables["at"]] or [{}]
         placed = [variables(**place, parameters=parameters) for place in places]
         for name, is_of_points, suffixes, accepted in FUNCTIONS:
             all_found = placed if is_of_points else placed[:1]
             found = [one[f"{FIELD}_{name}{suffix}"] for one in all_found for suffix in suffixes]
-            check(name, accepted, rows(expected[name]), found)
+            check(name, accepted, tables[name], found)
     print(f"{FIELD}: worst error {worst:.3g} eps")
     sys.exit(1 if failures else 0)
 

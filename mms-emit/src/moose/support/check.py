@@ -43,16 +43,16 @@ def evaluate(name, x=0.0, y=0.0, z=0.0, t=0.0, parameters={}):
 def main():
     for name in UNCHECKED:
         print(f"{name}: not checked, no digit of it is left")
-    for values, points, expected in zip(SETS, POINTS, EXPECTED):
-        parameters = dict(zip(DEFAULTS, flat(rows(values))))
-        places = [dict(zip(AXES, point)) for point in rows(points)]
+    for tables in SETS:
+        parameters = dict(zip(DEFAULTS, flat(tables["set"])))
+        places = [dict(zip(AXES, point)) for point in tables["at"]]
         for name, is_of_points, suffixes, accepted in FUNCTIONS:
             found = [
                 evaluate(name + suffix, **place, parameters=parameters)
                 for place in (places if is_of_points else [{}])
                 for suffix in suffixes
             ]
-            check(name, accepted, rows(expected[name]), found)
+            check(name, accepted, tables[name], found)
     print(f"{FIELD}: worst error {worst:.3g} eps")
     sys.exit(1 if failures else 0)
 

@@ -1,9 +1,19 @@
 worst, failures = 0.0, 0
 
 
-def rows(text):
-    """Lines of hexadecimal numbers."""
-    return [[float.fromhex(word) for word in line.split()] for line in text.splitlines()]
+def vectors():
+    """The test vectors: tables by name, first the defaults, then those of each set of parameters."""
+    text = pathlib.Path(__file__).with_name(f"{FIELD}_vectors.txt").read_text(encoding="utf-8")
+    lines = (line for line in text.splitlines() if not line.startswith("#"))
+    sets = [{}]
+    for line in lines:
+        name, count, *_ = line.split()
+        if name == "set":
+            sets.append({})
+        rows = [next(lines).split() for _ in range(int(count))]
+        sets[-1][name] = [[float(word) for word in row] for row in rows]
+    assert len(sets) == 1 + COUNT, "the test vectors are not whole: emit them anew"
+    return sets
 
 
 def flat(value):
@@ -25,3 +35,6 @@ def check(name, accepted, expected, found):
     if error > accepted:
         print(f"{name}: {error:.3g} eps, accepted {accepted}")
         failures += 1
+
+
+FIRST, *SETS = vectors()

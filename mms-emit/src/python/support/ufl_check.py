@@ -1,7 +1,7 @@
 
 
 # What stands for the numbers of a point in expressions.
-LEAVES = [ufl.variable(ufl.as_ufl(1.0)) for _ in (rows(POINTS[0]) or [[]])[0]]
+LEAVES = [ufl.variable(ufl.as_ufl(1.0)) for _ in (SETS[0]["at"] or [[]])[0]]
 OPERATIONS = {
     "Sum": lambda a, b: a + b,
     "Product": lambda a, b: a * b,

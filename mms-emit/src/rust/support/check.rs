@@ -1,6 +1,39 @@
 /// Columns of numbers, one for each component.
 type Columns<T, const COUNT: usize> = [[T; POINTS]; COUNT];
 
+/// A table of the test vectors: what a function gives, and the errors that are accepted.
+struct Table {
+    rows: Vec<Vec<f64>>,
+    accepted: [f64; 2],
+}
+
+impl Table {
+    /// Reads the next table of a name and of that size.
+    fn read(lines: &mut std::str::Lines<'_>, name: &str, size: [usize; 2]) -> Table {
+        let numbers = |line: &str| line.split(' ').flat_map(str::parse).collect::<Vec<f64>>();
+        let head = lines.find(|line| line.split(' ').next() == Some(name)).map(numbers);
+        if let Some(&[count, width, double, single]) = head.as_deref() {
+            let rows: Vec<_> = lines.map(numbers).take(size[0]).collect();
+            let is_whole = rows.len() == size[0] && rows.iter().all(|row| row.len() == size[1]);
+            if is_whole && size.map(|it| it as f64) == [count, width] {
+                return Table { rows, accepted: [double, single] };
+            }
+        }
+        println!("the test vectors have no table {name} of {} x {} numbers: emit them anew", size[0], size[1]);
+        std::process::exit(2);
+    }
+
+    /// One of the numbers of its first row.
+    fn number(&self, place: usize) -> Table {
+        Table { rows: vec![vec![self.rows[0][place]]], accepted: self.accepted }
+    }
+
+    /// As many of its columns, from the first of them.
+    fn columns<T: Real, const N: usize>(&self, first: usize) -> Columns<T, N> {
+        core::array::from_fn(|k| core::array::from_fn(|p| T::of(self.rows[p][first + k])))
+    }
+}
+
 #[derive(Default)]
 struct Errors {
     worst: f64,
@@ -12,20 +45,21 @@ impl Errors {
     fn check<T: Real, const N: usize, const P: usize>(
         &mut self,
         name: &str,
-        accepted: f64,
-        expected: &[[u64; P]; N],
+        table: &Table,
         found: &[[T; P]; N],
     ) {
-        let (eps, least) = match size_of::<T>() {
-            4 => (f32::EPSILON.into(), f32::MIN_POSITIVE.into()),
-            _ => (f64::EPSILON, f64::MIN_POSITIVE),
+        let (eps, least, accepted) = match size_of::<T>() {
+            4 => (f32::EPSILON.into(), f32::MIN_POSITIVE.into(), table.accepted[1]),
+            _ => (f64::EPSILON, f64::MIN_POSITIVE, table.accepted[0]),
         };
         let (mut error, mut magnitude) = (0.0_f64, least);
-        for (expected, found) in expected.as_flattened().iter().zip(found.as_flattened()) {
-            let (expected, found) = (f64::from_bits(*expected), found.to_f64());
-            let difference = if found.is_finite() { found - expected } else { f64::INFINITY };
-            error = error.max(difference.abs());
-            magnitude = f64::max(magnitude, expected.abs());
+        for (p, row) in table.rows.iter().enumerate() {
+            for (expected, column) in row.iter().zip(found) {
+                let found = column[p].to_f64();
+                let difference = if found.is_finite() { found - expected } else { f64::INFINITY };
+                error = error.max(difference.abs());
+                magnitude = f64::max(magnitude, expected.abs());
+            }
         }
         let error = error / magnitude / eps;
         self.worst = self.worst.max(error);
@@ -36,9 +70,12 @@ impl Errors {
     }
 }
 
-/// Numbers in the precision that is checked.
-fn real<T: Real, const N: usize>(bits: [u64; N]) -> [T; N] {
-    bits.map(|bits| T::of(f64::from_bits(bits)))
+/// The points of a set of parameters.
+struct Points<T> {
+    t: [T; POINTS],
+    X: Columns<T, DIMENSION>,
+    N: Columns<T, DIMENSION>,
+    H: Columns<T, { DIMENSION * DIMENSION }>,
 }
 
 /// The numbers of a point.
@@ -74,19 +111,22 @@ fn square<T: Real>(components: [T; DIMENSION * DIMENSION]) -> [[T; DIMENSION]; D
     core::array::from_fn(|i| core::array::from_fn(|j| components[DIMENSION * i + j]))
 }
 
-impl Points<u64> {
-    /// The same in the precision that is checked.
-    fn real<T: Real>(&self) -> Points<T> {
-        Points { t: real(self.t), X: self.X.map(real), N: self.N.map(real), H: self.H.map(real) }
-    }
-}
-
 fn check_all<T: Real>(errors: &mut Errors) {
+    let lines = &mut VECTORS.lines();
+    let table = Table::read(lines, "defaults", [1, PARAMETERS]);
+    let mut parameters = field_::Parameters::<T>::default();
     DEFAULTS;
-    for set in 0..SETS {
-        PARAMETERS;
+    for _ in 0..SETS {
+        let table = Table::read(lines, "set", [1, PARAMETERS]);
+        GIVEN;
         let field = field_::prepare(&parameters);
-        let at: Points<T> = POINTS_OF[set].real();
+        let table = Table::read(lines, "at", [POINTS, WIDTH]);
+        let at: Points<T> = Points {
+            t: table.columns::<T, 1>(0)[0],
+            X: table.columns(1),
+            N: table.columns(1 + DIMENSION),
+            H: table.columns(1 + 2 * DIMENSION),
+        };
         let now = at.t.map(|t| field.at_time(t));
         FUNCTIONS;
     }
