@@ -3,7 +3,7 @@
 pub(super) mod check;
 pub(super) mod dialect;
 mod header;
-mod source;
+pub(super) mod source;
 
 use self::dialect::RULES;
 use crate::port::Port;

@@ -11,15 +11,15 @@ use crate::port::callable::{Callable, input};
 use crate::port::support::Support;
 use crate::text::indented;
 
-const WIDE: &str = include_str!("support/wide.c");
+/// Twice the digits of a double, in C++ too.
+pub(crate) const WIDE: &str = include_str!("support/wide.c");
 const POINT: &str = include_str!("support/point.c");
 
 /// The text of `FIELD.c`.
 pub(super) fn text(port: &Port<'_>) -> String {
     let bodies = port.bodies(&C);
     let calls = bodies.calls();
-    let support = |text| Support::new(text, &["/*", "#"]).needed(&calls).join("\n\n");
-    let (wide, point) = (support(WIDE), support(POINT));
+    let [wide, point] = [WIDE, POINT].map(|text| support(text).needed(&calls).join("\n\n"));
     let (name, upper) = (&port.name, port.name.to_ascii_uppercase());
     let mut text = comment(&port.header(), "");
     text += &format!("#include \"{name}.h\"\n\n#include <math.h>\n\n");
@@ -46,6 +46,11 @@ pub(super) fn text(port: &Port<'_>) -> String {
         text += "\n\n";
     }
     text + &functions(port, &bodies)
+}
+
+/// The blocks of a support text in C.
+pub(crate) fn support(text: &'static str) -> Support {
+    Support::new(text, &["/*", "#"])
 }
 
 fn functions(port: &Port<'_>, bodies: &Bodies) -> String {

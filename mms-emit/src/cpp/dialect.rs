@@ -14,7 +14,7 @@ impl Dialect for Cpp {
         match (wide, parts(number)) {
             (true, (high, 0.0)) => format!("{}({})", calls.to("wide_of"), decimal(high)),
             (true, (high, low)) => {
-                format!("{}{{{}, {}}}", calls.to("wide"), decimal(high), decimal(low))
+                format!("{}({}, {})", calls.to("wide_parts"), decimal(high), decimal(low))
             }
             (false, _) => format!("T({})", decimal(nearest(number))),
         }

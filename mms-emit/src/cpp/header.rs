@@ -3,36 +3,44 @@
 use std::fmt::Write as _;
 
 use super::dialect::Cpp;
-use crate::c::{broken, comment};
+use crate::c::{self, broken, comment};
 use crate::port::Port;
 use crate::port::body::{Bodies, Body, Dialect as _, local};
 use crate::port::callable::{Callable, input};
 use crate::port::faces;
 use crate::port::motion;
-use crate::port::support::Support;
+use crate::port::support::{Calls, Support};
 use crate::text::{indented, wrapped};
 use mms_program::Value;
 
-const WIDE: &str = include_str!("support/wide.hpp");
 const POINT: &str = include_str!("support/point.hpp");
 
-fn support(text: &'static str) -> Support {
-    Support::new(text, &["///", "#"])
+fn point() -> Support {
+    Support::new(POINT, &["///", "#"])
+}
+
+/// Twice the digits of a double: the functions of C, behind operators; nothing where none of them is called.
+fn wide(mut calls: Calls, has_statements: bool) -> String {
+    let support = c::source::support(c::source::WIDE);
+    if !has_statements && !support.defines_any(&calls) {
+        return String::new();
+    }
+    for name in ["wide_neg", "wide_add", "wide_sub", "wide_mul", "wide_div"] {
+        calls.to(name);
+    }
+    let functions = support.needed(&calls).join("\n\n").replace("(void)", "()");
+    let functions = functions.replace("static ", "FIELD_FUNCTION ").replace("(int)(", "int(");
+    include_str!("support/wide.hpp").trim_end().replace("FUNCTIONS", &functions)
 }
 
 /// The text of `FIELD.hpp`.
 pub(super) fn text(port: &Port<'_>) -> String {
     let (name, upper) = (&port.name, port.name.to_ascii_uppercase());
     let bodies = port.bodies(&Cpp(port.dimension()));
-    let (is_wide, mut calls) = (bodies.are_wide(), bodies.calls());
-    if is_wide {
-        // The type, and its operators, which are not called by name.
-        calls.to("wide");
-        calls.to("operator");
-    }
-    let needed = |text| support(text).needed(&calls).join("\n\n");
+    let (is_wide, calls) = (bodies.are_wide(), bodies.calls());
+    let point = point().needed(&calls).join("\n\n");
     let supports =
-        [needed(WIDE), needed(POINT)].map(|text| text.replace("FIELD_", &format!("{upper}_")));
+        [wide(calls, is_wide), point].map(|text| text.replace("FIELD_", &format!("{upper}_")));
     let mut header = port.header();
     header.push(format!(
         "Functions are templates in the scalar, and stand behind {upper}_FUNCTION, so that CUDA and HIP compile them for host and device. Compile with -ffp-contract=off, or with nvcc --fmad=false: what needs only parameters and the time is computed with twice the digits of a double. {name}_check.cpp checks the result."
@@ -130,7 +138,8 @@ fn definition(doc: &str, result: &str, name: &str, arguments: &[String], body: &
 
 /// The statements of a body, which find what C++ lacks.
 fn statements(body: &Body) -> String {
-    let calls_support = [WIDE, POINT].iter().any(|text| support(text).defines_any(&body.calls));
+    let calls_support =
+        [c::source::support(c::source::WIDE), point()].iter().any(|it| it.defines_any(&body.calls));
     let using = match body.is_wide || calls_support {
         true => "    using namespace detail;\n",
         false => "",

@@ -113,9 +113,6 @@ static wide wide_cbrt(wide a)
     return settled(root, rest.high / (3.0 * root * root));
 }
 
-/* ln 2 in three parts; the first two have 42 bits, so that their products with exponents are exact. */
-static const double ln_2_parts[3] = {0.6931471805598903, 5.49792301870721e-14, 1.1612227229362532e-26};
-
 /* exp(a) - 1 for |a| <= 0.4, by its series. */
 static wide exp_m1_series(wide a)
 {
@@ -128,6 +125,8 @@ static wide exp_m1_series(wide a)
 
 static wide wide_exp(wide a)
 {
+    /* ln 2 in three parts; the first two have 42 bits, so that their products with exponents are exact. */
+    const double ln_2_parts[3] = {0.6931471805598903, 5.49792301870721e-14, 1.1612227229362532e-26};
     if (!(fabs(a.high) < 708.0)) {
         return wide_of(exp(a.high));
     }
@@ -135,7 +134,7 @@ static wide wide_exp(wide a)
     for (int part = 0; part < 3; part++) {
         a = wide_sub(a, wide_of(count * ln_2_parts[part]));
     }
-    return wide_ldexp(wide_add(wide_of(1.0), exp_m1_series(a)), (int)count);
+    return wide_ldexp(wide_add(wide_of(1.0), exp_m1_series(a)), (int)(count));
 }
 
 static wide wide_exp_m1(wide a)
@@ -212,7 +211,7 @@ static wide circular_series(wide a, int n)
 static wide sine_of_turn(double quarters, wide rest)
 {
     const double turned = fmod(quarters, 4.0);
-    const int turn = ((int)turned + 4) % 4;
+    const int turn = ((int)(turned) + 4) % 4;
     const wide sine = wide_add(rest, wide_mul(rest, circular_series(rest, 31)));
     const wide cosine = wide_add(wide_of(1.0), circular_series(rest, 32));
     const wide result = turn % 2 == 0 ? sine : cosine;
@@ -222,7 +221,8 @@ static wide sine_of_turn(double quarters, wide rest)
 /* What whole quarter turns leave of an angle, up to 2^50. */
 static wide less_quarters(wide angle, double count)
 {
-    static const double half_pi_parts[4] = {1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33, 5.562271104316826e-50};
+    const double half_pi_parts[4] = {1.5707963267948966, 6.123233995736766e-17,
+                                     -1.4973849048591698e-33, 5.562271104316826e-50};
     for (int part = 0; part < 4; part++) {
         angle = wide_sub(angle, two_product(count, half_pi_parts[part]));
     }
