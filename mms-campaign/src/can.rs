@@ -4,7 +4,6 @@ use mms_spec::Shape;
 use mms_spec::diagnostic::{Diagnostic, quoted};
 use mms_spec::source::Spanned;
 use mms_spec::suggest::advice;
-use toml::de::DeTable;
 
 use crate::table::{Reader, Table};
 
@@ -47,13 +46,9 @@ const KEYS: &[&str] = &[
 const LOADS: &[&str] = &["traction"];
 
 pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Can> {
-    let value = table.get("can")?;
-    let span = reader.span(value);
-    let Some(entries) = value.get_ref().as_table() else {
-        reader.expect(span, "can", "a table, as in { dimensions = [2] }");
-        return None;
-    };
-    let table = of(reader, entries, span);
+    let value = table.value("can")?;
+    let expected = "a table, as in { dimensions = [2] }";
+    let table = reader.table(value, "can", expected, ("`can`", KEYS))?;
     let words = |reader: &mut Reader, key: &str, known: &[&str]| {
         let found = reader.texts(&table, key);
         found.iter().for_each(|word| hold(reader, key, word, known));
@@ -69,7 +64,7 @@ pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Can> {
     let is_dimension = |it: f64| [1.0, 2.0, 3.0].contains(&it);
     let dimensions =
         reader.numbers(&table, "dimensions", "some of 1, 2 and 3, as in [2]", is_dimension);
-    if table.get("dimensions").is_none() {
+    if table.value("dimensions").is_none() {
         reader.missing(&table, "dimensions", "dimensions = [2]");
     }
     Some(Can {
@@ -83,14 +78,6 @@ pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Can> {
         graded: reader.flag(&table, "graded", false),
         dynamics: reader.flag(&table, "dynamics", true),
     })
-}
-
-fn of<'a>(
-    reader: &mut Reader,
-    entries: &'a DeTable<'a>,
-    span: mms_spec::source::Span,
-) -> Table<'a> {
-    reader.table(entries, "`can`", span, KEYS)
 }
 
 /// Refuses a word that is none of those that are known.

@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use mms_spec::diagnostic::{Diagnostic, quoted, render};
 use mms_spec::source::{Sources, Span, Spanned};
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
 use crate::can::{self, Can, hold};
 use crate::set::{self, Step};
-use crate::table::{Reader, Table, digits, number};
+use crate::table::{Reader, Table, Value, digits, each, number};
 use crate::template::{Placeholder, Template, Wrong};
 
 /// The formats of exact states, the usual one first.
@@ -256,8 +256,7 @@ pub fn read(path: &str, text: &str) -> Result<Campaign, Mistakes> {
         let Reader { sources, diagnostics, .. } = reader;
         return Err(Mistakes { subject: CAMPAIGN, sources, diagnostics });
     }
-    let start = reader.sources.span(reader.source, 0, 0);
-    let root = reader.table(root.get_ref(), "a campaign file", start, &["solver", "study"]);
+    let root = reader.root(root.get_ref(), "a campaign file", &["solver", "study"]);
     let solver = solver(&mut reader, &root);
     let studies = studies(&mut reader, &root);
     match solver {
@@ -272,22 +271,17 @@ pub fn read(path: &str, text: &str) -> Result<Campaign, Mistakes> {
 }
 
 fn solver(reader: &mut Reader, root: &Table<'_>) -> Option<Solver> {
-    let Some(value) = root.get("solver") else {
+    let Some(value) = root.value("solver") else {
         let example =
             "[solver] has run = \"./solver {cells} {output}\" and output = \"{output}/*.csv\"";
         let found = Diagnostic::error(root.span, "missing table [solver]");
         reader.report(found.label("it says how the solver is run").help(example));
         return None;
     };
-    let span = reader.span(value);
-    let Some(entries) = value.get_ref().as_table() else {
-        reader.expect(span, "solver", "a table, [solver]");
-        return None;
-    };
-    let table = reader.table(entries, "[solver]", span, SOLVER);
+    let table = reader.table(value, "solver", "a table, [solver]", ("[solver]", SOLVER))?;
     let run = run(reader, &table);
     let output = template(reader, &table, "output");
-    if table.get("output").is_none() {
+    if table.value("output").is_none() {
         reader.missing(&table, "output", "as in output = \"{output}/*.vtu\"");
     }
     let state = reader.text(&table, "state");
@@ -312,7 +306,9 @@ fn solver(reader: &mut Reader, root: &Table<'_>) -> Option<Solver> {
 
 /// Holds `{emitted}` to `emit`.
 fn hold_emitted(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
-    if solver.asks_for(Placeholder::Emitted) && solver.emit.is_none() && table.get("emit").is_none()
+    if solver.asks_for(Placeholder::Emitted)
+        && solver.emit.is_none()
+        && table.value("emit").is_none()
     {
         reader.missing(
             table,
@@ -328,7 +324,7 @@ fn hold_output(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
     if names(&solver.output) || solver.directory.as_ref().is_some_and(names) {
         return;
     }
-    let span = table.get("output").map_or(table.span, |value| reader.span(value));
+    let span = table.value("output").map_or(table.span, |value| reader.span(value));
     let message = "`output`: all runs would write to the same place";
     let help = "begin it with {output}, the folder of the run, and give that to the solver; for one that writes where it \
                 is run, directory = \"{output}\"";
@@ -337,7 +333,7 @@ fn hold_output(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
 
 /// The words of the command: split here, or an array.
 fn run(reader: &mut Reader, table: &Table<'_>) -> Option<Vec<Template>> {
-    let Some(value) = table.get("run") else {
+    let Some(value) = table.value("run") else {
         reader.missing(table, "run", "as in run = \"./solver --cells {cells} --out {output}\"");
         return None;
     };
@@ -389,15 +385,10 @@ fn wrong_template(reader: &mut Reader, span: Span, key: &str, wrong: &Wrong) {
 }
 
 fn threads(reader: &mut Reader, table: &Table<'_>) -> NonZero<usize> {
-    let count = table.get("threads").map(|value| (reader.span(value), whole(value)));
-    match count {
-        None => NonZero::<usize>::MIN,
-        Some((_, Some(count))) => count,
-        Some((span, None)) => {
-            reader.expect(span, "threads", "a whole number from 1 on");
-            NonZero::<usize>::MIN
-        }
-    }
+    let expected = "a whole number from 1 on";
+    reader
+        .of_key(table, "threads", expected, |_, value| whole(value))
+        .unwrap_or(NonZero::<usize>::MIN)
 }
 
 fn limit(reader: &mut Reader, table: &Table<'_>) -> Duration {
@@ -406,29 +397,22 @@ fn limit(reader: &mut Reader, table: &Table<'_>) -> Duration {
 }
 
 /// A whole number from 1 on.
-fn whole(value: &toml::Spanned<DeValue<'_>>) -> Option<NonZero<usize>> {
+fn whole(value: &Value<'_>) -> Option<NonZero<usize>> {
     let DeValue::Integer(digits) = value.get_ref() else { return None };
     usize::from_str_radix(digits.as_str(), digits.radix()).ok().and_then(NonZero::new)
 }
 
 fn studies(reader: &mut Reader, root: &Table<'_>) -> Vec<Study> {
-    let Some(value) = root.get("study") else { return Vec::new() };
-    let span = reader.span(value);
-    let Some(items) = value.get_ref().as_array() else {
-        reader.expect(span, "study", "an array of tables, [[study]]");
-        return Vec::new();
-    };
+    let expected = "an array of tables, [[study]]";
+    let items = reader.of_key(root, "study", expected, |_, value| value.get_ref().as_array());
     let mut studies: Vec<Study> = Vec::new();
-    for item in items.iter() {
-        let span = reader.span(item);
-        let Some(entries) = item.get_ref().as_table() else {
-            reader.expect(span, "study", "a table, [[study]]");
-            continue;
-        };
-        let Some((study, steps)) = study(reader, entries, span) else { continue };
+    for item in items.into_iter().flat_map(|items| items.iter()) {
+        let table = reader.table(item, "study", "a table, [[study]]", ("[[study]]", STUDY));
+        let Some(table) = table else { continue };
+        let Some((study, steps)) = study(reader, &table) else { continue };
         if studies.iter().any(|other| other.family == study.family) {
             let message = format!("two studies are called {}", quoted(&study.family));
-            let found = Diagnostic::error(span, message).label("the second of them");
+            let found = Diagnostic::error(table.span, message).label("the second of them");
             reader.report(found.help("give it a `name` of its own"));
         }
         studies.extend(steps.into_iter().map(|step| study.clone().at(step)));
@@ -437,19 +421,18 @@ fn studies(reader: &mut Reader, root: &Table<'_>) -> Vec<Study> {
 }
 
 /// A study, and the steps of its parameters.
-fn study(reader: &mut Reader, entries: &DeTable<'_>, span: Span) -> Option<(Study, Vec<Step>)> {
-    let table = reader.table(entries, "[[study]]", span, STUDY);
-    let field = reader.text(&table, "field");
-    if table.get("field").is_none() {
-        reader.missing(&table, "field", "a name of the gallery, or the path of a field file");
+fn study(reader: &mut Reader, table: &Table<'_>) -> Option<(Study, Vec<Step>)> {
+    let field = reader.text(table, "field");
+    if table.value("field").is_none() {
+        reader.missing(table, "field", "a name of the gallery, or the path of a field file");
     }
-    let cells = cells(reader, &table);
+    let cells = cells(reader, table);
     let is_positive = |it: f64| it > 0.0;
     let positive = "an array of positive numbers";
-    let time_steps = reader.numbers(&table, "time_steps", positive, is_positive);
-    let h = reader.numbers(&table, "h", positive, is_positive);
-    let time = reader.numbers(&table, "time", "an array of numbers", f64::is_finite);
-    let name = name(reader, &table, field.as_ref());
+    let time_steps = reader.numbers(table, "time_steps", positive, is_positive);
+    let h = reader.numbers(table, "h", positive, is_positive);
+    let time = reader.numbers(table, "time", "an array of numbers", f64::is_finite);
+    let name = name(reader, table, field.as_ref());
     let name = name?;
     let study = Study {
         family: name.clone(),
@@ -457,28 +440,28 @@ fn study(reader: &mut Reader, entries: &DeTable<'_>, span: Span) -> Option<(Stud
         field: field?,
         cells: cells?,
         time_steps,
-        grid: reader.flag(&table, "grid", false),
-        particles_per_cell: per_cell(reader, &table),
-        courant: reader.positive(&table, "courant").unwrap_or(COURANT),
-        end: reader.number(&table, "end"),
-        order: orders(reader, &table),
-        tolerance: reader.positive(&table, "tolerance").unwrap_or(TOLERANCE),
-        quantity: reader.texts(&table, "quantity"),
-        map: reader.texts(&table, "map"),
-        columns: reader.texts(&table, "columns"),
-        from: reader.text(&table, "from"),
-        over: reader.text(&table, "over"),
+        grid: reader.flag(table, "grid", false),
+        particles_per_cell: per_cell(reader, table),
+        courant: reader.positive(table, "courant").unwrap_or(COURANT),
+        end: reader.number(table, "end"),
+        order: orders(reader, table),
+        tolerance: reader.positive(table, "tolerance").unwrap_or(TOLERANCE),
+        quantity: reader.texts(table, "quantity"),
+        map: reader.texts(table, "map"),
+        columns: reader.texts(table, "columns"),
+        from: reader.text(table, "from"),
+        over: reader.text(table, "over"),
         h,
         time: time.unwrap_or_default(),
-        weight: reader.text(&table, "weight"),
-        start: reader.text(&table, "start"),
-        part: reader.flag(&table, "part", false),
-        max_memory: reader.positive(&table, "max_memory").map(|it| it.ceil() as u64),
+        weight: reader.text(table, "weight"),
+        start: reader.text(table, "start"),
+        part: reader.flag(table, "part", false),
+        max_memory: reader.positive(table, "max_memory").map(|it| it.ceil() as u64),
         set: Vec::new(),
-        span,
+        span: table.span,
     };
-    hold_levels(reader, &table, &study);
-    Some((study, set::steps(reader, &table)))
+    hold_levels(reader, table, &study);
+    Some((study, set::steps(reader, table)))
 }
 
 /// The name of a study, which is that of a folder too: its own, or that of its field.
@@ -504,7 +487,7 @@ fn of_field(field: &Spanned<String>) -> Spanned<String> {
 }
 
 fn cells(reader: &mut Reader, table: &Table<'_>) -> Option<Vec<usize>> {
-    let Some(value) = table.get("cells") else {
+    let Some(value) = table.value("cells") else {
         reader.missing(
             table,
             "cells",
@@ -512,28 +495,23 @@ fn cells(reader: &mut Reader, table: &Table<'_>) -> Option<Vec<usize>> {
         );
         return None;
     };
-    let items = value.get_ref().as_array().filter(|items| !items.is_empty());
-    let found =
-        items.and_then(|items| items.iter().map(|it| whole(it).map(NonZero::get)).collect());
-    if found.is_none() {
-        let span = reader.span(value);
-        reader.expect(span, "cells", "an array of whole numbers from 1 on, one for each level");
-    }
-    found
+    let expected = "an array of whole numbers from 1 on, one for each level";
+    let cells = |item: &Value<'_>| whole(item).map(NonZero::get);
+    reader.of_value(value, "cells", expected, |_| each(value, cells))
 }
 
 /// Three of each and no `courant` in a grid of cells and time steps: with fewer nobody can tell the two apart.
 fn hold_grid(reader: &mut Reader, table: &Table<'_>, study: &Study) {
     let lengths = [("cells", study.cells.len()), ("time_steps", study.steps())];
     for (key, length) in lengths.into_iter().filter(|(_, length)| *length < 3) {
-        let span = table.get(key).map_or(table.span, |value| reader.span(value));
+        let span = table.value(key).map_or(table.span, |value| reader.span(value));
         let message = format!("`grid`: `{key}` has {length} values");
         let help = "three and more of each: fewer do not tell errors of space and of time apart";
         reader.report(Diagnostic::error(span, message).label("expected three at least").help(help));
     }
     let of_h = study.h.as_ref().map_or(study.cells.len(), Vec::len);
     if of_h != study.cells.len() {
-        let span = table.get("h").map_or(table.span, |value| reader.span(value));
+        let span = table.value("h").map_or(table.span, |value| reader.span(value));
         let message = format!("`h` has {of_h} values, and `cells` {}", study.cells.len());
         let found = Diagnostic::error(span, message).label("counted here");
         reader.report(found.help("as many in a grid: each is that of a number of cells"));
@@ -553,7 +531,7 @@ fn hold_levels(reader: &mut Reader, table: &Table<'_>, study: &Study) {
     ];
     for (key, length) in lengths {
         let Some(length) = length.filter(|length| *length != levels) else { continue };
-        let span = table.get(key).map_or(table.span, |value| reader.span(value));
+        let span = table.value(key).map_or(table.span, |value| reader.span(value));
         let message = format!("`{key}` has {length} values, and there are {levels} levels");
         let help = "as many for each; or one number of cells for several time steps";
         reader.report(Diagnostic::error(span, message).label("counted here").help(help));
@@ -562,18 +540,15 @@ fn hold_levels(reader: &mut Reader, table: &Table<'_>, study: &Study) {
 
 /// A whole number, or one for each axis in a text.
 fn per_cell(reader: &mut Reader, table: &Table<'_>) -> Option<Spanned<String>> {
-    let value = table.get("particles_per_cell")?;
-    let found = digits(value).map(|text| Spanned { value: text, span: reader.span(value) });
-    if found.is_none() {
-        let expected = "a whole number, or one for each axis, as in \"3x2\"";
-        reader.expect(reader.span(value), "particles_per_cell", expected);
-    }
-    found
+    let expected = "a whole number, or one for each axis, as in \"3x2\"";
+    reader.of_key(table, "particles_per_cell", expected, |reader, value| {
+        Some(Spanned { value: digits(value)?, span: reader.span(value) })
+    })
 }
 
 /// A number, or as `--expected-order` takes it.
 fn orders(reader: &mut Reader, table: &Table<'_>) -> Vec<Spanned<String>> {
-    let plain = table.get("order").filter(|value| number(value).is_some());
+    let plain = table.value("order").filter(|value| number(value).is_some());
     match plain.and_then(|value| Some((value, digits(value)?))) {
         Some((value, value_text)) => vec![Spanned { value: value_text, span: reader.span(value) }],
         None => reader.texts(table, "order"),

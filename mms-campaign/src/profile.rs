@@ -11,10 +11,9 @@
 //! ```
 
 use mms_spec::source::Spanned;
-use toml::de::DeValue;
 
 use crate::file::Mistakes;
-use crate::table::{Reader, Value};
+use crate::table::{Reader, Value, each};
 
 /// The rows and columns of a tensor's entries, counted from 0, in the order of an array's components.
 pub type Order = Vec<(usize, usize)>;
@@ -40,10 +39,9 @@ pub fn read<R>(
     role: &dyn Fn(&str) -> Result<R, String>,
 ) -> Result<Profile<R>, Mistakes> {
     let (mut reader, root) = Reader::new(path, text);
-    let start = reader.sources.span(reader.source, 0, 0);
     let keys = ["source", "points", "orders", "quantities"];
-    let table = reader.table(root.get_ref(), "a profile", start, &keys);
-    if reader.text(&table, "source").is_none() && table.get("source").is_none() {
+    let table = reader.root(root.get_ref(), "a profile", &keys);
+    if reader.text(&table, "source").is_none() && table.value("source").is_none() {
         reader.missing(
             &table,
             "source",
@@ -63,7 +61,7 @@ pub fn read<R>(
     });
     let orders = reader.texts(&table, "orders");
     let orders = orders.iter().filter_map(|word| order(&mut reader, word)).collect();
-    let quantities = match table.get("quantities") {
+    let quantities = match table.value("quantities") {
         Some(value) => quantities(&mut reader, value, role),
         None => Vec::new(),
     };
@@ -80,10 +78,9 @@ fn quantities<R>(
     value: &Value<'_>,
     role: &dyn Fn(&str) -> Result<R, String>,
 ) -> Vec<(R, Vec<String>)> {
-    let Some(entries) = value.get_ref().as_table() else {
-        reader.expect(reader.span(value), "quantities", "a table, [quantities]");
-        return Vec::new();
-    };
+    let expected = "a table, [quantities]";
+    let entries = reader.of_value(value, "quantities", expected, |_| value.get_ref().as_table());
+    let Some(entries) = entries else { return Vec::new() };
     let mut found = Vec::new();
     for (key, names) in entries.iter() {
         let listed = texts(names);
@@ -102,10 +99,7 @@ fn quantities<R>(
 /// A text, or several.
 fn texts(value: &Value<'_>) -> Option<Vec<String>> {
     let text = |value: &Value<'_>| value.get_ref().as_str().map(str::to_owned);
-    match value.get_ref() {
-        DeValue::Array(items) if !items.is_empty() => items.iter().map(text).collect(),
-        _ => text(value).map(|it| vec![it]),
-    }
+    each(value, text).or_else(|| text(value).map(|it| vec![it]))
 }
 
 /// The entries that a text such as `11,22,33,12` lists.

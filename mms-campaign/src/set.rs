@@ -26,13 +26,10 @@ struct Setting {
 
 /// The steps of `set`: one, if no parameter is stepped.
 pub(crate) fn steps(reader: &mut Reader, table: &Table<'_>) -> Vec<Step> {
-    let Some(value) = table.get("set") else { return vec![Step::default()] };
-    let Some(entries) = value.get_ref().as_table() else {
-        let expected =
-            "a table of numbers or of lists of them, as in { young = 1e6, load = [0.5, 1] }";
-        reader.expect(reader.span(value), "set", expected);
-        return Vec::new();
-    };
+    let Some(value) = table.value("set") else { return vec![Step::default()] };
+    let expected = "a table of numbers or of lists of them, as in { young = 1e6, load = [0.5, 1] }";
+    let entries = reader.of_value(value, "set", expected, |_| value.get_ref().as_table());
+    let Some(entries) = entries else { return Vec::new() };
     let settings: Vec<Setting> = entries
         .iter()
         .filter_map(|(name, value)| setting(reader, name.get_ref().as_ref(), value))

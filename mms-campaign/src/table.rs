@@ -3,32 +3,15 @@
 use mms_spec::diagnostic::{Diagnostic, quoted};
 use mms_spec::source::{SourceId, Sources, Span, Spanned};
 use mms_spec::suggest::advice;
+use mms_spec::table::decimal;
+pub(crate) use mms_spec::table::{Table, Value};
 use toml::de::{DeTable, DeValue};
-
-/// A value with its place.
-pub(crate) type Value<'a> = toml::Spanned<DeValue<'a>>;
 
 /// Reads one file.
 pub(crate) struct Reader {
     pub sources: Sources,
     pub source: SourceId,
     pub diagnostics: Vec<Diagnostic>,
-}
-
-/// A table in which only some keys mean something.
-pub(crate) struct Table<'a> {
-    entries: &'a DeTable<'a>,
-    /// How messages call it.
-    name: &'static str,
-    /// Where it begins.
-    pub span: Span,
-}
-
-impl<'a> Table<'a> {
-    /// The value of a key.
-    pub fn get(&self, key: &str) -> Option<&'a Value<'a>> {
-        self.entries.iter().find(|(own, _)| own.get_ref() == key).map(|(_, value)| value)
-    }
 }
 
 impl Reader {
@@ -58,31 +41,72 @@ impl Reader {
     }
 
     pub fn span<T>(&self, value: &toml::Spanned<T>) -> Span {
-        let place = value.span();
-        self.sources.span(self.source, place.start, place.end)
+        self.sources.span_of(self.source, value)
+    }
+
+    /// The outermost table of a file.
+    pub fn root<'a>(&mut self, root: &'a DeTable<'a>, name: &str, keys: &[&str]) -> Table<'a> {
+        self.known(root, name, self.sources.span(self.source, 0, 0), keys)
+    }
+
+    /// The table that a value of a key has to be.
+    pub fn table<'a>(
+        &mut self,
+        value: &'a Value<'a>,
+        key: &str,
+        expected: &str,
+        (name, keys): (&str, &[&str]),
+    ) -> Option<Table<'a>> {
+        let entries = self.of_value(value, key, expected, |_| value.get_ref().as_table())?;
+        Some(self.known(entries, name, self.span(value), keys))
     }
 
     /// A table, with a word on each key that means nothing in it.
-    pub fn table<'a>(
+    fn known<'a>(
         &mut self,
         entries: &'a DeTable<'a>,
-        name: &'static str,
+        name: &str,
         span: Span,
         keys: &[&str],
     ) -> Table<'a> {
-        for key in entries.keys().filter(|key| !keys.contains(&key.get_ref().as_ref())) {
-            let absent = keys
-                .iter()
-                .copied()
-                .filter(|known| entries.keys().all(|own| own.get_ref() != *known));
-            let help =
-                advice(key.get_ref(), absent, |_| format!("its keys are {}", keys.join(", ")));
-            let message = format!("unknown key {}", quoted(key.get_ref()));
-            let span = self.span(key);
-            let label = format!("not a key of {name}");
-            self.report(Diagnostic::error(span, message).label(label).help(help));
+        let table = Table::new(name, span, &self.sources, self.source, entries);
+        for key in table.entries.iter().map(|entry| &entry.key) {
+            if !keys.contains(&key.value.as_str()) {
+                let all = |_: &str| format!("its keys are {}", keys.join(", "));
+                let help = advice(&key.value, table.absent(keys), all);
+                let message = format!("unknown key {}", quoted(&key.value));
+                let label = format!("not a key of {name}");
+                self.report(Diagnostic::error(key.span, message).label(label).help(help));
+            }
         }
-        Table { entries, name, span }
+        table
+    }
+
+    /// What a value is read as; where it is no such thing, the message says what is expected.
+    pub fn of_value<T>(
+        &mut self,
+        value: &Value<'_>,
+        key: &str,
+        expected: &str,
+        read: impl FnOnce(&Self) -> Option<T>,
+    ) -> Option<T> {
+        let found = read(self);
+        if found.is_none() {
+            self.expect(self.span(value), key, expected);
+        }
+        found
+    }
+
+    /// The same of a key that may be left out.
+    pub fn of_key<'a, T>(
+        &mut self,
+        table: &Table<'a>,
+        key: &str,
+        expected: &str,
+        read: impl FnOnce(&Self, &'a Value<'a>) -> Option<T>,
+    ) -> Option<T> {
+        let value = table.value(key)?;
+        self.of_value(value, key, expected, |reader| read(reader, value))
     }
 
     /// Says that a key is missing.
@@ -94,25 +118,17 @@ impl Reader {
 
     /// A text.
     pub fn text(&mut self, table: &Table<'_>, key: &str) -> Option<Spanned<String>> {
-        let value = table.get(key)?;
-        let text = self.one_text(value);
-        if text.is_none() {
-            self.expect(self.span(value), key, "a text in quotes");
-        }
-        text
+        self.of_key(table, key, "a text in quotes", Self::one_text)
     }
 
     /// A text or several.
     pub fn texts(&mut self, table: &Table<'_>, key: &str) -> Vec<Spanned<String>> {
-        let Some(value) = table.get(key) else { return Vec::new() };
-        let found = match value.get_ref() {
-            DeValue::Array(items) => items.iter().map(|item| self.one_text(item)).collect(),
-            _ => self.one_text(value).map(|text| vec![text]),
-        };
-        found.unwrap_or_else(|| {
-            self.expect(self.span(value), key, "a text in quotes, or an array of such");
-            Vec::new()
-        })
+        let expected = "a text in quotes, or an array of such";
+        let found = self.of_key(table, key, expected, |reader, value| match value.get_ref() {
+            DeValue::Array(items) => items.iter().map(|item| reader.one_text(item)).collect(),
+            _ => reader.one_text(value).map(|text| vec![text]),
+        });
+        found.unwrap_or_default()
     }
 
     fn one_text(&self, value: &Value<'_>) -> Option<Spanned<String>> {
@@ -122,31 +138,19 @@ impl Reader {
 
     /// True or false, or a default where nothing is said.
     pub fn flag(&mut self, table: &Table<'_>, key: &str, default: bool) -> bool {
-        let Some(value) = table.get(key) else { return default };
-        value.get_ref().as_bool().unwrap_or_else(|| {
-            self.expect(self.span(value), key, "true or false");
-            default
-        })
+        let flag = |_: &Self, value: &Value<'_>| value.get_ref().as_bool();
+        self.of_key(table, key, "true or false", flag).unwrap_or(default)
     }
 
     /// A positive number.
     pub fn positive(&mut self, table: &Table<'_>, key: &str) -> Option<f64> {
-        let value = table.get(key)?;
-        let found = number(value).filter(|it| *it > 0.0);
-        if found.is_none() {
-            self.expect(self.span(value), key, "a positive number");
-        }
-        found
+        let positive = |_: &Self, value: &Value<'_>| number(value).filter(|it| *it > 0.0);
+        self.of_key(table, key, "a positive number", positive)
     }
 
     /// A number.
     pub fn number(&mut self, table: &Table<'_>, key: &str) -> Option<f64> {
-        let value = table.get(key)?;
-        let found = number(value);
-        if found.is_none() {
-            self.expect(self.span(value), key, "a number");
-        }
-        found
+        self.of_key(table, key, "a number", |_, value| number(value))
     }
 
     /// Numbers, one at least, of a kind.
@@ -157,26 +161,19 @@ impl Reader {
         expected: &str,
         is_right: fn(f64) -> bool,
     ) -> Option<Vec<f64>> {
-        let value = table.get(key)?;
-        let items = value.get_ref().as_array().filter(|items| !items.is_empty());
-        let found = items.and_then(|items| {
-            items.iter().map(|item| number(item).filter(|it| is_right(*it))).collect()
-        });
-        if found.is_none() {
-            self.expect(self.span(value), key, expected);
-        }
-        found
+        let right = |item: &Value<'_>| number(item).filter(|it| is_right(*it));
+        self.of_key(table, key, expected, |_, value| each(value, right))
     }
+}
+
+/// What each item of an array is read as, which may not be empty.
+pub(crate) fn each<T>(value: &Value<'_>, read: impl Fn(&Value<'_>) -> Option<T>) -> Option<Vec<T>> {
+    value.get_ref().as_array().filter(|items| !items.is_empty())?.iter().map(read).collect()
 }
 
 /// A finite number.
 pub(crate) fn number(value: &Value<'_>) -> Option<f64> {
-    let digits = match value.get_ref() {
-        DeValue::Integer(digits) if digits.radix() == 10 => digits.as_str(),
-        DeValue::Float(digits) => digits.as_str(),
-        _ => return None,
-    };
-    digits.parse::<f64>().ok().filter(|it| it.is_finite())
+    decimal(value.get_ref())?.parse::<f64>().ok().filter(|it| it.is_finite())
 }
 
 /// A number as it is written.

@@ -193,8 +193,7 @@ fn material_file(document: &Document<'_>, sources: &Sources, id: SourceId) -> Op
         return None;
     }
     let material = document.root.get("material")?.get_ref().as_table()?;
-    let place = material.get("strain_energy")?.span();
-    Some(sources.span(id, place.start, place.end))
+    Some(sources.span_of(id, material.get("strain_energy")?))
 }
 
 /// Refuses a field that moves without a density.

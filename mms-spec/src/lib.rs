@@ -38,7 +38,7 @@ mod study;
 pub mod suggest;
 mod symbols;
 pub mod syntax;
-mod table;
+pub mod table;
 pub mod twin;
 pub mod units;
 mod value;

@@ -211,8 +211,7 @@ pub fn read_material(
     let document = Document::parse(sources, id, diagnostics)?;
     let mut reader = Reader::new(sources, id, &document, diagnostics);
     if let Some((key, _)) = document.root.iter().find(|(key, _)| key.get_ref() == "field") {
-        let place = key.span();
-        let span = sources.span(id, place.start, place.end);
+        let span = sources.span_of(id, key);
         reader.report(
             Diagnostic::error(span, "this is a field file, not a material file")
                 .label("only fields have this table")

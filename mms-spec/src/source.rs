@@ -96,6 +96,12 @@ impl Sources {
         Span { source, start, end: boundary_before(text, end).max(start) }
     }
 
+    /// The place of a part of a TOML tree.
+    pub fn span_of<T>(&self, source: SourceId, part: &toml::Spanned<T>) -> Span {
+        let place = part.span();
+        self.span(source, place.start, place.end)
+    }
+
     /// The text that a span covers.
     pub fn slice(&self, span: Span) -> &str {
         let span = self.span(span.source, span.start, span.end);

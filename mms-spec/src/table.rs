@@ -4,7 +4,7 @@
 //! that one run shows every mistake of a file. A value whose mistake is already known is passed
 //! over in silence, and a formula in its place is [`Formula::reported`].
 
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeString, DeTable, DeValue};
 
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::document::Document;
@@ -18,11 +18,11 @@ use crate::suggest::{advice, did_you_mean};
 const MAX_DIAGNOSTICS: usize = 1000;
 
 /// A TOML value with its place.
-pub(super) type Value<'a> = toml::Spanned<DeValue<'a>>;
+pub type Value<'a> = toml::Spanned<DeValue<'a>>;
 
 /// A key and its value.
 #[derive(Clone)]
-pub(super) struct Entry<'a> {
+pub struct Entry<'a> {
     /// The key, without quotes.
     pub key: Spanned<String>,
     /// What it is set to.
@@ -30,7 +30,7 @@ pub(super) struct Entry<'a> {
 }
 
 /// The entries of a table, in the order of the file.
-pub(super) struct Table<'a> {
+pub struct Table<'a> {
     /// How messages call it, such as `[domain]`.
     pub name: String,
     /// Its header, or the whole of an inline table.
@@ -38,10 +38,39 @@ pub(super) struct Table<'a> {
     /// The entries.
     pub entries: Vec<Entry<'a>>,
     /// Keys that are missing only because they are misspelt: reported as such.
-    pub misspelt: Vec<&'static str>,
+    pub(crate) misspelt: Vec<&'static str>,
 }
 
 impl<'a> Table<'a> {
+    /// A table with its name in messages and its place.
+    pub fn new(
+        name: impl Into<String>,
+        span: Span,
+        sources: &Sources,
+        id: SourceId,
+        table: &'a DeTable<'a>,
+    ) -> Self {
+        let key = |key: &toml::Spanned<DeString<'_>>| Spanned {
+            value: key.get_ref().to_string(),
+            span: sources.span_of(id, key),
+        };
+        let mut entries: Vec<_> =
+            table.iter().map(|(own, value)| Entry { key: key(own), value }).collect();
+        // TOML sorts by name; the order of definitions is that of the file.
+        entries.sort_by_key(|entry| entry.key.span.start);
+        Table { name: name.into(), span, entries, misspelt: Vec::new() }
+    }
+
+    /// The value of that key.
+    pub fn value(&self, key: &str) -> Option<&'a Value<'a>> {
+        self.get(key).map(|entry| entry.value)
+    }
+
+    /// Those of some keys that it lacks.
+    pub fn absent<'k>(&self, keys: &[&'k str]) -> Vec<&'k str> {
+        keys.iter().copied().filter(|key| self.get(key).is_none()).collect()
+    }
+
     /// The entry of that key.
     pub fn get(&self, key: &str) -> Option<Entry<'a>> {
         self.entries.iter().find(|entry| entry.key.value == key).cloned()
@@ -49,7 +78,7 @@ impl<'a> Table<'a> {
 }
 
 /// Reads one file.
-pub(super) struct Reader<'a> {
+pub(crate) struct Reader<'a> {
     /// All texts.
     pub sources: &'a Sources,
     /// The text that is read.
@@ -109,8 +138,7 @@ impl<'a> Reader<'a> {
 
     /// The place of a value.
     pub fn span(&self, value: &Value<'_>) -> Span {
-        let range = value.span();
-        self.sources.span(self.id, range.start, range.end)
+        self.sources.span_of(self.id, value)
     }
 
     /// Whether TOML could not read a value, and has said so.
@@ -127,7 +155,7 @@ impl<'a> Reader<'a> {
     /// The file's outermost table.
     pub fn root(&mut self, name: &str, root: &'a DeTable<'a>, keys: &[Key]) -> Table<'a> {
         let span = self.sources.span(self.id, 0, 0);
-        let mut table = self.entries(name, span, root);
+        let mut table = Table::new(name, span, self.sources, self.id, root);
         self.check_keys(&mut table, keys);
         table
     }
@@ -144,7 +172,7 @@ impl<'a> Reader<'a> {
         match entry.value.get_ref() {
             DeValue::Table(table) => {
                 let span = self.span(entry.value);
-                Some(self.entries(name, span, table))
+                Some(Table::new(name, span, self.sources, self.id, table))
             }
             _ => {
                 self.wrong_type(&entry.key.value, entry.value, "a table");
@@ -172,24 +200,10 @@ impl<'a> Reader<'a> {
         entries.filter_map(|entry| self.table(&entry, &name, keys)).collect()
     }
 
-    fn entries(&self, name: &str, span: Span, table: &'a DeTable<'a>) -> Table<'a> {
-        let mut entries: Vec<_> = table
-            .iter()
-            .map(|(key, value)| {
-                let place = key.span();
-                let span = self.sources.span(self.id, place.start, place.end);
-                Entry { key: Spanned { value: key.get_ref().to_string(), span }, value }
-            })
-            .collect();
-        // TOML sorts by name; the order of definitions is that of the file.
-        entries.sort_by_key(|entry| entry.key.span.start);
-        Table { name: name.into(), span, entries, misspelt: Vec::new() }
-    }
-
     /// Reports every key that is not one of these.
     fn check_keys(&mut self, table: &mut Table<'a>, keys: &[Key]) {
         let keys = format::names(keys);
-        let absent: Vec<_> = keys.iter().copied().filter(|key| table.get(key).is_none()).collect();
+        let absent = table.absent(&keys);
         for entry in &table.entries {
             let key = entry.key.value.as_str();
             // A key that lost its header to a syntax error may be right where it was written.
@@ -267,9 +281,18 @@ impl<'a> Reader<'a> {
 }
 
 /// Names for a sentence: `` `a`, `b`, `c` ``.
-pub(super) fn list(names: &[&str]) -> String {
+pub(crate) fn list(names: &[&str]) -> String {
     let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
     names.join(", ")
+}
+
+/// A decimal number as it is written.
+pub fn decimal<'a>(value: &'a DeValue<'_>) -> Option<&'a str> {
+    match value {
+        DeValue::Integer(digits) if digits.radix() == 10 => Some(digits.as_str()),
+        DeValue::Float(digits) => Some(digits.as_str()),
+        _ => None,
+    }
 }
 
 fn describe(value: &DeValue<'_>) -> &'static str {

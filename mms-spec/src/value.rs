@@ -7,7 +7,7 @@ use crate::foreign::Foreign;
 use crate::formula::Formula;
 use crate::source::{Span, Spanned};
 use crate::suggest::advice;
-use crate::table::{Entry, Reader, Table, Value, list};
+use crate::table::{Entry, Reader, Table, Value, decimal, list};
 
 /// Cells and particles beyond this are a slip.
 pub const MAX_COUNT: usize = 1_000_000_000;
@@ -85,13 +85,9 @@ impl<'a> Reader<'a> {
     /// A positive number, for settings that are no part of the field's mathematics.
     pub fn positive(&mut self, entry: &Entry<'a>) -> Option<f64> {
         let key = &entry.key.value;
-        let digits = match entry.value.get_ref() {
-            DeValue::Integer(digits) if digits.radix() == 10 => digits.as_str(),
-            DeValue::Float(digits) => digits.as_str(),
-            _ => {
-                self.wrong_type(key, entry.value, "a number");
-                return None;
-            }
+        let Some(digits) = decimal(entry.value.get_ref()) else {
+            self.wrong_type(key, entry.value, "a number");
+            return None;
         };
         match digits.parse::<f64>() {
             _ if self.is_damaged(entry.value) => None,

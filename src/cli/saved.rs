@@ -10,6 +10,7 @@ use mms_files::read::{self, Kind};
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::source::Sources;
 use mms_spec::suggest::advice;
+use mms_spec::table::decimal;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -119,8 +120,7 @@ fn options(path: &str, text: &str, given: &Given) -> anyhow::Result<Vec<OsString
     }
     for (key, value) in root.get_ref() {
         let name = key.get_ref().replace('_', "-");
-        let place = key.span();
-        let span = sources.span(source, place.start, place.end);
+        let span = sources.span_of(source, key);
         if !known().any(|option| option == name) {
             let keys: Vec<String> = known().map(|option| option.replace('-', "_")).collect();
             let help = advice(key.get_ref(), keys.iter().map(String::as_str), |_| {
@@ -134,8 +134,7 @@ fn options(path: &str, text: &str, given: &Given) -> anyhow::Result<Vec<OsString
             match words.and_then(|words| given.check(&name, words)) {
                 Ok(words) => arguments.extend(words),
                 Err(what) => {
-                    let place = value.span();
-                    let span = sources.span(source, place.start, place.end);
+                    let span = sources.span_of(source, value);
                     let message = format!("`{}`: {what}", key.get_ref());
                     diagnostics.push(Diagnostic::error(span, message).label("found this"));
                 }
@@ -184,8 +183,6 @@ fn words(
 fn word(value: &Spanned<DeValue<'_>>) -> Option<String> {
     match value.get_ref() {
         DeValue::String(text) => Some(text.as_ref().to_owned()),
-        DeValue::Integer(digits) if digits.radix() == 10 => Some(digits.as_str().to_owned()),
-        DeValue::Float(digits) => Some(digits.as_str().to_owned()),
-        _ => None,
+        other => decimal(other).map(str::to_owned),
     }
 }
