@@ -2,8 +2,6 @@
 //! configuration has per volume, the traction.
 
 use super::abbreviate::LINE;
-use super::matrix::transpose;
-use super::matrix::{dot, matrix_product};
 use super::motion::{Formulas, Quantities, derivatives};
 use super::name::{Along, Name};
 use super::reading::{Reading, Role};
@@ -64,23 +62,22 @@ pub(super) fn balances(reading: &mut Reading, compiled: &Compiled, quantities: &
 
 /// sigma, tau and P^T. They come after P and before Div P, as everywhere. At small strain all are P.
 pub(super) fn measures(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities) {
-    let dimension = quantities.dimension;
-    let first = quantities.components(reading, Quantity::FirstPiolaKirchhoff);
-    let deformation = quantities.components(reading, Quantity::DeformationGradient);
+    let first = quantities.tensor(reading, Quantity::FirstPiolaKirchhoff);
+    let deformation = quantities.tensor(reading, Quantity::DeformationGradient);
     let jacobian = quantities.component(reading, Quantity::Jacobian, 0);
-    let transposed = transpose(&first, dimension);
-    quantities.add(reading, compiled, Quantity::NominalStress, &transposed);
+    let nominal = first.transpose();
+    quantities.add(reading, compiled, Quantity::NominalStress, nominal.components());
     if compiled.model.kind == Kind::SmallStrain {
-        quantities.add(reading, compiled, Quantity::CauchyStress, &first);
-        quantities.add(reading, compiled, Quantity::KirchhoffStress, &first);
+        quantities.add(reading, compiled, Quantity::CauchyStress, first.components());
+        quantities.add(reading, compiled, Quantity::KirchhoffStress, first.components());
         return;
     }
-    let columns = transpose(&deformation, dimension);
-    let kirchhoff = matrix_product(reading, &first, &columns, dimension);
+    let kirchhoff = first.mul(&mut reading.graph, &deformation.transpose());
+    let kirchhoff = kirchhoff.components();
     let cauchy: Vec<Expr> =
         kirchhoff.iter().map(|component| reading.graph.div(*component, jacobian)).collect();
     quantities.add(reading, compiled, Quantity::CauchyStress, &cauchy);
-    quantities.add(reading, compiled, Quantity::KirchhoffStress, &kirchhoff);
+    quantities.add(reading, compiled, Quantity::KirchhoffStress, kirchhoff);
 }
 
 /// b = a - Div P/rho0 and rho0 b, written out where that fits on a line.
@@ -146,7 +143,7 @@ pub(super) fn current(
 /// T = P N.
 pub(super) fn traction(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities) {
     let dimension = quantities.dimension;
-    let first = quantities.components(reading, Quantity::FirstPiolaKirchhoff);
+    let first = quantities.tensor(reading, Quantity::FirstPiolaKirchhoff);
     let zero = reading.graph.number(0);
     let normal: Vec<Expr> = (0..dimension)
         .map(|axis| {
@@ -156,9 +153,6 @@ pub(super) fn traction(reading: &mut Reading, compiled: &Compiled, quantities: &
             reading.leaf(id)
         })
         .collect();
-    let traction: Vec<Expr> = first
-        .chunks(dimension)
-        .map(|row| dot(reading, row.iter().copied().zip(normal.iter().copied()).collect()))
-        .collect();
+    let traction = first.apply(&mut reading.graph, &normal);
     quantities.add(reading, compiled, Quantity::Traction, &traction);
 }

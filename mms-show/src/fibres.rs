@@ -1,10 +1,10 @@
 //! The fibres of a material that is a function of I4, by name.
 
-use super::matrix::dot;
 use super::motion::{Formulas, Quantities};
 use super::name::Name;
 use super::reading::Reading;
 use mms_codegen::compile::Compiled;
+use mms_mechanics::tensor::dot;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Expr;
 
@@ -40,20 +40,19 @@ impl Fibres {
             })
             .collect();
         let (direction, missing) = all.split_at(dimension);
-        let deformation = quantities.components(reading, Quantity::DeformationGradient);
-        let present: Vec<Expr> = deformation
-            .chunks(dimension)
+        let deformation = quantities.tensor(reading, Quantity::DeformationGradient);
+        let present = deformation.apply(&mut reading.graph, direction);
+        let present: Vec<Expr> = present
+            .into_iter()
             .enumerate()
-            .map(|(axis, row)| {
-                let pairs = row.iter().copied().zip(direction.iter().copied());
-                let value = dot(reading, pairs.collect());
+            .map(|(axis, value)| {
                 let name = Name::indexed("f", (axis + 1).to_string());
                 reading.named(name, value, "derived")
             })
             .collect();
         // Along a dimension that the field lacks, a fibre stays as it is.
         let squares = present.iter().chain(missing).map(|component| (*component, *component));
-        let stretch = dot(reading, squares.collect());
+        let stretch = dot(&mut reading.graph, squares);
         let stretch = reading.named(Name::plain("I4"), stretch, "derived");
         Some(Fibres { direction: direction.to_vec(), present, stretch })
     }

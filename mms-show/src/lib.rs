@@ -18,7 +18,6 @@ mod balance;
 mod document;
 mod energy;
 mod fibres;
-mod matrix;
 mod motion;
 mod page;
 mod reading;

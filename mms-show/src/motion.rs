@@ -1,11 +1,11 @@
 //! The formulas of the field file with its own names kept, and the motion that follows from them.
 
-use super::matrix::{matrix_product, transpose};
 use super::name::{Along, Name};
 use super::reading::{Id, Reading, Role};
 use super::rigid::moved;
 use mms_codegen::compile::Compiled;
 use mms_mechanics::resolve::Scope;
+use mms_mechanics::tensor::Tensor;
 use mms_spec::quantity::Quantity;
 use mms_spec::syntax;
 use mms_spec::{Formula, LetSpec};
@@ -152,21 +152,18 @@ impl Quantities {
 
     /// C = F^T F, B = F F^T and E = (C - I)/2, in terms of the names of F and C.
     fn strain(&mut self, reading: &mut Reading, compiled: &Compiled) {
-        let dimension = self.dimension;
-        let deformation = self.components(reading, Quantity::DeformationGradient);
-        let transposed = transpose(&deformation, dimension);
-        let right = matrix_product(reading, &transposed, &deformation, dimension);
-        self.add(reading, compiled, Quantity::RightCauchyGreen, &right);
-        let left = matrix_product(reading, &deformation, &transposed, dimension);
-        self.add(reading, compiled, Quantity::LeftCauchyGreen, &left);
+        let deformation = self.tensor(reading, Quantity::DeformationGradient);
+        let transposed = deformation.transpose();
+        let right = transposed.mul(&mut reading.graph, &deformation);
+        self.add(reading, compiled, Quantity::RightCauchyGreen, right.components());
+        let left = deformation.mul(&mut reading.graph, &transposed);
+        self.add(reading, compiled, Quantity::LeftCauchyGreen, left.components());
         let right = self.symmetric(reading, Quantity::RightCauchyGreen);
-        let lagrange: Vec<Expr> = (right.into_iter().enumerate())
-            .map(|(k, component)| {
-                let identity = reading.graph.number(i32::from(k / dimension == k % dimension));
-                reading.graph.sum([(component, HALF), (identity, -HALF)])
-            })
-            .collect();
-        self.add(reading, compiled, Quantity::GreenLagrange, &lagrange);
+        let lagrange = Tensor::from_fn(self.dimension, |row, column| {
+            let identity = reading.graph.number(i32::from(row == column));
+            reading.graph.sum([(right.at(row, column), HALF), (identity, -HALF)])
+        });
+        self.add(reading, compiled, Quantity::GreenLagrange, lagrange.components());
     }
 
     fn deformation(&mut self, reading: &mut Reading, compiled: &Compiled, gradient: &[Expr]) {
@@ -228,16 +225,15 @@ impl Quantities {
         if reading.is_leaf(value) { value } else { reading.leaf(id) }
     }
 
-    /// The names of all components of a symmetric tensor, each above the diagonal also for its
-    /// mirror image.
-    pub fn symmetric(&self, reading: &mut Reading, quantity: Quantity) -> Vec<Expr> {
-        let names = self.components(reading, quantity);
-        let dimension = self.dimension;
-        let above = |k: usize| {
-            let (row, column) = (k / dimension, k % dimension);
-            row.min(column) * dimension + row.max(column)
-        };
-        (0..names.len()).map(|k| names[above(k)]).collect()
+    /// The names of all components of a tensor.
+    pub fn tensor(&self, reading: &mut Reading, quantity: Quantity) -> Tensor {
+        Tensor::from_components(self.dimension, self.components(reading, quantity))
+    }
+
+    /// The same of a symmetric tensor: each above the diagonal is that of its mirror image too.
+    pub fn symmetric(&self, reading: &mut Reading, quantity: Quantity) -> Tensor {
+        let names = self.tensor(reading, quantity);
+        Tensor::from_fn(self.dimension, |row, column| names.at(row.min(column), row.max(column)))
     }
 
     /// The names of all components of a quantity.

@@ -13,13 +13,13 @@
 use super::balance::{balance, balances, current, density, givens, measures, traction};
 use super::energy::Energy;
 use super::fibres::Fibres;
-use super::matrix::{dot, matrix_product};
 use super::motion::{Formulas, Quantities};
 use super::name::{Along, Name};
 use super::reading::Reading;
 use super::small_strain;
 use mms_codegen::compile::Compiled;
 use mms_mechanics::invariant::Kind;
+use mms_mechanics::tensor::{Tensor, dot};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, HALF, Rational};
 
@@ -105,12 +105,12 @@ fn space(
     fibres: Option<&Fibres>,
 ) -> Vec<Expr> {
     let dimension = quantities.dimension;
-    let deformation = quantities.components(reading, Quantity::DeformationGradient);
+    let deformation = quantities.tensor(reading, Quantity::DeformationGradient);
     let (cofactors, jacobian) = volume(reading, compiled, quantities, &deformation);
     let by_second = energy.slope(reading, I2);
     let right = (!reading.graph.is_zero(by_second))
         .then(|| quantities.symmetric(reading, Quantity::RightCauchyGreen));
-    let mut values = invariants(reading, &deformation, right.as_deref(), jacobian, dimension);
+    let mut values = invariants(reading, &deformation, right.as_ref(), jacobian);
     values.extend(fibres.map(|fibres| (I4, fibres.stretch)));
     let whole = energy.at(reading, energy.value, &values);
     quantities.add(reading, compiled, Quantity::StrainEnergy, &[whole]);
@@ -120,33 +120,28 @@ fn space(
     let alpha = graph.add(w1, scaled);
     let alpha = graph.scale(alpha, 2);
     let beta = graph.scale(w2, -2);
-    let cubic = right.map(|right| matrix_product(reading, &deformation, &right, dimension));
+    let cubic = right.map(|right| deformation.mul(&mut reading.graph, &right));
     let pull = fibres.map(|fibres| {
         let slope = slope(reading, energy, I4, &values);
         (fibres, reading.graph.scale(slope, 2))
     });
-    let shear: Vec<Expr> = (0..deformation.len())
-        .map(|k| {
-            let graph = &mut reading.graph;
-            let mut terms = vec![graph.mul(alpha, deformation[k])];
-            terms.extend(cubic.as_ref().map(|cubic| graph.mul(beta, cubic[k])));
-            terms.extend(pull.map(|(fibres, pull)| {
-                let (present, direction) =
-                    (fibres.present[k / dimension], fibres.direction[k % dimension]);
-                graph.product([pull, present, direction].map(|factor| (factor, Rational::ONE)))
-            }));
-            graph.sum(terms.into_iter().map(|term| (term, Rational::ONE)))
-        })
-        .collect();
-    let stress: Vec<Expr> = (0..deformation.len())
-        .map(|k| {
-            let pressure = reading.graph.mul(wj, cofactors[k]);
-            let stress = reading.graph.add(shear[k], pressure);
-            reading.tidy(stress)
-        })
-        .collect();
-    quantities.add(reading, compiled, Quantity::FirstPiolaKirchhoff, &stress);
-    divergence(reading, &shear, &cofactors, wj, dimension)
+    let shear = Tensor::from_fn(dimension, |row, column| {
+        let graph = &mut reading.graph;
+        let mut terms = vec![graph.mul(alpha, deformation.at(row, column))];
+        terms.extend(cubic.as_ref().map(|cubic| graph.mul(beta, cubic.at(row, column))));
+        terms.extend(pull.map(|(fibres, pull)| {
+            let factors = [pull, fibres.present[row], fibres.direction[column]];
+            graph.product(factors.map(|factor| (factor, Rational::ONE)))
+        }));
+        graph.sum(terms.into_iter().map(|term| (term, Rational::ONE)))
+    });
+    let stress = Tensor::from_fn(dimension, |row, column| {
+        let pressure = reading.graph.mul(wj, cofactors.at(row, column));
+        let stress = reading.graph.add(shear.at(row, column), pressure);
+        reading.tidy(stress)
+    });
+    quantities.add(reading, compiled, Quantity::FirstPiolaKirchhoff, stress.components());
+    divergence(reading, &shear, &cofactors, wj)
 }
 
 /// The derivative of W by an invariant, by name where that is shorter.
@@ -171,70 +166,59 @@ pub(super) fn volume(
     reading: &mut Reading,
     compiled: &Compiled,
     quantities: &mut Quantities,
-    deformation: &[Expr],
-) -> (Vec<Expr>, Expr) {
+    deformation: &Tensor,
+) -> (Tensor, Expr) {
     second_gradient(reading, quantities, deformation);
-    let cofactors = cofactors(reading, deformation, quantities.dimension);
+    let cofactors = cofactors(reading, deformation);
     let jacobian = jacobian(reading, compiled, quantities, deformation, &cofactors);
     (cofactors, jacobian)
 }
 
 fn divergence(
     reading: &mut Reading,
-    shear: &[Expr],
-    cofactors: &[Expr],
+    shear: &Tensor,
+    cofactors: &Tensor,
     pressure: Expr,
-    dimension: usize,
 ) -> Vec<Expr> {
+    let axes = 0..shear.dimension();
     let slopes: Vec<Expr> =
-        (0..dimension).map(|axis| reading.derivative(pressure, Along::Coordinate(axis))).collect();
-    (0..dimension)
-        .map(|row| {
-            let mut terms = Vec::new();
-            for (axis, slope) in slopes.iter().enumerate() {
-                let k = row * dimension + axis;
-                terms.push((reading.derivative(shear[k], Along::Coordinate(axis)), Rational::ONE));
-                terms.push((reading.graph.mul(cofactors[k], *slope), Rational::ONE));
-            }
-            let sum = reading.graph.sum(terms);
-            reading.tidy(sum)
-        })
-        .collect()
+        axes.clone().map(|axis| reading.derivative(pressure, Along::Coordinate(axis))).collect();
+    axes.map(|row| {
+        let mut terms = Vec::new();
+        for (axis, slope) in slopes.iter().enumerate() {
+            let along = Along::Coordinate(axis);
+            terms.push((reading.derivative(shear.at(row, axis), along), Rational::ONE));
+            terms.push((reading.graph.mul(cofactors.at(row, axis), *slope), Rational::ONE));
+        }
+        let sum = reading.graph.sum(terms);
+        reading.tidy(sum)
+    })
+    .collect()
 }
 
 /// F_iJ,K = F_iK,J: the order of derivatives does not matter, and one of the two is enough.
-fn second_gradient(reading: &mut Reading, quantities: &Quantities, deformation: &[Expr]) {
+fn second_gradient(reading: &mut Reading, quantities: &Quantities, deformation: &Tensor) {
     let dimension = quantities.dimension;
     for (k, id) in quantities.ids(Quantity::DeformationGradient).iter().enumerate() {
         let (row, column) = (k / dimension, k % dimension);
         for axis in 0..column {
-            let mirrored = deformation[row * dimension + axis];
+            let mirrored = deformation.at(row, axis);
             let slope = reading.derivative(mirrored, Along::Coordinate(column));
             reading.declare_derivative(*id, Along::Coordinate(axis), slope);
         }
     }
 }
 
-/// cof F, row-major: dJ/dF.
-fn cofactors(reading: &mut Reading, deformation: &[Expr], dimension: usize) -> Vec<Expr> {
-    let at =
-        |row: usize, column: usize| deformation[row % dimension * dimension + column % dimension];
-    (0..dimension * dimension)
-        .map(|k| {
-            let (row, column) = (k / dimension, k % dimension);
-            let graph = &mut reading.graph;
-            if dimension == 2 {
-                let sign = if row == column { 1 } else { -1 };
-                return graph.scale(at(row + 1, column + 1), sign);
-            }
-            // Cyclic indices bring the sign along.
-            let down = graph.mul(at(row + 1, column + 1), at(row + 2, column + 2));
-            let up = graph.mul(at(row + 1, column + 2), at(row + 2, column + 1));
-            let minor = graph.sub(down, up);
-            let name = Name::indexed("cof", format!("{}{}", row + 1, column + 1));
-            reading.named(name, minor, "derived")
-        })
-        .collect()
+/// cof F = dJ/dF, in space by name.
+fn cofactors(reading: &mut Reading, deformation: &Tensor) -> Tensor {
+    let cofactors = deformation.adjugate(&mut reading.graph).transpose();
+    if deformation.dimension() < 3 {
+        return cofactors;
+    }
+    Tensor::from_fn(deformation.dimension(), |row, column| {
+        let name = Name::indexed("cof", format!("{}{}", row + 1, column + 1));
+        reading.named(name, cofactors.at(row, column), "derived")
+    })
 }
 
 /// J = F_1J cof F_1J, with J,K = cof F_iJ F_iJ,K.
@@ -242,23 +226,21 @@ fn jacobian(
     reading: &mut Reading,
     compiled: &Compiled,
     quantities: &mut Quantities,
-    deformation: &[Expr],
-    cofactors: &[Expr],
+    deformation: &Tensor,
+    cofactors: &Tensor,
 ) -> Expr {
     let dimension = quantities.dimension;
-    let first_row: Vec<_> = (0..dimension).map(|k| (deformation[k], cofactors[k])).collect();
-    let value = dot(reading, first_row);
+    let first_row = (0..dimension).map(|k| (deformation.at(0, k), cofactors.at(0, k)));
+    let value = dot(&mut reading.graph, first_row);
     quantities.add(reading, compiled, Quantity::Jacobian, &[value]);
     let id = quantities.ids(Quantity::Jacobian)[0];
     let leaf = quantities.component(reading, Quantity::Jacobian, 0);
     if !reading.is_leaf(reading.entries[id].value) {
         for axis in (0..dimension).map(Along::Coordinate) {
-            let slopes: Vec<_> = deformation
-                .iter()
-                .zip(cofactors)
-                .map(|(component, cofactor)| (*cofactor, reading.derivative(*component, axis)))
-                .collect();
-            let slope = dot(reading, slopes);
+            let slopes = Tensor::from_fn(dimension, |row, column| {
+                reading.derivative(deformation.at(row, column), axis)
+            });
+            let slope = cofactors.contract(&mut reading.graph, &slopes);
             reading.declare_derivative(id, axis, slope);
         }
     }
@@ -269,21 +251,18 @@ fn jacobian(
 /// is left out where W is no function of it.
 fn invariants(
     reading: &mut Reading,
-    deformation: &[Expr],
-    right: Option<&[Expr]>,
+    deformation: &Tensor,
+    right: Option<&Tensor>,
     jacobian: Expr,
-    dimension: usize,
 ) -> Vec<(usize, Expr)> {
-    let squares: Vec<_> = deformation.iter().map(|component| (*component, *component)).collect();
-    let sum = dot(reading, squares);
-    let missing = reading.graph.number(i32::from(dimension == 2));
+    let sum = deformation.contract(&mut reading.graph, deformation);
+    let missing = reading.graph.number(i32::from(deformation.dimension() == 2));
     let first = reading.graph.add(sum, missing);
     let first = reading.named(Name::plain("I1"), first, "derived");
     let Some(right) = right else { return vec![(I1, first), (J, jacobian)] };
     // I2 = ((tr C)^2 - tr C^2)/2.
-    let squares: Vec<_> = right.iter().map(|component| (*component, *component)).collect();
-    let contracted = dot(reading, squares);
     let graph = &mut reading.graph;
+    let contracted = right.contract(graph, right);
     let contracted = graph.add(contracted, missing);
     let square = graph.power(first, 2);
     let second = graph.sum([(square, HALF), (contracted, -HALF)]);
