@@ -13,7 +13,8 @@ use crate::text::indented;
 
 /// Twice the digits of a double, in C++ too.
 pub(crate) const WIDE: &str = include_str!("support/wide.c");
-const POINT: &str = include_str!("support/point.c");
+/// Functions of a point that C lacks, in C++ too.
+pub(crate) const POINT: &str = include_str!("support/point.c");
 
 /// The text of `FIELD.c`.
 pub(super) fn text(port: &Port<'_>) -> String {

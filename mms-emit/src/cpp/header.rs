@@ -3,25 +3,29 @@
 use std::fmt::Write as _;
 
 use super::dialect::Cpp;
-use crate::c::{self, broken, comment};
+use crate::c::source::{POINT, WIDE, support};
+use crate::c::{broken, comment};
 use crate::port::Port;
 use crate::port::body::{Bodies, Body, Dialect as _, local};
 use crate::port::callable::{Callable, input};
 use crate::port::faces;
 use crate::port::motion;
-use crate::port::support::{Calls, Support};
+use crate::port::support::Calls;
 use crate::text::{indented, wrapped};
 use mms_program::Value;
 
-const POINT: &str = include_str!("support/point.hpp");
-
-fn point() -> Support {
-    Support::new(POINT, &["///", "#"])
+/// Functions of a point that C++ lacks: those of C, as templates in the scalar.
+fn point(calls: &Calls) -> String {
+    let mut text = support(POINT).needed(calls).join("\n\n").replace("REAL(", "T(");
+    for name in ["rint", "fabs", "sin", "cos", "copysign", "log1p"] {
+        text = text.replace(&format!("MATH({name})"), &format!("std::{name}"));
+    }
+    text.replace("static real", "template <class T> FIELD_FUNCTION T").replace("real ", "T ")
 }
 
 /// Twice the digits of a double: the functions of C, behind operators; nothing where none of them is called.
 fn wide(mut calls: Calls, has_statements: bool) -> String {
-    let support = c::source::support(c::source::WIDE);
+    let support = support(WIDE);
     if !has_statements && !support.defines_any(&calls) {
         return String::new();
     }
@@ -38,7 +42,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     let (name, upper) = (&port.name, port.name.to_ascii_uppercase());
     let bodies = port.bodies(&Cpp(port.dimension()));
     let (is_wide, calls) = (bodies.are_wide(), bodies.calls());
-    let point = point().needed(&calls).join("\n\n");
+    let point = point(&calls);
     let supports =
         [wide(calls, is_wide), point].map(|text| text.replace("FIELD_", &format!("{upper}_")));
     let mut header = port.header();
@@ -138,8 +142,7 @@ fn definition(doc: &str, result: &str, name: &str, arguments: &[String], body: &
 
 /// The statements of a body, which find what C++ lacks.
 fn statements(body: &Body) -> String {
-    let calls_support =
-        [c::source::support(c::source::WIDE), point()].iter().any(|it| it.defines_any(&body.calls));
+    let calls_support = [WIDE, POINT].iter().any(|text| support(text).defines_any(&body.calls));
     let using = match body.is_wide || calls_support {
         true => "    using namespace detail;\n",
         false => "",
