@@ -13,6 +13,7 @@ pub mod check;
 pub mod diagnose;
 pub mod emit;
 pub mod eval;
+pub mod explain;
 pub mod extremes;
 pub mod judge;
 pub mod list;

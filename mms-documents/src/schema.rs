@@ -16,8 +16,9 @@ fn of<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
 }
 
 /// The documents in the order of the page.
-const DOCUMENTS: [Document; 27] = [
+const DOCUMENTS: [Document; 28] = [
     ("list", of::<list::List>),
+    ("explain", of::<explain::Explain>),
     ("show", of::<show::Show>),
     ("check", of::<check::Check>),
     ("eval", of::<eval::Eval>),

@@ -4,7 +4,6 @@ mod mistaken;
 mod proof;
 pub mod stability;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
@@ -21,7 +20,7 @@ use mms_codegen::selection::{Entry, Freeze, Selection};
 use mms_diagnosis::answer::Ranked;
 use mms_documents::check::{self as documents, CheckedFile, ClosedForm, UndefinedComponent};
 use mms_exact::settings;
-use mms_options::field::{Variant, file as open_file};
+use mms_options::field::{Variant, open};
 use mms_spec::diagnostic::{Diagnostic, render_styled};
 use mms_spec::foreign::{Foreign, shown};
 use mms_spec::source::Sources;
@@ -48,9 +47,9 @@ use super::{Outcome, print, print_json, say, say_styled};
 /// (least eigenvalue on a coarse mesh). What grows is a warning, and does not change the exit code.
 #[derive(Args)]
 pub struct Check {
-    /// Field files.
-    #[arg(value_name = "FILE", required = true)]
-    files: Vec<PathBuf>,
+    /// Field files, or names of fields of the gallery.
+    #[arg(value_name = "FIELD", required = true)]
+    files: Vec<String>,
     /// Fix a parameter at a value: a number, or a formula in the parameters above it. What holds is then proved for it
     /// alone, not for the parameter's range; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
@@ -71,8 +70,8 @@ impl Check {
         let mut worst = Outcome::AsExpected;
         let mut documents = Vec::new();
         for file in &self.files {
-            let path = Foreign::from(file.to_string_lossy());
-            let (outcome, document) = match open_file(file).map(|source| source.compile(&options)) {
+            let path = Foreign::from(file.as_str());
+            let (outcome, document) = match open(file).map(|source| source.compile(&options)) {
                 Ok(Ok(compiled)) => self.report(&path, &Arc::new(compiled))?,
                 Ok(Err(mut failure)) => {
                     // What is frozen here is what is set, and its mistakes are said of that.

@@ -2,11 +2,13 @@
 
 mod folder;
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
-use clap::Args;
-use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
+use clap::{Arg, Args, Command};
 use mms_codegen::selection::{Freeze, Selection};
 use mms_documents::emit::{self as documents, EmitAll, EmittedFile};
 use mms_emit::{Bundle, Subject, TARGETS, Target};
@@ -24,8 +26,12 @@ use super::{Outcome, print, print_json, say};
 /// Write the source of a field for another solver: all of it, or only what is needed.
 ///
 /// A check program and its test vectors come with it: the line printed at the end builds and
-/// runs it. With your own compiler and flags in that line it proves your build. The Rust that is
-/// written without --target has none: it shares its code with what this program computes.
+/// runs it. With your own compiler and flags in that line it proves your build. The target
+/// rust-mms-math has none: it shares its code with what this program computes.
+///
+/// Examples:
+///   mms emit bar_1d --target c --output src
+///   mms emit my.toml --target fortran --quantity body_force --output src
 #[derive(Args)]
 pub struct Emit {
     /// A gallery name, or a path to a TOML file.
@@ -35,8 +41,8 @@ pub struct Emit {
     #[arg(long, conflicts_with = "field", requires = "output")]
     all: bool,
     /// The language.
-    #[arg(long, value_name = "NAME", default_value = "rust-mms-math", value_parser = targets())]
-    target: String,
+    #[arg(long, value_name = "NAME", value_parser = targets())]
+    target: Option<&'static Target>,
     /// The folder for the files; without it the source goes to stdout, where it is one file. Links in it are not written
     /// through.
     #[arg(short, long, value_name = "DIR")]
@@ -64,16 +70,75 @@ pub struct Emit {
 }
 
 /// The words of the compiler's list.
-fn targets() -> PossibleValuesParser {
-    let word =
-        |target: &Target| PossibleValue::new(target.name).help(target.doc).aliases(target.alias);
-    TARGETS.iter().map(word).into()
+fn targets() -> impl TypedValueParser<Value = &'static Target> {
+    Targets
+}
+
+/// Reads the name of a target, and knows which one people mean by another word.
+#[derive(Clone)]
+struct Targets;
+
+/// Words of other languages and programs, and the target that serves them.
+const MEANT: [(&str, &str); 14] = [
+    ("c++", "cpp"),
+    ("cxx", "cpp"),
+    ("cuda", "cpp"),
+    ("dealii", "cpp"),
+    ("dolfinx", "ufl"),
+    ("f90", "fortran"),
+    ("fenics", "ufl"),
+    ("fenicsx", "ufl"),
+    ("firedrake", "ufl"),
+    ("jax", "numpy"),
+    ("jl", "julia"),
+    ("py", "python"),
+    ("rs", "rust"),
+    ("scikit-fem", "numpy"),
+];
+
+impl TypedValueParser for Targets {
+    type Value = &'static Target;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Self::Value, clap::Error> {
+        let word = value.to_string_lossy().to_lowercase();
+        if let Some(found) = Target::find(&word) {
+            return Ok(found);
+        }
+        match MEANT.iter().find(|(other, _)| *other == word) {
+            Some((_, name)) => {
+                let message =
+                    format!("no target `{}`; `--target {name}` serves it\n", foreign::shown(&word));
+                Err(clap::Error::raw(ErrorKind::InvalidValue, message).with_cmd(command))
+            }
+            // The error lists the names, and names the nearest.
+            None => {
+                let names = PossibleValuesParser::new(self.possible_values().into_iter().flatten());
+                names
+                    .parse_ref(command, argument, value)
+                    .and(Err(clap::Error::new(ErrorKind::InvalidValue)))
+            }
+        }
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let word = |target: &Target| {
+            PossibleValue::new(target.name).help(target.doc).aliases(target.alias)
+        };
+        Some(Box::new(TARGETS.iter().map(word)))
+    }
 }
 
 impl Emit {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let target =
-            Target::find(&self.target).with_context(|| format!("no target `{}`", self.target))?;
+        let Some(target) = self.target else {
+            let names: Vec<_> = TARGETS.iter().map(|target| target.name).collect();
+            bail!("name the language with `--target`: {}", names.join(", "));
+        };
         let own = match &self.field {
             Some(field) => open(field)?.own_quantities(),
             None => Vec::new(),
@@ -103,7 +168,7 @@ impl Emit {
             let (name, bundle) = emitted(name)?;
             let folder = self.output.as_ref().map(|it| self.folder(it, name.raw())).transpose()?;
             let delivered = match folder {
-                None => self.printed(&bundle)?,
+                None => self.printed(target, &bundle)?,
                 Some(folder) if self.check => compared(&folder, &bundle)?,
                 Some(folder) => written(&folder, &bundle)?,
             };
@@ -141,12 +206,12 @@ impl Emit {
     }
 
     /// What goes to stdout: the one file that a solver needs.
-    fn printed(&self, bundle: &Bundle) -> anyhow::Result<Delivered> {
+    fn printed(&self, target: &Target, bundle: &Bundle) -> anyhow::Result<Delivered> {
         if bundle.sources().len() > 1 && !self.json {
             let names: Vec<_> = bundle.files.iter().map(|file| file.name.as_str()).collect();
             bail!(
                 "`--target {}` makes {}: give the folder for them, as in `-o forcing`",
-                self.target,
+                target.name,
                 names.join(", ")
             );
         }

@@ -18,6 +18,7 @@ mod check;
 mod diagnose;
 mod emit;
 mod eval;
+mod explain;
 mod extremes;
 mod follow;
 mod format;
@@ -89,6 +90,7 @@ enum Command {
     Tradeoff(tradeoff::Tradeoff),
     Extremes(extremes::Extremes),
     New(new::New),
+    Explain(explain::Explain),
     Schema(schema::Schema),
 }
 
@@ -154,13 +156,40 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Tradeoff(tradeoff)) => tradeoff.run(),
         Some(Command::Extremes(extremes)) => extremes.run(),
         Some(Command::New(new)) => new.run(),
+        Some(Command::Explain(explain)) => explain.run(),
         Some(Command::Schema(schema)) => schema.run(),
     }
 }
 
+/// The commands, in groups.
+const GROUPS: [(&str, &[&str]); 4] = [
+    ("Fields", &["new", "check", "show", "eval", "accuracy", "list", "schema"]),
+    ("Your own solver", &["emit", "state", "judge", "diagnose", "campaign", "report"]),
+    ("The solver of this project", &["run", "study", "verify", "tradeoff", "extremes"]),
+    ("Words", &["explain", "help"]),
+];
+
+/// The commands in groups, each with the first sentence of its help.
+fn groups(command: &clap::Command) -> String {
+    let about = |name: &str| {
+        let about = command.find_subcommand(name).and_then(clap::Command::get_about);
+        about.map_or("Print this message or the help of a command".into(), ToString::to_string)
+    };
+    let group = |(head, names): &(&str, &[&str])| {
+        let line = |name: &&str| format!("  {name:<9} {}\n", about(name));
+        format!("{head}:\n{}\n", names.iter().map(line).collect::<String>())
+    };
+    GROUPS.iter().map(group).collect()
+}
+
 /// Parses a command line.
 fn parse(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
-    let mut command = Arguments::command().mut_subcommands(|it| it.mut_args(with_signs));
+    let command = Arguments::command().mut_subcommands(|it| it.mut_args(with_signs));
+    let template = format!(
+        "{{before-help}}{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{}Options:\n{{options}}{{after-help}}",
+        groups(&command)
+    );
+    let mut command = command.help_template(template);
     let matches = command.try_get_matches_from_mut(arguments)?;
     Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
 }
@@ -229,4 +258,22 @@ fn output_folder(given: Option<&Path>, name: &str) -> anyhow::Result<PathBuf> {
     let folder = given.map_or_else(|| Path::new("target/mms").join(own), Path::to_owned);
     hold_output(&folder)?;
     Ok(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn every_command_is_in_one_group_of_the_help() {
+        let command = Arguments::command();
+        let all: BTreeSet<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+        let grouped: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
+        let mut once: BTreeSet<&str> = grouped.iter().copied().collect();
+        assert_eq!(once.len(), grouped.len());
+        once.remove("help");
+        assert_eq!(once, all);
+    }
 }

@@ -28,8 +28,9 @@ fn again<T: Serialize + DeserializeOwned>(text: &str) -> String {
 }
 
 /// The type of each document.
-const TYPES: [(&str, Again); 26] = [
+const TYPES: [(&str, Again); 27] = [
     ("list", again::<types::list::List>),
+    ("explain", again::<types::explain::Explain>),
     ("show", again::<types::show::Show>),
     ("check", again::<types::check::Check>),
     ("eval", again::<types::eval::Eval>),
@@ -305,6 +306,7 @@ fn documents_have_the_keys_of_the_page() {
     folder.write("passes.toml", PASSES);
     for (heading, arguments, code) in [
         ("list", "list", 0),
+        ("explain", "explain eps", 0),
         ("show", "show bar.toml", 0),
         ("show", "show plane_strain_transversely_isotropic --quantity u", 0),
         ("check", "check bar.toml faulty.toml loaded.toml sign.toml soft.toml broken.toml", 2),

@@ -34,9 +34,11 @@ fn the_fast_form_has_fewer_operations() {
         run.json()["operations"]["after"].as_u64().expect("a count")
     };
     assert!(operations("fast") < operations("stable"));
-    let text = |form: &str| folder.mms(&format!("emit bar_1d --form {form}")).exits(0).stdout;
+    let text = |form: &str| {
+        folder.mms(&format!("emit bar_1d --form {form} --target rust-mms-math")).exits(0).stdout
+    };
     assert_ne!(text("fast"), text("stable"));
-    assert_eq!(folder.mms("emit bar_1d").exits(0).stdout, text("stable"));
+    assert_eq!(folder.mms("emit bar_1d --target rust-mms-math").exits(0).stdout, text("stable"));
 }
 
 #[test]
@@ -46,7 +48,7 @@ fn there_is_no_other_form() {
         "eval bar_1d --at 0.3",
         "show bar_1d",
         "check bar_1d",
-        "emit bar_1d",
+        "emit bar_1d --target rust-mms-math",
         "run bar_1d",
         "study bar_1d",
         "extremes bar_1d",

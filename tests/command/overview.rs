@@ -128,3 +128,32 @@ fn help_and_version_exit_0() {
     }
     Folder::new().mms("--version").exits(0).prints(env!("CARGO_PKG_VERSION"));
 }
+
+#[test]
+fn words_of_the_output_are_explained() {
+    let folder = Folder::new();
+    folder.mms("explain CPGIMP").exits(0).prints("cpGIMP: Contiguous-particle GIMP.");
+    folder.mms("explain dead load").exits(0).prints("dead load: A traction per reference area");
+    folder.mms("explain usl musl").exits(0).prints("USL: Update stress last.").prints("MUSL: ");
+    folder.mms("explain").exits(0).prints("APIC, asymptotic, body force");
+    folder.mms("explain verdict").exits(0).prints("Judging (docs/guide/judging.md) has the rule.");
+    folder.mms("explain flipp").exits(2).complains("did you mean `flip`?");
+}
+
+#[test]
+fn a_language_is_asked_for_and_known_by_other_words() {
+    let folder = Folder::new();
+    folder.mms("emit bar_1d").exits(2).complains("name the language with `--target`: ");
+    for (word, target) in [("c++", "cpp"), ("FEniCS", "ufl"), ("f90", "fortran")] {
+        let run = folder.mms(&format!("emit bar_1d --target {word}")).exits(2);
+        run.complains(&format!("`--target {target}` serves it"));
+    }
+    folder.mms("emit bar_1d --target juila").exits(2).complains("'julia'");
+}
+
+#[test]
+fn fields_of_the_gallery_are_checked_by_name() {
+    let folder = Folder::new();
+    folder.mms("check bar_1d").exits(0);
+    folder.mms("check bar1d").exits(2).complains("did you mean `bar_1d`?");
+}

@@ -95,7 +95,7 @@ fn faces_that_were_at_rest_move_and_closed_forms_are_left_out() {
 #[test]
 fn emitted_code_says_what_motion_it_has() {
     let folder = Folder::new();
-    let text = folder.mms("emit bar_1d --rigid").exits(0).stdout;
+    let text = folder.mms("emit bar_1d --rigid --target rust-mms-math").exits(0).stdout;
     assert!(text.contains("Rigid motion: translation = "), "{text}");
 }
 

@@ -156,7 +156,7 @@ pub const CRATES: &[Crate] = &[
             "provenance value",
             "show",
             "judge study",
-            "accuracy campaign check diagnose emit eval extremes list run state tradeoff verify",
+            "accuracy campaign check diagnose emit eval explain extremes list run state tradeoff verify",
             "schema",
         ],
     },
@@ -382,10 +382,9 @@ pub const CRATES: &[Crate] = &[
             "mms-verify",
         ],
         layers: &[
-            "excluded front text",
-            "method",
-            "comparison phase picture run study",
-            "accuracy campaign defects diagnosis extremes judge page plan results tradeoff verify",
+            "axis excluded front table text",
+            "method plot shown",
+            "accuracy campaign comparison defects diagnosis extremes judge page phase plan results run study tradeoff verify",
         ],
     },
     Crate {

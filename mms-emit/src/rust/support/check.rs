@@ -19,7 +19,10 @@ impl Table {
                 return Table { rows, accepted: [double, single] };
             }
         }
-        println!("the test vectors have no table {name} of {} x {} numbers: emit them anew", size[0], size[1]);
+        println!(
+            "the test vectors have no table {name} of {} x {} numbers: emit them anew",
+            size[0], size[1]
+        );
         std::process::exit(2);
     }
 
