@@ -519,7 +519,8 @@ fn scene<T: Interpretable>(name: &str, study: &StudySpec) -> Scene<T> {
             entry.compile_with(&options).expect("a field of the gallery")
         }
     };
-    mms_interpreted::scene(Arc::new(compiled), &Default::default())
+    let scene = mms_interpreted::scene(Arc::new(compiled), &Default::default());
+    scene.expect("a Cartesian field")
 }
 
 /// The method of a study, with the command's defaults for what it leaves out.

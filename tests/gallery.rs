@@ -109,7 +109,7 @@ fn hold<T: Interpretable>(entry: &Entry, of: fn(&Code) -> Build<T>) {
     let parameters = compiled.parameters::<T>(&SortedMap::new());
     let all = samples(&compiled.program, &parameters, COUNTS[COUNTS.len() - 1]);
     let time = all[0].time;
-    let interpreted = scene::<T>(compiled, &SortedMap::new());
+    let interpreted = scene::<T>(compiled, &SortedMap::new()).expect("a Cartesian field");
     let Some(compiled) = of(&code)(&parameters) else { panic!("as many parameters") };
     macro_rules! dimension {
         ($compiled:expr, $interpreted:expr) => {{

@@ -68,7 +68,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         if compiled.field.dimension < 3 && !UNSTABLE.contains(&entry.name) {
             scenes.push((
                 entry.name,
-                mms_interpreted::scene(Arc::new(compiled), &Default::default()),
+                mms_interpreted::scene(Arc::new(compiled), &Default::default())?,
             ));
         }
     }

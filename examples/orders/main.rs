@@ -140,5 +140,5 @@ fn scene(entry: &'static Entry, twin: &str) -> Result<Scene<f64>, Box<dyn Error>
     let options =
         Options { selection: Selection { twin, ..Selection::default() }, ..Options::default() };
     let compiled = entry.compile_with(&options)?;
-    Ok(mms_interpreted::scene(Arc::new(compiled), &Default::default()))
+    Ok(mms_interpreted::scene(Arc::new(compiled), &Default::default())?)
 }

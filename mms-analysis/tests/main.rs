@@ -1,6 +1,7 @@
 //! The tests of this crate, as one program, so that what they share is compiled and linked once.
 
 mod accuracy;
+mod axisymmetric;
 mod period;
 mod present;
 mod visibility;

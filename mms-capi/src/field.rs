@@ -81,7 +81,7 @@ impl Field {
                 Error::new(MmsCode::InvalidField, format!("{text:?} cannot be shown: {error}"))
             })
         };
-        let faces = Face::of(&compiled.field.domain.body, compiled.field.dimension);
+        let faces = Face::of(&compiled.field.domain.body, compiled.field.space);
         let parameters = compiled.model.parameters.iter();
         let own = compiled.model.own.keys();
         Ok(Field {
@@ -110,7 +110,11 @@ impl Field {
 
     /// The number of components of a quantity.
     pub fn components(&self, name: &str) -> Result<usize, Error> {
-        Ok(self.find(name)?.shape().components(self.dimension()))
+        Ok(self.size(self.find(name)?))
+    }
+
+    fn size(&self, quantity: Quantity) -> usize {
+        self.compiled.field.space.components(quantity.shape())
     }
 
     /// The value of a parameter.
@@ -177,7 +181,7 @@ impl Field {
             }
             _ => &[],
         };
-        let components = quantity.shape().components(dimension);
+        let components = self.size(quantity);
         let parameters = self.settings.now();
         self.evaluator.with(&self.compiled.program, quantity, &parameters, |ready| {
             for (block, points) in points.chunks(BLOCK * dimension).enumerate() {
@@ -233,7 +237,7 @@ impl Field {
         }
         let place = values.iter().position(|value| !value.is_finite())?;
         let dimension = self.dimension();
-        let index = place / quantity.shape().components(dimension);
+        let index = place / self.size(quantity);
         let message = format!(
             "{} of `{}` is {} at point {}, X = {:?}, t = {time:?}: not defined there, or beyond the range of a double",
             quantity.name(),

@@ -323,7 +323,7 @@ impl Compiled {
 
     /// The face of that name; otherwise what is wrong with it, in one line.
     pub fn face(&self, name: &str) -> Result<Face, String> {
-        let faces = Face::of(&self.field.domain.body, self.field.dimension);
+        let faces = Face::of(&self.field.domain.body, self.field.space);
         let names = || faces.iter().map(|face| face.name());
         faces.iter().copied().find(|face| face.name() == name).ok_or_else(|| {
             let advice = advice(name, names(), |all| format!("this body has {all}"));
@@ -335,7 +335,7 @@ impl Compiled {
     pub fn normal(&self, face: Face) -> Program {
         let mut graph = self.graph.clone();
         graph.make_room();
-        let dimension = self.model.displacement.len();
+        let dimension = self.field.dimension;
         let normal = face::normal(&mut graph, &self.model.domain.body, dimension, face);
         schedule(&graph, &SortedMap::from([(Output::Face(face, Datum::Normal), normal)]))
     }

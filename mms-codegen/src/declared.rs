@@ -21,7 +21,6 @@ use mms_program::schedule::schedule;
 use mms_spec::diagnostic::{Diagnostic, MAX_RENDERED, quoted};
 use mms_spec::source::Span;
 use mms_spec::{ExtremeSpec, Face, FieldSpec, Formula, MaterialSpec};
-use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 use mms_symbolic::work::Work;

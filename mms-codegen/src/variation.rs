@@ -6,12 +6,14 @@
 //! in the material. What the field claims is not looked at, for its boundary may be another; but for the affine part,
 //! whose faces all get u or P N.
 
+use std::ops::Range;
+
 use mms_mechanics::extent::Region;
 use mms_mechanics::face::Formulas;
 use mms_mechanics::largest_triangle;
 use mms_mechanics::model::Model;
 use mms_spec::source::{Sources, Spanned};
-use mms_spec::{Claim, FieldSpec, Formula, ParameterSpec};
+use mms_spec::{Claim, FieldSpec, Formula, ParameterSpec, Space};
 use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::{coordinates, substitute};
@@ -26,7 +28,7 @@ pub enum Variation {
     /// The displacement is s u(X, t), with s = 1 a parameter behind those of the file.
     Scaled,
     /// The body lies elsewhere: u(X - s, t), and its material likewise, with s = 0 a parameter behind
-    /// those of the file, the same along each axis.
+    /// those of the file, the same along each axis; of an axisymmetric field along Z alone.
     Shifted,
     /// The same, and the body of a box with it.
     Moved,
@@ -61,6 +63,9 @@ impl Variation {
                     _ => "only boxes are moved".into(),
                 };
                 Err(format!("the body is no box: {why}"))
+            }
+            Variation::Affine if field.space.is_axisymmetric() => {
+                Err("an axisymmetric field has no affine part: u_R/R of it has no value on the axis".into())
             }
             Variation::Moduli(_) if pair(field).is_none() && !has_definitions(field) => {
                 Err("the material is not given by lambda and mu, kappa and mu, or young and nu, and no definition is called lambda".into())
@@ -103,8 +108,10 @@ impl Variation {
             Variation::Moved => {
                 shift(graph, model, parameter);
                 if let Region::Block(block) = &mut model.domain.body {
-                    for bound in block.bounds.iter_mut().flatten() {
-                        *bound = graph.add(*bound, parameter);
+                    for axis in free_axes(model.space) {
+                        for bound in &mut block.bounds[axis] {
+                            *bound = graph.add(*bound, parameter);
+                        }
                     }
                 }
             }
@@ -176,6 +183,7 @@ fn give_data(field: &mut FieldSpec) {
         *claim = match claim {
             Claim::Fixed | Claim::Roller | Claim::Prescribed => Claim::Prescribed,
             Claim::Free | Claim::Traction => Claim::Traction,
+            Claim::Axis => Claim::Axis,
         };
     }
     field.checks.clear();
@@ -227,9 +235,14 @@ fn mean(graph: &mut Graph, exprs: &[Expr]) -> Expr {
     graph.scale(sum, Rational::ONE / Rational::from(exprs.len()))
 }
 
+/// The axes along which a field may lie elsewhere: an axisymmetric one stays about its axis.
+fn free_axes(space: Space) -> Range<usize> {
+    usize::from(space.is_axisymmetric())..space.coordinates()
+}
+
 /// X becomes X - s everywhere.
 fn shift(graph: &mut Graph, model: &mut Model, by: Expr) {
-    let axes = 0..model.displacement.len();
+    let axes = free_axes(model.space);
     let moved = coordinates(graph, axes.map(|axis| (axis, by)), Graph::sub);
     model.map_in_space(|exprs| substitute(graph, exprs, &moved));
 }

@@ -13,6 +13,15 @@ fn survive(text: &str) {
 
 const BAR: &str = include_str!("data/pass/every_key_2d.toml");
 
+/// An axisymmetric field with a swirl and its axis.
+const SHAFT: &str = "[field]\ntitle = \"x\"\ndimension = 2\ncoordinates = \"axisymmetric\"\n\
+    [let]\nA = \"0.1*sin(t)\"\n[displacement]\nu = [\"A*R*Z\", \"A*R^2\"]\nswirl = \"R*A\"\n\
+    [material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = \"1 + R\"\ndensity = 1\n\
+    [domain]\nshape = \"box\"\nlower = [0, 0]\nupper = [1, 1]\ntime = [0, 1]\n\
+    [boundary]\nr_min = \"axis\"\nz_max = \"traction\"\n\
+    [[balance]]\nname = \"heat\"\nflux = [\"F11*R\", \"u_theta\", \"v_r\"]\n\
+    [rigid]\ntranslation = [0, \"t\"]\n";
+
 /// What completes a field of one dimension.
 const REST: &str = "[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
                     [domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n";
@@ -32,6 +41,9 @@ fn fragments() -> impl Strategy<Value = String> {
         Just("[rigid]\n"),
         Just("[[extreme]]\n"),
         Just("dimension = 2\n"),
+        Just("coordinates = \"axisymmetric\"\n"),
+        Just("swirl = \"R\"\n"),
+        Just("r_min = \"axis\"\n"),
         Just("u = [\"X\", 1]\n"),
         Just("a = "),
         Just("b."),
@@ -82,11 +94,17 @@ proptest! {
     }
 
     #[test]
-    fn any_cut_of_a_good_file(at in 0..BAR.len(), length in 0_usize..40, with in any::<String>()) {
-        let at = (0..=at).rev().find(|at| BAR.is_char_boundary(*at)).unwrap_or(0);
-        let end = (at + length).min(BAR.len());
-        let end = (end..=BAR.len()).find(|end| BAR.is_char_boundary(*end)).unwrap_or(BAR.len());
-        survive(&format!("{}{with}{}", &BAR[..at], &BAR[end..]));
+    fn any_cut_of_a_good_file(
+        good in prop::sample::select(vec![BAR, SHAFT]),
+        at in 0..BAR.len(),
+        length in 0_usize..40,
+        with in any::<String>(),
+    ) {
+        let at = at % good.len();
+        let at = (0..=at).rev().find(|at| good.is_char_boundary(*at)).unwrap_or(0);
+        let end = (at + length).min(good.len());
+        let end = (end..=good.len()).find(|end| good.is_char_boundary(*end)).unwrap_or(good.len());
+        survive(&format!("{}{with}{}", &good[..at], &good[end..]));
     }
 }
 

@@ -302,7 +302,10 @@ fn faces_that_are_not_there_have_no_functions() {
         let u = vec!["0"; dimension].join(", ");
         let compiled = compiled(&file(dimension, "", &u, rest));
         let body = &compiled.field.domain.body;
-        Face::of(body, dimension).into_iter().map(|face| face.name().to_string()).collect()
+        Face::of(body, compiled.field.space)
+            .into_iter()
+            .map(|face| face.name().to_string())
+            .collect()
     };
     assert_eq!(faces(3, "shape = \"sphere\"\ninner = 0\nouter = 1\n"), ["outer"]);
     let cone = "shape = \"sphere\"\ninner = 0\nouter = 1\nphi = [0, \"pi/3\"]\n";

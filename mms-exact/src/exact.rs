@@ -47,6 +47,7 @@ impl Exact {
     /// # Errors
     /// Settings that it does not have.
     pub fn new(input: Input, settings: &[String]) -> anyhow::Result<Exact> {
+        input.hold_cartesian()?;
         input.hold(settings)?;
         input.hold_body("there is nothing that states and results could fill")?;
         let set = input.settings(settings)?;
@@ -125,7 +126,7 @@ impl Exact {
     pub fn components(&self, quantity: Quantity) -> usize {
         match quantity.shape() {
             Shape::Tensor => self.tensors * self.tensors,
-            shape => shape.components(self.dimension),
+            shape => self.input.compiled.field.space.components(shape),
         }
     }
 
@@ -150,7 +151,7 @@ impl Exact {
 
     /// A quantity with the components that a field of its dimension has.
     fn own(&mut self, quantity: Quantity, time: f64, points: &[f64]) -> anyhow::Result<Vec<f64>> {
-        let components = quantity.shape().components(self.dimension);
+        let components = self.input.compiled.field.space.components(quantity.shape());
         self.output(Output::Quantity(quantity), components, time, [points, &[]])
     }
 
@@ -234,7 +235,7 @@ impl Exact {
         time: f64,
         points: &[f64],
     ) -> anyhow::Result<Vec<f64>> {
-        let components = quantity.shape().components(self.dimension);
+        let components = self.input.compiled.field.space.components(quantity.shape());
         self.output(Output::Quantity(quantity), components, time, [points, normals])
     }
 
@@ -246,7 +247,8 @@ impl Exact {
             let is_on = |point: &[f64]| self.body.distance_to(*face, point) <= near;
             points.filter(|(_, point)| is_on(point)).map(|(at, _)| at).collect()
         };
-        let faces = Face::of(&self.input.compiled.field.domain.body, dimension).into_iter();
+        let field = &self.input.compiled.field;
+        let faces = Face::of(&field.domain.body, field.space).into_iter();
         faces.map(|face| (face, on(&face))).filter(|(_, points)| !points.is_empty()).collect()
     }
 
@@ -261,7 +263,8 @@ impl Exact {
     /// Whether a point lies on a face; how far each coordinate may be from what was meant.
     pub fn is_on_face(&self, point: &[f64], rounding: f64) -> bool {
         let near = near(point, rounding);
-        let faces = Face::of(&self.input.compiled.field.domain.body, self.dimension);
+        let field = &self.input.compiled.field;
+        let faces = Face::of(&field.domain.body, field.space);
         faces.into_iter().any(|face| self.body.distance_to(face, point) <= near)
     }
 

@@ -135,7 +135,10 @@ impl Input {
         match self.code {
             Some(code) => build(&code)(&self.compiled.parameters::<T>(set))
                 .context("the gallery is out of step with its field files: build again"),
-            None => Ok(mms_interpreted::scene(self.compiled.clone(), set)),
+            None => {
+                self.hold_cartesian()?;
+                Ok(mms_interpreted::scene(self.compiled.clone(), set)?)
+            }
         }
     }
 
@@ -247,6 +250,7 @@ impl Input {
     /// # Errors
     /// The field is static.
     pub fn hold_moving(&self) -> anyhow::Result<()> {
+        self.hold_cartesian()?;
         self.hold_body("a solver has nothing to fill with particles")?;
         ensure!(
             !self.is_static(),
@@ -263,6 +267,7 @@ impl Input {
     /// # Errors
     /// The field moves.
     pub fn hold_static(&self) -> anyhow::Result<()> {
+        self.hold_cartesian()?;
         ensure!(
             self.is_static(),
             "`--relax`: `{}` moves, and has an equilibrium at no time but by chance; leave `--relax` out to follow it, or give a \
@@ -283,6 +288,20 @@ impl Input {
     /// There is none.
     pub fn hold_body(&self, why: &str) -> anyhow::Result<()> {
         hold_body(&self.compiled, why)
+    }
+
+    /// Refuses an axisymmetric field, which the solver and what judges results do not know.
+    ///
+    /// # Errors
+    /// The field is axisymmetric.
+    pub fn hold_cartesian(&self) -> anyhow::Result<()> {
+        ensure!(
+            !self.compiled.field.space.is_axisymmetric(),
+            "`{}` is axisymmetric, and this command works in Cartesian coordinates, as the solver of this project does; `mms \
+             check`, `mms eval`, `mms show` and `mms accuracy` take this field",
+            self.name.shown()
+        );
+        Ok(())
     }
 
     /// Whether nothing moves: the field has no time.

@@ -305,6 +305,7 @@ impl Setting<'_> {
         let settings = input.settings(&study.set)?;
         let parameters = input.compiled.parameters::<f64>(&settings);
         let (_, [first, last]) = domain(&input.compiled.program, &parameters);
+        self.hold_cartesian(study, &input)?;
         self.hold_static(study, &input)?;
         self.hold_parameters(study, &input)?;
         let end = study.end.unwrap_or(last);
@@ -324,6 +325,14 @@ impl Setting<'_> {
     fn templates(&self) -> impl Iterator<Item = &Template> {
         let solver = &self.campaign.solver;
         solver.run.iter().chain(&solver.directory).chain([&solver.output])
+    }
+
+    /// Refuses an axisymmetric field, whose results nothing judges.
+    fn hold_cartesian(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
+        input.hold_cartesian().map_err(|error| {
+            let message = error.to_string();
+            self.campaign.mistake(study.field.span, message, "expected a Cartesian field").into()
+        })
     }
 
     /// Refuses times of a field that has none.

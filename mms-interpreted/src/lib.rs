@@ -7,6 +7,8 @@
 
 mod points;
 
+use std::error::Error;
+use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 use dashu_ratio::RBig;
@@ -24,8 +26,8 @@ use mms_runtime::scene::Scene;
 use mms_runtime::{
     Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Real, Vector,
 };
-use mms_spec::Claim;
 use mms_spec::quantity::Quantity;
+use mms_spec::{Claim, Space};
 use mms_symbolic::expr::Symbol;
 use mms_symbolic::sorted::SortedMap;
 
@@ -77,13 +79,22 @@ fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
 /// compiles none of it.
 pub trait Interpretable: Real + Blockwise {
     /// See [`scene`](fn@scene).
-    fn scene(compiled: Arc<Compiled>, set: &SortedMap<usize, RBig>) -> Scene<Self>;
+    ///
+    /// # Errors
+    /// As of [`scene`](fn@scene).
+    fn scene(
+        compiled: Arc<Compiled>,
+        set: &SortedMap<usize, RBig>,
+    ) -> Result<Scene<Self>, Axisymmetric>;
 }
 
 macro_rules! interpretable {
     ($($float:ident)*) => {
         $(impl Interpretable for $float {
-            fn scene(compiled: Arc<Compiled>, set: &SortedMap<usize, RBig>) -> Scene<Self> {
+            fn scene(
+                compiled: Arc<Compiled>,
+                set: &SortedMap<usize, RBig>,
+            ) -> Result<Scene<Self>, Axisymmetric> {
                 interpreted(compiled, set)
             }
         })*
@@ -92,22 +103,41 @@ macro_rules! interpretable {
 
 interpretable!(f32 f64);
 
+/// An axisymmetric field, of which there is no scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Axisymmetric;
+
+impl fmt::Display for Axisymmetric {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the field is axisymmetric, and the solver works in Cartesian coordinates")
+    }
+}
+
+impl Error for Axisymmetric {}
+
 /// The scene of a compiled text, some of its parameters set by the caller.
-pub fn scene<T: Interpretable>(compiled: Arc<Compiled>, set: &SortedMap<usize, RBig>) -> Scene<T> {
+///
+/// # Errors
+/// An axisymmetric field.
+pub fn scene<T: Interpretable>(
+    compiled: Arc<Compiled>,
+    set: &SortedMap<usize, RBig>,
+) -> Result<Scene<T>, Axisymmetric> {
     T::scene(compiled, set)
 }
 
 fn interpreted<T: Real + Blockwise>(
     compiled: Arc<Compiled>,
     set: &SortedMap<usize, RBig>,
-) -> Scene<T> {
+) -> Result<Scene<T>, Axisymmetric> {
     let parameters = compiled.parameters(set);
-    let dimension = compiled.field.dimension;
+    let space = compiled.field.space;
     let field = Interpreted { compiled, parameters, asked: asked() };
-    match dimension {
-        1 => Scene::Line(Box::new(field)),
-        2 => Scene::Plane(Box::new(field)),
-        _ => Scene::Space(Box::new(field)),
+    match space {
+        Space::Axisymmetric { .. } => Err(Axisymmetric),
+        Space::Cartesian(1) => Ok(Scene::Line(Box::new(field))),
+        Space::Cartesian(2) => Ok(Scene::Plane(Box::new(field))),
+        Space::Cartesian(_) => Ok(Scene::Space(Box::new(field))),
     }
 }
 
@@ -326,7 +356,8 @@ impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interprete
         };
         let time = self.bound(Bound::Time);
         let claims = self.compiled.field.boundary.iter();
-        let faces = claims.map(|claim| (face(claim.face.value), condition(claim.claim.value)));
+        let faces = claims
+            .filter_map(|claim| Some((face(claim.face.value)?, condition(claim.claim.value)?)));
         Domain { body, time: [time[0], time[1]], faces: faces.collect() }
     }
 
@@ -352,8 +383,9 @@ impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interprete
     }
 }
 
-fn face(face: mms_spec::Face) -> Face {
-    match face {
+/// A face as the solver knows it; none of an axisymmetric body.
+fn face(face: mms_spec::Face) -> Option<Face> {
+    Some(match face {
         mms_spec::Face::Min(axis) => Face::Min(axis),
         mms_spec::Face::Max(axis) => Face::Max(axis),
         mms_spec::Face::Inner => Face::Inner,
@@ -363,15 +395,21 @@ fn face(face: mms_spec::Face) -> Face {
         mms_spec::Face::PhiMin => Face::PhiMin,
         mms_spec::Face::PhiMax => Face::PhiMax,
         mms_spec::Face::Edge(first, name) => Face::Edge(first, name),
-    }
+        mms_spec::Face::RadialMin
+        | mms_spec::Face::RadialMax
+        | mms_spec::Face::AxialMin
+        | mms_spec::Face::AxialMax => return None,
+    })
 }
 
-fn condition(claim: Claim) -> Condition {
-    match claim {
+/// A claim as the solver knows it; none of the axis.
+fn condition(claim: Claim) -> Option<Condition> {
+    Some(match claim {
         Claim::Fixed => Condition::Fixed,
         Claim::Roller => Condition::Roller,
         Claim::Free => Condition::Free,
         Claim::Prescribed => Condition::Prescribed,
         Claim::Traction => Condition::Traction,
-    }
+        Claim::Axis => return None,
+    })
 }

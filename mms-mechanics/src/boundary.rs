@@ -36,7 +36,7 @@ impl Datum {
 }
 
 /// What a field gives on each face: u where the file claims `prescribed` or nothing, N and P N where
-/// it claims `traction`; D components each. On a face of a box they do not depend on the coordinate
+/// it claims `traction`; N has a component for each coordinate. On a face of a box they do not depend on the coordinate
 /// that is constant there.
 pub fn data(
     graph: &mut Graph,
@@ -44,12 +44,12 @@ pub fn data(
     field: &FieldSpec,
     derivation: &Derivation,
 ) -> SortedMap<(Face, Datum), Vec<Expr>> {
-    let dimension = model.displacement.len();
+    let dimension = model.space.coordinates();
     let mut data = SortedMap::new();
-    for face in Face::of(&field.domain.body, dimension) {
+    for face in Face::of(&field.domain.body, model.space) {
         let claim = field.boundary.iter().find(|boundary| boundary.face.value == face);
         match claim.map_or(Claim::Prescribed, |claim| claim.claim.value) {
-            Claim::Fixed | Claim::Roller | Claim::Free => {}
+            Claim::Fixed | Claim::Roller | Claim::Free | Claim::Axis => {}
             Claim::Prescribed => {
                 let displacement = &derivation.quantities[&Quantity::Displacement];
                 let given = on_face(graph, &model.domain.body, face, displacement);

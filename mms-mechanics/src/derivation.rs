@@ -56,20 +56,22 @@ pub fn derive(
     within_bound(graph, "stress of the material")?;
     let motion = Motion::new(graph, model, relations, route);
     within_bound(graph, "motion (velocity, acceleration, displacement gradient)")?;
-    let mut quantities = kinematic_quantities(graph, &motion);
+    let mut quantities = kinematic_quantities(graph, model, &motion);
     quantities.extend(strain_quantities(graph, &motion.strain));
     let energy = match route {
         Route::Gradient | Route::Settled(_) => law.energy(graph, &motion.strain),
         Route::Deformation => law.typed_energy(graph, &motion.strain),
     };
     let present = Present::new(graph, &model.kind, &motion.strain);
-    quantities.extend(stress_quantities(graph, &law, &motion.strain, energy, &present));
+    let facing = model.space.coordinates();
+    quantities.extend(stress_quantities(graph, &law, &motion.strain, energy, &present, facing));
     within_bound(graph, "stress")?;
     let divergence = law.divergence(graph, &motion);
     within_bound(graph, "divergence of the stress")?;
     quantities.extend(balance_quantities(graph, model.density, &motion, &present, divergence));
     let own = model.own.iter();
     quantities.extend(own.map(|(own, components)| (Quantity::Own(*own), components.clone())));
+    hold_directions(model, &mut quantities);
     let responses = responses(graph, &law, model);
     within_bound(graph, "body force")?;
     Ok(Derivation { quantities, responses })
@@ -85,7 +87,7 @@ pub fn derive_settled(
     amplitude: Option<&Amplitude>,
 ) -> Result<Option<SortedMap<Quantity, Vec<Expr>>>, TooLarge> {
     let plain = factor(graph, &model.displacement);
-    let gradient = gradient_of(graph, &plain);
+    let gradient = gradient_of(graph, model, &plain);
     let gradient = traceless(graph, model, gradient);
     let displacement = settle(graph, &plain);
     let displacement = mended(graph, amplitude, &plain, &displacement);
@@ -103,11 +105,20 @@ pub fn derive_settled(
     let energy = law.energy(graph, &strain);
     let present = Present::new(graph, &model.kind, &strain).turned(halves.has_angles());
     let mut quantities = strain_quantities(graph, &strain);
-    quantities.extend(stress_quantities(graph, &law, &strain, energy, &present));
+    let facing = model.space.coordinates();
+    quantities.extend(stress_quantities(graph, &law, &strain, energy, &present, facing));
     quantities.insert(Quantity::Displacement, displacement);
     quantities.insert(Quantity::DisplacementGradient, strain.gradient.components().to_vec());
+    hold_directions(model, &mut quantities);
     within_bound(graph, "stress")?;
     Ok(Some(quantities))
+}
+
+/// Leaves vectors the components that the field has: the one along the hoop is 0 without a swirl.
+fn hold_directions(model: &Model, quantities: &mut SortedMap<Quantity, Vec<Expr>>) {
+    for (quantity, components) in quantities.iter_mut() {
+        components.truncate(model.space.components(quantity.shape()));
+    }
 }
 
 pub(crate) fn within_bound(graph: &Graph, what: &'static str) -> Result<(), TooLarge> {
@@ -115,13 +126,20 @@ pub(crate) fn within_bound(graph: &Graph, what: &'static str) -> Result<(), TooL
 }
 
 /// u, x = X + u, v, a, H, F and J.
-fn kinematic_quantities(graph: &mut Graph, motion: &Motion) -> SortedMap<Quantity, Vec<Expr>> {
+fn kinematic_quantities(
+    graph: &mut Graph,
+    model: &Model,
+    motion: &Motion,
+) -> SortedMap<Quantity, Vec<Expr>> {
     let strain = &motion.strain;
     let displacement = motion.displacement.iter().enumerate();
     let position = displacement
-        .map(|(axis, component)| {
-            let reference = graph.symbol(Symbol::Coordinate(axis));
-            graph.add(reference, *component)
+        .map(|(axis, component)| match axis < model.space.coordinates() {
+            true => {
+                let reference = graph.symbol(Symbol::Coordinate(axis));
+                graph.add(reference, *component)
+            }
+            false => *component,
         })
         .collect();
     SortedMap::from([
@@ -178,13 +196,14 @@ impl Present {
     }
 }
 
-/// W, P, P^T, sigma = tau/J, tau and P N.
+/// W, P, P^T, sigma = tau/J, tau and P N, with the components of N that are `facing` somewhere: none is along the hoop.
 fn stress_quantities(
     graph: &mut Graph,
     law: &Law,
     strain: &Strain,
     energy: Expr,
     present: &Present,
+    facing: usize,
 ) -> SortedMap<Quantity, Vec<Expr>> {
     let first = law.first_piola_kirchhoff(graph, strain);
     let kirchhoff = match present.by_first {
@@ -195,7 +214,7 @@ fn stress_quantities(
     let dimension = first.dimension();
     let traction = (0..dimension)
         .map(|row| {
-            let pairs: Vec<_> = (0..dimension)
+            let pairs: Vec<_> = (0..facing)
                 .map(|axis| (first.at(row, axis), graph.symbol(Symbol::Normal(axis))))
                 .collect();
             dot(graph, pairs)

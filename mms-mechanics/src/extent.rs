@@ -224,6 +224,9 @@ impl Block<f64> {
         let is_of = match face {
             Face::Min(axis) | Face::Max(axis) => self.system == System::Cartesian || axis == 2,
             Face::PhiMin | Face::PhiMax => self.system == System::Spherical,
+            Face::RadialMin | Face::RadialMax | Face::AxialMin | Face::AxialMax => {
+                self.system == System::Cartesian
+            }
             Face::Edge(..) => false,
             _ => self.system != System::Cartesian,
         };

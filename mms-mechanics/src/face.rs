@@ -276,6 +276,7 @@ pub fn present(
         Face::PhiMin => !is_up,
         Face::PhiMax => !is_down,
         Face::Outer | Face::Min(_) | Face::Max(_) | Face::Edge(..) => true,
+        Face::RadialMin | Face::RadialMax | Face::AxialMin | Face::AxialMax => true,
     };
     declared.into_iter().filter(exists).collect()
 }

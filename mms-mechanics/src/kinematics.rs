@@ -6,14 +6,14 @@
 //! gradients of the invariants as well.
 
 use crate::amplitude::{Amplitude, mended};
+use crate::axisymmetric;
 use crate::invariant::{
     EXCESS, FIBRE, FIRST, Kind, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
 };
 use crate::model::Model;
 use crate::place::cancel;
-use crate::tensor::{Tensor, dot};
+use crate::tensor::{Tensor, derivative, dot};
 use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
-use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
@@ -298,6 +298,8 @@ pub struct Motion {
     pub invariant_gradients: SortedMap<Symbol, Vec<Expr>>,
     /// a0_K,J, where there are fibres.
     pub fibre_gradient: Option<Tensor>,
+    /// The number of reference coordinates: along further directions scalars have no slope.
+    coordinates: usize,
 }
 
 impl Motion {
@@ -307,22 +309,12 @@ impl Motion {
     /// derivatives of that; else they are tensor algebra, which shares the second gradient of u.
     pub fn new(graph: &mut Graph, model: &Model, relations: &Relations, route: Route<'_>) -> Self {
         let kind = &model.kind;
-        let dimension = model.displacement.len();
         let displacement = factor(graph, &model.displacement);
         let velocity = derivative(graph, &displacement, Symbol::Time);
         let acceleration = derivative(graph, &velocity, Symbol::Time);
-        let gradient = gradient_of(graph, &displacement);
+        let gradient = gradient_of(graph, model, &displacement);
         let gradient = traceless(graph, model, gradient);
-        let second_gradient = (0..dimension)
-            .map(|component| {
-                let row: Vec<Expr> =
-                    (0..dimension).map(|axis| gradient.at(component, axis)).collect();
-                let second: Vec<Vec<Expr>> = (0..dimension)
-                    .map(|axis| derivative(graph, &row, Symbol::Coordinate(axis)))
-                    .collect();
-                Tensor::from_fn(dimension, |j, k| second[k][j])
-            })
-            .collect::<Vec<Tensor>>();
+        let second_gradient = second_gradient_of(graph, model, &gradient);
         let strain = match route {
             Route::Gradient => Strain::new(graph, gradient, kind, relations),
             Route::Deformation => Strain::direct(graph, gradient, kind, relations),
@@ -332,7 +324,7 @@ impl Motion {
             }
         };
         let fibre_gradient = match kind {
-            Kind::Fibrous(direction) => Some(gradient_of(graph, direction)),
+            Kind::Fibrous(direction) => Some(gradient_of(graph, model, direction)),
             Kind::Isotropic | Kind::SmallStrain => None,
         };
         let amplitude = match route {
@@ -353,6 +345,7 @@ impl Motion {
             log_volume_gradient: Vec::new(),
             invariant_gradients: SortedMap::new(),
             fibre_gradient,
+            coordinates: model.space.coordinates(),
         };
         if !relations.is_empty() && !matches!(route, Route::Settled(_)) {
             motion.differentiate_invariants(graph, relations);
@@ -429,7 +422,7 @@ impl Motion {
         let stretching = Tensor::outer(graph, &fibre.present, &fibre.reference);
         let stretching = self.contract_second_gradient(graph, &stretching);
         let image = self.strain.right.apply(graph, &fibre.reference);
-        let gradient = (0..dimension)
+        let mut gradient: Vec<Expr> = (0..dimension)
             .map(|axis| {
                 let pairs =
                     image.iter().enumerate().map(|(k, image)| (*image, turning.at(k, axis)));
@@ -438,6 +431,7 @@ impl Motion {
                 graph.scale(half, 2)
             })
             .collect();
+        gradient[self.coordinates..].fill(graph.number(0));
         self.invariant_gradients.insert(FIBRE, gradient);
     }
 
@@ -456,10 +450,11 @@ impl Motion {
         self.second_gradient.iter().map(|second| second.trace(graph)).collect()
     }
 
-    /// A_mK d2u_m / dX_K dX_J for every J: half the gradient of what A is the derivative of.
+    /// A_mK d2u_m / dX_K dX_J for every J: half the gradient of what A is the derivative of, which is 0 around the hoop of
+    /// an axisymmetric field.
     pub fn contract_second_gradient(&self, graph: &mut Graph, with: &Tensor) -> Vec<Expr> {
         let dimension = self.displacement.len();
-        (0..dimension)
+        let mut slopes: Vec<Expr> = (0..self.coordinates)
             .map(|axis| {
                 let pairs = (0..dimension * dimension).map(|k| {
                     let (row, column) = (k / dimension, k % dimension);
@@ -467,7 +462,9 @@ impl Motion {
                 });
                 dot(graph, pairs)
             })
-            .collect()
+            .collect();
+        slopes.resize(dimension, graph.number(0));
+        slopes
     }
 }
 
@@ -503,15 +500,30 @@ fn mended_tensor(
 }
 
 /// A_K,J of a vector field A.
-pub(super) fn gradient_of(graph: &mut Graph, vector: &[Expr]) -> Tensor {
+pub fn gradient_of(graph: &mut Graph, model: &Model, vector: &[Expr]) -> Tensor {
+    if let Some(radius) = model.radius {
+        return axisymmetric::gradient(graph, radius, vector);
+    }
     let columns: Vec<Vec<Expr>> =
         (0..vector.len()).map(|axis| derivative(graph, vector, Symbol::Coordinate(axis))).collect();
     Tensor::from_fn(vector.len(), |row, column| columns[column][row])
 }
 
-fn derivative(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Expr> {
-    let derivatives = differentiate(graph, roots, symbol);
-    factor(graph, &derivatives)
+/// H_iJ,K of the gradient of a vector field, as one matrix for each i.
+fn second_gradient_of(graph: &mut Graph, model: &Model, gradient: &Tensor) -> Vec<Tensor> {
+    if let Some(radius) = model.radius {
+        return axisymmetric::second_gradient(graph, radius, gradient);
+    }
+    let dimension = gradient.dimension();
+    (0..dimension)
+        .map(|component| {
+            let row: Vec<Expr> = (0..dimension).map(|axis| gradient.at(component, axis)).collect();
+            let second: Vec<Vec<Expr>> = (0..dimension)
+                .map(|axis| derivative(graph, &row, Symbol::Coordinate(axis)))
+                .collect();
+            Tensor::from_fn(dimension, |j, k| second[k][j])
+        })
+        .collect()
 }
 
 /// The sum of expressions.

@@ -20,6 +20,7 @@
 //! other. That is what the independent routes of the tests are for.
 
 pub mod amplitude;
+pub mod axisymmetric;
 pub mod boundary;
 pub mod candidates;
 #[cfg(feature = "defects")]

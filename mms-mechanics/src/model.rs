@@ -1,5 +1,6 @@
 //! A field file with its names resolved: expressions instead of text.
 
+mod domain;
 pub mod energy;
 pub mod given;
 mod superposed;
@@ -9,16 +10,15 @@ pub use superposed::{RigidMotion, Rotation};
 
 use crate::invariant::Kind;
 use crate::meanings::Meanings;
-use crate::region::{Block, Region};
+use crate::region::Region;
 use crate::resolve::Scope;
-use mms_math::coordinates::System;
 use mms_spec::diagnostic::{Diagnostic, quoted};
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
 use mms_spec::source::{Span, Spanned};
 use mms_spec::syntax;
-use mms_spec::{FieldSpec, Formula, LetSpec, MaterialSpec, RigidSpec};
-use mms_symbolic::expr::print::{AXES, Names};
+use mms_spec::{FieldSpec, Formula, LetSpec, MaterialSpec, Space};
+use mms_symbolic::expr::print::Names;
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 
@@ -86,7 +86,11 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// The names a reader knows: parameters and definitions.
     pub names: Names,
-    /// u, without the rigid motion.
+    /// The coordinates, and how many components vectors and tensors have.
+    pub space: Space,
+    /// R of an axisymmetric field: what is divided by it to have strains around the axis.
+    pub radius: Option<Expr>,
+    /// u, without the rigid motion. That of an axisymmetric field has three components, and its rigid motion in it.
     pub displacement: Vec<Expr>,
     /// rho0; 1 if the file gives none.
     pub density: Expr,
@@ -130,14 +134,14 @@ impl Model {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Model> {
         let reported = diagnostics.len();
-        let mut reader = Reader::new(graph, diagnostics);
+        let mut reader = Reader::new(graph, diagnostics, field.space);
         if field.incomplete {
             reader.scope.tolerate_unknown_names();
         }
         reader.scope.refuse(&field.refused);
-        let mut names = Names::default();
+        let mut names = reader.names();
         let parameters = reader.parameters(field, &mut names);
-        reader.coordinates(field.dimension, field.is_static());
+        reader.coordinates(field.is_static());
         reader.definitions(&field.lets, &mut names);
         let displacement = reader.formulas(&field.displacement);
         let density = match &field.material.density {
@@ -176,6 +180,13 @@ impl Model {
             Some(rigid) => rigid.map(Some),
             None => Some(None),
         };
+        let (displacement, rigid) = match (displacement, rigid) {
+            (Some(displacement), Some(rigid)) if field.space.is_axisymmetric() => {
+                (Some(reader.around_the_axis(field, displacement, rigid.as_ref())), Some(None))
+            }
+            others => others,
+        };
+        let radius = reader.radius();
         let own = match (&displacement, &rigid) {
             (Some(displacement), Some(rigid)) => {
                 reader.own(field, material, displacement, rigid.as_ref())
@@ -189,6 +200,8 @@ impl Model {
         Some(Model {
             parameters: parameters?,
             names,
+            space: field.space,
+            radius,
             displacement: displacement?,
             density: density?,
             has_density: field.material.density.is_some(),
@@ -220,7 +233,14 @@ impl Model {
         let others = self.arguments.iter().chain(fibre).chain(direction).chain(&self.poisson);
         let own = self.givens.iter().chain(self.own.values().flatten());
         let scalars = [&self.density, &self.energy, &self.rest_energy];
-        self.displacement.iter().chain(scalars).chain(others).chain(own).copied().collect()
+        self.displacement
+            .iter()
+            .chain(scalars)
+            .chain(&self.radius)
+            .chain(others)
+            .chain(own)
+            .copied()
+            .collect()
     }
 
     /// Replaces the formulas that may depend on X, the closed forms and the named definitions.
@@ -235,6 +255,7 @@ impl Model {
             *components = made(components);
         }
         self.fibre = self.fibre.as_deref().map(&mut made);
+        self.radius = self.radius.map(|radius| made(&[radius])[0]);
         self.poisson = self.poisson.map(|poisson| made(&[poisson])[0]);
         if let Kind::Fibrous(direction) = &mut self.kind {
             *direction = made(direction);
@@ -257,7 +278,7 @@ pub fn energy_with(
     givens: &[Expr],
 ) -> Option<Expr> {
     let mut diagnostics = Vec::new();
-    let mut reader = Reader::new(graph, &mut diagnostics);
+    let mut reader = Reader::new(graph, &mut diagnostics, field.space);
     let [arguments, givens] =
         [arguments, givens].map(|exprs| exprs.iter().copied().map(Some).collect::<Vec<_>>());
     reader.energy(field, material, &arguments, Givens::Values(&givens))
@@ -267,19 +288,30 @@ struct Reader<'a> {
     graph: &'a mut Graph,
     diagnostics: &'a mut Vec<Diagnostic>,
     scope: Scope,
+    space: Space,
     /// The formulas so far: of the field, and of the density of its material.
     read: Vec<Read>,
     of_energy: Vec<Read>,
 }
 
 impl<'a> Reader<'a> {
-    fn new(graph: &'a mut Graph, diagnostics: &'a mut Vec<Diagnostic>) -> Self {
+    fn new(graph: &'a mut Graph, diagnostics: &'a mut Vec<Diagnostic>, space: Space) -> Self {
         let scope = Scope::default();
-        Reader { graph, diagnostics, scope, read: Vec::new(), of_energy: Vec::new() }
+        Reader { graph, diagnostics, scope, space, read: Vec::new(), of_energy: Vec::new() }
     }
 }
 
 impl Reader<'_> {
+    /// Names for printing, with those of the coordinates alone.
+    fn names(&self) -> Names {
+        Names { coordinates: self.space.axes(), ..Names::default() }
+    }
+
+    /// R of an axisymmetric field.
+    fn radius(&mut self) -> Option<Expr> {
+        self.space.is_axisymmetric().then(|| self.graph.symbol(Symbol::Coordinate(0)))
+    }
+
     fn formula(&mut self, formula: &Formula) -> Option<Expr> {
         let ast = syntax::parse(formula, self.diagnostics)?;
         let mut steps = Vec::new();
@@ -297,7 +329,7 @@ impl Reader<'_> {
     fn parameters(&mut self, field: &FieldSpec, names: &mut Names) -> Option<Vec<Parameter>> {
         let pi = self.graph.pi();
         self.scope.define("pi", Some(pi));
-        for name in AXES.iter().chain(&["t"]) {
+        for name in self.space.axes().iter().chain(&["t"]) {
             self.scope.withhold(name, "parameters are constants");
         }
         for parameter in &field.parameters {
@@ -337,8 +369,14 @@ impl Reader<'_> {
         parameters.into_iter().collect()
     }
 
-    fn coordinates(&mut self, dimension: usize, is_static: bool) {
-        for (axis, name) in AXES.iter().enumerate() {
+    fn coordinates(&mut self, is_static: bool) {
+        let dimension = self.space.coordinates();
+        if self.space.is_axisymmetric() {
+            for name in ["X", "Y"] {
+                self.scope.withhold(name, "this field is axisymmetric: use R and Z");
+            }
+        }
+        for (axis, name) in self.space.axes().iter().enumerate() {
             if axis < dimension {
                 let coordinate = self.graph.symbol(Symbol::Coordinate(axis));
                 self.scope.define(name, Some(coordinate));
@@ -390,123 +428,6 @@ impl Reader<'_> {
                     .help("the mass and the elastic law of a material point do not change"),
             );
         }
-    }
-
-    fn domain(&mut self, domain: &mms_spec::DomainSpec, dimension: usize) -> Option<Domain> {
-        // Everything is resolved before anything may be missing: each formula reports its mistakes.
-        let [first, last] = match &domain.time {
-            Some(time) => time.each_ref().map(|time| self.constant(time)),
-            None => [0, 1].map(|time| Some(self.graph.number(time))),
-        };
-        let body = self.body(&domain.body, dimension)?;
-        Some(Domain { body, time: [first?, last?], is_static: domain.time.is_none() })
-    }
-
-    fn body(&mut self, body: &mms_spec::Body, dimension: usize) -> Option<Body> {
-        match body {
-            mms_spec::Body::Box { lower, upper } => {
-                let (lower, upper) = (self.constants(lower), self.constants(upper));
-                Some(Region::cuboid(lower?, upper?))
-            }
-            mms_spec::Body::Round(round) => self.round(round),
-            mms_spec::Body::Polygon(polygon) => {
-                let vertices: Vec<_> =
-                    polygon.vertices.iter().map(|vertex| self.constants(vertex)).collect();
-                let pair = |vertex: Option<Vec<Expr>>| <[Expr; 2]>::try_from(vertex?).ok();
-                let vertices = vertices.into_iter().map(pair).collect::<Option<Vec<_>>>()?;
-                (vertices.len() >= 3).then_some(Region::Polygon(vertices))
-            }
-            mms_spec::Body::Nothing => Some(Region::Nothing(dimension)),
-        }
-    }
-
-    fn round(&mut self, round: &mms_spec::Round) -> Option<Body> {
-        let zero = self.graph.number(0);
-        let pi = self.graph.pi();
-        let turn = self.graph.scale(pi, 2);
-        let inner = round.inner.as_ref().map_or(Some(zero), |inner| self.constant(inner));
-        let outer = self.constant(&round.outer);
-        let mut pair = |pair: &Option<[Formula; 2]>, otherwise: [Expr; 2]| match pair {
-            Some(pair) => {
-                let [first, last] = pair.each_ref().map(|it| self.constant(it));
-                Some([first?, last?])
-            }
-            None => Some(otherwise),
-        };
-        let theta = pair(&round.theta, [zero, turn]);
-        let (z, phi) = (pair(&round.z, [zero; 2]), pair(&round.phi, [zero, pi]));
-        let mut bounds = vec![[inner?, outer?], theta?];
-        let is_ball = round.shape.name == "sphere";
-        if is_ball || round.z.is_some() {
-            bounds.push(if is_ball { phi? } else { z? });
-        }
-        let system = if is_ball { System::Spherical } else { System::Polar };
-        Some(Region::Block(Block { system, bounds }))
-    }
-
-    fn constants(&mut self, formulas: &[Formula]) -> Option<Vec<Expr>> {
-        let values: Vec<_> = formulas.iter().map(|formula| self.constant(formula)).collect();
-        values.into_iter().collect()
-    }
-
-    /// A formula of the domain, which only parameters may enter.
-    fn constant(&mut self, formula: &Formula) -> Option<Expr> {
-        const HELP: &str = "use parameters, and definitions that contain no X, Y, Z or t";
-        self.limited(formula, "the domain must be fixed", HELP, is_parameter)
-    }
-
-    /// A formula that only some symbols may enter.
-    fn limited(
-        &mut self,
-        formula: &Formula,
-        message: &str,
-        help: &str,
-        allowed: impl Fn(&Symbol) -> bool,
-    ) -> Option<Expr> {
-        let value = self.formula(formula)?;
-        let intruder = self.graph.symbols(value).into_iter().find(|symbol| !allowed(symbol));
-        let Some(intruder) = intruder else { return Some(value) };
-        let name = Names::default().symbol(intruder);
-        self.diagnostics.push(
-            Diagnostic::error(formula.span, message).label(format!("depends on {name}")).help(help),
-        );
-        None
-    }
-
-    fn rigid(&mut self, rigid: &RigidSpec, dimension: usize) -> Option<RigidMotion> {
-        const MESSAGE: &str = "a rigid motion moves all points alike";
-        const HELP: &str = "use parameters, t, and definitions that contain no X, Y or Z";
-        let of_time = |symbol: &Symbol| is_parameter(symbol) || *symbol == Symbol::Time;
-        let angle = rigid.angle().map(|angle| self.limited(angle, MESSAGE, HELP, of_time));
-        let axis = match &rigid.rotation {
-            Some(mms_spec::Rotation::Space { axis, .. }) => Some(self.axis(axis)),
-            _ => None,
-        };
-        let translation: Option<Vec<Expr>> = match &rigid.translation {
-            Some(components) => {
-                let components: Vec<_> = components
-                    .iter()
-                    .map(|component| self.limited(component, MESSAGE, HELP, of_time))
-                    .collect();
-                components.into_iter().collect()
-            }
-            None => Some(vec![self.graph.number(0); dimension]),
-        };
-        let rotation = match (axis, angle) {
-            (Some(axis), angle) => Some(Rotation::Space { axis: axis?, angle: angle?? }),
-            (None, Some(angle)) => Some(Rotation::Plane { angle: angle? }),
-            (None, None) => None,
-        };
-        Some(RigidMotion { rotation, translation: translation? })
-    }
-
-    fn axis(&mut self, formulas: &[Formula]) -> Option<[Expr; 3]> {
-        const HELP: &str = "use parameters, and definitions that contain no X, Y, Z or t";
-        let components: Vec<_> = formulas
-            .iter()
-            .map(|formula| self.limited(formula, "the axis must be fixed", HELP, is_parameter))
-            .collect();
-        components.into_iter().collect::<Option<Vec<_>>>()?.try_into().ok()
     }
 
     /// The values that extremes set.

@@ -32,7 +32,7 @@ pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
 
 /// The places that parameters say, by axes.
 fn said(graph: &mut Graph, model: &Model) -> SortedMap<usize, Expr> {
-    let axes: Vec<usize> = (0..model.displacement.len()).collect();
+    let axes: Vec<usize> = (0..model.space.coordinates()).collect();
     let mut places = SortedMap::<usize, Expr>::new();
     for parameter in subtracted(graph, model) {
         let mut some = std::iter::once(&axes[..]).chain(axes.chunks(1));

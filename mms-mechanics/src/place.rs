@@ -80,7 +80,7 @@ pub(super) fn places(
 
 /// The corners of the body, its middle and those of its edges and faces, at the first time and halfway.
 pub(super) fn edges(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Spot> {
-    let dimension = model.displacement.len();
+    let dimension = model.space.coordinates();
     let ends = [0.0, 0.5, 1.0].map(Double::from_f64);
     let of_index = |index: usize| {
         let fraction = |axis: usize| match axis {

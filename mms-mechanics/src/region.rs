@@ -94,6 +94,10 @@ pub fn fixed_coordinate(face: Face) -> (usize, bool) {
         Face::ThetaMax => (1, true),
         Face::PhiMin => (2, false),
         Face::PhiMax => (2, true),
+        Face::RadialMin => (0, false),
+        Face::RadialMax => (0, true),
+        Face::AxialMin => (1, false),
+        Face::AxialMax => (1, true),
         // An edge is no bound of a coordinate of space; along it one varies.
         Face::Edge(..) => (1, false),
     }

@@ -33,7 +33,7 @@ pub fn requested(
     let gradient = match (&model.rigid, derivation.quantities.get(&Quantity::DisplacementGradient))
     {
         (None, Some(gradient)) => Tensor::from_components(dimension, gradient.clone()),
-        _ => gradient_of(graph, &model.displacement),
+        _ => gradient_of(graph, model, &model.displacement),
     };
     let zero = graph.number(0);
     let padded = Tensor::from_fn(3, |row, column| match row.max(column) < dimension {

@@ -1,6 +1,8 @@
 //! Small square matrices of expressions.
 
-use mms_symbolic::expr::{Expr, Graph, Rational};
+use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::pass::differentiate::differentiate;
+use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::settle::settle;
@@ -167,6 +169,12 @@ impl Tensor {
         }
         graph.sum(terms)
     }
+}
+
+/// The derivatives of components, with common factors out.
+pub(super) fn derivative(graph: &mut Graph, components: &[Expr], symbol: Symbol) -> Vec<Expr> {
+    let derivatives = differentiate(graph, components, symbol);
+    factor(graph, &derivatives)
 }
 
 /// The sum of the products of pairs.

@@ -1,11 +1,12 @@
 //! `[[balance]]`: further equations of a coupled code, whose sources follow from the fields.
 
 use crate::diagnostic::Diagnostic;
-use crate::domain::one_per_dimension;
+use crate::domain::one_per_direction;
 use crate::formula::Formula;
 use crate::names::{Names, malformed};
 use crate::own::Part;
 use crate::source::Spanned;
+use crate::space::Space;
 use crate::table::{Reader, Table};
 
 /// A further balance, or a constraint.
@@ -24,7 +25,7 @@ pub enum BalanceLaw {
     Flow {
         /// The amount per reference volume; absent if nothing is stored.
         storage: Option<Formula>,
-        /// The flux through reference area: one component per dimension; absent if nothing flows.
+        /// The flux through reference area: one component per direction; absent if nothing flows.
         flux: Option<Vec<Formula>>,
     },
     /// A constraint: the residual is 0 in the solution of a code without a source.
@@ -59,16 +60,16 @@ impl BalanceSpec {
 /// Reads every `[[balance]]`.
 pub(super) fn balances<'a>(
     tables: &[Table<'a>],
-    dimension: usize,
+    space: Space,
     names: &mut Names,
     reader: &mut Reader<'a>,
 ) -> Vec<BalanceSpec> {
-    tables.iter().filter_map(|table| balance(table, dimension, names, reader)).collect()
+    tables.iter().filter_map(|table| balance(table, space, names, reader)).collect()
 }
 
 fn balance<'a>(
     table: &Table<'a>,
-    dimension: usize,
+    space: Space,
     names: &mut Names,
     reader: &mut Reader<'a>,
 ) -> Option<BalanceSpec> {
@@ -76,7 +77,7 @@ fn balance<'a>(
     let storage = table.get("storage").map(|it| reader.formula("storage", it.value));
     let flux = table
         .get("flux")
-        .map(|flux| reader.formulas(&flux, dimension, &one_per_dimension(dimension)));
+        .map(|flux| reader.formulas(&flux, space.vector(), &one_per_direction(space)));
     let residual = table.get("residual").map(|it| reader.formula("residual", it.value));
     let flow = || table.get("storage").or_else(|| table.get("flux"));
     let law = match (residual, flow()) {

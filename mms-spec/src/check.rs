@@ -7,6 +7,7 @@ use crate::names::Names;
 use crate::own::Own;
 use crate::quantity::Quantity;
 use crate::source::{Span, Spanned};
+use crate::space::Space;
 use crate::suggest::advice;
 use crate::symbols::{LetSpec, lets};
 use crate::table::{Reader, Table, list};
@@ -63,7 +64,7 @@ pub struct ExtremeSpec {
 /// Reads one `[[check]]`; `field` are the names that the field defines.
 pub(super) fn check<'a>(
     table: &Table<'a>,
-    (dimension, own): (usize, [&[Own]; 2]),
+    (space, own): (Space, [&[Own]; 2]),
     field: &Names,
     reader: &mut Reader<'a>,
 ) -> Option<CheckSpec> {
@@ -84,9 +85,16 @@ pub(super) fn check<'a>(
         }
         return None;
     };
-    let count = quantity.value.shape().components(dimension);
+    let count = space.components(quantity.value.shape());
     let name = quantity.value.name();
-    let reason = format!("`{name}` has {} in {dimension}-D", plural(count, "component"));
+    let reason = match space {
+        Space::Cartesian(_) => {
+            format!("`{name}` has {} in {}", plural(count, "component"), space.noun())
+        }
+        Space::Axisymmetric { .. } => {
+            format!("`{name}` of this field has {}", plural(count, "component"))
+        }
+    };
     let equals = match equals {
         Some(equals) => reader.formulas(&equals, count, &reason),
         None => vec![Formula::reported(table.span); count],

@@ -1,13 +1,15 @@
-//! `[domain]` and `[boundary]`: where and when a field lives, and what it claims on its faces.
+//! `[domain]`: where and when a field lives.
 
+use crate::boundary::Face;
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::format::DOMAIN;
 use crate::formula::Formula;
 use crate::interned::interned;
 use crate::names::MAX_NAME;
-use crate::source::{Span, Spanned};
-use crate::table::{Entry, Reader, Table, list};
-use crate::value::{plural, unknown_word};
+use crate::source::Span;
+use crate::space::Space;
+use crate::table::{Entry, Reader, Table};
+use crate::value::plural;
 
 /// The shape of the reference body.
 #[derive(Clone, Debug)]
@@ -56,7 +58,7 @@ impl Round {
     }
 
     /// The faces that its keys speak of, in a fixed order.
-    fn declared(&self) -> Vec<Face> {
+    pub(super) fn declared(&self) -> Vec<Face> {
         [
             (Face::Inner, self.inner.is_some()),
             (Face::Outer, true),
@@ -74,7 +76,7 @@ impl Round {
 
     /// Whether a face has an area, as far as its key tells: not where the radius is written as 0, or the angle as that of
     /// the axis.
-    fn has_area(&self, face: Face) -> bool {
+    pub(super) fn has_area(&self, face: Face) -> bool {
         let is_axis =
             |at: usize| self.phi.as_ref().is_some_and(|phi| phi[at].text.trim() == ["0", "pi"][at]);
         match face {
@@ -87,7 +89,7 @@ impl Round {
 }
 
 /// Whether a formula is a bare 0.
-fn is_zero(formula: &Formula) -> bool {
+pub(super) fn is_zero(formula: &Formula) -> bool {
     formula.text.trim().parse::<f64>() == Ok(0.0)
 }
 
@@ -236,144 +238,6 @@ pub struct DomainSpec {
     pub is_moved: bool,
 }
 
-/// A named part of a body's boundary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Face {
-    /// The face of a box where the coordinate of that axis is least.
-    Min(usize),
-    /// The face of a box where the coordinate of that axis is greatest.
-    Max(usize),
-    /// The inner circle, cylinder or sphere.
-    Inner,
-    /// The outer one.
-    Outer,
-    /// The flat face of a sector at its first angle.
-    ThetaMin,
-    /// The flat face of a sector at its last angle.
-    ThetaMax,
-    /// The cone of a sphere at its first angle from +Z.
-    PhiMin,
-    /// The cone of a sphere at its last angle from +Z.
-    PhiMax,
-    /// The edge of a polygon after the vertex of that position, and its name.
-    Edge(usize, &'static str),
-}
-
-impl Face {
-    /// Every face of any body but the edges of polygons, which have names of their own.
-    pub const ALL: &[Face] = &[
-        Face::Min(0),
-        Face::Max(0),
-        Face::Min(1),
-        Face::Max(1),
-        Face::Min(2),
-        Face::Max(2),
-        Face::Inner,
-        Face::Outer,
-        Face::ThetaMin,
-        Face::ThetaMax,
-        Face::PhiMin,
-        Face::PhiMax,
-    ];
-
-    /// The key of `[boundary]` that names it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Face::Min(0) => "x_min",
-            Face::Max(0) => "x_max",
-            Face::Min(1) => "y_min",
-            Face::Max(1) => "y_max",
-            Face::Min(_) => "z_min",
-            Face::Max(_) => "z_max",
-            Face::Inner => "inner",
-            Face::Outer => "outer",
-            Face::ThetaMin => "theta_min",
-            Face::ThetaMax => "theta_max",
-            Face::PhiMin => "phi_min",
-            Face::PhiMax => "phi_max",
-            Face::Edge(_, name) => name,
-        }
-    }
-
-    /// The faces of a body, in a fixed order.
-    pub fn of(body: &Body, dimension: usize) -> Vec<Face> {
-        let mut faces = Face::declared(body, dimension);
-        if let Body::Round(round) = body {
-            faces.retain(|face| round.has_area(*face));
-        }
-        faces
-    }
-
-    /// The faces that the keys of a body speak of, those without an area included.
-    fn declared(body: &Body, dimension: usize) -> Vec<Face> {
-        match body {
-            Body::Box { .. } => Face::of_box(dimension),
-            Body::Round(round) => round.declared(),
-            Body::Polygon(polygon) => {
-                polygon.names.iter().enumerate().map(|(at, name)| Face::Edge(at, name)).collect()
-            }
-            Body::Nothing => Vec::new(),
-        }
-    }
-
-    /// The faces of a box, in a fixed order.
-    pub fn of_box(dimension: usize) -> Vec<Face> {
-        (0..dimension).flat_map(|axis| [Face::Min(axis), Face::Max(axis)]).collect()
-    }
-}
-
-/// What a field claims on a face.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Claim {
-    /// u = 0.
-    Fixed,
-    /// u.N = 0, and no tangential traction.
-    Roller,
-    /// P N = 0.
-    Free,
-    /// The solver is given u.
-    Prescribed,
-    /// The solver is given P N.
-    Traction,
-}
-
-impl Claim {
-    /// Every claim.
-    pub const ALL: &[Claim] =
-        &[Claim::Fixed, Claim::Roller, Claim::Free, Claim::Prescribed, Claim::Traction];
-
-    /// The word for it in a field file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Claim::Fixed => "fixed",
-            Claim::Roller => "roller",
-            Claim::Free => "free",
-            Claim::Prescribed => "prescribed",
-            Claim::Traction => "traction",
-        }
-    }
-
-    /// What it says, in a few words.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Claim::Fixed => "u = 0",
-            Claim::Roller => "u.N = 0 and no tangential traction",
-            Claim::Free => "P N = 0",
-            Claim::Prescribed => "u is given by the field",
-            Claim::Traction => "P N is given by the field",
-        }
-    }
-}
-
-/// A claim about a face.
-#[derive(Clone, Debug)]
-pub struct BoundarySpec {
-    /// The face.
-    pub face: Spanned<Face>,
-    /// What is claimed there.
-    pub claim: Spanned<Claim>,
-}
-
 /// A domain without content, in place of one whose absence has been reported.
 pub(super) fn reported(dimension: usize, span: Span) -> DomainSpec {
     let corner = vec![Formula::reported(span); dimension];
@@ -383,11 +247,8 @@ pub(super) fn reported(dimension: usize, span: Span) -> DomainSpec {
 }
 
 /// Reads `[domain]`.
-pub(super) fn domain<'a>(
-    entry: &Entry<'a>,
-    dimension: usize,
-    reader: &mut Reader<'a>,
-) -> DomainSpec {
+pub(super) fn domain<'a>(entry: &Entry<'a>, space: Space, reader: &mut Reader<'a>) -> DomainSpec {
+    let dimension = space.coordinates();
     let Some(table) = reader.table(entry, "[domain]", DOMAIN) else {
         return reported(dimension, reader.span(entry.value));
     };
@@ -395,12 +256,16 @@ pub(super) fn domain<'a>(
     let named = shape.as_ref().and_then(|shape| reader.word(shape, "shape", &Shape::words()));
     let shape = named.as_ref().and_then(|named| Shape::named(&named.value));
     let shape = shape.unwrap_or_else(|| meant(&table, dimension));
-    if let (Some(named), Some(needed)) = (named, shape.dimension)
+    if let (Some(named), Some(needed)) = (&named, shape.dimension)
         && needed != dimension
     {
         let noun = shape.noun;
         let message = format!("{noun} is {needed}-dimensional, but the field is {dimension}-D");
         let label = format!("needs `dimension = {needed}`");
+        reader.report(Diagnostic::error(named.span, message).label(label));
+    } else if let (Some(named), true) = (&named, space.is_axisymmetric() && shape.is_bent()) {
+        let message = format!("{} is no body of an axisymmetric field", shape.noun);
+        let label = "expected `box`, between bounds of R and Z, or `none`";
         reader.report(Diagnostic::error(named.span, message).label(label));
     }
     for key in BODY_KEYS.iter().filter(|key| !shape.has_key(key)) {
@@ -437,6 +302,11 @@ fn meant(table: &Table<'_>, dimension: usize) -> &'static Shape {
 }
 
 impl Shape {
+    /// Whether it has faces that are not those of a box.
+    fn is_bent(&self) -> bool {
+        !matches!(self.name, "box" | "none")
+    }
+
     fn has_key(&self, key: &str) -> bool {
         self.required.contains(&key) || self.optional.contains(&key)
     }
@@ -537,55 +407,18 @@ fn edges<'a>(
     Some(known)
 }
 
-/// Why a vector must have so many components.
+/// Why a point must have so many coordinates.
 pub(super) fn one_per_dimension(dimension: usize) -> String {
     format!("a {dimension}-D field has {}", plural(dimension, "component"))
 }
 
-/// Reads `[boundary]`. Without a body, any face of any body will do.
-pub(super) fn boundary<'a>(
-    entry: &Entry<'a>,
-    body: Option<&Body>,
-    dimension: usize,
-    reader: &mut Reader<'a>,
-) -> Vec<BoundarySpec> {
-    let Some(table) = reader.open_table(entry, "[boundary]") else { return Vec::new() };
-    if body.is_some_and(Body::is_nothing) {
-        reader.report(
-            Diagnostic::error(entry.key.span, "a field without a body has no faces")
-                .label("claims are about faces, and `shape = \"none\"` has none")
-                .help("remove [boundary], or give the body that its claims are about"),
-        );
-        return Vec::new();
-    }
-    let faces = body.map_or_else(|| Face::ALL.to_vec(), |body| Face::declared(body, dimension));
-    let claims: Vec<_> = Claim::ALL.iter().map(|claim| claim.name()).collect();
-    let mut boundary = Vec::new();
-    for entry in &table.entries {
-        let face = face(&entry.key, &faces, reader);
-        let claim = reader.word(entry, "claim", &claims).and_then(|word| {
-            let claim = Claim::ALL.iter().find(|claim| claim.name() == word.value)?;
-            Some(Spanned { value: *claim, span: word.span })
-        });
-        if let (Some(face), Some(claim)) = (face, claim) {
-            boundary.push(BoundarySpec { face, claim });
+/// Why a vector must have so many components.
+pub(super) fn one_per_direction(space: Space) -> String {
+    match space {
+        Space::Cartesian(dimension) => one_per_dimension(dimension),
+        Space::Axisymmetric { swirl } => {
+            let others = if swirl { "R, Z and theta" } else { "R and Z" };
+            format!("a vector of this field has the components {others}")
         }
     }
-    boundary
-}
-
-fn face(key: &Spanned<String>, faces: &[Face], reader: &mut Reader<'_>) -> Option<Spanned<Face>> {
-    if let Some(face) = faces.iter().find(|face| face.name() == key.value) {
-        return Some(Spanned { value: *face, span: key.span });
-    }
-    let names: Vec<_> = faces.iter().map(|face| face.name()).collect();
-    let exists_elsewhere = Face::ALL.iter().any(|face| face.name() == key.value)
-        || key.value.strip_prefix("edge_").is_some_and(|number| number.parse::<usize>().is_ok());
-    reader.report(if exists_elsewhere {
-        Diagnostic::error(key.span, format!("this body has no face `{}`", key.value))
-            .label(format!("its faces are {}", list(&names)))
-    } else {
-        unknown_word(key, "face", &names)
-    });
-    None
 }

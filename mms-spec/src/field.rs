@@ -1,11 +1,12 @@
 //! The field file as a whole.
 
 use crate::balance::{BalanceSpec, balances};
+use crate::boundary::{BoundarySpec, boundary};
 use crate::check::{CheckSpec, ExtremeSpec, check, extremes};
 use crate::defined::{own_quantities, possible_quantities};
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
-use crate::domain::{BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported};
+use crate::domain::{DomainSpec, domain, one_per_dimension, reported};
 use crate::foreign::Foreign;
 use crate::format::{BALANCE, CHECK, DISPLACEMENT, EXTREME, FIELD, FIELD_FILE, Key, STUDY};
 use crate::formula::Formula;
@@ -13,21 +14,24 @@ use crate::given::{GivenSpec, givens};
 use crate::material::{MaterialUse, material_use};
 use crate::names::{Keeper, Names};
 use crate::rigid::{RigidSpec, rigid};
-use crate::source::{SourceId, Sources, Span};
+use crate::source::{SourceId, Sources, Span, Spanned};
+use crate::space::Space;
 use crate::study::{StudySpec, studies};
 use crate::symbols::{LetSpec, ParameterSpec, lets, parameters};
 use crate::table::{Entry, Reader, Table};
 
-/// A field file. Vectors have exactly one component per dimension, tensors one per pair; a
-/// component that was missing is [`Formula::is_reported`].
+/// A field file. Vectors and tensors have exactly the components of its [`Space`]; a component that
+/// was missing is [`Formula::is_reported`].
 #[derive(Clone, Debug)]
 pub struct FieldSpec {
     /// The file's stem.
     pub name: Foreign,
     /// What it is, in a few words.
     pub title: Foreign,
-    /// The dimension of space: 1, 2 or 3.
+    /// The number of coordinates of a point: 1, 2 or 3.
     pub dimension: usize,
+    /// The coordinates, and what follows from them for vectors and tensors.
+    pub space: Space,
     /// Where it comes from.
     pub reference: Option<Foreign>,
     /// The parameters, in order.
@@ -36,7 +40,7 @@ pub struct FieldSpec {
     pub lets: Vec<LetSpec>,
     /// The given fields of the file's own, in order.
     pub givens: Vec<GivenSpec>,
-    /// The displacement u(X, t).
+    /// The displacement u(X, t); of an axisymmetric field u_R, u_Z and, if there is one, the swirl.
     pub displacement: Vec<Formula>,
     /// The material and its parameters.
     pub material: MaterialUse,
@@ -119,7 +123,9 @@ pub fn read_field(
     }
     let root = reader.root("a field file", &document.root, FIELD_FILE);
     let header = header(&root, &mut reader);
-    let mut names = Names::new(Keeper::Field);
+    let chosen = displacement_table(&root, &mut reader);
+    let space = header.space(chosen.as_ref(), &mut reader);
+    let mut names = Names::new(space.map_or(Keeper::Field, Keeper::of));
     let parameters = reader
         .names(&root, "parameters")
         .map(|table| parameters(&table, &mut names, &mut reader))
@@ -132,28 +138,23 @@ pub fn read_field(
         .names(&root, "given")
         .map(|table| givens(&table, &mut names, &mut reader))
         .unwrap_or_default();
-    let entry = displacement_entry(&root, &mut reader);
-    // A wrong dimension leaves the number of components to tell what was meant.
-    let dimension = header.dimension.or_else(|| entry.as_ref().and_then(components));
     let material = match reader.required_table(&root, "material") {
         Some(entry) => material_use(&entry, &mut reader),
         None => MaterialUse::reported(root.span),
     };
-    let Some(dimension) = dimension else {
+    let Some(space) = space else {
         // How many bounds the body needs is unknown; that it needs them is not.
         reader.required_table(&root, "domain");
         return None;
     };
-    let displacement = match entry {
-        Some(entry) => reader.formulas(&entry, dimension, &one_per_dimension(dimension)),
-        None => vec![Formula::reported(root.span); dimension],
-    };
-    let place = Setup::read(&root, dimension, &mut reader);
+    let dimension = space.coordinates();
+    let displacement = displacement(chosen.as_ref(), space, root.span, &mut reader);
+    let place = Setup::read(&root, space, &mut reader);
     hold_density(&material, &place.domain, &mut reader);
     let balances = match root.get("balance") {
         Some(entry) => {
             let tables = reader.tables(&entry, BALANCE);
-            balances(&tables, dimension, &mut names, &mut reader)
+            balances(&tables, space, &mut names, &mut reader)
         }
         None => Vec::new(),
     };
@@ -161,6 +162,7 @@ pub fn read_field(
         name: name.into(),
         title: header.title,
         dimension,
+        space,
         reference: header.reference,
         parameters,
         lets,
@@ -179,7 +181,7 @@ pub fn read_field(
         refused: Vec::new(),
     };
     let evidence = Evidence::read(&root, &spec, &names, &mut reader);
-    refuse_studies(&evidence.studies, &spec.domain, &mut reader);
+    refuse_studies(&evidence.studies, &spec, &mut reader);
     (spec.checks, spec.studies, spec.extremes) =
         (evidence.checks, evidence.studies, evidence.extremes);
     (spec.stray, spec.refused) = (reader.stray, reader.refused);
@@ -208,22 +210,57 @@ fn hold_density(material: &MaterialUse, domain: &DomainSpec, reader: &mut Reader
     );
 }
 
-/// Refuses studies of a field without a body.
-fn refuse_studies(studies: &[StudySpec], domain: &DomainSpec, reader: &mut Reader<'_>) {
-    let Some(first) = studies.first().filter(|_| domain.body.is_nothing()) else { return };
-    reader.report(
-        Diagnostic::error(first.span, "a field without a body has no studies")
-            .label("the solver has nothing to fill with particles")
-            .help("remove [[study]], or give the body that the solver is to run on"),
-    );
+/// Refuses studies of a field on which the solver cannot run.
+fn refuse_studies(studies: &[StudySpec], field: &FieldSpec, reader: &mut Reader<'_>) {
+    let Some(first) = studies.first() else { return };
+    if field.space.is_axisymmetric() {
+        reader.report(
+            Diagnostic::error(first.span, "an axisymmetric field has no studies")
+                .label("the solver works in Cartesian coordinates")
+                .help("remove [[study]], or write the field in three dimensions"),
+        );
+    } else if field.domain.body.is_nothing() {
+        reader.report(
+            Diagnostic::error(first.span, "a field without a body has no studies")
+                .label("the solver has nothing to fill with particles")
+                .help("remove [[study]], or give the body that the solver is to run on"),
+        );
+    }
 }
 
 /// `[field]`.
 #[derive(Default)]
 struct Header {
     title: Foreign,
-    dimension: Option<usize>,
+    dimension: Option<Spanned<usize>>,
+    coordinates: Option<Spanned<String>>,
     reference: Option<Foreign>,
+}
+
+impl Header {
+    /// The space of the field; a wrong dimension leaves the number of components to tell what was meant.
+    fn space<'a>(&self, chosen: Option<&Table<'a>>, reader: &mut Reader<'a>) -> Option<Space> {
+        let is_axisymmetric =
+            self.coordinates.as_ref().is_some_and(|word| word.value == Space::WORDS[1]);
+        let swirl = chosen.and_then(|table| table.get("swirl"));
+        if is_axisymmetric {
+            if let Some(dimension) = self.dimension.as_ref().filter(|it| it.value != 2) {
+                let message = "an axisymmetric field has the coordinates R and Z";
+                reader.report(
+                    Diagnostic::error(dimension.span, message)
+                        .label("needs `dimension = 2`")
+                        .help("a displacement along the hoop is `swirl` in [displacement]"),
+                );
+            }
+            return Some(Space::Axisymmetric { swirl: swirl.is_some() });
+        }
+        if let Some(table) = chosen {
+            reader.refuse(table, "swirl", "needs `coordinates = \"axisymmetric\"` in [field]");
+        }
+        let dimension = self.dimension.as_ref().map(|it| it.value);
+        let of_displacement = || chosen?.get("u").as_ref().and_then(components);
+        dimension.or_else(of_displacement).map(Space::Cartesian)
+    }
 }
 
 fn header<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Header {
@@ -236,18 +273,21 @@ fn header<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Header {
             .required_string(&table, "title")
             .map_or_else(Foreign::default, |title| title.value.into()),
         dimension: reader.required(&table, "dimension").and_then(|entry| dimension(&entry, reader)),
+        coordinates: table
+            .get("coordinates")
+            .and_then(|entry| reader.word(&entry, "coordinates", &Space::WORDS)),
         reference: reader.optional_foreign(&table, "reference"),
     }
 }
 
-fn dimension<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<usize> {
+fn dimension<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spanned<usize>> {
     let found = entry.value.get_ref().as_integer().map(|digits| digits.as_str());
-    match found {
+    let span = reader.span(entry.value);
+    let number = match found {
         Some("1") => Some(1),
         Some("2") => Some(2),
         Some("3") => Some(3),
         Some(_) if !reader.is_damaged(entry.value) => {
-            let span = reader.span(entry.value);
             let diagnostic = Diagnostic::error(span, "`dimension` must be 1, 2 or 3");
             reader.report(diagnostic.label("a field lives on a line, in a plane or in space"));
             None
@@ -256,13 +296,31 @@ fn dimension<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<usize> {
             reader.wrong_type("dimension", entry.value, "1, 2 or 3");
             None
         }
-    }
+    };
+    number.map(|value| Spanned { value, span })
 }
 
-fn displacement_entry<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Option<Entry<'a>> {
+fn displacement_table<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Option<Table<'a>> {
     let entry = reader.required_table(root, "displacement")?;
-    let table = reader.table(&entry, "[displacement]", DISPLACEMENT)?;
-    reader.required(&table, "u")
+    reader.table(&entry, "[displacement]", DISPLACEMENT)
+}
+
+/// u, then the swirl if the field has one.
+fn displacement<'a>(
+    table: Option<&Table<'a>>,
+    space: Space,
+    root: Span,
+    reader: &mut Reader<'a>,
+) -> Vec<Formula> {
+    let dimension = space.coordinates();
+    let entry = table.and_then(|table| reader.required(table, "u"));
+    let mut components = match entry {
+        Some(entry) => reader.formulas(&entry, dimension, &one_per_dimension(dimension)),
+        None => vec![Formula::reported(root); dimension],
+    };
+    let swirl = table.filter(|_| space.is_axisymmetric()).and_then(|table| table.get("swirl"));
+    components.extend(swirl.map(|entry| reader.formula("swirl", entry.value)));
+    components
 }
 
 fn components(entry: &Entry<'_>) -> Option<usize> {
@@ -278,17 +336,18 @@ struct Setup {
 }
 
 impl Setup {
-    fn read<'a>(root: &Table<'a>, dimension: usize, reader: &mut Reader<'a>) -> Self {
+    fn read<'a>(root: &Table<'a>, space: Space, reader: &mut Reader<'a>) -> Self {
+        let dimension = space.coordinates();
         let entry = reader.required_table(root, "domain");
-        let read = entry.map(|entry| domain(&entry, dimension, reader));
+        let read = entry.map(|entry| domain(&entry, space, reader));
         let boundary = root
             .get("boundary")
             .map(|entry| {
                 let body = read.as_ref().map(|domain| &domain.body);
-                boundary(&entry, body, dimension, reader)
+                boundary(&entry, body, space, reader)
             })
             .unwrap_or_default();
-        let rigid = root.get("rigid").and_then(|entry| rigid(&entry, dimension, reader));
+        let rigid = root.get("rigid").and_then(|entry| rigid(&entry, space, reader));
         Setup { domain: read.unwrap_or_else(|| reported(dimension, root.span)), boundary, rigid }
     }
 }
@@ -307,8 +366,8 @@ impl Evidence {
         names: &Names,
         reader: &mut Reader<'a>,
     ) -> Self {
-        let (dimension, possible, known) =
-            (field.dimension, possible_quantities(field), own_quantities(field, None));
+        let (space, possible, known) =
+            (field.space, possible_quantities(field), own_quantities(field, None));
         let parameters = field.parameters.iter().map(|parameter| parameter.name.value.as_str());
         let parameters: Vec<&str> = parameters.collect();
         let mut tables = |key: &str, keys: &[Key]| match root.get(key) {
@@ -320,7 +379,7 @@ impl Evidence {
         Evidence {
             checks: checks
                 .iter()
-                .filter_map(|table| check(table, (dimension, [&possible, &known]), names, reader))
+                .filter_map(|table| check(table, (space, [&possible, &known]), names, reader))
                 .collect(),
             studies: studies(&study, reader),
             extremes: extremes(&extreme, &parameters, reader),

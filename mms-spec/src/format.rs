@@ -5,9 +5,11 @@
 //! speaks of names that another one defines, and where numbers must increase. What depends on other values (how
 //! many components, which faces) is the reader's, and the schema's own tests hold it to that.
 
-use crate::domain::{Claim, Shape};
+use crate::boundary::{Claim, Face};
+use crate::domain::Shape;
 use crate::names::Keeper;
 use crate::quantity::Quantity;
+use crate::space::Space;
 use crate::study::{FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, TRANSFERS};
 
 /// A key of a table.
@@ -104,9 +106,9 @@ pub fn quantities() -> Vec<&'static str> {
     words
 }
 
-/// The words for claims.
-pub fn claims() -> Vec<&'static str> {
-    Claim::ALL.iter().map(|claim| claim.name()).collect()
+/// The words for claims about a face.
+pub fn claims(face: Face) -> Vec<&'static str> {
+    Claim::about(face).into_iter().map(Claim::name).collect()
 }
 
 /// A field file.
@@ -161,7 +163,12 @@ pub const FIELD_FILE: &[Key] = &[
 /// `[field]`.
 pub const FIELD: &[Key] = &[
     required("title", Holds::Text, "What the field is, in a few words."),
-    required("dimension", Holds::Dimension, "The dimension of space: 1, 2 or 3."),
+    required("dimension", Holds::Dimension, "The number of reference coordinates: 1, 2 or 3."),
+    optional(
+        "coordinates",
+        Holds::Word(|| Space::WORDS.to_vec()),
+        "The coordinates: cartesian by default; axisymmetric, which are R and Z, with dimension = 2.",
+    ),
     optional("reference", Holds::Text, "Who published it, and where."),
 ];
 
@@ -195,17 +202,24 @@ pub const BALANCE: &[Key] = &[
     optional(
         "flux",
         Holds::Formulas(Length::Dimension),
-        "The flux through reference area: one formula per dimension.",
+        "The flux through reference area: one formula per direction.",
     ),
     optional("residual", Holds::Formula, "The left side of a constraint, in place of the others."),
 ];
 
 /// `[displacement]`.
-pub const DISPLACEMENT: &[Key] = &[required(
-    "u",
-    Holds::Formulas(Length::Dimension),
-    "The displacement u(X, t): one formula per dimension.",
-)];
+pub const DISPLACEMENT: &[Key] = &[
+    required(
+        "u",
+        Holds::Formulas(Length::Dimension),
+        "The displacement u(X, t): one formula per dimension.",
+    ),
+    optional(
+        "swirl",
+        Holds::Formula,
+        "The displacement along the hoop of an axisymmetric field: a length.",
+    ),
+];
 
 /// `[material]` of a field, without the parameters of the model.
 pub const MATERIAL: &[Key] = &[

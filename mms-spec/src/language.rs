@@ -20,7 +20,6 @@ pub fn elsewhere(word: &str) -> Option<&'static str> {
         "lambda1" | "lambda2" | "lambda3" | "lambda_1" | "lambda_2" | "lambda_3" => {
             "a material is a function of the invariants I1, I2, J, and principal stretches are not known"
         }
-        "coordinates" => "fields are Cartesian; an axisymmetric one is written in three dimensions",
         "plane" => {
             "a field in a plane is in plane strain; plane stress takes the moduli that it reduces to"
         }

@@ -11,6 +11,7 @@
 //! consequences.
 
 mod balance;
+mod boundary;
 mod brackets;
 mod check;
 mod defined;
@@ -34,6 +35,7 @@ pub mod own;
 pub mod quantity;
 mod rigid;
 pub mod source;
+mod space;
 mod study;
 pub mod suggest;
 mod symbols;
@@ -44,13 +46,11 @@ pub mod units;
 mod value;
 
 pub use balance::{BalanceLaw, BalanceSpec};
+pub use boundary::{BoundarySpec, Claim, Face};
 pub use check::{CheckSpec, ExtremeSpec, REGIMES};
 pub use defined::{own_quantities, settle_checks};
 pub use document::MAX_FILE;
-pub use domain::{
-    BODIES, BODY_KEYS, Body, BoundarySpec, Claim, DomainSpec, Face, MAX_VERTICES, Polygon, Round,
-    Shape,
-};
+pub use domain::{BODIES, BODY_KEYS, Body, DomainSpec, MAX_VERTICES, Polygon, Round, Shape};
 pub use field::{FieldSpec, read_field};
 pub use folder::{FieldFile, field_files};
 pub use form::Form;
@@ -58,6 +58,7 @@ pub use formula::Formula;
 pub use given::{GivenSpec, MaterialGiven};
 pub use material::{MaterialSpec, MaterialUse, read_material};
 pub use rigid::{RigidSpec, Rotation, read_rigid};
+pub use space::Space;
 pub use study::{
     FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, StudySpec, TRANSFERS,
 };

@@ -1,7 +1,8 @@
 //! Which names a file may define.
 //!
 //! Names are ASCII identifiers, and emitters rename what a target reserves. The language reserves `X Y Z t pi` and
-//! the functions; in a material also the invariants. Everything else is free, `F` and `fn` included.
+//! the functions; in an axisymmetric field also `R`, in a material also the invariants. Everything else is free, `F`
+//! and `fn` included.
 
 use std::collections::BTreeMap;
 
@@ -10,6 +11,7 @@ use crate::language::FUNCTIONS;
 use crate::own::Part;
 use crate::quantity::Quantity;
 use crate::source::{Span, Spanned};
+use crate::space::Space;
 use crate::table::Reader;
 
 /// The longest name that a file may define.
@@ -22,6 +24,16 @@ pub const COORDINATES: &[(&str, &str)] = &[
     ("Z", "the third reference coordinate"),
     ("t", "the time"),
     ("pi", "the circle's number"),
+];
+
+/// The names that are given in an axisymmetric field, and those of Cartesian coordinates, which it lacks.
+pub const AXISYMMETRIC: &[(&str, &str)] = &[
+    ("R", "the distance from the axis"),
+    ("Z", "the coordinate along the axis"),
+    ("t", "the time"),
+    ("pi", "the circle's number"),
+    ("X", "a Cartesian coordinate; this field is written in R and Z"),
+    ("Y", "a Cartesian coordinate; this field is written in R and Z"),
 ];
 
 /// The names that a strain-energy density is written in.
@@ -40,8 +52,17 @@ pub const INVARIANTS: &[(&str, &str)] = &[
 pub enum Keeper {
     /// In a field file.
     Field,
+    /// In a field file that is written in R and Z.
+    Axisymmetric,
     /// In a material file, which also keeps the invariants.
     Material,
+}
+
+impl Keeper {
+    /// The names that are kept in a field file.
+    pub fn of(space: Space) -> Keeper {
+        if space.is_axisymmetric() { Keeper::Axisymmetric } else { Keeper::Field }
+    }
 }
 
 /// Whether a text is a name: a letter or `_`, then letters, digits and `_`, all ASCII.
@@ -59,6 +80,7 @@ pub fn reserved(name: &str, keeper: Keeper) -> Option<&'static str> {
     match keeper {
         _ if FUNCTIONS.contains(&name) => Some("a function"),
         Keeper::Field => among(COORDINATES),
+        Keeper::Axisymmetric => among(AXISYMMETRIC),
         Keeper::Material => among(COORDINATES).or_else(|| among(INVARIANTS)),
     }
 }
@@ -183,5 +205,14 @@ mod tests {
         assert!(reserved("X", Keeper::Material).is_some());
         assert!(reserved("atan2", Keeper::Field).is_some());
         assert!(reserved("F", Keeper::Field).is_none());
+        assert!(reserved("R", Keeper::Field).is_none());
+    }
+
+    #[test]
+    fn an_axisymmetric_field_keeps_its_coordinates_and_those_it_lacks() {
+        for name in ["R", "Z", "X", "Y", "t"] {
+            assert!(reserved(name, Keeper::Axisymmetric).is_some(), "{name}");
+        }
+        assert!(reserved("theta", Keeper::Axisymmetric).is_none());
     }
 }

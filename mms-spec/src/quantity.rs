@@ -2,26 +2,15 @@
 
 use crate::own::{Own, Part};
 
-/// How many components a quantity has, for a field of dimension `D`.
+/// How many components a quantity has: [`Space::components`](crate::Space::components).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// One component.
     Scalar,
-    /// `D` components.
+    /// One component per direction.
     Vector,
-    /// `D` x `D` components, row-major.
+    /// One component per pair of directions, row-major.
     Tensor,
-}
-
-impl Shape {
-    /// The number of components in `dimension` dimensions.
-    pub fn components(self, dimension: usize) -> usize {
-        match self {
-            Shape::Scalar => 1,
-            Shape::Vector => dimension,
-            Shape::Tensor => dimension * dimension,
-        }
-    }
 }
 
 macro_rules! quantities {

@@ -6,6 +6,7 @@ use crate::domain::one_per_dimension;
 use crate::format::{RIGID, RIGID_ALONE, ROTATION};
 use crate::formula::Formula;
 use crate::source::{SourceId, Sources, Span};
+use crate::space::Space;
 use crate::table::{Entry, Reader};
 
 /// A prescribed rigid motion on top of the field: x -> Q x + d.
@@ -13,7 +14,7 @@ use crate::table::{Entry, Reader};
 pub struct RigidSpec {
     /// The rotation Q(t).
     pub rotation: Option<Rotation>,
-    /// The translation d(t), one component per dimension.
+    /// The translation d(t), one component per coordinate.
     pub translation: Option<Vec<Formula>>,
     /// The table.
     pub span: Span,
@@ -56,37 +57,47 @@ impl RigidSpec {
 pub fn read_rigid(
     sources: &Sources,
     id: SourceId,
-    dimension: usize,
+    space: Space,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<RigidSpec> {
     let document = Document::parse(sources, id, diagnostics)?;
     let mut reader = Reader::new(sources, id, &document, diagnostics);
     let root = reader.root("a rigid motion", &document.root, RIGID_ALONE);
     let entry = root.get("rigid")?;
-    rigid(&entry, dimension, &mut reader)
+    rigid(&entry, space, &mut reader)
 }
 
 /// Reads `[rigid]`.
 pub(super) fn rigid<'a>(
     entry: &Entry<'a>,
-    dimension: usize,
+    space: Space,
     reader: &mut Reader<'a>,
 ) -> Option<RigidSpec> {
+    let dimension = space.coordinates();
     let table = reader.table(entry, "[rigid]", RIGID)?;
     if table.entries.is_empty() {
         let message = "a rigid motion needs a `rotation`, a `translation` or both";
         reader.report(Diagnostic::error(table.span, message).label("this one has neither"));
     }
-    let rotation = table.get("rotation").and_then(|entry| rotation(&entry, dimension, reader));
+    let rotation = table.get("rotation").and_then(|entry| rotation(&entry, space, reader));
     let translation = table
         .get("translation")
         .map(|entry| reader.formulas(&entry, dimension, &one_per_dimension(dimension)));
     Some(RigidSpec { rotation, translation, span: table.span })
 }
 
-fn rotation<'a>(entry: &Entry<'a>, dimension: usize, reader: &mut Reader<'a>) -> Option<Rotation> {
-    match dimension {
-        1 => {
+fn rotation<'a>(entry: &Entry<'a>, space: Space, reader: &mut Reader<'a>) -> Option<Rotation> {
+    match space {
+        Space::Axisymmetric { .. } => {
+            let message = "an axisymmetric field cannot rotate";
+            reader.report(
+                Diagnostic::error(entry.key.span, message)
+                    .label("a rigid motion of it is a translation along the axis")
+                    .help("give `translation = [\"0\", \"...\"]`; a swirl turns the body about its axis"),
+            );
+            None
+        }
+        Space::Cartesian(1) => {
             let message = "a 1-dimensional field cannot rotate";
             reader.report(
                 Diagnostic::error(entry.key.span, message)
@@ -94,8 +105,8 @@ fn rotation<'a>(entry: &Entry<'a>, dimension: usize, reader: &mut Reader<'a>) ->
             );
             None
         }
-        2 => Some(Rotation::Plane(reader.formula("rotation", entry.value))),
-        _ => space_rotation(entry, reader),
+        Space::Cartesian(2) => Some(Rotation::Plane(reader.formula("rotation", entry.value))),
+        Space::Cartesian(_) => space_rotation(entry, reader),
     }
 }
 

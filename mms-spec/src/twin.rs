@@ -5,12 +5,14 @@
 //! stays free, while one that was at rest moves, and its displacement is prescribed. Closed forms are those of the
 //! field at rest, and are left out.
 
+use crate::boundary::Claim;
 use crate::diagnostic::Diagnostic;
-use crate::domain::{Body, Claim, Polygon};
+use crate::domain::{Body, Polygon};
 use crate::field::FieldSpec;
 use crate::formula::Formula;
 use crate::rigid::read_rigid;
 use crate::source::Sources;
+use crate::space::Space;
 
 /// A rigid motion that is put on top of a field.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -31,7 +33,8 @@ impl Twin {
     ///
     /// - in one dimension the translation 3 L s^2,
     /// - in two the angle s + s^2 and the translation 3 L s, -2 L s^2,
-    /// - in three the same about the axis 2, -1, 2, and L s (2 - s) along Z.
+    /// - in three the same about the axis 2, -1, 2, and L s (2 - s) along Z,
+    /// - of an axisymmetric field the translation 3 L s^2 along the axis.
     ///
     /// None where there is no motion, or where the body or the window of the field could not be read.
     pub fn text(&self, field: &FieldSpec) -> Option<String> {
@@ -79,7 +82,7 @@ impl Twin {
             );
             return;
         }
-        let Some(rigid) = read_rigid(sources, source, field.dimension, diagnostics) else { return };
+        let Some(rigid) = read_rigid(sources, source, field.space, diagnostics) else { return };
         field.rigid = Some(rigid);
         for boundary in &mut field.boundary {
             if matches!(boundary.claim.value, Claim::Fixed | Claim::Roller) {
@@ -107,9 +110,10 @@ fn standard(field: &FieldSpec) -> Option<String> {
         Body::Polygon(polygon) => first_edge(polygon)?,
         Body::Nothing => return None,
     };
-    Some(match field.dimension {
-        1 => format!(r#"translation = ["3*{size}*({s})^2"]"#),
-        2 => format!(
+    Some(match field.space {
+        Space::Axisymmetric { .. } => format!(r#"translation = ["0", "3*{size}*({s})^2"]"#),
+        Space::Cartesian(1) => format!(r#"translation = ["3*{size}*({s})^2"]"#),
+        Space::Cartesian(2) => format!(
             r#"rotation = "{s} + ({s})^2", translation = ["3*{size}*{s}", "-2*{size}*({s})^2"]"#
         ),
         _ => format!(

@@ -111,6 +111,7 @@ impl<const D: usize> Chart<D> {
             Face::PhiMin => self.bounds[0][axis] != 0.0,
             Face::PhiMax => (self.bounds[1][axis] - PI).abs() > ROUNDING,
             Face::Outer | Face::Min(_) | Face::Max(_) | Face::Edge(..) => true,
+            Face::RadialMin | Face::RadialMax | Face::AxialMin | Face::AxialMax => true,
         }
     }
 

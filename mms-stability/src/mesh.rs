@@ -74,7 +74,7 @@ impl<const D: usize> Mesh<D> {
 /// What a solver is given on each face: the displacement, where the field claims nothing.
 fn claims(compiled: &Compiled) -> impl Iterator<Item = (Face, Claim)> {
     let field = &compiled.field;
-    Face::of(&field.domain.body, field.dimension).into_iter().map(|face| {
+    Face::of(&field.domain.body, field.space).into_iter().map(|face| {
         let claimed = field.boundary.iter().find(|boundary| boundary.face.value == face);
         (face, claimed.map_or(Claim::Prescribed, |boundary| boundary.claim.value))
     })
@@ -135,7 +135,7 @@ impl<const D: usize> Lattice<'_, D> {
             match claim {
                 Claim::Fixed | Claim::Prescribed => is_held = [true; D],
                 Claim::Roller => is_held[axis] = true,
-                Claim::Free | Claim::Traction => {}
+                Claim::Free | Claim::Traction | Claim::Axis => {}
             }
         }
         let basis = self.chart.basis(&fractions);

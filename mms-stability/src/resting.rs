@@ -1,6 +1,7 @@
 //! What a material is at F = I: the moduli that another code should be given.
 
 use mms_codegen::compile::Compiled;
+use mms_spec::Space;
 
 use crate::elasticity::Elasticity;
 use crate::subject::{Formulas, Resting, Subject};
@@ -18,13 +19,14 @@ pub struct Material {
 }
 
 impl Material {
-    /// Of a compiled field; `None` where it is not finite.
+    /// Of a compiled field; `None` where it is not finite, and of an axisymmetric field.
     pub fn of(compiled: &Compiled) -> Option<Self> {
         let formulas = Formulas::new(compiled);
-        match compiled.field.dimension {
-            1 => Self::of_subject(&mut Subject::<1>::new(compiled, &formulas)),
-            2 => Self::of_subject(&mut Subject::<2>::new(compiled, &formulas)),
-            _ => Self::of_subject(&mut Subject::<3>::new(compiled, &formulas)),
+        match compiled.field.space {
+            Space::Axisymmetric { .. } => None,
+            Space::Cartesian(1) => Self::of_subject(&mut Subject::<1>::new(compiled, &formulas)),
+            Space::Cartesian(2) => Self::of_subject(&mut Subject::<2>::new(compiled, &formulas)),
+            Space::Cartesian(_) => Self::of_subject(&mut Subject::<3>::new(compiled, &formulas)),
         }
     }
 

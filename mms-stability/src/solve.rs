@@ -3,6 +3,7 @@
 //! The loads need no integral over faces: by the balance of a static field the work of b and of P N is that of P.
 
 use mms_codegen::compile::Compiled;
+use mms_spec::Space;
 use nalgebra::{DVector, SMatrix, SVector};
 
 use crate::mesh::Mesh;
@@ -37,6 +38,8 @@ pub enum Solved {
     Moving,
     /// There is no coarse mesh of its body.
     NoMesh,
+    /// There is none of axisymmetric bodies.
+    Axisymmetric,
     /// The exact state has no value, or to evaluate it takes too long.
     Unknown,
 }
@@ -50,7 +53,7 @@ impl Solved {
             Solved::Diverges => "diverges",
             Solved::Leaves => "leaves",
             Solved::Moving => "not_static",
-            Solved::NoMesh => "no_mesh",
+            Solved::NoMesh | Solved::Axisymmetric => "no_mesh",
             Solved::Unknown => "unknown",
         }
     }
@@ -72,6 +75,9 @@ impl Solved {
             Solved::NoMesh => {
                 "NOT SOLVED: the coarse mesh is one of boxes and of what is round, not of polygons"
             }
+            Solved::Axisymmetric => {
+                "NOT SOLVED: the coarse mesh is one of Cartesian coordinates, and the field is axisymmetric"
+            }
             Solved::Moving => "the field is not static: there is nothing to solve",
         }
     }
@@ -80,10 +86,11 @@ impl Solved {
 /// Solves a static field from the exact state and from zero.
 pub fn solve(compiled: &Compiled) -> Solved {
     let formulas = Formulas::new(compiled);
-    let solved = match compiled.field.dimension {
-        1 => solved(compiled, &mut Subject::<1>::new(compiled, &formulas)),
-        2 => solved(compiled, &mut Subject::<2>::new(compiled, &formulas)),
-        _ => solved(compiled, &mut Subject::<3>::new(compiled, &formulas)),
+    let solved = match compiled.field.space {
+        Space::Axisymmetric { .. } => Solved::Axisymmetric,
+        Space::Cartesian(1) => solved(compiled, &mut Subject::<1>::new(compiled, &formulas)),
+        Space::Cartesian(2) => solved(compiled, &mut Subject::<2>::new(compiled, &formulas)),
+        Space::Cartesian(_) => solved(compiled, &mut Subject::<3>::new(compiled, &formulas)),
     };
     if formulas.is_spent() { Solved::Unknown } else { solved }
 }

@@ -1,6 +1,7 @@
 //! All that is known of the stability of a field.
 
 use mms_codegen::compile::Compiled;
+use mms_spec::Space;
 
 use crate::corners::{Corner, corners};
 use crate::faces::{Surface, surfaces};
@@ -13,7 +14,7 @@ use crate::waves::{Waves, waves};
 /// What is known of the stability of a field, at the defaults of its parameters.
 #[derive(Clone, Debug)]
 pub struct Stability {
-    /// The material at F = I; `None` where it is not finite.
+    /// The material at F = I; `None` where it is not finite, and of an axisymmetric field.
     pub material: Option<Material>,
     /// Short waves in the body; `None` where no state is finite.
     pub waves: Option<Waves>,
@@ -25,6 +26,8 @@ pub struct Stability {
     pub growth: Option<Growth>,
     /// Whether faces, corners and long waves were looked at: on a polygon, and without a body, they are not.
     pub has_mesh: bool,
+    /// Whether the field is axisymmetric: then nothing of this is looked at.
+    pub is_axisymmetric: bool,
     /// Whether the budget ended first: what was not looked at may grow.
     pub is_spent: bool,
     /// Whether u does not depend on t.
@@ -36,10 +39,27 @@ pub struct Stability {
 /// Looks for disturbances that grow.
 pub fn judge(compiled: &Compiled) -> Stability {
     let formulas = Formulas::new(compiled);
-    match compiled.field.dimension {
-        1 => judged::<1>(compiled, &formulas),
-        2 => judged::<2>(compiled, &formulas),
-        _ => judged::<3>(compiled, &formulas),
+    match compiled.field.space {
+        Space::Axisymmetric { .. } => unseen(compiled),
+        Space::Cartesian(1) => judged::<1>(compiled, &formulas),
+        Space::Cartesian(2) => judged::<2>(compiled, &formulas),
+        Space::Cartesian(_) => judged::<3>(compiled, &formulas),
+    }
+}
+
+/// What is said of an axisymmetric field, whose disturbances are looked at in no basis.
+fn unseen(compiled: &Compiled) -> Stability {
+    Stability {
+        material: None,
+        waves: None,
+        surfaces: Vec::new(),
+        corners: Vec::new(),
+        growth: None,
+        has_mesh: false,
+        is_axisymmetric: true,
+        is_spent: false,
+        is_static: compiled.model.domain.is_static,
+        shortest_wavelength: shortest_wavelength(compiled),
     }
 }
 
@@ -54,6 +74,7 @@ fn judged<const D: usize>(compiled: &Compiled, formulas: &Formulas) -> Stability
         corners: if is_block { corners(compiled, &mut subject) } else { Vec::new() },
         growth: is_block.then(|| growth(compiled, &mut subject)).flatten(),
         has_mesh: is_block,
+        is_axisymmetric: false,
         is_spent: formulas.is_spent(),
         is_static: subject.is_static,
         shortest_wavelength: shortest_wavelength(compiled),

@@ -63,7 +63,8 @@ fn largest_derivatives(compiled: &Compiled) -> Option<Vec<Vec<Vec<f64>>>> {
     let mut interpreter = Interpreter::within(graph.work(), &program, &parameters);
     let keys: Vec<_> = outputs.keys().copied().collect();
     let plan = interpreter.plan(&keys);
-    let mut largest = vec![vec![vec![0.0_f64; dimension]; ORDERS]; dimension];
+    let components = displacement.len();
+    let mut largest = vec![vec![vec![0.0_f64; components]; ORDERS]; dimension];
     for sample in samples(&compiled.program, &parameters, POINTS) {
         interpreter.set_time(&sample.time);
         interpreter.set_point(&plan, Point::at(&sample.coordinates));

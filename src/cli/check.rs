@@ -169,7 +169,8 @@ impl Check {
             let mut proofs = proof::text(compiled, &certificate);
             proofs.extend(rest_line(&rest));
             let is_static = compiled.model.domain.is_static;
-            proofs.extend(stability::text(&stability, &certificate, is_static));
+            let of = (compiled.field.space, is_static);
+            proofs.extend(stability::text(&stability, &certificate, of));
             proofs.extend(solved.map(|solved| format!("  solve  {}", solved.words())));
             print(&text(path, compiled, proofs, &gaps, (&comparisons, &named)))?;
         }

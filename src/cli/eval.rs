@@ -260,7 +260,7 @@ impl Eval {
 
     /// What of a tensor is beyond the dimension of the field, if that was asked for.
     fn beyond(&self, quantity: Quantity, compiled: &Compiled) -> Option<Beyond> {
-        let is_asked = self.all_components && compiled.field.dimension < SPACE;
+        let is_asked = self.all_components && compiled.field.space.rows() < SPACE;
         Beyond::of(quantity, &compiled.model.kind).filter(|_| is_asked)
     }
 

@@ -7,14 +7,17 @@ use mms_spec::format::MATERIAL;
 use mms_spec::moduli;
 use mms_spec::moduli::Pair;
 use mms_spec::quantity::Quantity;
-use mms_spec::{BODIES, BODY_KEYS, Face, MaterialSpec, Shape};
+use mms_spec::{BODIES, BODY_KEYS, Face, MaterialSpec, Shape, Space};
 use serde_json::{Map, Value, json};
 
 use super::holds::{count, extend};
 
 /// All of them.
 pub fn of_field() -> Value {
-    let dimensions = (1..=3).flat_map(|dimension| [in_dimension(dimension), box_faces(dimension)]);
+    let dimensions = (1..=3).flat_map(|dimension| {
+        [in_dimension(dimension), in_cartesian(dimension), box_faces(dimension)]
+    });
+    let dimensions = dimensions.chain(axisymmetric()).chain([without_swirl()]);
     let bodies = BODIES.iter().map(keys_of).chain(round_faces()).chain([edges(), nothing()]);
     let conditions = dimensions.chain(bodies).chain([rigid(), motions(), balances()]);
     conditions.chain(materials()).collect()
@@ -56,6 +59,10 @@ fn dimension_is(dimension: usize) -> (&'static str, Value) {
     ("field.dimension", json!({ "const": dimension }))
 }
 
+fn coordinates() -> (&'static str, Value) {
+    ("field.coordinates", json!({ "const": Space::WORDS[1] }))
+}
+
 fn shape_is(shape: &str) -> (&'static str, Value) {
     ("domain.shape", json!({ "const": shape }))
 }
@@ -66,10 +73,57 @@ fn in_dimension(dimension: usize) -> Value {
     let fits = |shape: &&Shape| shape.dimension.is_none_or(|needed| needed == dimension);
     let shapes: Vec<_> = BODIES.iter().filter(fits).map(|shape| shape.name).collect();
     asked.push(at("domain.shape", json!({ "enum": shapes })));
-    asked.push(at("rigid.rotation", rotation(dimension)));
-    asked.push(at("balance", json!({ "items": at("flux", count(dimension)) })));
-    asked.push(at("check", json!({ "items": all(components(dimension)) })));
     if_then(has(&[dimension_is(dimension)]), all(asked))
+}
+
+/// What is asked of vectors and tensors.
+fn in_space(space: Space) -> [Value; 2] {
+    [
+        at("balance", json!({ "items": at("flux", count(space.vector())) })),
+        at("check", json!({ "items": all(components(space)) })),
+    ]
+}
+
+/// What is true of a file that is not axisymmetric, beside other conditions.
+fn and_cartesian(mut condition: Value) -> Value {
+    extend(&mut condition, json!({ "not": has(&[coordinates()]) }));
+    condition
+}
+
+fn in_cartesian(dimension: usize) -> Value {
+    let mut asked = in_space(Space::Cartesian(dimension)).to_vec();
+    asked.push(at("rigid.rotation", rotation(dimension)));
+    if_then(and_cartesian(has(&[dimension_is(dimension)])), all(asked))
+}
+
+/// An axisymmetric field, without and with a swirl.
+fn axisymmetric() -> [Value; 3] {
+    let swirl = ("displacement.swirl", json!(true));
+    let named = json!({ "propertyNames": { "not": { "enum": ["R"] } } });
+    let mut asked = vec![
+        at("field.dimension", json!({ "const": 2 })),
+        at("domain.shape", json!({ "enum": ["box", "none"] })),
+        at("rigid.rotation", json!(false)),
+        at("study", json!({ "maxItems": 0 })),
+        at("check", json!({ "items": at("let", named.clone()) })),
+    ];
+    asked.extend(["parameters", "let", "given"].map(|table| at(table, named.clone())));
+    let is_box = has(&[coordinates(), shape_is("box")]);
+    let of_box = faces(&Face::of_box(Space::Axisymmetric { swirl: false }));
+    asked.push(if_then(is_box, of_box));
+    let [mut plain, twisted] = [has(&[coordinates()]), has(&[coordinates(), swirl.clone()])];
+    extend(&mut plain, json!({ "not": has(&[swirl]) }));
+    let of = |swirl: bool| all(in_space(Space::Axisymmetric { swirl }));
+    let axisymmetric = if_then(has(&[coordinates()]), all(asked));
+    [axisymmetric, if_then(plain, of(false)), if_then(twisted, of(true))]
+}
+
+/// A swirl and an axis are of axisymmetric fields alone.
+fn without_swirl() -> Value {
+    let inner = format::claims(Face::Outer);
+    let asked =
+        [at("displacement.swirl", json!(false)), at("boundary.r_min", json!({ "enum": inner }))];
+    if_then(and_cartesian(json!({})), all(asked))
 }
 
 fn rotation(dimension: usize) -> Value {
@@ -86,11 +140,11 @@ fn motions() -> Value {
 }
 
 /// How many components each quantity has.
-fn components(dimension: usize) -> Vec<Value> {
+fn components(space: Space) -> Vec<Value> {
     let mut words: Vec<(usize, Vec<&str>)> = Vec::new();
     for word in format::quantities() {
         let Some(quantity) = Quantity::from_name(word) else { continue };
-        let components = quantity.shape().components(dimension);
+        let components = space.components(quantity.shape());
         match words.iter_mut().find(|(found, _)| *found == components) {
             Some((_, words)) => words.push(word),
             None => words.push((components, vec![word])),
@@ -103,8 +157,8 @@ fn components(dimension: usize) -> Vec<Value> {
 }
 
 fn box_faces(dimension: usize) -> Value {
-    let condition = has(&[dimension_is(dimension), shape_is("box")]);
-    if_then(condition, faces(&Face::of_box(dimension)))
+    let condition = and_cartesian(has(&[dimension_is(dimension), shape_is("box")]));
+    if_then(condition, faces(&Face::of_box(Space::Cartesian(dimension))))
 }
 
 fn faces(faces: &[Face]) -> Value {

@@ -3,7 +3,7 @@
 use mms_codegen::materials::MATERIALS;
 use mms_spec::format::{self, Holds, Key, Length, quantities};
 use mms_spec::language::FUNCTIONS;
-use mms_spec::names::{COORDINATES, INVARIANTS, Keeper, MAX_NAME};
+use mms_spec::names::{AXISYMMETRIC, COORDINATES, INVARIANTS, Keeper, MAX_NAME};
 use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Face, MAX_COUNT, MAX_VERTICES};
 use serde_json::{Map, Value, json};
@@ -133,11 +133,12 @@ fn model() -> Value {
 
 /// The names that a file may define.
 fn name(keeper: Keeper) -> Value {
-    let invariants = match keeper {
+    let others = match keeper {
         Keeper::Field => &[],
+        Keeper::Axisymmetric => AXISYMMETRIC,
         Keeper::Material => INVARIANTS,
     };
-    let given = COORDINATES.iter().chain(invariants).map(|(name, _)| *name);
+    let given = COORDINATES.iter().chain(others).map(|(name, _)| *name);
     let reserved: Vec<_> = given.chain(FUNCTIONS.iter().copied()).collect();
     json!({
         "pattern": "^[A-Za-z_][A-Za-z0-9_]*$",
@@ -147,16 +148,19 @@ fn name(keeper: Keeper) -> Value {
 }
 
 fn faces() -> Value {
-    let meanings: Vec<_> =
-        Claim::ALL.iter().map(|claim| format!("{}: {}", claim.name(), claim.meaning())).collect();
-    let claim = json!({ "description": meanings.join("; "), "enum": format::claims() });
-    let faces = Face::ALL.iter().map(|face| (face.name().to_string(), claim.clone()));
-    let properties: Map<_, _> = faces.collect();
+    let claim = |face: &Face| {
+        let claims = Claim::about(*face);
+        let meanings = claims.iter().map(|claim| format!("{}: {}", claim.name(), claim.meaning()));
+        let meanings: Vec<_> = meanings.collect();
+        let claim = json!({ "description": meanings.join("; "), "enum": format::claims(*face) });
+        (face.name().to_string(), claim)
+    };
+    let properties: Map<_, _> = Face::ALL.iter().map(claim).collect();
     // The edges of a polygon have names of their own.
     json!({
         "type": "object",
         "properties": properties,
-        "additionalProperties": { "enum": format::claims() },
+        "additionalProperties": { "enum": format::claims(Face::Outer) },
         "propertyNames": { "pattern": "^[a-z][a-z0-9_]*$" },
     })
 }

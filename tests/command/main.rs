@@ -1,6 +1,7 @@
 //! The `mms` command as a user meets it: the built program, run in a folder of its own.
 
 mod accuracy;
+mod axisymmetric;
 mod bound;
 mod campaign;
 mod campaign_runs;

@@ -18,6 +18,7 @@ const FULL: &[(Kind, &str)] = &[
     (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/units_disk.toml")),
     (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/units_polygon.toml")),
     (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/units_nothing.toml")),
+    (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/units_axisymmetric.toml")),
     (Kind::Field, include_str!("../../fields/bar_1d.toml")),
     (Kind::Material, include_str!("../../mms-codegen/tests/data/pass/material_every_key.toml")),
     (Kind::Field, include_str!("../../fields/plane_strain_gent.toml")),

@@ -23,7 +23,7 @@ use mms_mechanics::tensor::dot;
 use mms_mechanics::{Model, Response, TooLarge, at_rest, derive};
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Spanned;
-use mms_spec::{Face, Formula};
+use mms_spec::{Face, Formula, Space};
 use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::relations::Relations;
@@ -38,7 +38,7 @@ pub fn terms(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     terms.extend(stress.terms(graph));
     terms.extend(moduli(graph, compiled));
     let density = compiled.model.density;
-    terms.push((Term::GradedDensity, gradient(graph, &[density], compiled.field.dimension)));
+    terms.push((Term::GradedDensity, gradient(graph, &compiled.model, &[density])));
     terms.push((Term::BodyForce, quantity(compiled, Quantity::BodyForce).to_vec()));
     terms.extend(parameters(graph, compiled));
     terms.extend(tractions(graph, compiled));
@@ -61,11 +61,69 @@ fn moduli(graph: &mut Graph, compiled: &Compiled) -> Option<(Term, Vec<Expr>)> {
     Some((Term::UnequalModuli, vec![graph.sum(terms)]))
 }
 
+/// The gradient of a tensor of any order: the derivatives of each component along every direction stand together.
+fn gradient(graph: &mut Graph, model: &Model, of: &[Expr]) -> Vec<Expr> {
+    let plain = slopes(graph, of, model.space.coordinates());
+    let Some(radius) = model.radius else { return plain };
+    let turned = around(graph, radius, of).into_iter();
+    plain
+        .chunks(2)
+        .zip(turned)
+        .flat_map(|(slopes, turned)| [slopes[0], slopes[1], turned])
+        .collect()
+}
+
 /// The derivatives of every expression by every coordinate: those of one expression stand together.
-fn gradient(graph: &mut Graph, of: &[Expr], dimension: usize) -> Vec<Expr> {
+fn slopes(graph: &mut Graph, of: &[Expr], coordinates: usize) -> Vec<Expr> {
     let by_axis: Vec<Vec<Expr>> =
-        (0..dimension).map(|axis| differentiate(graph, of, Symbol::Coordinate(axis))).collect();
+        (0..coordinates).map(|axis| differentiate(graph, of, Symbol::Coordinate(axis))).collect();
     (0..of.len()).flat_map(|k| by_axis.iter().map(move |column| column[k])).collect()
+}
+
+/// The derivative of a tensor around the hoop, where its basis turns: for each index R it has -T/R with theta in its place,
+/// and for each index theta T/R with R in its place.
+fn around(graph: &mut Graph, radius: Expr, of: &[Expr]) -> Vec<Expr> {
+    let order = of.len().ilog(3);
+    let turned = |place: usize| {
+        let of_index = |index: u32| {
+            let weight = 3usize.pow(index);
+            match place / weight % 3 {
+                0 => Some((of[place + 2 * weight], Rational::NEG_ONE)),
+                2 => Some((of[place - 2 * weight], Rational::ONE)),
+                _ => None,
+            }
+        };
+        (0..order).filter_map(of_index).collect::<Vec<_>>()
+    };
+    let sums: Vec<Expr> = (0..of.len()).map(|place| graph.sum(turned(place))).collect();
+    sums.into_iter().map(|sum| graph.div(sum, radius)).collect()
+}
+
+/// dP_iJ/dX_K at fixed H, K fastest, with the values of H in its place. Around the hoop of an axisymmetric field all turns
+/// with the basis, and only the direction of fibres is not seen in H.
+fn explicit(
+    graph: &mut Graph,
+    model: &Model,
+    response: &[Expr],
+    values: &SortedMap<Symbol, Expr>,
+    through_h: [&[Expr]; 2],
+) -> Vec<Expr> {
+    let directions = model.space.rows();
+    let by_axis: Vec<Vec<Expr>> = (0..directions)
+        .map(|axis| differentiate(graph, response, Symbol::Coordinate(axis)))
+        .collect();
+    let all: Vec<Expr> =
+        (0..response.len()).flat_map(|k| by_axis.iter().map(move |column| column[k])).collect();
+    let mut explicit = substitute(graph, &all, values);
+    if let (Some(radius), Kind::Fibrous(_)) = (model.radius, &model.kind) {
+        let stress = substitute(graph, response, values);
+        for (k, whole) in around(graph, radius, &stress).into_iter().enumerate() {
+            let slot = k * directions + 2;
+            let through = through_h.map(|it| (it[slot], Rational::NEG_ONE));
+            explicit[slot] = graph.sum(through.into_iter().chain([(whole, Rational::ONE)]));
+        }
+    }
+    explicit
 }
 
 /// What is seen in time.
@@ -90,13 +148,21 @@ fn motion(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
 
 /// What is seen in the displacement gradient and its derivatives.
 fn strain(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
-    let dimension = compiled.field.dimension;
+    let dimension = compiled.field.space.rows();
     let [h, e] =
         [Quantity::DisplacementGradient, Quantity::GreenLagrange].map(|of| quantity(compiled, of));
     let one = graph.number(1);
     let volume = graph.sub(quantity(compiled, Quantity::Jacobian)[0], one);
-    let second = gradient(graph, h, dimension);
-    let third = gradient(graph, &second, dimension);
+    // What shape functions hold are the components of u, whatever basis turns with the point.
+    let axes = compiled.field.dimension;
+    let held = match compiled.field.space {
+        Space::Cartesian(_) => h.to_vec(),
+        Space::Axisymmetric { .. } => {
+            slopes(graph, quantity(compiled, Quantity::Displacement), axes)
+        }
+    };
+    let second = slopes(graph, &held, axes);
+    let third = slopes(graph, &second, axes);
     let mut terms = vec![
         (Term::VolumeChange, vec![volume]),
         (Term::Curvature, second.clone()),
@@ -113,11 +179,11 @@ fn strain(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     });
     let turned = turned.collect();
     // u_i,JJ is the component J of the gradient of H_iJ.
-    let along = (0..h.len()).map(|k| second[k * dimension + place(k).1]).collect();
+    let along = (0..held.len()).map(|k| second[k * axes + k % axes]).collect();
     terms.push((Term::Shear, above.iter().map(|k| e[*k]).collect()));
     terms.push((Term::Rotation, turned));
     terms.push((Term::CurvatureAlongAxes, along));
-    if dimension == 3 {
+    if compiled.field.dimension == 3 {
         let outside = (0..h.len()).filter(|k| place(*k).0 == 2 || place(*k).1 == 2);
         terms.push((Term::OutOfPlane, outside.map(|k| h[k]).collect()));
     }
@@ -137,14 +203,12 @@ struct Stress {
 
 impl Stress {
     fn new(graph: &mut Graph, compiled: &Compiled) -> Self {
-        let dimension = compiled.field.dimension;
+        let (dimension, model) = (compiled.field.space.rows(), &compiled.model);
         let response = &compiled.derivation.responses[&Response::FirstPiolaKirchhoff];
         let h = quantity(compiled, Quantity::DisplacementGradient);
         let leaf = |k: usize| Symbol::Gradient(k / dimension, k % dimension);
         let values = h.iter().enumerate().map(|(k, value)| (leaf(k), *value)).collect();
-        let explicit = gradient(graph, response, dimension);
-        let explicit = substitute(graph, &explicit, &values);
-        let second = gradient(graph, h, dimension);
+        let second = gradient(graph, model, h);
         // tangent[mN][iJ] = dP_iJ/dH_mN
         let tangent: Vec<Vec<Expr>> = (0..h.len())
             .map(|k| {
@@ -165,6 +229,7 @@ impl Stress {
         };
         let cross = through(&|component, k| component != k);
         let direct = through(&|component, k| component == k);
+        let explicit = explicit(graph, model, response, &values, [&cross, &direct]);
         Stress { dimension, explicit, cross, direct }
     }
 
@@ -254,7 +319,7 @@ fn tractions(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     let values = parameter_values(graph, model, &SortedMap::new()).into_iter().enumerate();
     let values = values.map(|(index, value)| (Symbol::Parameter(index), value)).collect();
     let (body, dimension) = (&model.domain.body, field.dimension);
-    let declared = Face::of(&field.domain.body, dimension);
+    let declared = Face::of(&field.domain.body, field.space);
     let faces = face::present(graph, body, declared, &values);
     let mut term = |face: Face| {
         let normal = face::normal(graph, body, dimension, face);

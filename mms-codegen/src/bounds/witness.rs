@@ -3,7 +3,6 @@
 use super::chart::{Chart, Spot};
 use mms_math::Scalar as _;
 use mms_program::precise::Precise;
-use mms_symbolic::expr::print::AXES;
 
 /// What it may take to find a place, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 10_000_000;
@@ -40,12 +39,12 @@ impl Witness {
         (witness, spot)
     }
 
-    /// `X = 1, Y = 0, t = 0.5, amplitude = 0.3`
-    pub fn describe(&self, names: &[String]) -> String {
+    /// `X = 1, Y = 0, t = 0.5, amplitude = 0.3`, with these names of the coordinates and of the parameters.
+    pub fn describe(&self, axes: &[&str], names: &[String]) -> String {
         if self.time.is_nan() || self.coordinates.iter().any(|it| it.is_nan()) {
             return "a place that takes too long to compute".into();
         }
-        let axes = AXES.iter().zip(&self.coordinates).map(|(axis, x)| (axis.to_string(), *x));
+        let axes = axes.iter().zip(&self.coordinates).map(|(axis, x)| (axis.to_string(), *x));
         let parameters = self.parameters.iter().map(|(index, x)| (names[*index].clone(), *x));
         let all = axes.chain([("t".to_string(), self.time)]).chain(parameters);
         all.map(|(name, value)| format!("{name} = {}", digits(value)))

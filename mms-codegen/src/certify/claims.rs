@@ -182,19 +182,19 @@ impl<'a> OnFace<'a> {
     /// P N, from the reduced H on the face: what vanishes in H or in C - I there vanishes in P.
     fn traction(&self, graph: &mut Graph) -> Vec<Expr> {
         let Compiled { field, derived, .. } = self.compiled;
-        let dimension = field.dimension;
+        let rows = field.space.rows();
         let gradient = gradient(graph, self.compiled);
         let gradient = self.restrict(graph, &gradient);
         let gradient = reduced(graph, &gradient);
         let supplied = gradient
             .iter()
             .enumerate()
-            .map(|(at, entry)| (Symbol::Gradient(at / dimension, at % dimension), *entry));
+            .map(|(at, entry)| (Symbol::Gradient(at / rows, at % rows), *entry));
         let stress = self.restrict(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
         let stress = substitute(graph, &stress, &supplied.collect());
         let normal = self.normal(graph);
         let component = |row: &[Expr]| dot(graph, row.iter().copied().zip(normal.iter().copied()));
-        let traction: Vec<Expr> = stress.chunks_exact(dimension).map(component).collect();
+        let traction: Vec<Expr> = stress.chunks_exact(rows).map(component).collect();
         match &self.compiled.model.rigid {
             Some(rigid) => rigid.turn(graph).apply(graph, &traction),
             None => traction,
@@ -210,10 +210,20 @@ impl<'a> OnFace<'a> {
         match claim {
             Claim::Fixed | Claim::Prescribed => with(self.displacement(graph), Scale::Length),
             Claim::Free | Claim::Traction => with(self.traction(graph), Scale::Modulus),
+            Claim::Axis => {
+                let mut leaving = self.displacement(graph);
+                // What moves along the axis stays on it.
+                leaving.remove(1);
+                let radius = graph.symbol(Symbol::Coordinate(0));
+                leaving.extend(self.restrict(graph, &[radius]));
+                with(leaving, Scale::Length)
+            }
             Claim::Roller => {
                 let normal = self.normal(graph);
+                let around = graph.number(0);
                 let pairs = |vector: Vec<Expr>| -> Vec<(Expr, Expr)> {
-                    vector.into_iter().zip(normal.iter().copied()).collect()
+                    let normal = normal.iter().copied().chain([around]);
+                    vector.into_iter().zip(normal).collect()
                 };
                 let displacement = self.displacement(graph);
                 let across = dot(graph, pairs(displacement));

@@ -189,9 +189,13 @@ pub fn refuted(
     let (face, word) = (claim.face.value.name(), claim.claim.value);
     let message =
         format!("`{face}` is no `{}` face: not everywhere is {}", word.name(), word.meaning());
+    let help = match word {
+        Claim::Axis => "leave the claim out where the body does not reach the axis",
+        _ => "`prescribed` and `traction` claim nothing about the values",
+    };
     Diagnostic::error(claim.claim.span, message)
         .label(format!("{} instead of 0 at {}", digits(value), place(compiled, witness)))
-        .help("`prescribed` and `traction` claim nothing about the values")
+        .help(help)
 }
 
 /// A claim is not proved.
@@ -209,6 +213,10 @@ pub fn unproved(claim: &BoundarySpec, interval: [f64; 2]) -> Diagnostic {
             format!("what should be 0 {found}"),
             "write u so that the claim follows term by term, or claim `prescribed` or `traction`",
         ),
+        Claim::Axis => (
+            format!("what should be 0 {found}"),
+            "write u_R and the swirl as R times another formula",
+        ),
     };
     Diagnostic::error(claim.claim.span, message).label(label).help(help)
 }
@@ -216,7 +224,7 @@ pub fn unproved(claim: &BoundarySpec, interval: [f64; 2]) -> Diagnostic {
 fn place(compiled: &Compiled, witness: &Witness) -> String {
     let names: Vec<String> =
         compiled.model.parameters.iter().map(|parameter| parameter.name.clone()).collect();
-    witness.describe(&names)
+    witness.describe(compiled.field.space.axes(), &names)
 }
 
 fn displacement(compiled: &Compiled) -> Span {

@@ -47,7 +47,7 @@ impl ChartMotion {
     /// The motion of a compiled field.
     pub fn new(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Self {
         let derived = &compiled.derived;
-        let dimension = compiled.field.dimension;
+        let dimension = compiled.field.space.rows();
         let cartesian = gradient(graph, compiled);
         let cartesian = chart.pull_back(graph, &cartesian);
         let gradient = chart.in_local_basis(graph, &cartesian);
@@ -76,7 +76,7 @@ impl ChartMotion {
         }
     }
 
-    /// How many components X has.
+    /// How many rows H has.
     pub fn dimension(&self) -> usize {
         self.dimension
     }

@@ -69,7 +69,7 @@ pub fn stress(compiled: &Compiled) -> Rest {
     graph.make_room();
     graph.work().allow(STEPS);
     let zero = graph.number(0);
-    let dimension = compiled.field.dimension;
+    let dimension = compiled.field.space.rows();
     let entries = (0..dimension).flat_map(|i| (0..dimension).map(move |j| Symbol::Gradient(i, j)));
     let undeformed: SortedMap<_, _> = entries.map(|entry| (entry, zero)).collect();
     let responses = &compiled.derived.responses;

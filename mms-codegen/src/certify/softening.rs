@@ -47,7 +47,7 @@ pub(super) fn softening(
     if !tangent.iter().all(|entry| entry.is_defined() && entry.farthest().is_finite()) {
         return None;
     }
-    let (m, n) = softest(&tangent, compiled.field.dimension);
+    let (m, n) = softest(&tangent, compiled.field.space.rows());
     let form = form(&tangent, &m, &n);
     // Vectors of length 1 but for their rounding.
     let value = (form / (squared_length(&m) * squared_length(&n))).upper();

@@ -9,7 +9,6 @@ use crate::compile::Compiled;
 use mms_mechanics::sample::{Sample, samples};
 use mms_program::interpret::{Number as _, binary, unary};
 use mms_program::precise::Precise;
-use mms_spec::names::COORDINATES;
 use mms_spec::source::Span;
 use mms_spec::syntax;
 use mms_spec::syntax::{Ast, Kind, Operator};
@@ -105,14 +104,10 @@ fn leaves<'a>(
     for (parameter, value) in compiled.model.parameters.iter().zip(parameters) {
         names.insert(parameter.name.as_str(), (value.clone(), None));
     }
-    for (axis, (name, _)) in COORDINATES.iter().enumerate() {
-        let value = match *name {
-            "pi" => Some(Precise::pi()),
-            "t" => Some(point.time.clone()),
-            _ => point.coordinates.get(axis).cloned(),
-        };
-        names.extend(value.map(|value| (*name, (value, None))));
-    }
+    let axes = compiled.field.space.axes().iter().copied();
+    let given = axes.zip(point.coordinates.iter().cloned());
+    let given = given.chain([("t", point.time.clone()), ("pi", Precise::pi())]);
+    names.extend(given.map(|(name, value)| (name, (value, None))));
     names
 }
 

@@ -8,6 +8,7 @@ use mms_math::coordinates::System;
 
 use super::Compiled;
 use crate::declared::elasticity::{curvatures, stiffness};
+use mms_mechanics::axisymmetric::poles;
 use mms_mechanics::extent::Region;
 use mms_mechanics::invariant::Kind;
 use mms_mechanics::model::Model;
@@ -46,6 +47,8 @@ pub struct Quick {
     body: Region<()>,
     /// Whether theta is given.
     is_sector: bool,
+    /// Of an axisymmetric field: whether the body may reach the axis.
+    axis: Option<bool>,
     defaults: Vec<Default>,
 }
 
@@ -106,6 +109,7 @@ impl Quick {
                 .collect(),
             body: model.domain.body.map(|_| ()),
             is_sector,
+            axis: model.radius.map(|_| poles(&mut graph, model).is_empty()),
             defaults: parameters.map(|it| Default::new(&graph, it.default)).collect(),
         })
     }
@@ -167,7 +171,13 @@ impl Quick {
         // Whether the edges of a polygon cross is not looked at here.
         let Region::Block(block) = self.body.with(body.to_vec()) else { return None };
         if block.system == System::Cartesian {
-            let is_box = block.bounds.iter().all(ascend);
+            let inner = block.bounds[0][0];
+            let is_beside = match self.axis {
+                Some(true) => at_most(zero, inner),
+                Some(false) => below(zero, inner),
+                None => true,
+            };
+            let is_box = is_beside && block.bounds.iter().all(ascend);
             return is_box.then(|| block.bounds.iter().map(hull).collect());
         }
         let [[inner, outer], theta] = block.bounds.first_chunk()?;
@@ -192,7 +202,8 @@ impl Quick {
 
     /// Whether Q_ik = A_i1k1 is positive definite: of an isotropic solid, that is all (see [`super::elasticity`]).
     fn is_stiff(&self, tangent: &[Interval]) -> bool {
-        let size = self.dimension;
+        // Of dP/dF, which has the fourth power of the rows.
+        let size = tangent.len().isqrt().isqrt();
         let entry = |i: usize, k: usize| tangent[(i * size * size + k) * size];
         let mut matrix: Vec<Vec<_>> =
             (0..size).map(|i| (0..size).map(|k| entry(i, k)).collect()).collect();

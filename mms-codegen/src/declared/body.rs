@@ -6,12 +6,12 @@ use std::f64::consts::TAU;
 use mms_math::Scalar as _;
 use mms_math::coordinates::System;
 use mms_math::polygon::{self, Mistake};
+use mms_mechanics::axisymmetric::{Pole, poles};
 use mms_mechanics::extent::{Block, Extent, Region};
 use mms_program::precise::Precise;
 use mms_spec::diagnostic::Diagnostic;
-use mms_spec::{Body, Face, Formula, Polygon, Round};
+use mms_spec::{BalanceLaw, Body, Claim, Face, Formula, Polygon, Round};
 use mms_symbolic::expr::Expr;
-use mms_symbolic::expr::print::AXES;
 
 use super::{Bound, Declared, digits, evaluate};
 
@@ -38,13 +38,75 @@ impl<'a> Declared<'a> {
         for (axis, (formulas, ends)) in lower.iter().zip(upper).zip(ends).enumerate() {
             let bounds = self.bounds([formulas.0, formulas.1], *ends);
             let Some([least, greatest]) = bounds else { continue };
-            let message = format!("the box is empty along {}", AXES[axis]);
+            let name = self.field.space.axes()[axis];
+            let message = format!("the box is empty along {name}");
             self.ascending(&message, "its `lower` is", &least, &greatest);
+            if axis == 0 && self.field.space.is_axisymmetric() {
+                self.about_the_axis(&least);
+            }
             corners[0].push(least.value);
             corners[1].push(greatest.value);
         }
         let [from, to] = corners;
         (from.len() == lower.len()).then(|| Region::cuboid(from, to))
+    }
+
+    /// Reports a body beyond the axis, and what has no value on an axis that the body reaches.
+    fn about_the_axis(&mut self, inner: &Bound<'_>) {
+        let zero = Precise::from_f64(0.0);
+        if !zero.at_most(&inner.value) {
+            let message = "the body reaches beyond the axis";
+            let diagnostic = Diagnostic::error(inner.formula.span, message)
+                .label(format!("this is {}", digits(&inner.value)));
+            let diagnostic = self.with_parameters(diagnostic, &[inner.expr]);
+            self.report(diagnostic.help("R is the distance from the axis: it is not negative"));
+            return;
+        }
+        if !inner.value.at_most(&zero) {
+            return;
+        }
+        for claim in &self.field.boundary {
+            if claim.face.value == Face::RadialMin && claim.claim.value != Claim::Axis {
+                let diagnostic = Diagnostic::error(claim.claim.span, "the axis is no face")
+                    .label("`lower` is 0 along R");
+                self.diagnostics.push(diagnostic.help("claim `axis`, or remove this claim"));
+            }
+        }
+        for pole in poles(&mut self.graph, self.model) {
+            let (formula, divided, help) = self.divided(pole);
+            let Some(formula) = formula else { continue };
+            let message = format!("{divided} is not known to be finite on the axis");
+            let diagnostic = Diagnostic::error(formula.span, message)
+                .label("R cannot be taken out of this, as it is written");
+            self.report(diagnostic.help(help));
+        }
+    }
+
+    /// The formula that has a pole, the quotient that it is about, and how to write it without.
+    fn divided(&self, pole: Pole) -> (Option<&'a Formula>, String, &'static str) {
+        const TIMES_R: &str = "write it as R times another formula, or let the body begin at R > 0";
+        let displacement = &self.field.displacement;
+        match pole {
+            Pole::Displacement(1) => (
+                displacement.get(1),
+                "(du_Z/dR)/R".into(),
+                "write u_Z in R^2, or let the body begin at R > 0",
+            ),
+            Pole::Displacement(2) => (displacement.get(2), "swirl/R".into(), TIMES_R),
+            Pole::Displacement(_) => (displacement.first(), "u_R/R".into(), TIMES_R),
+            Pole::Fibre(index) => {
+                let fibre = self.field.material.fibre.as_ref();
+                (fibre.and_then(|it| it.get(index)), "the turning of the fibres".into(), TIMES_R)
+            }
+            Pole::Flux(own) => {
+                let balance = self.field.balances.iter().find(|it| it.name.value == own.of);
+                let flux = balance.and_then(|it| match &it.law {
+                    BalanceLaw::Flow { flux, .. } => flux.as_ref()?.first(),
+                    BalanceLaw::Constraint { .. } => None,
+                });
+                (flux, "Q_R/R".into(), TIMES_R)
+            }
+        }
     }
 
     fn round(&mut self, round: &'a Round, block: &Block<Expr>) -> Option<Extent<Precise>> {

@@ -2,7 +2,7 @@
 
 use mms_math::Scalar as _;
 
-use super::{AXES, Declared, digits};
+use super::{Declared, digits};
 use mms_mechanics::extent::{Extent, halton};
 use mms_mechanics::model::energy::{INCOMPRESSIBLE, POISSON};
 use mms_mechanics::tensor::dot;
@@ -147,7 +147,7 @@ impl Declared<'_> {
     ) {
         let mut label = label.to_string();
         if !found.point.is_empty() {
-            let coordinates = AXES.iter().zip(&found.point);
+            let coordinates = self.field.space.axes().iter().zip(&found.point);
             let place: Vec<_> =
                 coordinates.map(|(axis, value)| format!("{axis} = {}", digits(value))).collect();
             label.push_str(&format!(" at {}", place.join(", ")));

@@ -194,7 +194,8 @@ impl Emitter<'_> {
             let row = self.axes().map(|j| input(Symbol::Gradient(i, j)));
             quote!([#(#row),*])
         });
-        let mut point: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();
+        let mut point: Vec<_> =
+            self.axes().map(|axis| self.input(Symbol::Coordinate(axis))).collect();
         let mut position = quote!([#(#point),*]);
         if !self.stress_depends_on_position() {
             let zeros = self.axes().map(|_| quote!(T::from_f64(0.0)));
@@ -269,7 +270,7 @@ impl Emitter<'_> {
             }
             Body::Nothing => quote!(Nothing),
         };
-        let faces = self.compiled.field.boundary.iter().map(|boundary| {
+        let faces = self.compiled.field.boundary.iter().filter_map(|boundary| {
             let index = Literal::usize_unsuffixed;
             let face = match boundary.face.value {
                 Face::Min(axis) => {
@@ -290,6 +291,8 @@ impl Emitter<'_> {
                     let first = index(first);
                     quote!(Edge(#first, #name))
                 }
+                // Of an axisymmetric body, which the solver does not know.
+                Face::RadialMin | Face::RadialMax | Face::AxialMin | Face::AxialMax => return None,
             };
             let condition = match boundary.claim.value {
                 Claim::Fixed => quote!(Fixed),
@@ -297,8 +300,9 @@ impl Emitter<'_> {
                 Claim::Free => quote!(Free),
                 Claim::Prescribed => quote!(Prescribed),
                 Claim::Traction => quote!(Traction),
+                Claim::Axis => return None,
             };
-            quote!((::#runtime::Face::#face, ::#runtime::Condition::#condition))
+            Some(quote!((::#runtime::Face::#face, ::#runtime::Condition::#condition)))
         });
         quote! {
             fn domain(&self) -> ::#runtime::Domain<T, #dimension> {

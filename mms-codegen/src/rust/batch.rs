@@ -159,7 +159,8 @@ impl Emitter<'_> {
         let dimension = self.axes().len();
         let takes_normal = quantity.takes_normal();
         let normals = if takes_normal { dimension } else { 0 };
-        let (axes, results) = (count(dimension), count(quantity.shape().components(dimension)));
+        let space = self.compiled.field.space;
+        let (axes, results) = (count(dimension), count(space.components(quantity.shape())));
         let name = quantity.name();
         let function = function(quantity);
         let [batch, batch_aos, batch_at] =
@@ -210,13 +211,13 @@ impl Emitter<'_> {
         let takes_normal = quantity.takes_normal();
         let normal = normal(if takes_normal { dimension } else { 0 });
         let normal_argument = takes_normal.then(|| quote!(, [#(#normal),*]));
-        let results = count(quantity.shape().components(dimension));
+        let results = count(self.compiled.field.space.components(quantity.shape()));
         let (function, point) = (at(quantity), self.point_of(columns));
         let result = self.flat(quantity, quote!(at.#function(&#point #normal_argument)));
         let place =
             Context { scalar: quote!(S), ..Context::at_points(quote!(at.field), &[Stage::Point]) };
         let made = self.one_by_one(&taken.made, &place);
-        let axes = taken.columns.axes.iter().map(|axis| input(Symbol::Coordinate(*axis)));
+        let axes = taken.columns.axes.iter().map(|axis| self.input(Symbol::Coordinate(*axis)));
         let taken = axes.chain(taken.columns.values.iter().map(|value| self.name(*value)));
         let taken: Vec<_> = taken.chain(normal).collect();
         let inputs = count(taken.len());
@@ -230,7 +231,7 @@ impl Emitter<'_> {
 
     /// The names of a point's coordinates.
     pub(super) fn position(&self) -> Vec<Ident> {
-        self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect()
+        self.axes().map(|axis| self.input(Symbol::Coordinate(axis))).collect()
     }
 
     /// How those loops go about it: together, if the first one has divisions or roots and, beside them, only sums and
@@ -252,7 +253,7 @@ impl Emitter<'_> {
             Shape::Scalar => quote!([#result]),
             Shape::Vector => result,
             Shape::Tensor => {
-                let columns: Vec<_> = self.axes().map(Literal::usize_unsuffixed).collect();
+                let columns: Vec<_> = self.rows().map(Literal::usize_unsuffixed).collect();
                 let components = columns
                     .iter()
                     .flat_map(|row| columns.iter().map(move |column| quote!(p[#row][#column])));
@@ -265,7 +266,7 @@ impl Emitter<'_> {
     fn point_of(&self, columns: &Columns) -> TokenStream {
         let zero = quote!(S::from_f64(0.0));
         let position = self.axes().map(|axis| match columns.axes.contains(&axis) {
-            true => input(Symbol::Coordinate(axis)).into_token_stream(),
+            true => self.input(Symbol::Coordinate(axis)).into_token_stream(),
             false => zero.clone(),
         });
         let members = self.kept_in(Stage::Point).into_iter().map(|value| {

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::{Context, Emitter, constant, input, pi};
+use super::{Context, Emitter, constant, pi};
 use mms_mechanics::Output;
 use mms_program::fusion::{Fused, Fusion};
 use mms_program::{Op, Value, unary_name};
@@ -97,7 +97,7 @@ impl Body<'_> {
                 quote!(parameters.#name.widen())
             }
             Op::Input(symbol) => {
-                let name = input(*symbol);
+                let name = self.emitter.input(*symbol);
                 quote!(#name)
             }
             Op::Add(a, b) => binary(a, quote!(+), b),

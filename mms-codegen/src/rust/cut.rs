@@ -34,7 +34,7 @@ impl Emitter<'_> {
         let reads = reads.chain(dimension..dimension + normals).map(count);
         let inputs = count(dimension + normals);
         let between = count(handed.len());
-        let results = count(quantity.shape().components(dimension));
+        let results = count(self.compiled.field.space.components(quantity.shape()));
         let (point, position, normal) = (self.point(), self.position(), normal(normals));
         let second = self.over_columns(quantity, &then, columns, &cut);
         let loops = self.loops_of(quantity);

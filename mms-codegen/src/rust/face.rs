@@ -36,7 +36,11 @@ impl Emitter<'_> {
         let own: &[Stage] = &[Stage::Point, Stage::PointTime];
         let place = Context::at_points(quote!(self.field), own);
         let output = Output::Face(face, datum);
-        let (point, kind) = (self.point(), self.shape_type(Shape::Vector));
+        let (point, dimension) = (self.point(), self.dimension());
+        let kind = match datum {
+            Datum::Normal => quote!([T; #dimension]),
+            Datum::Displacement | Datum::Traction => self.shape_type(Shape::Vector),
+        };
         let (body, value) =
             (self.body(&[output], &place), self.shaped(output, Shape::Vector, &place));
         quote! {

@@ -20,7 +20,6 @@ use mms_program::interpret::{parts, small_ratio};
 use mms_program::{Op, Stage, Value};
 use mms_spec::foreign::blanked;
 use mms_spec::quantity::Quantity;
-use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Rational, Symbol};
 use mms_symbolic::sorted::SortedMap;
 
@@ -40,7 +39,8 @@ pub fn module(compiled: &Compiled) -> TokenStream {
 
 /// As [`module`], under another name.
 pub fn module_named(compiled: &Compiled, name: &Ident) -> TokenStream {
-    let solver = compiled.is_for_a_solver();
+    // The runtime knows Cartesian coordinates alone.
+    let solver = compiled.is_for_a_solver() && !compiled.field.space.is_axisymmetric();
     let emitter = Emitter::new(compiled, solver);
     let docs = docs(compiled);
     let kernels = emitter.kernels();
@@ -218,6 +218,19 @@ impl<'a> Emitter<'a> {
         0..self.compiled.field.dimension
     }
 
+    /// The directions of the rows, and of the columns, of a tensor.
+    fn rows(&self) -> std::ops::Range<usize> {
+        0..self.compiled.field.space.rows()
+    }
+
+    /// The argument that supplies a leaf.
+    fn input(&self, symbol: Symbol) -> Ident {
+        match symbol {
+            Symbol::Coordinate(axis) => format_ident!("{}", self.compiled.field.space.axes()[axis]),
+            other => input(other),
+        }
+    }
+
     fn values(&self, output: Output) -> &[Value] {
         self.program.outputs.get(&output).map_or(&[], Vec::as_slice)
     }
@@ -246,7 +259,7 @@ impl<'a> Emitter<'a> {
             Op::Input(symbol)
                 if !matches!(symbol, Symbol::Parameter(_)) && place.own.contains(&instr.stage) =>
             {
-                let name = input(*symbol);
+                let name = self.input(*symbol);
                 return quote!(#name);
             }
             Op::Input(Symbol::Coordinate(axis)) => {
@@ -306,15 +319,14 @@ fn parameter_names(compiled: &Compiled) -> SortedMap<usize, Ident> {
     positions.into_iter().zip(distinct(&names)).collect()
 }
 
-/// The argument that supplies a leaf.
+/// The argument that supplies a leaf other than a coordinate.
 fn input(symbol: Symbol) -> Ident {
     match symbol {
-        Symbol::Coordinate(axis) => format_ident!("{}", AXES[axis]),
         Symbol::Time => format_ident!("t"),
         Symbol::Normal(axis) => format_ident!("N{}", axis + 1),
         Symbol::Gradient(row, column) => format_ident!("H{}{}", row + 1, column + 1),
-        Symbol::Parameter(_) | Symbol::Invariant(_) | Symbol::Local(_) => {
-            unreachable!("a member of the parameters, or gone after derivation")
+        Symbol::Coordinate(_) | Symbol::Parameter(_) | Symbol::Invariant(_) | Symbol::Local(_) => {
+            unreachable!("named by its field, a member of the parameters, or gone after derivation")
         }
     }
 }

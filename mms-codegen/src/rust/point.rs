@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::{Context, Emitter, input};
+use super::{Context, Emitter};
 use mms_program::Stage;
 use mms_symbolic::expr::Symbol;
 
@@ -16,7 +16,7 @@ impl Emitter<'_> {
         let place = Context::at_points(quote!(self), &[Stage::Point]);
         let body = self.statements(kept.iter().copied(), &place);
         let (dimension, point) = (self.dimension(), self.point());
-        let axes: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();
+        let axes: Vec<_> = self.axes().map(|axis| self.input(Symbol::Coordinate(axis))).collect();
         let count = Literal::usize_unsuffixed(axes.len() + kept.len());
         let size = format!(
             " {count} values of `T`, {} bytes in double precision: see `BYTES`.",

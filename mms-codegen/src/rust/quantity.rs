@@ -1,6 +1,6 @@
 //! Every quantity at a point and a time: plain functions over arrays, generic in the scalar.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::{Context, Emitter, identifier, input};
@@ -118,25 +118,26 @@ impl Emitter<'_> {
 
     pub(super) fn point(&self) -> TokenStream {
         let dimension = self.dimension();
-        let names = self.axes().map(|axis| input(Symbol::Coordinate(axis)));
+        let names = self.axes().map(|axis| self.input(Symbol::Coordinate(axis)));
         quote!([#(#names),*]: [T; #dimension])
     }
 
     pub(super) fn gradient(&self) -> TokenStream {
-        let dimension = self.dimension();
-        let rows = self.axes().map(|row| {
-            let names = self.axes().map(|column| input(Symbol::Gradient(row, column)));
+        let kind = self.shape_type(Shape::Tensor);
+        let rows = self.rows().map(|row| {
+            let names = self.rows().map(|column| input(Symbol::Gradient(row, column)));
             quote!([#(#names),*])
         });
-        quote!([#(#rows),*]: [[T; #dimension]; #dimension])
+        quote!([#(#rows),*]: #kind)
     }
 
     pub(super) fn shape_type(&self, shape: Shape) -> TokenStream {
-        let dimension = self.dimension();
+        let space = self.compiled.field.space;
+        let [vector, rows] = [space.vector(), space.rows()].map(Literal::usize_unsuffixed);
         match shape {
             Shape::Scalar => quote!(T),
-            Shape::Vector => quote!([T; #dimension]),
-            Shape::Tensor => quote!([[T; #dimension]; #dimension]),
+            Shape::Vector => quote!([T; #vector]),
+            Shape::Tensor => quote!([[T; #rows]; #rows]),
         }
     }
 
@@ -147,7 +148,7 @@ impl Emitter<'_> {
             Shape::Scalar => quote!(#(#values)*),
             Shape::Vector => quote!([#(#values),*]),
             Shape::Tensor => {
-                let rows = values.chunks(self.axes().len()).map(|row| quote!([#(#row),*]));
+                let rows = values.chunks(self.rows().len()).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
             }
         }

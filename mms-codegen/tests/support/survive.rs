@@ -12,7 +12,7 @@ pub fn survive(text: &str, options: &Options) {
     let id = sources.add("x.toml", text);
     let mut diagnostics = Vec::new();
     if let Some(spec) = read_field(&sources, id, "x", &mut diagnostics) {
-        assert_eq!(spec.displacement.len(), spec.dimension);
+        assert_eq!(spec.displacement.len(), spec.space.vector());
         spec.formulas().for_each(|formula| drop(parse(formula, &mut diagnostics)));
     }
     if let Some(spec) = read_material(&sources, id, "x", &mut diagnostics) {

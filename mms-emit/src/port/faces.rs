@@ -10,7 +10,7 @@ pub fn claims(field: &FieldSpec) -> Vec<(Face, Claim)> {
         // What is not claimed is prescribed.
         claimed.map_or(Claim::Prescribed, |it| it.claim.value)
     };
-    let faces = Face::of(&field.domain.body, field.dimension);
+    let faces = Face::of(&field.domain.body, field.space);
     faces.into_iter().map(|face| (face, claim(face))).collect()
 }
 

@@ -33,7 +33,7 @@ impl<'a> Factors<'a> {
         let at = compiled.model.parameters.iter().position(|it| it.name == *name)?;
         let mut set = self.exact.set().clone();
         set.insert(at, constant(&format!("{factor:?}")).ok()?);
-        Some(mms_interpreted::scene(compiled, &set))
+        mms_interpreted::scene(compiled, &set).ok()
     }
 
     fn compile(&self) -> Option<Arc<Compiled>> {

@@ -85,7 +85,7 @@ impl<'a> Call<'a> {
 
     /// How many columns the results are.
     pub fn components(&self) -> usize {
-        self.quantity.shape().components(self.module.dimension())
+        self.module.compiled.field.space.components(self.quantity.shape())
     }
 
     /// Whether it takes normals beside positions.

@@ -1,6 +1,6 @@
 //! The density of a material in a field's terms: its arguments, the invariants, the fibres.
 
-use super::{AXES, Reader};
+use super::Reader;
 use crate::invariant::{INVARIANTS, Kind, VOLUME};
 use crate::resolve::Scope;
 use mms_spec::diagnostic::Diagnostic;
@@ -10,7 +10,7 @@ use mms_spec::moduli::ENGINEERING;
 use mms_spec::source::Spanned;
 use mms_spec::suggest::advice;
 use mms_spec::syntax;
-use mms_spec::{FieldSpec, MaterialSpec};
+use mms_spec::{FieldSpec, MaterialSpec, Space};
 use mms_symbolic::expr::print::Names;
 use mms_symbolic::expr::{Expr, HALF, Rational};
 
@@ -158,7 +158,7 @@ impl Reader<'_> {
                 scope.define("I3", Some(square));
             }
         }
-        for name in AXES.iter().chain(&["t"]) {
+        for name in ["X", "Y", "Z", "t"] {
             scope.withhold(name, "a material knows no place and no time; a field's parameters may");
         }
     }
@@ -175,6 +175,17 @@ impl Reader<'_> {
         for (axis, formula) in formulas.iter().enumerate() {
             let component = direction.as_ref().map(|direction| direction[axis]);
             self.independent_of_time(component, formula, what);
+        }
+        if let (Some(direction), Space::Axisymmetric { swirl: false }) = (&direction, self.space) {
+            let is_absent = |axis: usize| self.graph.is_zero(direction[axis]);
+            let leans = !(is_absent(0) && is_absent(1));
+            if leans && !is_absent(2) {
+                self.diagnostics.push(
+                    Diagnostic::error(formulas[2].span, "these fibres twist the body")
+                        .label("they run around the axis, and lean")
+                        .help("give a `swirl` under [displacement], if only 0, so that b has its component along the hoop"),
+                );
+            }
         }
         let (material, first) = (material?, formulas.first()?);
         if !material.has_fibres() && !material.incomplete {
@@ -234,7 +245,7 @@ impl Reader<'_> {
                             ),
                     );
                 }
-                fibre.map(|fibre| Kind::Fibrous(fibre[..field.dimension].to_vec()))
+                fibre.map(|fibre| Kind::Fibrous(fibre[..self.space.rows()].to_vec()))
             }
         }
     }

@@ -1,13 +1,13 @@
 //! Given fields and further balances of a field file, as expressions of X and t.
 
 use super::{Reader, RigidMotion};
+use crate::axisymmetric;
 use crate::tensor::{Tensor, dot};
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::own::{Own, Part};
 use mms_spec::source::Span;
 use mms_spec::syntax::{self, Kind};
-use mms_spec::{BalanceLaw, BalanceSpec, FieldSpec, Formula, MaterialSpec, own_quantities};
-use mms_symbolic::expr::print::AXES;
+use mms_spec::{BalanceLaw, BalanceSpec, FieldSpec, Formula, MaterialSpec, Space, own_quantities};
 use mms_symbolic::expr::{Expr, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::sorted::SortedMap;
@@ -18,6 +18,10 @@ pub type OwnQuantities = SortedMap<Own, Vec<Expr>>;
 /// The names that formulas of balances know beside those of the file, for the help of a message.
 const LANGUAGE: &str = "a balance also knows u_x, v_x, H11, F11, Finv11, C11, Cinv11 and their like, J, and derivatives \
                         such as T_X and T_t of what [let] and [given] define";
+
+/// The same of an axisymmetric field.
+const LANGUAGE_OF_R: &str = "a balance also knows u_r, v_r, H11, F11, Finv11, C11, Cinv11 and their like in the order R, Z, \
+                             theta, J, and derivatives such as T_R and T_t of what [let] and [given] define";
 
 /// The motion that the names of a balance are about.
 struct Moved {
@@ -102,7 +106,7 @@ impl Reader<'_> {
                 Part::Value => vec![value()?],
                 Part::Gradient => {
                     let value = value()?;
-                    self.slopes(value, displacement.len())
+                    self.slopes(value, self.space.vector())
                 }
                 Part::Rate => differentiate(self.graph, &[value()?], Symbol::Time),
                 part => {
@@ -123,6 +127,9 @@ impl Reader<'_> {
 
     /// H of a displacement.
     fn gradient(&mut self, displacement: &[Expr]) -> Tensor {
+        if let Some(radius) = self.radius() {
+            return axisymmetric::gradient(self.graph, radius, displacement);
+        }
         let slopes =
             displacement.iter().map(|component| self.slopes(*component, displacement.len()));
         let slopes: Vec<_> = slopes.collect();
@@ -158,11 +165,13 @@ impl Reader<'_> {
         moved: &Moved,
     ) -> Option<SortedMap<Part, Vec<Expr>>> {
         let outer = self.scope.clone();
-        self.scope.hint(LANGUAGE);
+        self.scope.hint(match self.space {
+            Space::Cartesian(_) => LANGUAGE,
+            Space::Axisymmetric { .. } => LANGUAGE_OF_R,
+        });
         for formula in balance.formulas() {
             self.define_used(field, material, formula, moved);
         }
-        let dimension = field.dimension;
         let parts = match &balance.law {
             BalanceLaw::Constraint { residual } => {
                 let residual = self.formula(residual);
@@ -171,7 +180,7 @@ impl Reader<'_> {
             BalanceLaw::Flow { storage, flux } => {
                 let storage = storage.as_ref().map(|storage| self.formula(storage));
                 let flux = flux.as_ref().map(|flux| self.formulas(flux));
-                self.flow(storage, flux, dimension)
+                self.flow(storage, flux)
             }
         };
         self.scope = outer;
@@ -183,7 +192,6 @@ impl Reader<'_> {
         &mut self,
         storage: Option<Option<Expr>>,
         flux: Option<Option<Vec<Expr>>>,
-        dimension: usize,
     ) -> Option<SortedMap<Part, Vec<Expr>>> {
         let mut terms = Vec::new();
         if let Some(storage) = storage {
@@ -195,7 +203,8 @@ impl Reader<'_> {
             for (axis, component) in flux.iter().enumerate() {
                 terms.extend(differentiate(self.graph, &[*component], Symbol::Coordinate(axis)));
             }
-            let normal: Vec<_> = (0..dimension)
+            terms.extend(self.radius().map(|it| axisymmetric::spreading(self.graph, it, &flux)));
+            let normal: Vec<_> = (0..self.space.coordinates())
                 .map(|axis| (flux[axis], self.graph.symbol(Symbol::Normal(axis))))
                 .collect();
             parts.insert(Part::NormalFlux, vec![dot(self.graph, normal)]);
@@ -233,7 +242,8 @@ impl Reader<'_> {
         if name == "J" {
             return Some(moved.jacobian);
         }
-        let axis = |axis: &str| ["x", "y", "z"].iter().position(|it| *it == axis);
+        let directions = &self.space.directions()[..self.space.vector()];
+        let axis = |axis: &str| directions.iter().position(|it| *it == axis);
         if let Some(axis) = name.strip_prefix("u_").and_then(axis) {
             return moved.displacement.get(axis).copied();
         }
@@ -275,7 +285,7 @@ impl Reader<'_> {
         if !is_defined {
             return;
         }
-        let symbol = match AXES.iter().position(|axis| *axis == by) {
+        let symbol = match self.space.axes().iter().position(|axis| *axis == by) {
             Some(axis) if axis < field.dimension => Symbol::Coordinate(axis),
             Some(_) => {
                 let plural = if field.dimension == 1 { "dimension" } else { "dimensions" };

@@ -13,9 +13,10 @@ use crate::domain::{Body, DomainSpec};
 use crate::field::FieldSpec;
 use crate::formula::Formula;
 use crate::material::MaterialSpec;
-use crate::names::{COORDINATES, INVARIANTS};
+use crate::names::INVARIANTS;
 use crate::rigid::RigidSpec;
 use crate::source::{Sources, Spanned};
+use crate::space::Space;
 use crate::symbols::{LetSpec, ParameterSpec};
 use crate::syntax::{self, Ast, Kind};
 
@@ -116,7 +117,7 @@ impl Checker<'_> {
         for (parameter, unit) in field.parameters.iter().zip(&units) {
             self.parameter(parameter, unit.as_ref());
         }
-        self.coordinates(field.dimension);
+        self.coordinates(field.space);
         self.refuse(&field.refused);
         self.definitions(&field.lets);
         self.givens(field);
@@ -124,7 +125,7 @@ impl Checker<'_> {
         self.expect(&field.displacement, Dimension::length(), message, None);
         self.material_use(field, arguments);
         for balance in &field.balances {
-            self.balance(balance);
+            self.balance(balance, field.space);
         }
         self.domain(&field.domain);
         for check in &field.checks {
@@ -140,8 +141,8 @@ impl Checker<'_> {
         self.formulas.define("pi", Some(Measure::of(Dimension::NONE)));
     }
 
-    fn coordinates(&mut self, dimension: usize) {
-        for (name, _) in COORDINATES.iter().take(dimension) {
+    fn coordinates(&mut self, space: Space) {
+        for name in space.axes().iter().take(space.coordinates()) {
             self.formulas.define(name, Some(Measure::of(Dimension::length())));
         }
         self.formulas.define("t", Some(Measure::of(Dimension::time())));
@@ -245,10 +246,10 @@ impl Checker<'_> {
     }
 
     /// The flux of a balance, which measures its storage times a velocity.
-    fn balance(&mut self, balance: &BalanceSpec) {
+    fn balance(&mut self, balance: &BalanceSpec, space: Space) {
         let outer = self.formulas.clone();
         for formula in balance.formulas() {
-            self.names_of_balances(formula);
+            self.names_of_balances(formula, space);
         }
         match &balance.law {
             BalanceLaw::Flow { storage: Some(storage), flux: Some(flux) } => {
@@ -277,16 +278,17 @@ impl Checker<'_> {
     }
 
     /// Defines the names of the language of balances that a formula uses and the file does not define.
-    fn names_of_balances(&mut self, formula: &Formula) {
+    fn names_of_balances(&mut self, formula: &Formula, space: Space) {
         let Some(ast) = self.parsed(formula) else { return };
+        let is_direction = |by: &str| space.directions().contains(&by);
         for node in &ast.nodes {
             let Kind::Name(name) = &node.kind else { continue };
             if self.formulas.get(name).is_some() {
                 continue;
             }
             let measure = match name.rsplit_once('_') {
-                Some(("u", "x" | "y" | "z")) => Some(Measure::of(Dimension::length())),
-                Some(("v", "x" | "y" | "z")) => Some(Measure::of(velocity())),
+                Some(("u", by)) if is_direction(by) => Some(Measure::of(Dimension::length())),
+                Some(("v", by)) if is_direction(by) => Some(Measure::of(velocity())),
                 Some((of, by)) => self.formulas.get(of).and_then(|measure| {
                     let by = match by {
                         "t" => Dimension::time(),

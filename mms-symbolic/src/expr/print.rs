@@ -15,16 +15,24 @@ enum Binding {
 /// Bases with their exponents.
 type Powers<B> = Vec<(B, Rational)>;
 
-/// The names of the reference coordinates.
+/// The names of Cartesian reference coordinates.
 pub const AXES: [&str; 3] = ["X", "Y", "Z"];
 
 /// The names under which a reader knows leaves and sub-expressions.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Names {
+    /// The reference coordinates.
+    pub coordinates: &'static [&'static str],
     /// The parameters, in the order of the field file.
     pub parameters: Vec<String>,
     /// Sub-expressions with names of their own; a named one is printed as its name.
     pub expressions: SortedMap<Expr, String>,
+}
+
+impl Default for Names {
+    fn default() -> Self {
+        Names { coordinates: &AXES, parameters: Vec::new(), expressions: SortedMap::new() }
+    }
 }
 
 impl Names {
@@ -36,7 +44,7 @@ impl Names {
                 None => format!("parameter_{index}"),
             },
             Symbol::Time => "t".into(),
-            Symbol::Coordinate(axis) => AXES[axis].into(),
+            Symbol::Coordinate(axis) => self.coordinates[axis].into(),
             Symbol::Normal(axis) => format!("N{}", axis + 1),
             Symbol::Gradient(row, column) => format!("H{}{}", row + 1, column + 1),
             Symbol::Invariant(index) => format!("i{}", index + 1),

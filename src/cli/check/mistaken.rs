@@ -49,7 +49,8 @@ fn of(compiled: &Arc<Compiled>, check: usize, of: ClosedForm) -> Option<Ranked> 
         };
         points.chunks_exact(dimension).flat_map(at).collect()
     };
-    closed_form(&mms_interpreted::scene(compiled.clone(), &defaults), of, &values)
+    let scene = mms_interpreted::scene(compiled.clone(), &defaults).ok()?;
+    closed_form(&scene, of, &values)
 }
 
 /// Mistakes that give the same formula.

@@ -124,7 +124,7 @@ fn angles(compiled: &Compiled, computed: &AsComputed) -> Option<String> {
         true => {
             let names: Vec<String> =
                 compiled.model.parameters.iter().map(|it| it.name.clone()).collect();
-            let place = witness.describe(&names);
+            let place = witness.describe(compiled.field.space.axes(), &names);
             format!(
                 "  bound  angles keep FEWER THAN SIX digits after the point: {count} near {place}"
             )

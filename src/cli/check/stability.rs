@@ -5,6 +5,7 @@ use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::softening::Softening;
 use mms_documents::check;
 use mms_documents::show as documents;
+use mms_spec::Space;
 use mms_spec::diagnostic::Diagnostic;
 use mms_stability::Stability;
 use mms_stability::corners::Corner;
@@ -17,9 +18,13 @@ use mms_stability::warnings::{list, short};
 use mms_stability::waves::Waves;
 
 /// A line for each property that was sampled.
-pub fn text(stability: &Stability, certificate: &Certificate, is_static: bool) -> Vec<String> {
+pub fn text(
+    stability: &Stability,
+    certificate: &Certificate,
+    (space, is_static): (Space, bool),
+) -> Vec<String> {
     let mut lines: Vec<_> = stability.material.iter().map(at_rest).collect();
-    lines.push(extent(&certificate.reach, stability.shortest_wavelength));
+    lines.push(extent(&certificate.reach, space, stability.shortest_wavelength));
     let modulus = stability.material.as_ref().map_or("", Material::modulus);
     lines
         .extend(stability.waves.iter().map(|waves| body(waves, &certificate.ellipticity, modulus)));
@@ -29,7 +34,14 @@ pub fn text(stability: &Stability, certificate: &Certificate, is_static: bool) -
         true => equilibrium(growth),
         false => long(growth, stability.is_static),
     }));
-    if !stability.has_mesh {
+    if stability.is_axisymmetric {
+        let proved = proved(&certificate.ellipticity);
+        lines.push(format!("  waves  acoustic tensors are positive definite: {proved}"));
+        lines.push(
+            "  faces  NOT LOOKED AT: waves on faces and corners, and long waves, of an axisymmetric body"
+                .into(),
+        );
+    } else if !stability.has_mesh {
         lines.push(
             "  faces  NOT LOOKED AT: waves on faces and corners, and long waves, of a polygon"
                 .into(),
@@ -69,9 +81,9 @@ pub fn at_rest(material: &Material) -> String {
 }
 
 /// The box that a grid must hold, and the wavelength that a mesh must resolve.
-pub fn extent(reach: &[[f64; 2]], shortest_wavelength: Option<f64>) -> String {
+pub fn extent(reach: &[[f64; 2]], space: Space, shortest_wavelength: Option<f64>) -> String {
     let side = |(axis, [least, most]): (usize, &[f64; 2])| {
-        format!("{} <= {} <= {}", short(*least), ["x", "y", "z"][axis], short(*most))
+        format!("{} <= {} <= {}", short(*least), space.directions()[axis], short(*most))
     };
     let sides: Vec<_> = reach.iter().enumerate().map(side).collect();
     let wave = match shortest_wavelength {
@@ -81,8 +93,9 @@ pub fn extent(reach: &[[f64; 2]], shortest_wavelength: Option<f64>) -> String {
     format!("  extent {}; {wave}", sides.join(", "))
 }
 
-fn body(waves: &Waves, ellipticity: &Ellipticity, modulus: &str) -> String {
-    let proved = match ellipticity {
+/// What is proved of acoustic tensors.
+fn proved(ellipticity: &Ellipticity) -> String {
+    match ellipticity {
         Ellipticity::Strong(_) => "proved".into(),
         Ellipticity::Lost(Softening { witness, direction, .. }) => format!(
             "REFUTED at X = {}, t = {} along {}",
@@ -91,7 +104,11 @@ fn body(waves: &Waves, ellipticity: &Ellipticity, modulus: &str) -> String {
             list(direction)
         ),
         Ellipticity::Unproved => "not proved".into(),
-    };
+    }
+}
+
+fn body(waves: &Waves, ellipticity: &Ellipticity, modulus: &str) -> String {
+    let proved = proved(ellipticity);
     let Waves { least, at, time, direction } = waves;
     format!(
         "  waves  acoustic tensors are positive definite: {proved}; {} {modulus} at X = {}, t = {} along {} is the least of a sample",

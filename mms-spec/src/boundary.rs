@@ -1,0 +1,236 @@
+//! `[boundary]`: the faces of a body, and what a field claims on them.
+
+use crate::diagnostic::Diagnostic;
+use crate::domain::{Body, is_zero};
+use crate::source::Spanned;
+use crate::space::Space;
+use crate::table::{Entry, Reader, list};
+use crate::value::unknown_word;
+
+/// A named part of a body's boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Face {
+    /// The face of a box where the coordinate of that axis is least.
+    Min(usize),
+    /// The face of a box where the coordinate of that axis is greatest.
+    Max(usize),
+    /// The inner circle, cylinder or sphere.
+    Inner,
+    /// The outer one.
+    Outer,
+    /// The flat face of a sector at its first angle.
+    ThetaMin,
+    /// The flat face of a sector at its last angle.
+    ThetaMax,
+    /// The cone of a sphere at its first angle from +Z.
+    PhiMin,
+    /// The cone of a sphere at its last angle from +Z.
+    PhiMax,
+    /// The inner face of an axisymmetric box, where R is least.
+    RadialMin,
+    /// The outer face of an axisymmetric box, where R is greatest.
+    RadialMax,
+    /// The face of an axisymmetric box where Z is least.
+    AxialMin,
+    /// The face of an axisymmetric box where Z is greatest.
+    AxialMax,
+    /// The edge of a polygon after the vertex of that position, and its name.
+    Edge(usize, &'static str),
+}
+
+impl Face {
+    /// Every face of any body but the edges of polygons, which have names of their own.
+    pub const ALL: &[Face] = &[
+        Face::Min(0),
+        Face::Max(0),
+        Face::Min(1),
+        Face::Max(1),
+        Face::Min(2),
+        Face::Max(2),
+        Face::Inner,
+        Face::Outer,
+        Face::ThetaMin,
+        Face::ThetaMax,
+        Face::PhiMin,
+        Face::PhiMax,
+        Face::RadialMin,
+        Face::RadialMax,
+        Face::AxialMin,
+        Face::AxialMax,
+    ];
+
+    /// The key of `[boundary]` that names it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Face::Min(0) => "x_min",
+            Face::Max(0) => "x_max",
+            Face::Min(1) => "y_min",
+            Face::Max(1) => "y_max",
+            Face::Min(_) => "z_min",
+            Face::Max(_) => "z_max",
+            Face::Inner => "inner",
+            Face::Outer => "outer",
+            Face::ThetaMin => "theta_min",
+            Face::ThetaMax => "theta_max",
+            Face::PhiMin => "phi_min",
+            Face::PhiMax => "phi_max",
+            Face::RadialMin => "r_min",
+            Face::RadialMax => "r_max",
+            Face::AxialMin => "z_min",
+            Face::AxialMax => "z_max",
+            Face::Edge(_, name) => name,
+        }
+    }
+
+    /// The faces of a body, in a fixed order.
+    pub fn of(body: &Body, space: Space) -> Vec<Face> {
+        let mut faces = Face::declared(body, space);
+        match body {
+            Body::Round(round) => faces.retain(|face| round.has_area(*face)),
+            // Where R is written as 0 there is the axis, which has no area.
+            Body::Box { lower, .. } if lower.first().is_some_and(is_zero) => {
+                faces.retain(|face| *face != Face::RadialMin);
+            }
+            _ => {}
+        }
+        faces
+    }
+
+    /// The faces that the keys of a body speak of, those without an area included.
+    fn declared(body: &Body, space: Space) -> Vec<Face> {
+        match body {
+            Body::Box { .. } => Face::of_box(space),
+            Body::Round(round) => round.declared(),
+            Body::Polygon(polygon) => {
+                polygon.names.iter().enumerate().map(|(at, name)| Face::Edge(at, name)).collect()
+            }
+            Body::Nothing => Vec::new(),
+        }
+    }
+
+    /// The faces of a box, in a fixed order.
+    pub fn of_box(space: Space) -> Vec<Face> {
+        match space {
+            Space::Cartesian(dimension) => {
+                (0..dimension).flat_map(|axis| [Face::Min(axis), Face::Max(axis)]).collect()
+            }
+            Space::Axisymmetric { .. } => {
+                vec![Face::RadialMin, Face::RadialMax, Face::AxialMin, Face::AxialMax]
+            }
+        }
+    }
+}
+
+/// What a field claims on a face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Claim {
+    /// u = 0.
+    Fixed,
+    /// u.N = 0, and no tangential traction.
+    Roller,
+    /// P N = 0.
+    Free,
+    /// The solver is given u.
+    Prescribed,
+    /// The solver is given P N.
+    Traction,
+    /// R = 0, and nothing leaves the axis.
+    Axis,
+}
+
+impl Claim {
+    /// Every claim about a face with an area.
+    pub const ALL: &[Claim] =
+        &[Claim::Fixed, Claim::Roller, Claim::Free, Claim::Prescribed, Claim::Traction];
+
+    /// The claims that a file may make about a face.
+    pub fn about(face: Face) -> Vec<Claim> {
+        let axis = (face == Face::RadialMin).then_some(Claim::Axis);
+        Claim::ALL.iter().copied().chain(axis).collect()
+    }
+
+    /// The word for it in a field file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Claim::Fixed => "fixed",
+            Claim::Roller => "roller",
+            Claim::Free => "free",
+            Claim::Prescribed => "prescribed",
+            Claim::Traction => "traction",
+            Claim::Axis => "axis",
+        }
+    }
+
+    /// What it says, in a few words.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Claim::Fixed => "u = 0",
+            Claim::Roller => "u.N = 0 and no tangential traction",
+            Claim::Free => "P N = 0",
+            Claim::Prescribed => "u is given by the field",
+            Claim::Traction => "P N is given by the field",
+            Claim::Axis => "R = 0, with u_R = 0 and no swirl",
+        }
+    }
+}
+
+/// A claim about a face.
+#[derive(Clone, Debug)]
+pub struct BoundarySpec {
+    /// The face.
+    pub face: Spanned<Face>,
+    /// What is claimed there.
+    pub claim: Spanned<Claim>,
+}
+
+/// Reads `[boundary]`. Without a body, any face of any body will do.
+pub(super) fn boundary<'a>(
+    entry: &Entry<'a>,
+    body: Option<&Body>,
+    space: Space,
+    reader: &mut Reader<'a>,
+) -> Vec<BoundarySpec> {
+    let Some(table) = reader.open_table(entry, "[boundary]") else { return Vec::new() };
+    if body.is_some_and(Body::is_nothing) {
+        reader.report(
+            Diagnostic::error(entry.key.span, "a field without a body has no faces")
+                .label("claims are about faces, and `shape = \"none\"` has none")
+                .help("remove [boundary], or give the body that its claims are about"),
+        );
+        return Vec::new();
+    }
+    let faces = body.map_or_else(|| Face::ALL.to_vec(), |body| Face::declared(body, space));
+    let mut boundary = Vec::new();
+    for entry in &table.entries {
+        let face = face(&entry.key, &faces, reader);
+        let claims = match &face {
+            Some(face) => Claim::about(face.value),
+            None => Claim::about(Face::RadialMin),
+        };
+        let words: Vec<_> = claims.iter().map(|claim| claim.name()).collect();
+        let claim = reader.word(entry, "claim", &words).and_then(|word| {
+            let claim = claims.iter().find(|claim| claim.name() == word.value)?;
+            Some(Spanned { value: *claim, span: word.span })
+        });
+        if let (Some(face), Some(claim)) = (face, claim) {
+            boundary.push(BoundarySpec { face, claim });
+        }
+    }
+    boundary
+}
+
+fn face(key: &Spanned<String>, faces: &[Face], reader: &mut Reader<'_>) -> Option<Spanned<Face>> {
+    if let Some(face) = faces.iter().find(|face| face.name() == key.value) {
+        return Some(Spanned { value: *face, span: key.span });
+    }
+    let names: Vec<_> = faces.iter().map(|face| face.name()).collect();
+    let exists_elsewhere = Face::ALL.iter().any(|face| face.name() == key.value)
+        || key.value.strip_prefix("edge_").is_some_and(|number| number.parse::<usize>().is_ok());
+    reader.report(if exists_elsewhere {
+        Diagnostic::error(key.span, format!("this body has no face `{}`", key.value))
+            .label(format!("its faces are {}", list(&names)))
+    } else {
+        unknown_word(key, "face", &names)
+    });
+    None
+}

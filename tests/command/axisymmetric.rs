@@ -1,0 +1,62 @@
+//! Axisymmetric fields, through every command: those that take them, and those that refuse them.
+
+use super::mms::{Folder, numbers};
+
+const SHAFT: &str = include_str!("../../mms-codegen/tests/data/pass/units_axisymmetric.toml");
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("shaft.toml", SHAFT);
+    folder
+}
+
+#[test]
+fn a_shaft_is_checked_with_its_axis() {
+    let folder = folder();
+    let checked = folder.mms("check shaft.toml").exits(0);
+    for line in [
+        "claim  r_min is axis (R = 0, with u_R = 0 and no swirl): proved",
+        "extent 0 <= r <= ",
+        "faces  NOT LOOKED AT: waves on faces and corners, and long waves, of an axisymmetric body",
+        "check  displacement_gradient agrees to 1e-20 at 128 points",
+    ] {
+        checked.prints(line);
+    }
+    assert!(!checked.stdout.contains("UNDEFINED"), "{checked}");
+}
+
+/// On the axis H has two equal stretches around it, and vectors their component along it alone.
+#[test]
+fn values_on_the_axis_are_those_of_a_round_body() {
+    let folder = folder();
+    let run = folder.mms("eval shaft.toml --at 0,0.5 --time 0.004 --quantity F,b,u --json");
+    let document = run.json();
+    let point = &document["points"][0];
+    let of = |name: &str| numbers(&point[name]);
+    let (stretch, force, moved) =
+        (of("deformation_gradient"), of("body_force"), of("displacement"));
+    assert_eq!((stretch.len(), force.len(), moved.len()), (9, 3, 3));
+    assert_eq!(stretch[0], stretch[8]);
+    assert_eq!(stretch[2], -stretch[6]);
+    assert_eq!([force[0], force[2], moved[0], moved[2]], [0.0; 4]);
+    assert!(force[1] != 0.0);
+}
+
+#[test]
+fn what_works_in_cartesian_coordinates_refuses_an_axisymmetric_field() {
+    let folder = folder();
+    folder.write("table.csv", "h,error\n0.1,0.1\n0.05,0.025\n");
+    for arguments in [
+        "run shaft.toml",
+        "study shaft.toml",
+        "state shaft.toml --time 0.01 --cells 4 --output state.csv",
+        "tradeoff shaft.toml",
+        "extremes shaft.toml",
+        "judge shaft.toml table.csv",
+        "diagnose shaft.toml table.csv",
+        "emit shaft.toml --target c -o out",
+    ] {
+        let says = "`shaft` is axisymmetric, and this command works in Cartesian coordinates";
+        folder.mms(arguments).exits(2).complains(says);
+    }
+}
