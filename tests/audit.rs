@@ -50,13 +50,14 @@ fn run(script: &str) -> Output {
     python().arg(path).output().expect("Python starts")
 }
 
-/// Texts of every kind: with a rotation, in three dimensions, graded, with a rigid motion, and with names that Python
+/// Texts of every kind: with a rotation, in three dimensions, graded, with a rigid motion, axisymmetric, and with names that Python
 /// reserves.
 fn files() -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let pass = root.join("mms-codegen/tests/data/pass");
-    let files = ["rotating_2d", "sines_3d", "graded_2d", "twin_2d", "twin_3d"]
-        .map(|name| pass.join(format!("{name}.toml")));
+    let files =
+        ["rotating_2d", "sines_3d", "graded_2d", "twin_2d", "twin_3d", "units_axisymmetric"]
+            .map(|name| pass.join(format!("{name}.toml")));
     let odd = root.join("tests/programs/odd_names.toml");
     let own = root.join("tests/programs/own.toml");
     let paths = files.into_iter().chain([odd, own]);

@@ -39,8 +39,11 @@ pub(super) fn givens(
                 vec![value]
             }
             Part::Gradient => {
-                let along = (0..quantities.dimension).map(Along::Coordinate);
-                along.flat_map(|along| derivatives(reading, &[value], along)).collect()
+                let mut slopes: Vec<Expr> = (quantities.axes())
+                    .flat_map(|along| derivatives(reading, &[value], along))
+                    .collect();
+                slopes.resize(quantities.space.vector(), reading.graph.number(0));
+                slopes
             }
             Part::Rate => derivatives(reading, &[value], Along::Time),
             _ => continue,
@@ -145,7 +148,7 @@ pub(super) fn traction(reading: &mut Reading, compiled: &Compiled, quantities: &
     let dimension = quantities.dimension;
     let first = quantities.tensor(reading, Quantity::FirstPiolaKirchhoff);
     let zero = reading.graph.number(0);
-    let normal: Vec<Expr> = (0..dimension)
+    let normal: Vec<Expr> = (0..quantities.space.coordinates())
         .map(|axis| {
             let index = if dimension == 1 { String::new() } else { (axis + 1).to_string() };
             let name = reading.taken.fresh(Name::indexed("N", index), "derived");

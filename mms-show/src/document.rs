@@ -13,9 +13,9 @@ use mms_mechanics::Output;
 use mms_mechanics::TooLarge;
 use mms_mechanics::invariant::Kind;
 use mms_program::Stage;
-use mms_spec::Formula;
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
+use mms_spec::{Formula, Space};
 use mms_symbolic::expr::{Expr, Graph};
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
@@ -73,6 +73,8 @@ pub struct Document {
     pub reference: Option<Foreign>,
     /// The dimension of space.
     pub dimension: usize,
+    /// The coordinates, and how many components vectors and tensors have.
+    pub space: Space,
     /// Whether the field has no time.
     pub is_static: bool,
     /// The material.
@@ -124,6 +126,7 @@ impl Document {
             title: field.title.clone(),
             reference: field.reference.clone(),
             dimension: field.dimension,
+            space: field.space,
             is_static: field.is_static(),
             material,
             definitions,

@@ -199,7 +199,7 @@ fn stem(name: &Name) -> (String, &str) {
 
 fn label(along: Along) -> &'static str {
     match along {
-        Along::Coordinate(_) | Along::Time => along.label(),
+        Along::Coordinate(_) | Along::Meridian(_) | Along::Time => along.label(),
         Along::Invariant(_) => match along.label() {
             "I1" => "I_1",
             "I2" => "I_2",

@@ -14,6 +14,7 @@
 //! names that a user has taken get another stem (`F_derived`).
 
 mod abbreviate;
+mod axisymmetric;
 mod balance;
 mod document;
 mod energy;

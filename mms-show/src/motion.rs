@@ -1,5 +1,6 @@
 //! The formulas of the field file with its own names kept, and the motion that follows from them.
 
+use super::axisymmetric::around;
 use super::name::{Along, Name};
 use super::reading::{Id, Reading, Role};
 use super::rigid::moved;
@@ -8,8 +9,7 @@ use mms_mechanics::resolve::Scope;
 use mms_mechanics::tensor::Tensor;
 use mms_spec::quantity::Quantity;
 use mms_spec::syntax;
-use mms_spec::{Formula, LetSpec};
-use mms_symbolic::expr::print::AXES;
+use mms_spec::{Formula, LetSpec, Space};
 use mms_symbolic::expr::{Expr, HALF, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 use mms_symbolic::sorted::SortedMap;
@@ -36,7 +36,8 @@ impl Formulas {
         let pi = reading.graph.pi();
         formulas.define("pi", pi);
         formulas.given("t", Symbol::Time, reading);
-        for (axis, name) in AXES.iter().take(compiled.field.dimension).enumerate() {
+        let space = compiled.field.space;
+        for (axis, name) in space.axes().iter().take(space.coordinates()).enumerate() {
             formulas.given(name, Symbol::Coordinate(axis), reading);
         }
         for (index, parameter) in compiled.model.parameters.iter().enumerate() {
@@ -110,26 +111,37 @@ pub(super) fn resolved(reading: &mut Reading, scope: &Scope, formula: &Formula) 
 
 /// The quantities that have been derived: the entries of their components.
 pub(super) struct Quantities {
+    /// The rows of tensors.
     pub dimension: usize,
+    pub space: Space,
     ids: SortedMap<Quantity, Vec<Id>>,
 }
 
 impl Quantities {
     /// u, x, v, a, H, F, C, B and E.
     pub fn motion(reading: &mut Reading, compiled: &Compiled, formulas: &Formulas) -> Self {
-        let dimension = compiled.field.dimension;
-        let mut quantities = Quantities { dimension, ids: SortedMap::new() };
-        let displacement: Vec<Expr> = (compiled.field.displacement.iter())
+        let space = compiled.field.space;
+        let dimension = space.rows();
+        let mut quantities = Quantities { dimension, space, ids: SortedMap::new() };
+        let mut displacement: Vec<Expr> = (compiled.field.displacement.iter())
             .zip(&compiled.model.displacement)
             .map(|(formula, derived)| formulas.read(reading, formula, *derived))
             .collect();
-        let displacement = moved(reading, compiled, formulas, displacement);
+        // Where the field is axisymmetric, its own displacement has the rigid motion in it.
+        if !space.is_axisymmetric() {
+            displacement = moved(reading, compiled, formulas, displacement);
+        }
         quantities.add(reading, compiled, Quantity::Displacement, &displacement);
-        let position: Vec<Expr> = (0..dimension)
+        let position: Vec<Expr> = (0..space.vector())
             .map(|axis| {
-                let reference = reading.graph.symbol(Symbol::Coordinate(axis));
                 let name = quantities.component(reading, Quantity::Displacement, axis);
-                reading.graph.add(reference, name)
+                match axis < space.coordinates() {
+                    true => {
+                        let reference = reading.graph.symbol(Symbol::Coordinate(axis));
+                        reading.graph.add(reference, name)
+                    }
+                    false => name,
+                }
             })
             .collect();
         quantities.add(reading, compiled, Quantity::Position, &position);
@@ -137,10 +149,14 @@ impl Quantities {
         quantities.add(reading, compiled, Quantity::Velocity, &velocity);
         let acceleration = derivatives(reading, &velocity, Along::Time);
         quantities.add(reading, compiled, Quantity::Acceleration, &acceleration);
+        displacement.resize(dimension, reading.graph.number(0));
         let gradient: Vec<Expr> = (0..dimension * dimension)
             .map(|k| {
-                let along = Along::Coordinate(k % dimension);
-                let slope = reading.derivative(displacement[k / dimension], along);
+                let (row, column) = (k / dimension, k % dimension);
+                let slope = match column < space.coordinates() {
+                    true => reading.derivative(displacement[row], quantities.along(column)),
+                    false => around(reading, &displacement, row),
+                };
                 reading.tidy(slope)
             })
             .collect();
@@ -148,6 +164,17 @@ impl Quantities {
         quantities.deformation(reading, compiled, &gradient);
         quantities.strain(reading, compiled);
         quantities
+    }
+
+    /// The coordinate of that position.
+    pub fn along(&self, axis: usize) -> Along {
+        Along::coordinate(self.space, axis)
+    }
+
+    /// All coordinates.
+    pub fn axes(&self) -> impl Iterator<Item = Along> + use<> {
+        let space = self.space;
+        (0..space.coordinates()).map(move |axis| Along::coordinate(space, axis))
     }
 
     /// C = F^T F, B = F F^T and E = (C - I)/2, in terms of the names of F and C.
@@ -192,7 +219,8 @@ impl Quantities {
         values: &[Expr],
     ) {
         let derived = compiled.derivation.quantities.get(&quantity);
-        let ids = values.iter().enumerate().map(|(k, value)| {
+        let count = self.space.components(quantity.shape());
+        let ids = values.iter().take(count).enumerate().map(|(k, value)| {
             let found = derived.and_then(|components| components.get(k)).copied();
             let number = found.filter(|found| compiled.graph.as_number(*found).is_some());
             let name = Name::component(quantity, k, self.dimension);

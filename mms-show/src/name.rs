@@ -1,6 +1,7 @@
 //! Names of what a derivation talks about, structured so that each notation can set them well.
 
 use mms_mechanics::invariant::INVARIANTS;
+use mms_spec::Space;
 use mms_spec::quantity::{Quantity, Shape};
 use mms_symbolic::expr::Symbol;
 use mms_symbolic::sorted::SortedSet;
@@ -10,19 +11,30 @@ use mms_symbolic::sorted::SortedSet;
 pub enum Along {
     /// The invariant of that position in [`INVARIANTS`].
     Invariant(usize),
-    /// A reference coordinate: 0 is X.
+    /// A Cartesian reference coordinate: 0 is X.
     Coordinate(usize),
+    /// A coordinate of an axisymmetric field: 0 is R, 1 is Z.
+    Meridian(usize),
     /// The time.
     Time,
 }
 
 impl Along {
+    /// The coordinate of that position.
+    pub fn coordinate(space: Space, axis: usize) -> Self {
+        match space {
+            Space::Cartesian(_) => Along::Coordinate(axis),
+            Space::Axisymmetric { .. } => Along::Meridian(axis),
+        }
+    }
+
     /// Its name in the language of field files.
     pub fn label(self) -> &'static str {
         match self {
             Along::Coordinate(0) => "X",
             Along::Coordinate(1) => "Y",
-            Along::Coordinate(_) => "Z",
+            Along::Meridian(0) => "R",
+            Along::Coordinate(_) | Along::Meridian(_) => "Z",
             Along::Time => "t",
             Along::Invariant(position) => INVARIANTS[position].name,
         }
@@ -31,7 +43,7 @@ impl Along {
     /// The leaf of an expression that a field is differentiated by; the invariants are no leaves.
     pub(super) fn leaf(self) -> Option<Symbol> {
         match self {
-            Along::Coordinate(axis) => Some(Symbol::Coordinate(axis)),
+            Along::Coordinate(axis) | Along::Meridian(axis) => Some(Symbol::Coordinate(axis)),
             Along::Time => Some(Symbol::Time),
             Along::Invariant(_) => None,
         }

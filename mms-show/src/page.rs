@@ -40,6 +40,10 @@ pub(super) enum Block<'a> {
 pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
     let mut blocks = vec![Block::Title(title(document))];
     blocks.extend(document.reference.iter().map(|it| Block::Note(it.shown())));
+    if document.space.is_axisymmetric() {
+        let note = "axisymmetric: components 1, 2 and 3 are along R, Z and the hoop, in the basis at the point";
+        blocks.push(Block::Note(note.into()));
+    }
     if !document.definitions.is_empty() {
         blocks.push(heading("with"));
         blocks.push(formulas(&document.definitions));

@@ -9,7 +9,6 @@ use super::text::Text;
 use super::walk::{Names, write};
 use mms_codegen::compile::Compiled;
 use mms_spec::quantity::Quantity;
-use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Expr, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::factor::factor;
@@ -57,6 +56,8 @@ pub(super) struct Reading {
     /// The parameters of the field, whose leaves come before those of entries.
     pub parameters: Vec<String>,
     pub taken: Taken,
+    /// The names of the reference coordinates.
+    axes: &'static [&'static str],
     derivatives: SortedMap<(Id, Along), Expr>,
     /// Helpers by their values, so that nothing is named twice.
     by_value: SortedMap<Expr, Id>,
@@ -70,7 +71,7 @@ impl Names for Reading {
             Symbol::Parameter(index) => Name::plain(self.parameters[index].as_str()),
             Symbol::Local(id) => self.entries[id].name.clone(),
             Symbol::Time => Name::plain("t"),
-            Symbol::Coordinate(axis) => Name::plain(AXES[axis]),
+            Symbol::Coordinate(axis) => Name::plain(self.axes[axis]),
             Symbol::Normal(axis) => Name::indexed("N", (axis + 1).to_string()),
             Symbol::Gradient(row, column) => {
                 Name::indexed("H", format!("{}{}", row + 1, column + 1))
@@ -95,6 +96,7 @@ impl Reading {
             entries: Vec::new(),
             parameters,
             taken,
+            axes: compiled.field.space.axes(),
             derivatives: SortedMap::new(),
             by_value: SortedMap::new(),
             numbers: 0,

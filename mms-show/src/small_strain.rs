@@ -1,9 +1,10 @@
 //! Stress and its divergence for a density of the small strain: P = W,t I + 2 W,s eps, with the
 //! derivatives of W by tr eps and by eps:eps.
 
+use super::axisymmetric::spreading;
 use super::energy::Energy;
 use super::motion::Quantities;
-use super::name::{Along, Name};
+use super::name::Name;
 use super::reading::Reading;
 use super::stress::{slope, volume};
 use mms_codegen::compile::Compiled;
@@ -50,12 +51,12 @@ pub(super) fn derive(
     quantities.add(reading, compiled, Quantity::FirstPiolaKirchhoff, stress.components());
     (0..dimension)
         .map(|row| {
-            let slopes: Vec<_> = (0..dimension)
-                .map(|axis| {
-                    let along = Along::Coordinate(axis);
+            let mut slopes: Vec<_> = (quantities.axes().enumerate())
+                .map(|(axis, along)| {
                     (reading.derivative(stress.at(row, axis), along), Rational::ONE)
                 })
                 .collect();
+            slopes.extend(spreading(reading, quantities.space, &stress, row));
             let sum = reading.graph.sum(slopes);
             reading.tidy(sum)
         })

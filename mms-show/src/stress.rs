@@ -10,6 +10,7 @@
 //! See Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6. In
 //! one dimension W is a function of F alone, and P its derivative.
 
+use super::axisymmetric::spreading;
 use super::balance::{balance, balances, current, density, givens, measures, traction};
 use super::energy::Energy;
 use super::fibres::Fibres;
@@ -141,7 +142,7 @@ fn space(
         reading.tidy(stress)
     });
     quantities.add(reading, compiled, Quantity::FirstPiolaKirchhoff, stress.components());
-    divergence(reading, &shear, &cofactors, wj)
+    divergence(reading, quantities, &shear, &cofactors, wj)
 }
 
 /// The derivative of W by an invariant, by name where that is shorter.
@@ -176,20 +177,22 @@ pub(super) fn volume(
 
 fn divergence(
     reading: &mut Reading,
+    quantities: &Quantities,
     shear: &Tensor,
     cofactors: &Tensor,
     pressure: Expr,
 ) -> Vec<Expr> {
-    let axes = 0..shear.dimension();
     let slopes: Vec<Expr> =
-        axes.clone().map(|axis| reading.derivative(pressure, Along::Coordinate(axis))).collect();
-    axes.map(|row| {
+        quantities.axes().map(|along| reading.derivative(pressure, along)).collect();
+    let rows = 0..shear.dimension();
+    rows.map(|row| {
         let mut terms = Vec::new();
         for (axis, slope) in slopes.iter().enumerate() {
-            let along = Along::Coordinate(axis);
+            let along = quantities.along(axis);
             terms.push((reading.derivative(shear.at(row, axis), along), Rational::ONE));
             terms.push((reading.graph.mul(cofactors.at(row, axis), *slope), Rational::ONE));
         }
+        terms.extend(spreading(reading, quantities.space, shear, row));
         let sum = reading.graph.sum(terms);
         reading.tidy(sum)
     })
@@ -201,10 +204,13 @@ fn second_gradient(reading: &mut Reading, quantities: &Quantities, deformation: 
     let dimension = quantities.dimension;
     for (k, id) in quantities.ids(Quantity::DeformationGradient).iter().enumerate() {
         let (row, column) = (k / dimension, k % dimension);
+        if column >= quantities.space.coordinates() {
+            continue;
+        }
         for axis in 0..column {
             let mirrored = deformation.at(row, axis);
-            let slope = reading.derivative(mirrored, Along::Coordinate(column));
-            reading.declare_derivative(*id, Along::Coordinate(axis), slope);
+            let slope = reading.derivative(mirrored, quantities.along(column));
+            reading.declare_derivative(*id, quantities.along(axis), slope);
         }
     }
 }
@@ -236,7 +242,7 @@ fn jacobian(
     let id = quantities.ids(Quantity::Jacobian)[0];
     let leaf = quantities.component(reading, Quantity::Jacobian, 0);
     if !reading.is_leaf(reading.entries[id].value) {
-        for axis in (0..dimension).map(Along::Coordinate) {
+        for axis in quantities.axes() {
             let slopes = Tensor::from_fn(dimension, |row, column| {
                 reading.derivative(deformation.at(row, column), axis)
             });

@@ -41,6 +41,32 @@ bulk = { unit = "Pa" }
 d = "2*c1 + 4*c2"
 "#;
 
+/// An axisymmetric field of two components, at small strain.
+const NO_SWIRL: &str = r#"
+[field]
+title       = "a tube"
+dimension   = 2
+coordinates = "axisymmetric"
+
+[displacement]
+u = ["0.01*R*sin(Z + t)*exp(R)", "0.01*R^2*Z*cos(t)"]
+
+[material]
+model   = "linear_elastic"
+lambda  = "3 + R*Z"
+mu      = "2 + R"
+density = "2 + Z"
+
+[domain]
+shape = "box"
+lower = [0.5, 0]
+upper = [1, 1]
+time  = [0, 1]
+
+[boundary]
+r_min = "traction"
+"#;
+
 fn compiled(name: &str, text: &str) -> Compiled {
     let load = |path: &str| match path {
         "./mooney.toml" => Ok(MOONEY.to_string()),
@@ -102,6 +128,8 @@ fn texts() -> Vec<(String, String)> {
     for name in ["rotating_2d", "sines_3d", "graded_2d", "twin_2d", "twin_3d"] {
         fields.push((name.into(), pass(&format!("{name}.toml"))));
     }
+    fields.push(("units_axisymmetric".into(), pass("units_axisymmetric.toml")));
+    fields.push(("no_swirl".into(), NO_SWIRL.into()));
     let moduli = ["mu/2", "mu/5 + lambda/9", "lambda*(3 + X/width)"];
     fields.push(("mooney_2d".into(), with_mooney(&pass("rotating_2d.toml"), moduli)));
     let moduli = ["young/8", "young/20", "young*nu*(1 + X*Z/length^2)"];
@@ -141,7 +169,7 @@ struct Reader {
 impl Reader {
     fn new(field: &Compiled) -> Self {
         let mut reader = Reader { graph: Graph::default(), scope: Scope::default(), parameters: 0 };
-        let axes = ["X", "Y", "Z"].into_iter().take(field.field.dimension).enumerate();
+        let axes = field.field.space.axes().iter().copied().take(field.field.dimension).enumerate();
         let axes = axes.map(|(axis, name)| (name, Symbol::Coordinate(axis)));
         for (name, symbol) in axes.chain([("t", Symbol::Time)]) {
             let leaf = reader.graph.symbol(symbol);

@@ -131,7 +131,11 @@ fn at_rest(compiled: &Compiled) -> Vec<String> {
     let mut lines = vec![String::new(), "at rest and in motion".into()];
     lines.extend(Material::of(compiled).as_ref().map(stability::at_rest));
     if !compiled.field.domain.body.is_nothing() {
-        lines.push(stability::extent(&reach(compiled), shortest_wavelength(compiled)));
+        lines.push(stability::extent(
+            &reach(compiled),
+            compiled.field.space,
+            shortest_wavelength(compiled),
+        ));
     }
     lines
 }

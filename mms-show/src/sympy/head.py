@@ -15,7 +15,7 @@
 import sys
 
 import mpmath
-from sympy import Function, Integer, Matrix, Rational, Symbol, diff, eye, lambdify
+from sympy import Function, Integer, Matrix, Rational, Symbol, diff, eye, lambdify, sympify
 from sympy import acos, asin, atan, atan2, cos, cosh, exp, log, pi, sin, sinh, sqrt, tan, tanh
 
 TOLERANCE = mpmath.mpf("1e-12")

@@ -15,9 +15,7 @@ use mms_program::interpret::{Interpreter, Point};
 use mms_spec::foreign::{Foreign, blanked};
 use mms_spec::own::Part;
 use mms_spec::syntax;
-use mms_spec::{Formula, RigidSpec, Rotation};
-
-use mms_symbolic::expr::print::AXES;
+use mms_spec::{FieldSpec, Formula, RigidSpec, Rotation, Space};
 use mms_symbolic::sorted::SortedSet;
 use python::{Renamed, python};
 
@@ -43,6 +41,7 @@ pub fn script(compiled: &Compiled) -> Result<String, Undefined> {
     text.push_str("\n\n");
     text.push_str(&strain_energy(compiled));
     text.push_str("\n\n");
+    let space = compiled.field.space;
     if compiled.field.rigid.is_some() {
         text.push_str(include_str!("rigid.py"));
         text.push_str("\n\n");
@@ -54,6 +53,11 @@ pub fn script(compiled: &Compiled) -> Result<String, Undefined> {
     text.push_str(&format!("NORMAL_FLUXES = [{}]\n\n\n", fluxes.join(", ")));
     text.push_str(include_str!("derive.py"));
     text.push_str("\n\n");
+    if space.is_axisymmetric() {
+        text.push_str(&format!("VECTOR = {}\n\n\n", space.vector()));
+        text.push_str(include_str!("section.py"));
+        text.push_str("\n\n");
+    }
     text.push_str(&values);
     text.push_str("\n\n");
     text.push_str(include_str!("compare.py"));
@@ -93,8 +97,9 @@ fn field(compiled: &Compiled) -> String {
     let all = parameters.chain(lets).chain(givens).chain(of_material);
     let all: SortedSet<&str> = all.chain(used.iter().map(String::as_str)).collect();
     let names = Renamed::new(all.into_iter());
-    let axes = AXES[..field.dimension].join(", ");
-    let mut lines = vec![format!("def field({axes}, t):")];
+    let axes = axes(field);
+    let name = if field.space.is_axisymmetric() { "meridian" } else { "field" };
+    let mut lines = vec![format!("def {name}({axes}, t):")];
     lines.push(
         "    \"\"\"The field file: u, rho0, the arguments of the material, the fibres, quantities of its own.\"\"\""
             .into(),
@@ -119,9 +124,12 @@ fn field(compiled: &Compiled) -> String {
     }
     lines.push("    u = [".into());
     lines.extend(field.displacement.iter().map(|u| format!("        {},", translated(u, &names))));
+    if field.space == (Space::Axisymmetric { swirl: false }) {
+        lines.push("        Integer(0),".into());
+    }
     lines.push("    ]".into());
     if let Some(rigid) = &field.rigid {
-        lines.push(format!("    u = {}", moved(rigid, &axes, &names)));
+        lines.push(format!("    u = {}", moved(rigid, field.space, &axes, &names)));
     }
     lines.extend(own::definitions(compiled, &names));
     lines.extend(own::quantities(compiled, &names));
@@ -150,12 +158,22 @@ fn field(compiled: &Compiled) -> String {
     lines.join("\n")
 }
 
+/// The names of the coordinates, as arguments.
+fn axes(field: &FieldSpec) -> String {
+    field.space.axes()[..field.dimension].join(", ")
+}
+
 /// The displacement u after a rigid motion.
-fn moved(rigid: &RigidSpec, axes: &str, names: &Renamed) -> String {
+fn moved(rigid: &RigidSpec, space: Space, axes: &str, names: &Renamed) -> String {
     let list = |formulas: &[Formula]| {
         let entries: Vec<_> = formulas.iter().map(|formula| translated(formula, names)).collect();
         format!("[{}]", entries.join(", "))
     };
+    if space.is_axisymmetric() {
+        let along = rigid.translation.iter().flatten().nth(1);
+        let along = along.map_or("0".into(), |formula| translated(formula, names));
+        return format!("[u[0], u[1] + {along}, u[2]]");
+    }
     let mut arguments = vec![format!("[{axes}]"), "u".into()];
     if let Some(angle) = rigid.angle() {
         arguments.push(format!("angle={}", translated(angle, names)));

@@ -1,12 +1,11 @@
 //! The given fields and the further balances of a field, in Python: the names of the language of balances are derived by SymPy.
 
 use super::python::Renamed;
-use super::translated;
+use super::{axes, translated};
 use mms_codegen::compile::Compiled;
 use mms_spec::own::Part;
 use mms_spec::syntax::{self, Kind};
-use mms_spec::{BalanceLaw, BalanceSpec, Formula};
-use mms_symbolic::expr::print::AXES;
+use mms_spec::{BalanceLaw, BalanceSpec, Formula, Space};
 use mms_symbolic::sorted::SortedSet;
 
 /// The names that the formulas of balances use and the file does not define.
@@ -17,9 +16,10 @@ pub(super) fn used(compiled: &Compiled) -> Vec<String> {
         Kind::Name(name) => Some(name),
         _ => None,
     });
-    let known = ["X", "Y", "Z", "t", "pi"];
+    let known = compiled.field.space.axes().iter().chain(&["t", "pi"]);
+    let known: SortedSet<&str> = known.copied().collect();
     let names: SortedSet<String> = names
-        .filter(|name| !known.contains(&name.as_str()) && !is_defined(compiled, name))
+        .filter(|name| !known.contains(name.as_str()) && !is_defined(compiled, name))
         .collect();
     names.into_iter().collect()
 }
@@ -38,16 +38,20 @@ pub(super) fn definitions(compiled: &Compiled, names: &Renamed) -> Vec<String> {
     if used.is_empty() {
         return Vec::new();
     }
-    let axes = AXES[..compiled.field.dimension].join(", ");
-    let mut lines = vec![format!("    deformed = in_space([{axes}], u)")];
+    let (axes, space) = (axes(&compiled.field), compiled.field.space);
+    let deformed = match space {
+        Space::Cartesian(_) => format!("in_space([{axes}], u)"),
+        Space::Axisymmetric { .. } => format!("around_the_axis({axes}, u)"),
+    };
+    let mut lines = vec![format!("    deformed = {deformed}")];
     for name in &used {
-        lines.push(format!("    {} = {}", names.name(name), meaning(name, names)));
+        lines.push(format!("    {} = {}", names.name(name), meaning(name, space, names)));
     }
     lines
 }
 
-fn meaning(name: &str, names: &Renamed) -> String {
-    let axis = |text: &str| ["x", "y", "z"].iter().position(|axis| *axis == text);
+fn meaning(name: &str, space: Space, names: &Renamed) -> String {
+    let axis = |text: &str| space.directions().iter().position(|axis| *axis == text);
     if name == "J" {
         return "determinant(deformed)".into();
     }
@@ -75,7 +79,8 @@ fn meaning(name: &str, names: &Renamed) -> String {
 
 /// The lines of `field` that collect the quantities of the file's own: a dictionary of lists.
 pub(super) fn quantities(compiled: &Compiled, names: &Renamed) -> Vec<String> {
-    let axes = &AXES[..compiled.field.dimension];
+    let space = compiled.field.space;
+    let axes = &space.axes()[..space.coordinates()];
     let mut lines = vec!["    own = {}".to_string()];
     for own in compiled.model.own.keys() {
         let given = names.name(&own.of);
@@ -83,8 +88,9 @@ pub(super) fn quantities(compiled: &Compiled, names: &Renamed) -> Vec<String> {
         let components = match (own.part, balance.map(|balance| &balance.law)) {
             (Part::Value, _) => given.to_owned(),
             (Part::Gradient, _) => {
-                let slopes: Vec<_> =
+                let mut slopes: Vec<_> =
                     axes.iter().map(|axis| format!("diff({given}, {axis})")).collect();
+                slopes.resize(space.vector(), "Integer(0)".into());
                 slopes.join(", ")
             }
             (Part::Rate, _) => format!("diff({given}, t)"),
@@ -94,10 +100,12 @@ pub(super) fn quantities(compiled: &Compiled, names: &Renamed) -> Vec<String> {
             (Part::Source, Some(BalanceLaw::Flow { storage, flux })) => {
                 let storage =
                     storage.iter().map(|it| format!("diff({}, t)", translated(it, names)));
+                let spread = flux.iter().flatten().take(usize::from(space.is_axisymmetric()));
+                let spread = spread.map(|it| format!("({})/R", translated(it, names)));
                 let flux = flux.iter().flatten().zip(axes);
                 let flux =
                     flux.map(|(it, axis)| format!("diff({}, {axis})", translated(it, names)));
-                storage.chain(flux).collect::<Vec<_>>().join(" + ")
+                storage.chain(flux).chain(spread).collect::<Vec<_>>().join(" + ")
             }
             (_, Some(BalanceLaw::Flow { flux, .. })) => list(flux.iter().flatten(), names),
             _ => continue,
