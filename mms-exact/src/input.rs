@@ -298,7 +298,7 @@ impl Input {
         ensure!(
             !self.compiled.field.space.is_axisymmetric(),
             "`{}` is axisymmetric, and this command works in Cartesian coordinates, as the solver of this project does; `mms \
-             check`, `mms eval`, `mms show` and `mms accuracy` take this field",
+             check`, `mms eval`, `mms show`, `mms accuracy` and `mms emit` take this field",
             self.name.shown()
         );
         Ok(())

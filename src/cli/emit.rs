@@ -146,7 +146,6 @@ impl Emit {
         let options = self.variant.options(self.selection(&own)?);
         let emitted = |field: &str| {
             let input = Input::new(open(field)?, &options)?;
-            input.hold_cartesian()?;
             input.offered(&self.quantity, Vec::new())?;
             let subject = Subject::new(&input.compiled);
             let bundle = (target.emit)(&subject);

@@ -54,7 +54,6 @@ fn what_works_in_cartesian_coordinates_refuses_an_axisymmetric_field() {
         "extremes shaft.toml",
         "judge shaft.toml table.csv",
         "diagnose shaft.toml table.csv",
-        "emit shaft.toml --target c -o out",
     ] {
         let says = "`shaft` is axisymmetric, and this command works in Cartesian coordinates";
         folder.mms(arguments).exits(2).complains(says);

@@ -25,8 +25,14 @@ mod bar_1d;
 mod odd_names;
 mod plain;
 mod standing_wave_3d;
+// As `field!` has it: the file names a given field T.
+#[allow(non_snake_case, unused_variables)]
+mod units_axisymmetric;
 include!(\"program.rs\");
 ";
+
+/// An axisymmetric field, which has no contract of a solver.
+const SHAFT: &str = "mms-codegen/tests/data/pass/units_axisymmetric.toml";
 
 /// A crate of `program.rs` and the emitted files.
 fn scratch_crate() -> PathBuf {
@@ -45,6 +51,7 @@ fn scratch_crate() -> PathBuf {
     emit("bar_1d", &source, &[]);
     emit("tests/programs/odd_names.toml", &source, &[]);
     emit("tests/programs/plain.toml", &source, &[]);
+    emit(SHAFT, &source, &[]);
     let part = ["--quantity", "body_force,velocity", "--set", "lambda=0", "--freeze"];
     emit("examples/fields/standing_wave_3d.toml", &source, &part);
     scratch
@@ -149,6 +156,11 @@ fn emitted_files_need_mms_math_alone_and_give_the_bits_of_the_interpreter() {
         let field = compiled(path, Selection::default());
         expected.interpreted(&field, Quantity::Displacement, &[question]);
     }
+
+    let shaft = compiled(SHAFT, Selection::default());
+    let both = ["shaft_body_force", "shaft_body_force_of_kept"];
+    expected.interpreted(&shaft, Quantity::BodyForce, &both);
+    expected.interpreted(&shaft, Quantity::FirstPiolaKirchhoff, &["shaft_stress"]);
 
     let found = answers(&scratch_crate(), &expected.questions);
     assert_eq!(found.len(), expected.answers.len());

@@ -9,7 +9,10 @@ fn evaluate(quantity: &str, time: f64, at: &[f64]) -> Vec<f64> {
     let odd = odd_names::prepare(&odd_names::Parameters::<f64>::default());
     let plain = plain::prepare::<f64>(&plain::Parameters::default());
     let (bar_now, wave_now) = (bar.at_time(time), wave.at_time(time));
+    let shaft = units_axisymmetric::prepare::<f64>(&units_axisymmetric::Parameters::default());
+    let shaft_now = shaft.at_time(time);
     let first = || [at[0]];
+    let both = || at.try_into().expect("two coordinates");
     let all = || at.try_into().expect("three coordinates");
     match quantity {
         "bar_body_force" => bar_now.body_force(first()).to_vec(),
@@ -20,6 +23,9 @@ fn evaluate(quantity: &str, time: f64, at: &[f64]) -> Vec<f64> {
         "wave_body_force_of_kept" => wave_now.body_force_at(&wave.at_point(all())).to_vec(),
         "wave_velocity" => wave_now.velocity(all()).to_vec(),
         "odd_displacement" => odd.at_time(time).displacement(first()).to_vec(),
+        "shaft_body_force" => shaft_now.body_force(both()).to_vec(),
+        "shaft_body_force_of_kept" => shaft_now.body_force_at(&shaft.at_point(both())).to_vec(),
+        "shaft_stress" => shaft_now.first_piola_kirchhoff(both()).concat(),
         "plain_displacement" => plain.at_time(time).displacement(first()).to_vec(),
         unknown => panic!("no quantity {unknown}"),
     }

@@ -55,10 +55,11 @@ pub(crate) fn sizes(port: &Port<'_>) -> String {
     let (parameters, width, widest) = (port.parameters.len(), port.width(), port.widest());
     let largest = (points * width.max(widest)).max(parameters).max(widest);
     format!(
-        "enum {{\n    SETS = {sets}, POINTS = {points}, ROOM = {}, DIMENSION = {}, PARAMETERS = {parameters},\n    \
+        "enum {{\n    SETS = {sets}, POINTS = {points}, ROOM = {}, DIMENSION = {}, SQUARED = {}, PARAMETERS = {parameters},\n    \
          WIDTH = {width}, WIDEST = {widest}, LARGEST = {largest}, LINE = 256\n}};\n",
         points.max(1),
-        port.dimension()
+        port.dimension(),
+        port.rows().pow(2)
     )
 }
 

@@ -5,7 +5,7 @@ use crate::port::names::Rules;
 use crate::port::number::{decimal, nearest};
 use crate::port::support::Calls;
 use mms_program::interpret::parts;
-use mms_symbolic::expr::{Function, Rational};
+use mms_symbolic::expr::{Function, Rational, Symbol};
 
 /// Names that C takes; headers are also read by C++.
 pub const RULES: Rules = Rules {
@@ -59,8 +59,8 @@ impl Dialect for C {
         if wide { format!("{}()", calls.to("wide_pi")) } else { "REAL(3.141592653589793)".into() }
     }
 
-    fn input(&self, name: &str) -> String {
-        if name == "t" { name.into() } else { format!("{name}[i]") }
+    fn input(&self, symbol: Symbol, name: &str) -> String {
+        if symbol == Symbol::Time { name.into() } else { format!("{name}[i]") }
     }
 
     fn widened(&self, value: &str, calls: &mut Calls) -> String {

@@ -98,7 +98,7 @@ fn functions(port: &Port<'_>) -> String {
         text += "\n";
     }
     for callable in &port.callables {
-        text += &documented(&[callable.documentation(port.dimension())], "");
+        text += &documented(&[callable.documentation()], "");
         text += &format!("{};\n", head(port, callable));
         if callable.is_of_points() {
             text += &format!("{};\n", batch_head(port, callable, ""));

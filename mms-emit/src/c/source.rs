@@ -7,7 +7,7 @@ use super::header::{batch_head, head, subject};
 use super::{broken, comment};
 use crate::port::Port;
 use crate::port::body::{Bodies, Body, local};
-use crate::port::callable::{Callable, input};
+use crate::port::callable::Callable;
 use crate::port::support::Support;
 use crate::text::indented;
 
@@ -131,7 +131,7 @@ fn of_many_points(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
         let _ = writeln!(text, "    (void){};", if callable.time { "now" } else { "field" });
     }
     for symbol in callable.inputs.iter().filter(|symbol| !body.inputs.contains(symbol)) {
-        let _ = writeln!(text, "    (void){};", input(*symbol));
+        let _ = writeln!(text, "    (void){};", port.input(*symbol));
     }
     text += "    for (size_t i = 0; i < n; i++) {\n";
     text += &indented(&body.statements, 8);

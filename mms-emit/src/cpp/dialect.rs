@@ -4,9 +4,9 @@ use crate::port::body::{Dialect, Owner, in_c_library};
 use crate::port::number::{decimal, nearest};
 use crate::port::support::Calls;
 use mms_program::interpret::parts;
-use mms_symbolic::expr::{Function, Rational};
+use mms_symbolic::expr::{Function, Rational, Symbol};
 
-/// How statements are written in C++, for a field of that dimension.
+/// How statements are written in C++, for a field whose tensors have so many rows.
 pub struct Cpp(pub usize);
 
 impl Dialect for Cpp {
@@ -24,16 +24,12 @@ impl Dialect for Cpp {
         if wide { format!("{}()", calls.to("wide_pi")) } else { "T(3.141592653589793)".into() }
     }
 
-    /// Arguments are arrays: X, Y and Z are one, and so are the rows of H.
-    fn input(&self, name: &str) -> String {
-        let digit =
-            |at: usize| name[at..].chars().next().and_then(|it| it.to_digit(10)).unwrap_or(1);
-        match &name[..1] {
-            "X" => "X[0]".into(),
-            "Y" => "X[1]".into(),
-            "Z" => "X[2]".into(),
-            "N" => format!("N[{}]", digit(1) - 1),
-            "H" => format!("H[{}]", (digit(1) as usize - 1) * self.0 + digit(2) as usize - 1),
+    /// Arguments are arrays: the coordinates are one, and so are the rows of H.
+    fn input(&self, symbol: Symbol, name: &str) -> String {
+        match symbol {
+            Symbol::Coordinate(axis) => format!("X[{axis}]"),
+            Symbol::Normal(axis) => format!("N[{axis}]"),
+            Symbol::Gradient(row, column) => format!("H[{}]", row * self.0 + column),
             _ => name.into(),
         }
     }

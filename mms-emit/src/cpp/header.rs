@@ -7,7 +7,7 @@ use crate::c::source::{POINT, WIDE, support};
 use crate::c::{broken, comment};
 use crate::port::Port;
 use crate::port::body::{Bodies, Body, Dialect as _, local};
-use crate::port::callable::{Callable, input};
+use crate::port::callable::Callable;
 use crate::port::faces;
 use crate::port::motion;
 use crate::port::support::Calls;
@@ -40,7 +40,7 @@ fn wide(mut calls: Calls, has_statements: bool) -> String {
 /// The text of `FIELD.hpp`.
 pub(super) fn text(port: &Port<'_>) -> String {
     let (name, upper) = (&port.name, port.name.to_ascii_uppercase());
-    let bodies = port.bodies(&Cpp(port.dimension()));
+    let bodies = port.bodies(&Cpp(port.rows()));
     let (is_wide, calls) = (bodies.are_wide(), bodies.calls());
     let point = point(&calls);
     let supports =
@@ -203,12 +203,14 @@ fn subject(callable: &Callable, is_read: bool) -> String {
 
 /// A function of one point, or of none.
 fn function(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
-    let dialect = Cpp(port.dimension());
+    let dialect = Cpp(port.rows());
     let mut arguments = vec![subject(callable, body.reads_kept)];
-    let mut doc = callable.documentation(port.dimension());
+    let mut doc = callable.documentation();
     for (array, count) in callable.arrays() {
-        let reads =
-            body.inputs.iter().any(|symbol| dialect.input(&input(*symbol)).starts_with(array));
+        let reads = body
+            .inputs
+            .iter()
+            .any(|symbol| dialect.input(*symbol, &port.input(*symbol)).starts_with(array));
         arguments.push(named("const T *", array, reads));
         let _ = write!(doc, " {array}: {count}.");
     }

@@ -59,7 +59,7 @@ fn checked(port: &Port<'_>, check: &Check<'_>) -> String {
         if callable.time { "    integer :: point\n" } else { "" }
     );
     let mut arguments = vec![if callable.time { "now" } else { "field" }.to_string()];
-    let columns = callable.columns(port.dimension());
+    let columns = callable.columns();
     arguments.extend(columns.iter().map(|it| format!("real(at({}, :), wp)", it + 1)));
     text += &match (callable.is_of_points(), callable.is_scalar()) {
         (true, false) => {
@@ -97,7 +97,7 @@ fn through_c(port: &Port<'_>, callable: &Callable) -> String {
     if callable.time {
         arguments.push("at(1, point)".into());
     }
-    let mut columns = callable.columns(port.dimension()).into_iter().map(|it| it + 1);
+    let mut columns = callable.columns().into_iter().map(|it| it + 1);
     for (_, count) in callable.arrays() {
         let first = columns.by_ref().take(count).min().unwrap_or(1);
         arguments.push(format!("at({first}:{}, {which})", first + count - 1));

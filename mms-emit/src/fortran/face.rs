@@ -129,7 +129,7 @@ fn procedure(port: &Port<'_>, callable: &Callable) -> String {
         arguments.iter().map(|argument| argument[column].clone()).collect()
     };
     let prototype = format!("void {}_{own}({});", port.name, column(1).join(", "));
-    let mut text = "\n".to_string() + &documented(&callable.documentation(port.dimension()), "  ");
+    let mut text = "\n".to_string() + &documented(&callable.documentation(), "  ");
     text += &documented(&prototype, "  ");
     text += &continued(&format!("  subroutine {own}"), &column(0), " &");
     let _ = writeln!(text, "      bind(c, name='{}_{own}')", port.name);

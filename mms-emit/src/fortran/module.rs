@@ -6,7 +6,7 @@ use super::dialect::Fortran;
 use super::{comment, continued, declared, documented};
 use crate::port::Port;
 use crate::port::body::{Bodies, Body, local};
-use crate::port::callable::{Callable, input};
+use crate::port::callable::Callable;
 use crate::port::faces;
 use crate::port::motion;
 use crate::port::support::Support;
@@ -116,7 +116,7 @@ fn procedures(port: &Port<'_>, bodies: &Bodies) -> String {
         text += "\n";
         text += &match (callable.is_of_points(), callable.is_scalar()) {
             (true, _) => of_points(port, callable, body),
-            (false, is_scalar) => of_no_point(port, callable, body, is_scalar),
+            (false, is_scalar) => of_no_point(callable, body, is_scalar),
         };
     }
     text
@@ -203,7 +203,7 @@ fn of_points(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     let inputs = callable.input_names();
     let mut idle = Vec::new();
     idle.extend((!body.reads_kept).then_some(subject));
-    let read = |name: &String| body.inputs.iter().any(|symbol| input(*symbol) == *name);
+    let read = |name: &String| body.inputs.iter().any(|symbol| port.input(*symbol) == *name);
     idle.extend(inputs.iter().filter(|name| !read(name)).map(String::as_str));
     let is_scalar = callable.is_scalar();
     let results: Vec<String> = match is_scalar {
@@ -212,7 +212,7 @@ fn of_points(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     };
     let mut arguments = vec![subject.to_string()];
     arguments.extend(inputs.iter().cloned());
-    let mut text = documented(&callable.documentation(port.dimension()), "  ");
+    let mut text = documented(&callable.documentation(), "  ");
     if is_scalar {
         let start = format!("  pure elemental function {}", callable.name);
         text += &continued(&start, &arguments, " result(out)");
@@ -235,11 +235,11 @@ fn of_points(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
 }
 
 /// A part of the domain.
-fn of_no_point(port: &Port<'_>, callable: &Callable, body: &Body, is_scalar: bool) -> String {
+fn of_no_point(callable: &Callable, body: &Body, is_scalar: bool) -> String {
     let name = &callable.name;
     let count = callable.components.len();
     let shape = if is_scalar { String::new() } else { format!("({count})") };
-    let mut text = documented(&callable.documentation(port.dimension()), "  ");
+    let mut text = documented(&callable.documentation(), "  ");
     let _ = writeln!(text, "  pure function {name}(field) result(out)");
     let _ = writeln!(text, "    type(field_type), intent(in) :: field\n    real(wp) :: out{shape}");
     text += &statements(body, "real(wp)", &unused(if body.reads_kept { &[] } else { &["field"] }));

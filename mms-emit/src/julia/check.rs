@@ -17,8 +17,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     for check in port.checks() {
         let (callable, table) = (check.callable, check.table);
         let owner = callable.owner(["alone", "field", "now"]);
-        let columns: Vec<usize> =
-            callable.columns(port.dimension()).iter().map(|it| it + 1).collect();
+        let columns: Vec<usize> = callable.columns().iter().map(|it| it + 1).collect();
         let _ =
             writeln!(text, "    (\"{table}\", field.{}, :{owner}, Int{columns:?}),", callable.name);
     }

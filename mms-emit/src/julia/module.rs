@@ -162,7 +162,7 @@ fn function(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     let owner = if callable.time { "now::Instant{T}" } else { "field::Field{T}" };
     let mut arguments = vec![owner.to_string()];
     arguments.extend(callable.input_names());
-    let doc = callable.documentation(port.dimension());
+    let doc = callable.documentation();
     let tuple = |items: &[String]| match items {
         [item] => format!("({item},)"),
         items => format!("({})", items.join(", ")),
@@ -170,7 +170,7 @@ fn function(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     let value = match callable.shape {
         Some(Shape::Scalar) => body.results[0].clone(),
         Some(Shape::Tensor) => {
-            tuple(&body.results.chunks(port.dimension()).map(tuple).collect::<Vec<_>>())
+            tuple(&body.results.chunks(port.rows()).map(tuple).collect::<Vec<_>>())
         }
         Some(Shape::Vector) | None => tuple(&body.results),
     };

@@ -4,7 +4,7 @@ use crate::port::body::{Dialect, Owner};
 use crate::port::number::nearest;
 use crate::port::support::Calls;
 use mms_program::Value;
-use mms_symbolic::expr::{Function, Rational};
+use mms_symbolic::expr::{Function, Rational, Symbol};
 
 /// How variables are written, for a field of that name.
 pub struct Karamelo<'a>(pub &'a str);
@@ -22,13 +22,11 @@ impl Dialect for Karamelo<'_> {
         "PI".into()
     }
 
-    fn input(&self, name: &str) -> String {
-        match name {
-            "X" => "x0".into(),
-            "Y" => "y0".into(),
-            "Z" => "z0".into(),
-            "t" => "time".into(),
-            other => other.into(),
+    fn input(&self, symbol: Symbol, name: &str) -> String {
+        match symbol {
+            Symbol::Coordinate(axis) => ["x0", "y0", "z0"][axis].into(),
+            Symbol::Time => "time".into(),
+            _ => name.into(),
         }
     }
 

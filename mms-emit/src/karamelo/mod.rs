@@ -49,9 +49,8 @@ fn bundle(subject: &Subject<'_>) -> Bundle {
 
 /// Renames parameters that are called like a result: all variables have one space of names.
 fn make_way(port: &mut Port<'_>) {
-    let dimension = port.dimension();
     let results = port.callables.iter().flat_map(|callable| {
-        let suffixes = callable.suffixes(dimension).into_iter();
+        let suffixes = callable.suffixes().into_iter();
         suffixes.map(|suffix| format!("{}{suffix}", callable.name))
     });
     let mut taken: Vec<String> = results.chain(port.parameters.values().cloned()).collect();
@@ -94,8 +93,8 @@ fn text(port: &Port<'_>) -> String {
     let mut results = body.results.iter();
     for callable in callables {
         text += "\n";
-        text += &comment(&[callable.documentation(port.dimension())], "");
-        for (suffix, result) in callable.suffixes(port.dimension()).iter().zip(&mut results) {
+        text += &comment(&[callable.documentation()], "");
+        for (suffix, result) in callable.suffixes().iter().zip(&mut results) {
             let _ = writeln!(text, "{name}_{}{suffix} = {result}", callable.name);
         }
     }

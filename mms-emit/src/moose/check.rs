@@ -39,7 +39,7 @@ pub(crate) fn functions(port: &Port<'_>, accepted: Vec<Option<u32>>) -> String {
         if !callable.is_of_places() {
             continue;
         }
-        let suffixes = callable.suffixes(port.dimension());
+        let suffixes = callable.suffixes();
         let of_points = if callable.is_of_points() { "True" } else { "False" };
         match accepted[check.place] {
             Some(accepted) => {

@@ -1,10 +1,9 @@
 //! How the Function Parser writes numbers and functions.
 
-use super::leaf;
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::{decimal, nearest};
 use crate::port::support::Calls;
-use mms_symbolic::expr::{Function, Rational};
+use mms_symbolic::expr::{Function, Rational, Symbol};
 
 /// How statements are written in a ParsedFunction.
 pub struct Moose;
@@ -21,8 +20,11 @@ impl Dialect for Moose {
         decimal(std::f64::consts::PI)
     }
 
-    fn input(&self, name: &str) -> String {
-        leaf(name)
+    fn input(&self, symbol: Symbol, name: &str) -> String {
+        match symbol {
+            Symbol::Coordinate(axis) => ["x", "y", "z"][axis].into(),
+            _ => name.into(),
+        }
     }
 
     fn widened(&self, value: &str, _calls: &mut Calls) -> String {

@@ -12,7 +12,6 @@ pub(super) use self::check::functions;
 use self::dialect::Moose;
 use crate::port::Port;
 use crate::port::body::{Context, local};
-use crate::port::callable::input;
 use crate::port::names::Rules;
 use crate::port::number::decimal;
 use crate::python::module::comment;
@@ -78,9 +77,9 @@ fn text(port: &Port<'_>) -> String {
         blocks += &block(port, &format!("q{value}"), "", Value(value as u32), &apart, &mut read);
     }
     for callable in places {
-        let doc = callable.documentation(port.dimension());
+        let doc = callable.documentation();
         let values = port.values(callable.output);
-        for (suffix, value) in callable.suffixes(port.dimension()).iter().zip(values) {
+        for (suffix, value) in callable.suffixes().iter().zip(values) {
             blocks += &block(
                 port,
                 &format!("{}{suffix}", callable.name),
@@ -95,6 +94,9 @@ fn text(port: &Port<'_>) -> String {
     header.push(format!(
         "For `!include {name}.i` at the top level of an input file. Functions are of the coordinates of the undeformed mesh and of the time; those called {name}_q are steps on the way to others. A parameter is changed in its line, or on the command line. {name}_check.py checks the formulas."
     ));
+    if port.compiled.field.space.is_axisymmetric() {
+        header.push("For blocks with coord_type = RZ: x is R and y is Z, and the components 1, 2 and 3 are those along R, Z and the hoop, in the order of MOOSE.".into());
+    }
     let mut text = comment(&header, "");
     let defaults = &port.subject.vectors().defaults;
     for ((index, parameter), default) in port.parameters.iter().zip(defaults) {
@@ -182,11 +184,4 @@ fn block(
         text += &list(values, "    symbol_values = '");
     }
     text + "  []\n"
-}
-
-/// The name of a leaf in a formula.
-fn leaf(name: &str) -> String {
-    let is = |symbol| input(symbol) == name;
-    let axis = (0..3).find(|axis| is(Symbol::Coordinate(*axis)));
-    axis.map_or(name.into(), |axis| ["x", "y", "z"][axis].into())
 }

@@ -18,8 +18,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     for check in port.checks() {
         let callable = check.callable;
         let of = callable.owner(["alone", "field", "now"]);
-        let columns: Vec<usize> =
-            callable.columns(port.dimension()).iter().map(|it| it + 1).collect();
+        let columns: Vec<usize> = callable.columns().iter().map(|it| it + 1).collect();
         let _ =
             writeln!(text, "    '{}', '{}', '{of}', {columns:?}; ...", check.table, callable.name);
     }

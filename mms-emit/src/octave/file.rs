@@ -46,7 +46,7 @@ fn face(port: &Port<'_>) -> String {
              % f.at_time(field, t): computes once what the parameters and the time determine.\n  \
              f.at_time = @at_time;\n";
     for callable in &port.callables {
-        text += &comment(&[callable.documentation(port.dimension())], "  ");
+        text += &comment(&[callable.documentation()], "  ");
         text += &comment(&[usage(callable)], "  ");
         let _ = writeln!(text, "  f.{0} = @evaluate_{0};", callable.name);
     }

@@ -1,6 +1,6 @@
 //! One printer of instructions for all languages.
 
-use super::callable::{Callable, input};
+use super::callable::Callable;
 use super::support::Calls;
 use super::{AT_POINTS, Port};
 use mms_mechanics::Output;
@@ -89,8 +89,8 @@ pub trait Dialect {
     fn literal(&self, number: &Rational, wide: bool, calls: &mut Calls) -> String;
     /// pi.
     fn pi(&self, wide: bool, calls: &mut Calls) -> String;
-    /// What supplies a leaf in the function that is being written.
-    fn input(&self, name: &str) -> String {
+    /// What supplies a leaf in the function that is being written, of which `name` is the argument.
+    fn input(&self, _symbol: Symbol, name: &str) -> String {
         name.into()
     }
     /// A number of the caller with twice the digits.
@@ -357,7 +357,7 @@ impl Printer<'_> {
             Op::Input(symbol)
                 if place.computes(instr.stage) && !matches!(symbol, Symbol::Parameter(_)) =>
             {
-                let name = dialect.input(&input(*symbol));
+                let name = dialect.input(*symbol, &self.port.input(*symbol));
                 return if wide { dialect.widened(&name, &mut self.calls) } else { name };
             }
             _ => {}
@@ -377,7 +377,9 @@ impl Printer<'_> {
         match &instr.op {
             Op::Constant(number) => dialect.literal(number, false, &mut self.calls),
             Op::Pi => dialect.pi(false, &mut self.calls),
-            Op::Input(Symbol::Time) if self.place == Context::Times => dialect.input("t"),
+            Op::Input(Symbol::Time) if self.place == Context::Times => {
+                dialect.input(Symbol::Time, "t")
+            }
             _ if self.place == Context::Times && instr.stage == Stage::Parameter => {
                 dialect.member(Owner::Field, &local(value, false))
             }

@@ -6,9 +6,9 @@ use mms_mechanics::boundary::Datum;
 use mms_mechanics::invariant::Kind;
 use mms_mechanics::{Bound, Output, Program};
 use mms_program::Op;
+use mms_spec::Space;
 use mms_spec::quantity::{Quantity, Shape};
 use mms_symbolic::expr::Symbol;
-use mms_symbolic::expr::print::AXES;
 
 /// A function of an emitted field.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +29,8 @@ pub struct Callable {
     pub time: bool,
     /// What it takes at a point: coordinates, normal or gradient.
     pub inputs: Vec<Symbol>,
+    /// The coordinates of the field.
+    pub space: Space,
 }
 
 impl Callable {
@@ -57,10 +59,11 @@ impl Callable {
     }
 
     /// What it is, of which shape and in which unit: its documentation in every language.
-    pub fn documentation(&self, dimension: usize) -> String {
+    pub fn documentation(&self) -> String {
+        let rows = self.space.rows();
         let shape = match (self.shape, self.components.len()) {
             (Some(Shape::Scalar), _) => "Scalar".into(),
-            (Some(Shape::Tensor), _) => format!("Tensor, {dimension}x{dimension}, by rows"),
+            (Some(Shape::Tensor), _) => format!("Tensor, {rows}x{rows}, by rows"),
             (Some(Shape::Vector), count) => format!("Vector of {count}"),
             (None, 1) => "1 number".into(),
             (None, count) => format!("{count} numbers"),
@@ -89,7 +92,8 @@ impl Callable {
     }
 
     /// The places of what it takes, among t, X, N and H of a point.
-    pub fn columns(&self, dimension: usize) -> Vec<usize> {
+    pub fn columns(&self) -> Vec<usize> {
+        let dimension = self.space.coordinates();
         let first = |array: &str| match array {
             "N" => 1 + dimension,
             "H" => 1 + 2 * dimension,
@@ -105,12 +109,13 @@ impl Callable {
     }
 
     /// What tells its components apart behind its name, rows first: nothing, `_1`, `_12`.
-    pub fn suffixes(&self, dimension: usize) -> Vec<String> {
+    pub fn suffixes(&self) -> Vec<String> {
+        let rows = self.space.rows();
         match self.shape {
             Some(Shape::Scalar) => vec![String::new()],
-            Some(Shape::Tensor) => (1..=dimension)
-                .flat_map(|i| (1..=dimension).map(move |j| format!("_{i}{j}")))
-                .collect(),
+            Some(Shape::Tensor) => {
+                (1..=rows).flat_map(|i| (1..=rows).map(move |j| format!("_{i}{j}"))).collect()
+            }
             Some(Shape::Vector) | None => {
                 (1..=self.components.len()).map(|i| format!("_{i}")).collect()
             }
@@ -119,14 +124,14 @@ impl Callable {
 
     /// The names of what it takes at a point.
     pub fn input_names(&self) -> Vec<String> {
-        self.inputs.iter().map(|symbol| input(*symbol)).collect()
+        self.inputs.iter().map(|symbol| input(self.space, *symbol)).collect()
     }
 }
 
 /// The argument that supplies a leaf.
-pub fn input(symbol: Symbol) -> String {
+pub fn input(space: Space, symbol: Symbol) -> String {
     match symbol {
-        Symbol::Coordinate(axis) => AXES[axis].into(),
+        Symbol::Coordinate(axis) => space.axes()[axis].into(),
         Symbol::Time => "t".into(),
         Symbol::Normal(axis) => format!("N{}", axis + 1),
         Symbol::Gradient(row, column) => format!("H{}{}", row + 1, column + 1),
@@ -198,11 +203,12 @@ fn bound(bound: Bound, compiled: &Compiled) -> Callable {
         },
         time: false,
         inputs: Vec::new(),
+        space: compiled.field.space,
     }
 }
 
 fn response(response: Response, compiled: &Compiled) -> Callable {
-    let dimension = compiled.field.dimension;
+    let space = compiled.field.space;
     let (name, symbol, doc, unit, shape) = match response {
         Response::Density => {
             ("density", "rho0", "Reference density rho0(X).", "kg/m^3", Shape::Scalar)
@@ -245,10 +251,10 @@ fn response(response: Response, compiled: &Compiled) -> Callable {
         Response::Tangent => unreachable!("derived where it is asked for"),
     };
     let strained = !matches!(response, Response::Density | Response::WaveSpeed);
-    let mut inputs = coordinates(dimension);
+    let mut inputs = coordinates(space);
     if strained {
-        let rows = (0..dimension).flat_map(|i| (0..dimension).map(move |j| Symbol::Gradient(i, j)));
-        inputs.extend(rows);
+        let rows = 0..space.rows();
+        inputs.extend(rows.flat_map(|i| (0..space.rows()).map(move |j| Symbol::Gradient(i, j))));
     }
     let output = Output::Response(response);
     Callable {
@@ -257,17 +263,18 @@ fn response(response: Response, compiled: &Compiled) -> Callable {
         doc: doc.into(),
         unit: compiled.unit(unit),
         shape: Some(shape),
-        components: components(symbol, shape, dimension),
+        components: components(symbol, shape, space),
         time: changes_with_time(&compiled.program, output),
         inputs,
+        space,
     }
 }
 
 fn quantity(quantity: Quantity, compiled: &Compiled) -> Callable {
-    let dimension = compiled.field.dimension;
-    let mut inputs = coordinates(dimension);
+    let space = compiled.field.space;
+    let mut inputs = coordinates(space);
     if quantity.takes_normal() {
-        inputs.extend((0..dimension).map(Symbol::Normal));
+        inputs.extend((0..space.coordinates()).map(Symbol::Normal));
     }
     // A symbol of the user's may be a word of the language.
     let symbol = match quantity {
@@ -280,9 +287,10 @@ fn quantity(quantity: Quantity, compiled: &Compiled) -> Callable {
         doc: compiled.doc(quantity).into(),
         unit: compiled.unit_of(quantity),
         shape: Some(quantity.shape()),
-        components: components(symbol, quantity.shape(), dimension),
+        components: components(symbol, quantity.shape(), space),
         time: true,
         inputs,
+        space,
     }
 }
 
@@ -293,7 +301,12 @@ fn changes_with_time(program: &Program, output: Output) -> bool {
 }
 
 fn on_face(face: &str, datum: Datum, output: Output, compiled: &Compiled) -> Callable {
-    let dimension = compiled.field.dimension;
+    let space = compiled.field.space;
+    let mut components = components("", Shape::Vector, space);
+    // No face looks along the hoop.
+    if datum == Datum::Normal {
+        components.truncate(space.coordinates());
+    }
     let (what, symbol, unit) = match datum {
         Datum::Normal => ("Outward reference unit normal N", "N", "1"),
         Datum::Displacement => {
@@ -307,22 +320,24 @@ fn on_face(face: &str, datum: Datum, output: Output, compiled: &Compiled) -> Cal
         doc: format!("{what} on the face {face}, at a point of it."),
         unit: compiled.unit(unit),
         shape: Some(Shape::Vector),
-        components: components(symbol, Shape::Vector, dimension),
+        components: components.into_iter().map(|it| format!("{symbol}{it}")).collect(),
         time: true,
-        inputs: coordinates(dimension),
+        inputs: coordinates(space),
+        space,
     }
 }
 
-fn coordinates(dimension: usize) -> Vec<Symbol> {
-    (0..dimension).map(Symbol::Coordinate).collect()
+fn coordinates(space: Space) -> Vec<Symbol> {
+    (0..space.coordinates()).map(Symbol::Coordinate).collect()
 }
 
-fn components(symbol: &str, shape: Shape, dimension: usize) -> Vec<String> {
+fn components(symbol: &str, shape: Shape, space: Space) -> Vec<String> {
+    let rows = space.rows();
     match shape {
         Shape::Scalar => vec![symbol.into()],
-        Shape::Vector => (1..=dimension).map(|i| format!("{symbol}{i}")).collect(),
-        Shape::Tensor => (1..=dimension)
-            .flat_map(|i| (1..=dimension).map(move |j| format!("{symbol}{i}{j}")))
-            .collect(),
+        Shape::Vector => (1..=space.vector()).map(|i| format!("{symbol}{i}")).collect(),
+        Shape::Tensor => {
+            (1..=rows).flat_map(|i| (1..=rows).map(move |j| format!("{symbol}{i}{j}"))).collect()
+        }
     }
 }

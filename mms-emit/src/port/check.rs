@@ -56,8 +56,7 @@ impl Port<'_> {
 
     /// How many numbers a point has: t, X, N and H.
     pub fn width(&self) -> usize {
-        let dimension = self.dimension();
-        1 + 2 * dimension + dimension * dimension
+        1 + 2 * self.dimension() + self.rows().pow(2)
     }
 
     /// The largest number of components of a function.

@@ -35,14 +35,14 @@ pub mod vectors;
 
 use std::borrow::Cow;
 
-use self::callable::{Callable, callables};
+use self::callable::{Callable, callables, input};
 use self::names::{Rules, of_holder, of_own, unique};
 use crate::target::Subject;
 use mms_codegen::compile::Compiled;
 use mms_codegen::liveness::Later;
 use mms_mechanics::{Output, Program};
 use mms_program::{Stage, Value};
-use mms_symbolic::expr::Function;
+use mms_symbolic::expr::{Function, Symbol};
 use mms_symbolic::sorted::SortedMap;
 
 /// The stages that are evaluated at a point.
@@ -122,9 +122,19 @@ impl<'a> Port<'a> {
         &self.program
     }
 
-    /// The number of space dimensions.
+    /// The number of coordinates of a point.
     pub fn dimension(&self) -> usize {
         self.compiled.field.dimension
+    }
+
+    /// The number of rows of a tensor.
+    pub fn rows(&self) -> usize {
+        self.compiled.field.space.rows()
+    }
+
+    /// The argument that supplies a leaf.
+    pub fn input(&self, symbol: Symbol) -> String {
+        input(self.compiled.field.space, symbol)
     }
 
     /// The components of an output.
@@ -139,7 +149,8 @@ fn named(mut callables: Vec<Callable>, rules: &Rules) -> Vec<Callable> {
         if callables[place].is_own() {
             let own = of_own(&callables[place].name, rules, &{
                 let others = callables.iter().enumerate().filter(|(other, _)| *other != place);
-                others.map(|(_, callable)| callable.name.as_str()).collect::<Vec<_>>()
+                let axes = callables[place].space.axes().iter().copied();
+                others.map(|(_, callable)| callable.name.as_str()).chain(axes).collect::<Vec<_>>()
             });
             callables[place].name = own;
         }

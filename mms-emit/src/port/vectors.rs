@@ -100,7 +100,9 @@ impl Sample {
             Symbol::Coordinate(axis) => self.coordinates[axis],
             Symbol::Time => self.time,
             Symbol::Normal(axis) => self.normal[axis],
-            Symbol::Gradient(row, column) => self.gradient[row * self.coordinates.len() + column],
+            Symbol::Gradient(row, column) => {
+                self.gradient[row * self.gradient.len().isqrt() + column]
+            }
             Symbol::Parameter(_) | Symbol::Invariant(_) | Symbol::Local(_) => {
                 unreachable!("no function takes one at a point")
             }

@@ -72,7 +72,7 @@ fn functions(port: &Port<'_>, library: Library) -> String {
         let callable = check.callable;
         let of = callable.owner(["domain", "field", "now"]);
         let (name, table) = (&callable.name, check.table);
-        let columns = callable.columns(port.dimension());
+        let columns = callable.columns();
         match accepted[check.place] {
             Some(accepted) => {
                 let _ = writeln!(

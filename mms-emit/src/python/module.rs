@@ -189,7 +189,7 @@ fn method(
     let inputs = callable.input_names();
     let arguments: Vec<String> =
         std::iter::once("self".to_string()).chain(inputs.iter().cloned()).collect();
-    let doc = callable.documentation(port.dimension());
+    let doc = callable.documentation();
     let doc = wrapped(&doc, 88).join("\n        ");
     let mut text = format!(
         "\n    def {}({}):\n        \"\"\"{doc}\"\"\"\n",
@@ -207,23 +207,23 @@ fn method(
     let results: Vec<String> = body.results.iter().map(own).collect();
     text += &match library {
         Library::NumPy if callable.is_of_points() => {
-            shaped(callable, &results, &inputs, port.dimension(), calls)
+            shaped(callable, &results, &inputs, port.rows(), calls)
         }
-        Library::SymPy | Library::Ufl => expression(library, callable, &results, port.dimension()),
-        _ => plain(callable, &results, port.dimension()),
+        Library::SymPy | Library::Ufl => expression(library, callable, &results, port.rows()),
+        _ => plain(callable, &results, port.rows()),
     };
     text
 }
 
 /// A float, a tuple, or a tuple of rows.
-fn plain(callable: &Callable, results: &[String], dimension: usize) -> String {
+fn plain(callable: &Callable, results: &[String], rows: usize) -> String {
     let tuple = |items: &[String]| match items {
         [item] => format!("({item},)"),
         items => format!("({})", items.join(", ")),
     };
     let value = match callable.shape {
         Some(Shape::Scalar) => results[0].clone(),
-        Some(Shape::Tensor) => tuple(&results.chunks(dimension).map(tuple).collect::<Vec<_>>()),
+        Some(Shape::Tensor) => tuple(&results.chunks(rows).map(tuple).collect::<Vec<_>>()),
         Some(Shape::Vector) | None => tuple(results),
     };
     let line = format!("        return {value}\n");
@@ -243,27 +243,22 @@ fn plain(callable: &Callable, results: &[String], dimension: usize) -> String {
 }
 
 /// An expression, a vector or a matrix.
-fn expression(
-    library: Library,
-    callable: &Callable,
-    results: &[String],
-    dimension: usize,
-) -> String {
+fn expression(library: Library, callable: &Callable, results: &[String], rows: usize) -> String {
     let components = listed(results, 80).join("\n            ");
     match (callable.shape, library) {
         (Some(Shape::Scalar), Library::SymPy) => format!("        return {}\n", results[0]),
         (Some(Shape::Scalar), _) => format!("        return ufl.as_ufl({})\n", results[0]),
         (Some(Shape::Tensor), Library::SymPy) => format!(
-            "        return sp.Matrix({dimension}, {dimension}, [\n            {components}\n        ])\n"
+            "        return sp.Matrix({rows}, {rows}, [\n            {components}\n        ])\n"
         ),
         (_, Library::SymPy) => {
             format!("        return sp.Matrix([\n            {components}\n        ])\n")
         }
         (Some(Shape::Tensor), _) => {
-            let rows: Vec<String> = (results.chunks(dimension))
+            let lines: Vec<String> = (results.chunks(rows))
                 .map(|row| format!("            [{}],\n", listed(row, 78).join("\n             ")))
                 .collect();
-            format!("        return ufl.as_matrix([\n{}        ])\n", rows.join(""))
+            format!("        return ufl.as_matrix([\n{}        ])\n", lines.join(""))
         }
         (_, _) => format!("        return ufl.as_vector([\n            {components}\n        ])\n"),
     }
@@ -274,7 +269,7 @@ fn shaped(
     callable: &Callable,
     results: &[String],
     inputs: &[String],
-    dimension: usize,
+    rows: usize,
     calls: &mut Calls,
 ) -> String {
     let components = listed(results, 80).join("\n            ");
@@ -282,7 +277,7 @@ fn shaped(
     match callable.shape {
         Some(Shape::Scalar) => format!("        return {array}[0]\n"),
         Some(Shape::Tensor) => format!(
-            "        out = {array}\n        return out.reshape(({dimension}, {dimension}) + out.shape[1:])\n"
+            "        out = {array}\n        return out.reshape(({rows}, {rows}) + out.shape[1:])\n"
         ),
         Some(Shape::Vector) | None => format!("        return {array}\n"),
     }

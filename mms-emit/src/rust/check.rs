@@ -16,12 +16,13 @@ pub(super) fn text(port: &Port<'_>) -> String {
         "\n#![allow(dead_code, non_snake_case, unused_mut, unused_variables)]\n\n\
          #[path = \"{name}.rs\"]\nmod {name};\n\nuse {name}::{{DIMENSION, Real}};\n\n\
          const VECTORS: &str = include_str!(\"{}\");\nconst SETS: usize = {};\nconst POINTS: usize = {};\n\
-         const PARAMETERS: usize = {};\nconst WIDTH: usize = {};\n\n",
+         const PARAMETERS: usize = {};\nconst WIDTH: usize = {};\nconst ROWS: usize = {};\n\n",
         port.vectors_name(),
         port.subject.vectors().sets.len(),
         port.points(),
         port.parameters.len(),
-        port.width()
+        port.width(),
+        port.rows()
     );
     let mut program = include_str!("support/check.rs").to_string();
     if port.subject.vectors().accepted_in_single.is_none() {

@@ -170,49 +170,45 @@ fn array(items: &[String], columns: Option<usize>) -> String {
 }
 
 /// The type of as many numbers.
-fn kind(shape: Option<Shape>, count: usize, dimension: usize) -> String {
+fn kind(shape: Option<Shape>, count: usize, rows: usize) -> String {
     match shape {
         Some(Shape::Scalar) => "T".into(),
-        Some(Shape::Tensor) => format!("[[T; {dimension}]; {dimension}]"),
+        Some(Shape::Tensor) => format!("[[T; {rows}]; {rows}]"),
         Some(Shape::Vector) | None => format!("[T; {count}]"),
     }
 }
 
 /// A function of one point, or of none.
 fn method(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
-    let dimension = port.dimension();
+    let rows = port.rows();
     let mut arguments = vec!["&self".to_string()];
     let mut left = callable.input_names().into_iter();
     for (name, count) in callable.arrays() {
         let items: Vec<String> = left.by_ref().take(count).collect();
         let (columns, shape) = match name {
-            "H" => (Some(dimension), Shape::Tensor),
+            "H" => (Some(rows), Shape::Tensor),
             _ => (None, Shape::Vector),
         };
-        arguments.push(format!(
-            "{}: {}",
-            array(&items, columns),
-            kind(Some(shape), count, dimension)
-        ));
+        arguments.push(format!("{}: {}", array(&items, columns), kind(Some(shape), count, rows)));
     }
     let result = match callable.shape {
         Some(Shape::Scalar) => body.results[0].clone(),
-        Some(Shape::Tensor) => array(&body.results, Some(dimension)),
+        Some(Shape::Tensor) => array(&body.results, Some(rows)),
         Some(Shape::Vector) | None => array(&body.results, None),
     };
     format!(
         "{}    #[inline]\n    pub fn {}({}) -> {} {{\n{}        {result}\n    }}\n",
-        documented(&callable.documentation(dimension), "    "),
+        documented(&callable.documentation(), "    "),
         callable.name,
         arguments.join(", "),
-        kind(callable.shape, callable.components.len(), dimension),
+        kind(callable.shape, callable.components.len(), rows),
         indented(&body.statements, 8)
     )
 }
 
 /// The same at many points.
 fn batch(port: &Port<'_>, callable: &Callable) -> String {
-    let dimension = port.dimension();
+    let rows = port.rows();
     let count = callable.components.len();
     let (mut arguments, mut short, mut call) =
         (vec!["&self".to_string()], String::new(), Vec::new());
@@ -220,7 +216,7 @@ fn batch(port: &Port<'_>, callable: &Callable) -> String {
         arguments.push(format!("{name}: [&[T]; {count}]"));
         let _ = writeln!(short, "        let {name} = {name}.map(|{name}| &{name}[..count]);");
         let items: Vec<String> = (0..count).map(|index| format!("{name}[{index}][i]")).collect();
-        call.push(array(&items, (name == "H").then_some(dimension)));
+        call.push(array(&items, (name == "H").then_some(rows)));
     }
     arguments.push(format!("out: [&mut [T]; {count}]"));
     let stores: String = (0..count)
@@ -228,7 +224,7 @@ fn batch(port: &Port<'_>, callable: &Callable) -> String {
             let component = match callable.shape {
                 Some(Shape::Scalar) => "value".into(),
                 Some(Shape::Tensor) => {
-                    format!("value[{}][{}]", index / dimension, index % dimension)
+                    format!("value[{}][{}]", index / rows, index % rows)
                 }
                 Some(Shape::Vector) | None => format!("value[{index}]"),
             };

@@ -7,6 +7,7 @@ use mms_program::Op;
 use mms_program::interpret::Interpreter;
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule;
+use mms_spec::Space;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_symbolic::sorted::{SortedMap, SortedSet};
@@ -138,7 +139,7 @@ fn with_formulas(mut compiled: Compiled, graph: &mut Graph, formulas: &[Expr]) -
     let mut outputs = SortedMap::new();
     let mut left = formulas.iter().copied();
     for quantity in Quantity::pointwise() {
-        let count = quantity.shape().components(3);
+        let count = Space::Cartesian(3).components(quantity.shape());
         let components: Vec<Expr> = left.by_ref().take(count).collect();
         if components.len() == count {
             outputs.insert(Output::Quantity(quantity), components);
@@ -203,7 +204,8 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
     let pairs = sampled(pairs, 3);
     for (index, formulas) in programs.iter_mut().enumerate() {
         // Each component of each quantity has some formula.
-        let room: usize = Quantity::pointwise().map(|it| it.shape().components(3)).sum();
+        let room: usize =
+            Quantity::pointwise().map(|it| Space::Cartesian(3).components(it.shape())).sum();
         assert!(formulas.len() <= room, "{} formulas, room for {room}", formulas.len());
         *formulas = formulas.iter().copied().cycle().take(room).collect();
         let field = with_formulas(compiled.clone(), &mut graph, formulas);

@@ -1,6 +1,7 @@
 //! What is emitted, built with every warning an error and run: each port proves itself by its own
 //! check program.
 
+mod axisymmetric;
 mod build;
 mod coverage;
 mod faces;

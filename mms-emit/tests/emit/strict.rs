@@ -241,7 +241,7 @@ fn moose_formulas_keep_their_digits_in_the_parser_of_moose() {
                 questions += "\n";
                 let axis = |axis: usize| sample.coordinates.get(axis).unwrap_or(&0.0);
                 let [x, y, z] = [0, 1, 2].map(axis);
-                let suffixes = callable.suffixes(field.field.dimension);
+                let suffixes = callable.suffixes();
                 for (suffix, value) in suffixes.iter().zip(values) {
                     let function = format!("{name}_{}{suffix}", callable.name);
                     questions += &format!("E {function} {x:e} {y:e} {z:e} {:e}\n", sample.time);

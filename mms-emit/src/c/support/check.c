@@ -31,7 +31,7 @@ static void check(const char *name, int n, const double *expected, const real *f
     check(#NAME, ROWS * COUNT, numbers, found)
 
 static struct point {
-    real t, X[DIMENSION], N[DIMENSION], H[DIMENSION * DIMENSION];
+    real t, X[DIMENSION], N[DIMENSION], H[SQUARED];
 } at[ROOM];
 static field_instant now[ROOM];
 static real found[ROOM * WIDEST];
@@ -54,7 +54,7 @@ int main(int count, char **arguments)
                 at[p].X[k] = (real)row[1 + k];
                 at[p].N[k] = (real)row[1 + DIMENSION + k];
             }
-            for (int k = 0; k < DIMENSION * DIMENSION; k++) {
+            for (int k = 0; k < SQUARED; k++) {
                 at[p].H[k] = (real)row[1 + 2 * DIMENSION + k];
             }
             now[p] = field_at_time(&field, at[p].t);

@@ -22,7 +22,7 @@ template <class T> void check(const char *name, int rows, int columns, const dou
 
 /// The points of a set of parameters.
 template <class T> struct Points {
-    T t[ROOM], X[DIMENSION][ROOM], N[DIMENSION][ROOM], H[DIMENSION * DIMENSION][ROOM];
+    T t[ROOM], X[DIMENSION][ROOM], N[DIMENSION][ROOM], H[SQUARED][ROOM];
 };
 
 /// The numbers of a point, of columns of them.
@@ -72,7 +72,7 @@ template <class T> void check_all()
                 at.X[k][p] = T(given[1 + k]);
                 at.N[k][p] = T(given[1 + DIMENSION + k]);
             }
-            for (int k = 0; k < DIMENSION * DIMENSION; k++) {
+            for (int k = 0; k < SQUARED; k++) {
                 at.H[k][p] = T(given[1 + 2 * DIMENSION + k]);
             }
             now[p] = field_::at_time(field, at.t[p]);

@@ -78,7 +78,7 @@ struct Points<T> {
     t: [T; POINTS],
     X: Columns<T, DIMENSION>,
     N: Columns<T, DIMENSION>,
-    H: Columns<T, { DIMENSION * DIMENSION }>,
+    H: Columns<T, { ROWS * ROWS }>,
 }
 
 /// The numbers of a point.
@@ -105,13 +105,13 @@ fn many<T: Real, const N: usize>(call: impl Fn(usize, [&mut [T]; N])) -> Columns
 }
 
 /// The components of a tensor.
-fn flat<T: Real>(rows: [[T; DIMENSION]; DIMENSION]) -> [T; DIMENSION * DIMENSION] {
-    core::array::from_fn(|k| rows[k / DIMENSION][k % DIMENSION])
+fn flat<T: Real>(rows: [[T; ROWS]; ROWS]) -> [T; ROWS * ROWS] {
+    core::array::from_fn(|k| rows[k / ROWS][k % ROWS])
 }
 
 /// A tensor of components.
-fn square<T: Real>(components: [T; DIMENSION * DIMENSION]) -> [[T; DIMENSION]; DIMENSION] {
-    core::array::from_fn(|i| core::array::from_fn(|j| components[DIMENSION * i + j]))
+fn square<T: Real>(components: [T; ROWS * ROWS]) -> [[T; ROWS]; ROWS] {
+    core::array::from_fn(|i| core::array::from_fn(|j| components[ROWS * i + j]))
 }
 
 fn check_all<T: Real>(errors: &mut Errors) {
