@@ -8,7 +8,9 @@ mod datum;
 mod emitted;
 mod gallery;
 mod layers;
+mod matrix;
 mod operation_counts;
+mod plane;
 pub mod programs;
 mod rigid;
 #[path = "support/sampled.rs"]

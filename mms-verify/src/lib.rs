@@ -22,6 +22,3 @@ pub mod matrix;
 pub mod plan;
 pub mod verdict;
 pub mod work;
-
-#[cfg(test)]
-mod tests;

@@ -8,10 +8,9 @@ use mms_lab::rows::Named as _;
 use mms_options::{Study, arguments};
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use mms_spec::Claim;
-
-use super::matrix::{Expected, Row, Word, rows};
-use super::plan::Plan;
-use super::verdict::{Verdict, judge};
+use mms_verify::matrix::{Expected, Row, Word, rows};
+use mms_verify::plan::Plan;
+use mms_verify::verdict::{Verdict, judge};
 
 fn studies() -> Vec<(Row, Study)> {
     let rows = rows().unwrap_or_else(|error| panic!("{error:#}"));
@@ -280,7 +279,7 @@ fn momentum_is_held_to_what_it_is() {
 /// What catches a defect is observed by the command; what rows say that they catch is held here.
 #[test]
 fn the_page_of_defects_has_those_that_rows_say_they_catch() {
-    let page = include_str!("../../docs/defects.md");
+    let page = include_str!("../docs/defects.md");
     let name = |line: &'static str| line.strip_prefix("| `")?.split('`').next();
     let lines: BTreeMap<&str, &str> =
         page.lines().filter_map(|line| Some((name(line)?, line))).collect();
