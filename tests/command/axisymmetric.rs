@@ -16,7 +16,7 @@ fn a_shaft_is_checked_with_its_axis() {
     let checked = folder.mms("check shaft.toml").exits(0);
     for line in [
         "claim  r_min is axis (R = 0, with u_R = 0 and no swirl): proved",
-        "extent 0 <= r <= ",
+        "extent 0 <= x_r <= ",
         "faces  NOT LOOKED AT: waves on faces and corners, and long waves, of an axisymmetric body",
         "check  displacement_gradient agrees to 1e-20 at 128 points",
     ] {
