@@ -218,7 +218,8 @@ mms_code mms_field_set_parameters(struct mms_field *field,
                                   char *message,
                                   size_t capacity);
 
-// Writes the number of components of a quantity to `*components`: 1, D or D x D.
+// Writes the number of components of a quantity to `*components`: 1, D for a vector, D x D for a tensor. A vector of an
+// axisymmetric field has 2, or 3 with a swirl, and its tensors have 9.
 //
 // Codes: MMS_CODE_UNKNOWN_NAME.
 mms_code mms_field_components(const struct mms_field *field,

@@ -298,7 +298,8 @@ pub unsafe extern "C" fn mms_field_set_parameters(
     }
 }
 
-/// Writes the number of components of a quantity to `*components`: 1, D or D x D.
+/// Writes the number of components of a quantity to `*components`: 1, D for a vector, D x D for a tensor. A vector of an
+/// axisymmetric field has 2, or 3 with a swirl, and its tensors have 9.
 ///
 /// Codes: MMS_CODE_UNKNOWN_NAME.
 #[unsafe(no_mangle)]

@@ -7,11 +7,10 @@
 //! alone makes most of what the whole does. Trials are bounded in size and number.
 
 use mms_mechanics::resolve::Scope;
-use mms_spec::names::COORDINATES;
 use mms_spec::source::Span;
 use mms_spec::syntax;
 use mms_spec::syntax::{Ast, Kind, Operator};
-use mms_spec::{FieldSpec, Formula, RigidSpec};
+use mms_spec::{FieldSpec, Formula, RigidSpec, Space};
 use mms_symbolic::expr::{Graph, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::sorted::SortedSet;
@@ -67,7 +66,7 @@ fn definitions(field: &FieldSpec) -> Option<Vec<Definition<'_>>> {
     });
     let components = field.displacement.iter().enumerate();
     let components =
-        components.map(|(axis, formula)| (None, format!("component {} of u", axis + 1), formula));
+        components.map(|(axis, formula)| (None, component(field.space, axis), formula));
     let motion = field.rigid.iter().flat_map(RigidSpec::formulas);
     let motion = motion.map(|formula| (None, "the rigid motion".to_string(), formula));
     lets.chain(components)
@@ -176,15 +175,22 @@ impl<'a> Trial<'a> {
 const SYMBOLS: [Symbol; 4] =
     [Symbol::Coordinate(0), Symbol::Coordinate(1), Symbol::Coordinate(2), Symbol::Time];
 
+/// The name of a component of the displacement.
+fn component(space: Space, axis: usize) -> String {
+    match (space, axis) {
+        (Space::Axisymmetric { .. }, 2) => "the swirl".into(),
+        _ => format!("component {} of u", axis + 1),
+    }
+}
+
 /// The names of a field without its definitions.
 fn scope(graph: &mut Graph, field: &FieldSpec) -> Scope {
     let mut scope = Scope::default();
-    for (axis, (name, _)) in COORDINATES.iter().enumerate() {
-        let value = match *name {
-            "pi" => graph.pi(),
-            "t" => graph.symbol(Symbol::Time),
-            _ => graph.symbol(Symbol::Coordinate(axis)),
-        };
+    let (pi, time) = (graph.pi(), graph.symbol(Symbol::Time));
+    scope.define("pi", Some(pi));
+    scope.define("t", Some(time));
+    for (axis, name) in field.space.axes().iter().enumerate() {
+        let value = graph.symbol(Symbol::Coordinate(axis));
         scope.define(name, Some(value));
     }
     for (index, parameter) in field.parameters.iter().enumerate() {

@@ -236,7 +236,7 @@ fn mean(graph: &mut Graph, exprs: &[Expr]) -> Expr {
 }
 
 /// The axes along which a field may lie elsewhere: an axisymmetric one stays about its axis.
-fn free_axes(space: Space) -> Range<usize> {
+pub fn free_axes(space: Space) -> Range<usize> {
     usize::from(space.is_axisymmetric())..space.coordinates()
 }
 

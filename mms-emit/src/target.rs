@@ -9,7 +9,6 @@ use crate::port::vectors::Vectors;
 use mms_codegen::certify::certificate::reach_at;
 use mms_codegen::compile::Compiled;
 use mms_codegen::rust::File;
-use mms_spec::Space;
 use mms_symbolic::sorted::SortedMap;
 
 /// Names as they are in the file.
@@ -37,16 +36,7 @@ impl<'a> Subject<'a> {
     /// Bounds of x by axis over body and time window, at the defaults of parameters; infinite where none is found. Of an
     /// axisymmetric field they are those of the distance from the axis and of the coordinate along it.
     pub fn reach(&self) -> &[[f64; 2]] {
-        self.reach.get_or_init(|| {
-            let mut reach = reach_at(self.compiled, &SortedMap::new());
-            if let Space::Axisymmetric { swirl: true } = self.compiled.field.space
-                && let Some(along) = reach.pop()
-            {
-                let aside = along.into_iter().map(f64::abs).fold(0.0, f64::max);
-                reach[0][1] = reach[0][1].hypot(aside).next_up();
-            }
-            reach
-        })
+        self.reach.get_or_init(|| reach_at(self.compiled, &SortedMap::new()))
     }
 
     /// Whether a check program has something to compare: a point where all functions have a value, if there are

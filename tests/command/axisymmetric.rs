@@ -16,7 +16,7 @@ fn a_shaft_is_checked_with_its_axis() {
     let checked = folder.mms("check shaft.toml").exits(0);
     for line in [
         "claim  r_min is axis (R = 0, with u_R = 0 and no swirl): proved",
-        "extent 0 <= x_r <= ",
+        "extent 0 <= r <= ",
         "faces  NOT LOOKED AT: waves on faces and corners, and long waves, of an axisymmetric body",
         "check  displacement_gradient agrees to 1e-20 at 128 points",
     ] {
@@ -58,4 +58,37 @@ fn what_works_in_cartesian_coordinates_refuses_an_axisymmetric_field() {
         let says = "`shaft` is axisymmetric, and this command works in Cartesian coordinates";
         folder.mms(arguments).exits(2).complains(says);
     }
+}
+
+/// A disk that turns about its axis: no point of it moves outward, whatever its components in the fixed basis do.
+#[test]
+fn the_extent_of_a_body_that_turns_is_its_distance_from_the_axis() {
+    let folder = Folder::new();
+    folder.write(
+        "turning.toml",
+        r#"[field]
+title = "A disk that turns about its axis"
+dimension = 2
+coordinates = "axisymmetric"
+[displacement]
+u = ["R*(cos(t) - 1)", "0"]
+swirl = "R*sin(t)"
+[material]
+model = "neo_hookean"
+lambda = "1"
+mu = "1"
+density = "1"
+[domain]
+shape = "box"
+lower = [0, 0]
+upper = [1, 1]
+time = [2, 3.1]
+"#,
+    );
+    let document = folder.mms("check turning.toml --json").exits(0).json();
+    let extent = document["files"][0]["extent"].as_array().expect("an extent");
+    let [r, z] = extent.as_slice() else { panic!("{extent:?}") };
+    let ([least, most], height) = (<[f64; 2]>::try_from(numbers(r)).expect("two"), numbers(z));
+    assert!((-1e-12..=0.0).contains(&least) && (1.0..1.02).contains(&most), "{least} {most}");
+    assert_eq!(height, [0.0, 1.0]);
 }

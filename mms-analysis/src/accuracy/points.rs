@@ -3,6 +3,7 @@
 //! They are random, and the same in every run. One in four lies on a face or close to one.
 
 use mms_codegen::compile::Compiled;
+use mms_codegen::variation::free_axes;
 use mms_mechanics::extent::Extent;
 use mms_mechanics::sample::domain;
 use mms_program::precision::Digits;
@@ -89,7 +90,8 @@ pub fn inputs<T: Digits>(
             Place::Body => {}
             Place::Shifted => {
                 let shift = *parameters.last()?;
-                input.coordinates.iter_mut().for_each(|x| *x = *x + shift);
+                let axes = free_axes(compiled.field.space);
+                input.coordinates[axes].iter_mut().for_each(|x| *x = *x + shift);
             }
             Place::Late => {
                 input.time = input.time + (window[1] - window[0]) * T::from_f64(LATE);

@@ -7,8 +7,9 @@ use crate::bounds::enclosure::Formulas;
 use crate::bounds::search::{Measure, largest};
 use crate::compile::Compiled;
 use mms_program::interval::Interval;
+use mms_spec::Space;
 use mms_spec::quantity::Quantity;
-use mms_symbolic::expr::{Expr, Graph};
+use mms_symbolic::expr::{Expr, Function, Graph, Rational};
 
 /// A bound that exceeds a value by no more than this part of the distance between both bounds is sharp enough.
 const SHARPNESS: f64 = 0.01;
@@ -16,9 +17,17 @@ const SHARPNESS: f64 = 0.01;
 /// How many cells each bound may take: it holds however many there were.
 const CELLS: usize = 100;
 
-/// The least and the greatest x by axis; infinite where no bound is found.
+/// The least and the greatest x by axis; infinite where no bound is found. Of an axisymmetric field these are the distance
+/// from the axis and the coordinate along it.
 pub(super) fn bound(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Vec<[f64; 2]> {
-    let position = compiled.derived.quantities[&Quantity::Position].clone();
+    let mut position = compiled.derived.quantities[&Quantity::Position].clone();
+    if let (Space::Axisymmetric { swirl: true }, [radial, along, hoop]) =
+        (compiled.field.space, position.as_slice())
+    {
+        let squares = [*radial, *hoop].map(|it| (graph.power(it, 2), Rational::ONE));
+        let squares = graph.sum(squares);
+        position = vec![graph.call(Function::Sqrt, &[squares]), *along];
+    }
     let position = chart.pull_back(graph, &position);
     position.into_iter().map(|component| ends(graph, chart, component)).collect()
 }

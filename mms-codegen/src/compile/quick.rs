@@ -16,6 +16,7 @@ use mms_program::Program;
 use mms_program::interpret::{Interpreter, Number as _, Point};
 use mms_program::interval::Interval;
 use mms_program::schedule::schedule;
+use mms_spec::{Claim, Face};
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
 use mms_symbolic::sorted::SortedMap;
 
@@ -101,6 +102,11 @@ impl Quick {
             mms_spec::Body::Round(round) => round.theta.is_some(),
             _ => false,
         };
+        // A face on the axis may claim nothing else.
+        let has_other_claim = field
+            .boundary
+            .iter()
+            .any(|it| it.face.value == Face::RadialMin && it.claim.value != Claim::Axis);
         Some(Quick {
             dimension: field.dimension,
             program: schedule(&graph, &outputs),
@@ -109,7 +115,7 @@ impl Quick {
                 .collect(),
             body: model.domain.body.map(|_| ()),
             is_sector,
-            axis: model.radius.map(|_| poles(&mut graph, model).is_empty()),
+            axis: model.radius.map(|_| !has_other_claim && poles(&mut graph, model).is_empty()),
             defaults: parameters.map(|it| Default::new(&graph, it.default)).collect(),
         })
     }

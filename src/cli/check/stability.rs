@@ -82,11 +82,9 @@ pub fn at_rest(material: &Material) -> String {
 
 /// The box that a grid must hold, and the wavelength that a mesh must resolve.
 pub fn extent(reach: &[[f64; 2]], space: Space, shortest_wavelength: Option<f64>) -> String {
-    // What is along the hoop is a length, not an angle.
-    let component = if space.is_axisymmetric() { "x_" } else { "" };
     let side = |(axis, [least, most]): (usize, &[f64; 2])| {
         let direction = space.directions()[axis];
-        format!("{} <= {component}{direction} <= {}", short(*least), short(*most))
+        format!("{} <= {direction} <= {}", short(*least), short(*most))
     };
     let sides: Vec<_> = reach.iter().enumerate().map(side).collect();
     let wave = match shortest_wavelength {
