@@ -9,8 +9,8 @@
 //!         u_t,R   u_t,Z    u_R/R                 H_Rt,R   H_Rt,Z   H_tt,R    u_t,tt = -H_Rt,R
 //! ```
 //!
-//! The second gradient is that of H in curvilinear coordinates, with what is equal written as the derivative of a
-//! quotient: (u_R,R - u_R/R)/R is (u_R/R),R. All other formulas of mechanics are those of three dimensions, and
+//! The second gradient is that of H in curvilinear coordinates. Differences of quotients are written as the derivative of
+//! one quotient: (u_R,R - u_R/R)/R is (u_R/R),R. All other formulas of mechanics are those of three dimensions, and
 //! (Div P)_R contains (P_RR - P_tt)/R since its second gradients do. So only u_R, u_t and u_Z,R are divided by R, and
 //! R-components of fluxes and directions. R is taken out of each in exact numbers, so that the axis is a point as any
 //! other; [`poles`] are the formulas of which it cannot be taken out.
@@ -67,7 +67,7 @@ pub(super) fn second_gradient(graph: &mut Graph, radius: Expr, gradient: &Tensor
     (0..3).map(of_component).collect()
 }
 
-/// What the divergence of a flux has beside the derivatives of its components: Q_R/R.
+/// Computes Q_R/R, which the divergence of a flux Q adds to the derivatives of its components.
 pub(super) fn spreading(graph: &mut Graph, radius: Expr, flux: &[Expr]) -> Expr {
     over_radius(graph, radius, flux[0])
 }
