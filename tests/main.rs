@@ -7,6 +7,7 @@ mod batch;
 mod datum;
 mod emitted;
 mod gallery;
+mod judging;
 mod layers;
 mod matrix;
 mod operation_counts;

@@ -8,7 +8,7 @@ pub mod diagnose;
 mod excluded;
 mod judgements;
 pub mod measured;
-mod names;
+pub mod names;
 pub mod results;
 pub mod table;
 

@@ -1,6 +1,6 @@
 //! Errors that somebody measured, of any solver: what they say of its order.
 //!
-//! [`table`] reads them from a file. Whoever computes them from results makes a [`Measured`], too.
+//! [`table`](crate::table) reads them from a file. Whoever computes them from results makes a [`Measured`], too.
 
 use anyhow::bail;
 use mms_convergence::{Expected, Fit, Judgement, Sample, Sequence, Verdict, fit};

@@ -1,7 +1,7 @@
 //! Exact states of a field, at any points and times, for any solver.
 //!
 //! [`points`] says where: at the points of a file, at the particles of a grid, or at what is at given places
-//! ([`present`](mms_analysis::present)). [`State`]s are made of the field's quantities there, and [`file`] writes them;
+//! ([`present`](mms_analysis::present)). [`State`]s are made of the field's quantities there, and [`file`](mod@file) writes them;
 //! [`domain`] tells beside them what a solver needs to know once.
 
 pub mod domain;

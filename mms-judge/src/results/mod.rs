@@ -1,8 +1,8 @@
 //! Results of any solver against a field: their errors, as [`Measured`].
 //!
-//! [`files`] reads them, with `mms-results`; [`times`] finds those at which meshes can be compared; [`level`] measures a
+//! `files` reads them, with `mms-results`; `times` finds those at which meshes can be compared; `level` measures a
 //! snapshot against the field's program ([`Exact`]), and finds the floor that the rounding of the file makes;
-//! [`baseline`] and [`same`] compare results with results; [`excluded`] finds the mistakes that a small error excludes.
+//! `baseline` and `same` compare results with results; `excluded` finds the mistakes that a small error excludes.
 
 mod baseline;
 mod degree;
@@ -34,6 +34,7 @@ pub use files::{Results, placed, room};
 pub use level::{Over, Reading, Sampling, own_roles, weight, without_positions};
 pub use same::{Same, same};
 pub use start::Start;
+pub use units::known as unit;
 
 use self::level::{Errors, Found, Measure};
 use self::start::Lowered;

@@ -7,7 +7,7 @@
 //! dark screens, light ones and paper; nothing is told by colour alone. Formulas and motions are those of the
 //! fields whose text is still the one of the hash.
 //!
-//! A kind of result is one file that implements [`Section`], and one line in [`KINDS`].
+//! A kind of result is one file that implements [`Section`], and one line in `KINDS`.
 
 pub mod accuracy;
 mod campaign;
