@@ -1,4 +1,4 @@
-//! What an axisymmetric field sees, against the field in space of which it is a section, and against paper.
+//! Visibility of axisymmetric fields: against the fields in space of which they are sections, and against derivations on paper.
 
 use mms_analysis::visibility::{Term, Visibility};
 use mms_codegen::{Compiled, compile};

@@ -82,7 +82,7 @@ impl Reader {
         table
     }
 
-    /// What a value is read as; where it is no such thing, the message says what is expected.
+    /// Reads a value; the message for another one names the expected kind.
     pub fn of_value<T>(
         &mut self,
         value: &Value<'_>,
@@ -97,7 +97,7 @@ impl Reader {
         found
     }
 
-    /// The same of a key that may be left out.
+    /// Reads the value of a key that may be left out.
     pub fn of_key<'a, T>(
         &mut self,
         table: &Table<'a>,
@@ -166,7 +166,7 @@ impl Reader {
     }
 }
 
-/// What each item of an array is read as, which may not be empty.
+/// Reads each item of an array, which may not be empty.
 pub(crate) fn each<T>(value: &Value<'_>, read: impl Fn(&Value<'_>) -> Option<T>) -> Option<Vec<T>> {
     value.get_ref().as_array().filter(|items| !items.is_empty())?.iter().map(read).collect()
 }

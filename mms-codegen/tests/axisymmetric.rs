@@ -41,7 +41,7 @@ impl Section {
         )
     }
 
-    /// The same field in space, with R a name for the distance from the axis.
+    /// The text of a field in space whose section is an axisymmetric one; R names the distance from the axis.
     fn in_space(&self) -> String {
         let [radial, axial] = self.u;
         let swirl = self.swirl.unwrap_or("0");

@@ -90,7 +90,7 @@ impl Input {
         Self::compiled_as(compile_with, self.source.clone(), &options)
     }
 
-    /// The same field with another selection or variation, without proofs.
+    /// Compiles the field with another selection or variation, without proofs.
     ///
     /// # Errors
     /// The mistakes that the options make.
@@ -126,7 +126,7 @@ impl Input {
         self.scene_with(&self.settings(settings)?, build)
     }
 
-    /// The same, with parameters that are set by position.
+    /// The field for a solver, compiled or interpreted, with parameters that are set by position.
     pub fn scene_with<T: Interpretable>(
         &self,
         set: &SortedMap<usize, RBig>,
@@ -191,7 +191,7 @@ impl Input {
     /// them sees that.
     ///
     /// # Errors
-    /// Such settings, and those that are none.
+    /// Settings that contradict the field, or that it does not have.
     pub fn hold(&self, settings: &[String]) -> anyhow::Result<()> {
         if self.settings(settings)?.is_empty() {
             return Ok(());
@@ -207,7 +207,7 @@ impl Input {
     }
 }
 
-/// What is wrong with settings, at its place in the field file.
+/// The error of settings that the field refuses, at its place in the field file.
 fn not_allowed(settings: &[String], failure: &Failure) -> Error {
     let settings: Vec<_> = settings.iter().map(|setting| given(setting)).collect();
     anyhow!("{}: not what the field file allows\n{failure}", settings.join(" "))

@@ -11,7 +11,7 @@ pub fn quantities(own: &[Own], names: &[String]) -> anyhow::Result<Vec<Quantity>
     named(own, names, quantity)
 }
 
-/// The same, those on request as well, which `all` leaves out.
+/// The quantities of some names or aliases, with those on request, which `all` leaves out.
 pub fn evaluated(own: &[Own], names: &[String]) -> anyhow::Result<Vec<Quantity>> {
     named(own, names, selection::evaluated)
 }

@@ -9,6 +9,7 @@
 mod dependencies;
 mod digests;
 pub mod judged;
+pub mod only;
 pub mod plan;
 pub mod profile;
 pub mod report;

@@ -26,6 +26,7 @@ use serde::Serialize;
 
 use super::dependencies::{self, Dependencies, Dependency, UNKNOWN};
 use super::digests::Digests;
+use super::only::{self, Only};
 use super::sources;
 use crate::profile;
 
@@ -144,30 +145,6 @@ impl Start {
     }
 }
 
-/// Which runs are asked for: a study, all steps of one, or a level of these.
-pub struct Only(String);
-
-impl Only {
-    fn study(&self) -> &str {
-        self.0.rsplit_once('/').map_or(&self.0, |(study, _)| study)
-    }
-
-    fn names(&self, study: &Study) -> bool {
-        [&study.name, &study.family].into_iter().any(|name| self.study() == name)
-    }
-
-    fn takes(&self, study: &Study, level: usize) -> bool {
-        let names = [&study.name, &study.family];
-        names.into_iter().any(|name| self.0 == *name || self.0 == format!("{name}/{level}"))
-    }
-}
-
-impl From<String> for Only {
-    fn from(name: String) -> Self {
-        Only(name)
-    }
-}
-
 impl Plan {
     /// Plans the runs of a file, all or some, whose fields `open` opens.
     ///
@@ -179,7 +156,7 @@ impl Plan {
         only: &[Only],
         open: Open<'_>,
     ) -> anyhow::Result<Self> {
-        hold_only(&campaign, only)?;
+        only::validate(&campaign, only)?;
         let here = folder_of(path)?;
         let target = target(&campaign)?;
         let digests = Digests::default();
@@ -204,30 +181,6 @@ impl Plan {
 fn folder_of(path: &Path) -> anyhow::Result<PathBuf> {
     let folder = path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."));
     folder.canonicalize().with_context(|| format!("no folder `{}`", foreign::path(folder)))
-}
-
-/// Refuses names of what is not there.
-fn hold_only(campaign: &Campaign, only: &[Only]) -> anyhow::Result<()> {
-    for it in only {
-        let study = campaign.studies.iter().find(|study| it.names(study));
-        let known =
-            study.is_some_and(|study| (1..=study.levels()).any(|level| it.takes(study, level)));
-        if !known {
-            let names = campaign.studies.iter().map(|study| study.name.as_str());
-            let levels =
-                |study: &Study| format!("`{}` has levels 1 to {}", study.name, study.levels());
-            let help = study.map_or_else(
-                || advice(it.study(), names, |all| format!("the studies are {all}")),
-                levels,
-            );
-            bail!(
-                "`--only {}`: no such study or level; {}",
-                foreign::shown(&it.0),
-                foreign::shown(&help)
-            );
-        }
-    }
-    Ok(())
 }
 
 /// The language that fields are written in.

@@ -7,20 +7,20 @@ use serde::{Deserialize, Serialize};
 /// Everything that a result depends on.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Key {
-    /// What tells this program from any other.
+    /// The identity of the program: version, length and time of its build.
     pub program: String,
     /// The digest of the field's text, and of its own material's.
     pub field: String,
     /// Method, cells, precision, form, parameters and motion.
     pub run: String,
-    /// Of what errors are measured.
+    /// The quantity whose errors are measured.
     pub quantity: &'static str,
     /// The deliberate mistake that the program made meanwhile.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub defect: Option<&'static str>,
 }
 
-/// Of what an error is measured.
+/// The quantity whose error is measured.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -53,27 +53,27 @@ impl Quantity {
 /// l1, l2 and linf, the largest over all steps.
 pub type Norms = [f64; 3];
 
-/// What comes of a run, and is stored.
+/// The outcome of a run, as it is stored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Outcome {
-    /// It reached its end.
+    /// The run reached its end.
     Finished {
-        /// What it was.
+        /// The size of the run.
         run: Size,
-        /// Of the quantity that is measured.
+        /// The errors of the measured quantity.
         errors: Norms,
         /// At the end, the momentum over the mass.
         mean_velocity: Vec<f64>,
     },
-    /// It stopped.
+    /// The run stopped.
     Stopped {
-        /// What it was.
+        /// The size of the run.
         run: Size,
         /// Why.
         failure: String,
     },
-    /// It was not started.
+    /// The run was not started.
     Refused {
         /// Why.
         reason: String,
@@ -97,7 +97,7 @@ pub struct Size {
 }
 
 impl Outcome {
-    /// What it was, if it was started.
+    /// The size of a run that was started.
     pub fn run(&self) -> Option<&Size> {
         match self {
             Outcome::Finished { run, .. } | Outcome::Stopped { run, .. } => Some(run),
@@ -129,7 +129,7 @@ impl AsRef<Outcome> for Outcome {
     }
 }
 
-/// What came of a run that was started, with the errors of a quantity.
+/// The outcome of a run that was started, with the errors of a quantity.
 pub fn outcome(level: &Level, details: Option<&Details>, quantity: &Quantity) -> Outcome {
     let run = Size {
         cell_size: level.cell_size,

@@ -1,4 +1,4 @@
-//! What every command takes: a field, and settings of its parameters.
+//! The field that a user names, its variant, and how it is opened.
 
 use std::path::Path;
 

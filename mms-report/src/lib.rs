@@ -1,4 +1,4 @@
-//! What the command says of results: tables, JSON documents, CSV files, pictures, and pages of HTML.
+//! Views of results: tables, JSON documents, CSV files, pictures, and pages of HTML.
 //!
 //! A module for each kind of result makes its text and its files; [`page`] reads the documents of a folder and makes a page of
 //! them. Nothing here runs the solver or prints.

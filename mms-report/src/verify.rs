@@ -249,7 +249,7 @@ mod tests {
 
     use super::fixed;
 
-    /// What is observed is written by the command; what is in the rows is held here.
+    /// The command writes the observed columns of the page; this test holds those that follow from the rows.
     #[test]
     fn the_page_has_these_rows() {
         let page = include_str!("../../docs/verification.md");

@@ -1,4 +1,4 @@
-//! What turning the basis about the axis adds to gradients and divergences, as on paper: with R below the line.
+//! The terms that the turning basis adds to gradients and divergences, as on paper: with R below the line.
 
 use super::reading::Reading;
 use mms_mechanics::tensor::Tensor;
@@ -18,7 +18,7 @@ pub(super) fn around(reading: &mut Reading, displacement: &[Expr], row: usize) -
     }
 }
 
-/// What a row of the divergence of a tensor has beside derivatives: (T_11 - T_33)/R, T_21/R and (T_31 + T_13)/R.
+/// The terms of a row of the divergence of a tensor beside derivatives: (T_11 - T_33)/R, T_21/R and (T_31 + T_13)/R.
 pub(super) fn spreading(
     reading: &mut Reading,
     space: Space,

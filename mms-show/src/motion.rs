@@ -258,7 +258,7 @@ impl Quantities {
         Tensor::from_components(self.dimension, self.components(reading, quantity))
     }
 
-    /// The same of a symmetric tensor: each above the diagonal is that of its mirror image too.
+    /// Adds a symmetric tensor: an entry above the diagonal serves its mirror image too.
     pub fn symmetric(&self, reading: &mut Reading, quantity: Quantity) -> Tensor {
         let names = self.tensor(reading, quantity);
         Tensor::from_fn(self.dimension, |row, column| names.at(row.min(column), row.max(column)))

@@ -121,7 +121,7 @@ impl Face {
     }
 }
 
-/// What a field claims on a face.
+/// A claim of a field about a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Claim {
     /// u = 0.
@@ -161,7 +161,7 @@ impl Claim {
         }
     }
 
-    /// What it says, in a few words.
+    /// Its meaning, in a few words.
     pub fn meaning(self) -> &'static str {
         match self {
             Claim::Fixed => "u = 0",
@@ -179,7 +179,7 @@ impl Claim {
 pub struct BoundarySpec {
     /// The face.
     pub face: Spanned<Face>,
-    /// What is claimed there.
+    /// The claim.
     pub claim: Spanned<Claim>,
 }
 

@@ -52,7 +52,9 @@ pub enum Holds {
     Formulas(Length),
     /// An array of pairs of formulas: points of a plane.
     Vertices,
-    /// An array of different names.
+    /// A name of the file's own, in small letters.
+    Name,
+    /// An array of such names, all different.
     Words,
     /// A table with these keys.
     Table(&'static [Key]),
@@ -197,7 +199,7 @@ pub const GIVEN: &[Key] = &[
 
 /// `[[balance]]`.
 pub const BALANCE: &[Key] = &[
-    required("name", Holds::Text, "The name, after which its quantities are called."),
+    required("name", Holds::Name, "The name, after which its quantities are called."),
     optional("storage", Holds::Formula, "The amount that is stored per reference volume."),
     optional(
         "flux",

@@ -66,7 +66,7 @@ impl<'a> Table<'a> {
         self.get(key).map(|entry| entry.value)
     }
 
-    /// Those of some keys that it lacks.
+    /// The keys among these that the table lacks.
     pub fn absent<'k>(&self, keys: &[&'k str]) -> Vec<&'k str> {
         keys.iter().copied().filter(|key| self.get(key).is_none()).collect()
     }

@@ -19,7 +19,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// Of a compiled field; `None` where it is not finite, and of an axisymmetric field.
+    /// The material of a compiled field at rest; `None` if it is not finite, or the field is axisymmetric.
     pub fn of(compiled: &Compiled) -> Option<Self> {
         let formulas = Formulas::new(compiled);
         match compiled.field.space {

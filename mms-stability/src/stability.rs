@@ -47,7 +47,7 @@ pub fn judge(compiled: &Compiled) -> Stability {
     }
 }
 
-/// What is said of an axisymmetric field, whose disturbances are looked at in no basis.
+/// The result for an axisymmetric field, whose disturbances are not computed.
 fn unseen(compiled: &Compiled) -> Stability {
     Stability {
         material: None,

@@ -76,7 +76,7 @@ fn in_dimension(dimension: usize) -> Value {
     if_then(has(&[dimension_is(dimension)]), all(asked))
 }
 
-/// What is asked of vectors and tensors.
+/// The conditions on vectors and tensors.
 fn in_space(space: Space) -> [Value; 2] {
     [
         at("balance", json!({ "items": at("flux", count(space.vector())) })),
@@ -84,7 +84,7 @@ fn in_space(space: Space) -> [Value; 2] {
     ]
 }
 
-/// What is true of a file that is not axisymmetric, beside other conditions.
+/// The conditions on a file that is not axisymmetric.
 fn and_cartesian(mut condition: Value) -> Value {
     extend(&mut condition, json!({ "not": has(&[coordinates()]) }));
     condition

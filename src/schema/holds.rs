@@ -81,9 +81,12 @@ fn value(holds: &Holds) -> Value {
             "minItems": 3,
             "maxItems": MAX_VERTICES,
         }),
+        Holds::Name => {
+            json!({ "type": "string", "pattern": "^[a-z][a-z0-9_]*$", "maxLength": MAX_NAME })
+        }
         Holds::Words => json!({
             "type": "array",
-            "items": { "type": "string", "pattern": "^[a-z][a-z0-9_]*$", "maxLength": MAX_NAME },
+            "items": value(&Holds::Name),
             "uniqueItems": true,
         }),
         Holds::Faces => faces(),

@@ -306,7 +306,7 @@ pub const CRATES: &[Crate] = &[
             "mms-symbolic",
         ],
         layers: &[
-            "digests profile",
+            "digests only profile",
             "dependencies sources",
             "plan suggest",
             "work",

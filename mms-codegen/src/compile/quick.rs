@@ -48,7 +48,7 @@ pub struct Quick {
     body: Region<()>,
     /// Whether theta is given.
     is_sector: bool,
-    /// Of an axisymmetric field: whether the body may reach the axis.
+    /// Whether the body may reach the axis; `None` if the field is not axisymmetric.
     axis: Option<bool>,
     defaults: Vec<Default>,
 }

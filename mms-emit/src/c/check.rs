@@ -6,7 +6,7 @@ use super::comment;
 use crate::port::Port;
 use crate::port::check::Check;
 
-/// What reads the test vectors, in C++ too.
+/// The text that reads the test vectors, in C and in C++.
 const VECTORS: &str = include_str!("support/vectors.c");
 
 /// The text of `FIELD_check.c`.
@@ -44,7 +44,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
 /// The headers of what reads the test vectors.
 pub(crate) const INCLUDED: &str = "#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\n";
 
-/// What reads the test vectors of a field.
+/// Writes the code that reads the test vectors of a field.
 pub(crate) fn reader(port: &Port<'_>) -> String {
     VECTORS.replace("VECTORS", &port.vectors_name())
 }

@@ -89,7 +89,7 @@ pub trait Dialect {
     fn literal(&self, number: &Rational, wide: bool, calls: &mut Calls) -> String;
     /// pi.
     fn pi(&self, wide: bool, calls: &mut Calls) -> String;
-    /// What supplies a leaf in the function that is being written, of which `name` is the argument.
+    /// The expression that supplies a leaf in the function being written; `name` is the argument that holds it.
     fn input(&self, _symbol: Symbol, name: &str) -> String {
         name.into()
     }

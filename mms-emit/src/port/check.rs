@@ -1,4 +1,4 @@
-//! What check programs have in common: the file of test vectors that they read, and what they run.
+//! The common parts of check programs: the file of test vectors that they read, and the functions that they run.
 //!
 //! `FIELD_vectors.txt` is the same in every language. It holds tables: a line of a name, the numbers of rows and of
 //! columns and the errors that are accepted in double and in single precision, and the rows. First come the defaults of the

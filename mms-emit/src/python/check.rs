@@ -44,7 +44,7 @@ pub(super) fn text(port: &Port<'_>, library: Library) -> String {
 /// The precision of Python.
 pub(crate) const DOUBLE: &str = "EPS, LEAST = sys.float_info.epsilon, sys.float_info.min\n";
 
-/// What compares in a precision, and the test vectors: `FIRST` has the defaults, `SETS` the tables of each set.
+/// The comparison in a precision, and the test vectors: `FIRST` has the defaults, `SETS` the tables of each set.
 pub(crate) fn checked(port: &Port<'_>, precision: &str) -> String {
     let (name, count) = (&port.name, port.subject.vectors().sets.len());
     format!("FIELD, COUNT = \"{name}\", {count}\n{precision}\n{}", include_str!("support/check.py"))

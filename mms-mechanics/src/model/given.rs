@@ -19,7 +19,7 @@ pub type OwnQuantities = SortedMap<Own, Vec<Expr>>;
 const LANGUAGE: &str = "a balance also knows u_x, v_x, H11, F11, Finv11, C11, Cinv11 and their like, J, and derivatives \
                         such as T_X and T_t of what [let] and [given] define";
 
-/// The same of an axisymmetric field.
+/// The names that a balance of an axisymmetric field may use, for a message.
 const LANGUAGE_OF_R: &str = "a balance also knows u_r, v_r, H11, F11, Finv11, C11, Cinv11 and their like in the order R, Z, \
                              theta, J, and derivatives such as T_R and T_t of what [let] and [given] define";
 

@@ -94,7 +94,7 @@ pub fn extent(reach: &[[f64; 2]], space: Space, shortest_wavelength: Option<f64>
     format!("  extent {}; {wave}", sides.join(", "))
 }
 
-/// What is proved of acoustic tensors.
+/// The proof about acoustic tensors, in a word or a place.
 fn proved(ellipticity: &Ellipticity) -> String {
     match ellipticity {
         Ellipticity::Strong(_) => "proved".into(),
