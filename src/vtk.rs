@@ -112,6 +112,17 @@ fn state(frame: &Frame) -> State {
         shape,
         values: values.to_vec(),
     };
+    // Of a body of revolution all nine components, in the order R, Z, hoop.
+    let tensor = |name: &str, meridian: &[f64], around: &[f64]| match around {
+        [] => column(name, Shape::Tensor, meridian),
+        around => {
+            let nine = meridian
+                .chunks_exact(4)
+                .zip(around)
+                .flat_map(|(it, &hoop)| [it[0], it[1], 0.0, it[2], it[3], 0.0, 0.0, 0.0, hoop]);
+            column(name, Shape::Nine, &nine.collect::<Vec<_>>())
+        }
+    };
     let particles: Vec<f64> = (0..count).map(|particle| particle as f64).collect();
     State {
         time: frame.time,
@@ -122,8 +133,8 @@ fn state(frame: &Frame) -> State {
             column("displacement", Shape::Vector, &frame.displacement),
             column("displacement_error", Shape::Vector, &frame.displacement_error),
             column("velocity", Shape::Vector, &frame.velocity),
-            column("deformation_gradient", Shape::Tensor, &frame.deformation_gradient),
-            column("cauchy_stress", Shape::Tensor, &frame.cauchy_stress),
+            tensor("deformation_gradient", &frame.deformation_gradient, &frame.hoop_stretch),
+            tensor("cauchy_stress", &frame.cauchy_stress, &frame.hoop_stress),
         ],
     }
 }

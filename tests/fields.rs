@@ -111,12 +111,17 @@ fn kinematics_by_dual_numbers<K: Kernel>() {
         pairs[0].extend(velocity.into_iter().zip(moving.iter().map(|u| u.0.eps1)));
         pairs[1].extend(acceleration.into_iter().zip(moving.iter().map(|u| u.0.eps1eps2)));
         let gradient = K::quantity(Quantity::DisplacementGradient, time, at);
+        let rows = rows::<K>();
         for axis in 0..K::DIMENSION {
             let mut shifted = constants(at);
             shifted[axis] = Dual::variable(at[axis], 1.0, 0.0);
             let slope = displacement(Dual::constant(time), &shifted);
-            let column = gradient.iter().skip(axis).step_by(K::DIMENSION).copied();
+            let column = gradient.iter().skip(axis).step_by(rows).copied();
             pairs[2].extend(column.zip(slope.iter().map(|u| u.0.eps1)));
+        }
+        if rows > K::DIMENSION {
+            let moved = K::quantity(Quantity::Displacement, time, at);
+            pairs[2].push((gradient[rows * rows - 1], moved[0] / at[0]));
         }
     }
     for (what, pairs) in ["velocity", "acceleration", "displacement_gradient"].iter().zip(pairs) {
@@ -129,6 +134,11 @@ fn kinematics_by_dual_numbers<K: Kernel>() {
             );
         }
     }
+}
+
+/// The rows of a tensor: those of the coordinates, and of an axisymmetric field the one around the axis.
+fn rows<K: Kernel>() -> usize {
+    compiled(K::NAME).field.space.rows()
 }
 
 /// The displacement gradients of the field at its points.
@@ -179,7 +189,7 @@ fn objectivity<K: Kernel>() {
             assert!(!is_free || stress.abs() <= bound, "P = {stress:e} at F = I");
         }
         for plane in [[0, 1], [1, 2], [2, 0]] {
-            if is_indifferent && plane.iter().all(|axis| *axis < K::DIMENSION) {
+            if is_indifferent && plane.iter().all(|axis| *axis < rows::<K>()) {
                 rotated_in_a_plane::<K>((&point, time), &gradient, plane, index as f64, bound);
             }
         }
@@ -194,16 +204,16 @@ fn rotated_in_a_plane<K: Kernel>(
     bound: f64,
 ) {
     let (sin, cos) = angle.sin_cos();
+    let dimension = rows::<K>();
     let rotated = |tensor: &[f64]| {
         let mut rotated = tensor.to_vec();
-        for column in 0..K::DIMENSION {
-            let [k, l] = [first, second].map(|row| row * K::DIMENSION + column);
+        for column in 0..dimension {
+            let [k, l] = [first, second].map(|row| row * dimension + column);
             rotated[k] = cos * tensor[k] - sin * tensor[l];
             rotated[l] = sin * tensor[k] + cos * tensor[l];
         }
         rotated
     };
-    let dimension = K::DIMENSION;
     let unit = |k: usize| if k / dimension == k % dimension { 1.0 } else { 0.0 };
     let deformation: Vec<_> = gradient.iter().enumerate().map(|(k, h)| h + unit(k)).collect();
     let turned = rotated(&deformation);
@@ -222,14 +232,14 @@ fn rotated_in_a_plane<K: Kernel>(
 fn modulus<K: Kernel>() -> f64 {
     let first = sample(compiled(K::NAME), 1).remove(0);
     let constants: Vec<_> = first.coordinates.iter().map(|x| Dual::constant(*x)).collect();
-    let mut gradient = vec![Dual::constant(0.0); K::DIMENSION * K::DIMENSION];
+    let mut gradient = vec![Dual::constant(0.0); rows::<K>().pow(2)];
     gradient[0] = Dual::variable(0.0, 1.0, 1.0);
     K::material_strain_energy(Dual::constant(first.time), &constants, &gradient).0.eps1eps2
 }
 
 /// F and J as stresses and densities know them: at small strain the present configuration is the reference.
 fn carriers<K: Kernel>(deformation: &[f64], jacobian: f64) -> (Vec<f64>, f64) {
-    let dimension = K::DIMENSION;
+    let dimension = rows::<K>();
     match compiled(K::NAME).model.kind {
         Kind::SmallStrain => {
             let unit = |k: usize| f64::from(u8::from(k / dimension == k % dimension));
@@ -242,7 +252,7 @@ fn carriers<K: Kernel>(deformation: &[f64], jacobian: f64) -> (Vec<f64>, f64) {
 /// The field's stresses are those of its material at its gradient, and tau = P F^T,
 /// sigma = tau/J, nominal stress = P^T, traction = P N; at small strain tau = sigma = P.
 fn stress_measures<K: Kernel>() {
-    let dimension = K::DIMENSION;
+    let dimension = rows::<K>();
     let modulus = modulus::<K>();
     for (point, time, gradient) in gradients::<K>(64) {
         // The material is given a rounded H, and its stress answers with the modulus times |F|^2.
@@ -273,7 +283,7 @@ fn stress_measures<K: Kernel>() {
             close("sigma = tau/J", cauchy[k] * volume, kirchhoff[k]);
             close("nominal stress = P^T", nominal[column * dimension + row], first[k]);
         }
-        for row in 0..dimension {
+        for row in 0..traction.len() {
             close("traction = P N, N along the first axis", traction[row], first[row * dimension]);
         }
     }
@@ -282,7 +292,7 @@ fn stress_measures<K: Kernel>() {
 /// x - X = u, C = F^T F, B = F F^T, 2 E = C - I, rho J = rho0, J div sigma = Div P and
 /// J (rho b) = rho0 b; without J at small strain.
 fn strains_and_densities<K: Kernel>() {
-    let dimension = K::DIMENSION;
+    let dimension = rows::<K>();
     let close = |what: &str, a: f64, b: f64, scale: f64| {
         let bound = 64.0 * f64::EPSILON * scale;
         assert!((a - b).abs() <= bound, "{what}: {a:e} and {b:e}");
@@ -298,7 +308,7 @@ fn strains_and_densities<K: Kernel>() {
     for (point, time, gradient) in gradients {
         let of = |quantity| K::quantity(quantity, time, &point);
         let (displacement, position) = (of(Quantity::Displacement), of(Quantity::Position));
-        for axis in 0..dimension {
+        for axis in 0..K::DIMENSION {
             let size = largest([position[axis], point[axis]]);
             close("x - X = u", position[axis] - point[axis], displacement[axis], size);
         }
@@ -362,10 +372,20 @@ fn balance_by_finite_differences<K: Kernel>() {
     assert!(fine < 0.02 * scale, "the residual is {fine:e}, the terms are {scale:e}");
 }
 
+/// What a stress of an axisymmetric field adds to its divergence along R and Z, at a distance from the axis.
+fn spreading(stress: &[f64], radius: f64) -> [f64; 2] {
+    [(stress[0] - stress[8]) / radius, stress[3] / radius]
+}
+
 /// The largest component of the residual, and of the terms it is made of.
 fn momentum_residual<K: Kernel>(at: &[f64], time: f64, step: f64) -> [f64; 2] {
-    let dimension = K::DIMENSION;
+    let (dimension, width) = (K::DIMENSION, rows::<K>());
     let (mut divergence, mut slopes) = (vec![0.0; dimension], vec![0.0_f64; dimension]);
+    if width > dimension {
+        let stress = K::quantity(Quantity::FirstPiolaKirchhoff, time, at);
+        let spread = spreading(&stress, at[0]);
+        (divergence, slopes) = (spread.to_vec(), spread.map(f64::abs).to_vec());
+    }
     for axis in 0..dimension {
         let stress = |sign: f64| {
             let mut shifted = at.to_vec();
@@ -374,7 +394,7 @@ fn momentum_residual<K: Kernel>(at: &[f64], time: f64, step: f64) -> [f64; 2] {
         };
         let (ahead, behind) = (stress(1.0), stress(-1.0));
         for (row, divergence) in divergence.iter_mut().enumerate() {
-            let k = row * dimension + axis;
+            let k = row * width + axis;
             let slope = (ahead[k] - behind[k]) / (2.0 * step);
             *divergence += slope;
             slopes[row] = slopes[row].max(slope.abs());
@@ -520,7 +540,7 @@ fn scene<T: Interpretable>(name: &str, study: &StudySpec) -> Scene<T> {
         }
     };
     let scene = mms_interpreted::scene(Arc::new(compiled), &Default::default());
-    scene.expect("a Cartesian field")
+    scene.expect("a field without a swirl")
 }
 
 /// The method of a study, with the command's defaults for what it leaves out.

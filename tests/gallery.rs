@@ -6,6 +6,7 @@ use std::sync::Arc;
 use mms_exact::gallery::{Entry, FIELDS};
 use mms_interpreted::{Interpretable, scene};
 use mms_mechanics::sample::samples;
+use mms_runtime::axisymmetric::{hoop_strain, kirchhoff_stress, strain_energy};
 use mms_runtime::column::BUNCH;
 use mms_runtime::column::{Bunch as _, Matrices};
 use mms_runtime::scene::{Code, Scene};
@@ -80,6 +81,35 @@ fn agree<T: Real, const D: usize>(
         scalars(&|field, out| assert!(field.strain_energy(time, points, &gradients, out)));
     same(&what("W"), &first, &second);
     stress_of_bunches(&what("tau of bunches"), [compiled, interpreted], time, points);
+    axisymmetric(
+        &what("hoop strains, stresses and energies"),
+        [compiled, interpreted],
+        time,
+        points,
+    );
+}
+
+/// The hoop strains of axisymmetric fields, and their materials at other ones.
+fn axisymmetric<T: Real, const D: usize>(
+    what: &str,
+    fields: [&Field<T, D>; 2],
+    time: T,
+    points: &[Vector<T, D>],
+) {
+    let [own, found] = [0, 1].map(|k| {
+        let field = fields[k];
+        let own = hoop_strain(field, time, points);
+        let strains: Vec<T> = own.iter().map(|&h| h + T::of(0.02)).collect();
+        let gradients: Vec<_> = points.iter().map(gradient).collect();
+        let mut stress = vec![Matrix::zeros(); points.len()];
+        let mut hoop_stress = strains.clone();
+        let stresses = (&mut stress[..], &mut hoop_stress[..]);
+        kirchhoff_stress(field, time, points, (&gradients, &strains), stresses);
+        let mut energy = vec![T::zero(); points.len()];
+        assert!(strain_energy(field, time, points, (&gradients, &strains), &mut energy));
+        (own, stress, hoop_stress, energy)
+    });
+    same(what, &[own], &[found]);
 }
 
 fn stress_of_bunches<T: Real, const D: usize>(
@@ -109,7 +139,7 @@ fn hold<T: Interpretable>(entry: &Entry, of: fn(&Code) -> Build<T>) {
     let parameters = compiled.parameters::<T>(&SortedMap::new());
     let all = samples(&compiled.program, &parameters, COUNTS[COUNTS.len() - 1]);
     let time = all[0].time;
-    let interpreted = scene::<T>(compiled, &SortedMap::new()).expect("a Cartesian field");
+    let interpreted = scene::<T>(compiled, &SortedMap::new()).expect("a field without a swirl");
     let Some(compiled) = of(&code)(&parameters) else { panic!("as many parameters") };
     macro_rules! dimension {
         ($compiled:expr, $interpreted:expr) => {{

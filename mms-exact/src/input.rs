@@ -13,12 +13,12 @@ use mms_interpreted::Interpretable;
 use mms_mechanics::{Program, TooLarge};
 use mms_runtime::Division;
 use mms_runtime::scene::{Code, Scene};
-use mms_spec::Form;
 use mms_spec::foreign::{Foreign, shown};
 use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
+use mms_spec::{Form, Space};
 use mms_symbolic::sorted::SortedMap;
 
 use crate::provenance::input as provenance_of;
@@ -136,7 +136,7 @@ impl Input {
             Some(code) => build(&code)(&self.compiled.parameters::<T>(set))
                 .context("the gallery is out of step with its field files: build again"),
             None => {
-                self.hold_cartesian()?;
+                self.hold_rings()?;
                 Ok(mms_interpreted::scene(self.compiled.clone(), set)?)
             }
         }
@@ -250,7 +250,7 @@ impl Input {
     /// # Errors
     /// The field is static.
     pub fn hold_moving(&self) -> anyhow::Result<()> {
-        self.hold_cartesian()?;
+        self.hold_rings()?;
         self.hold_body("a solver has nothing to fill with particles")?;
         ensure!(
             !self.is_static(),
@@ -267,7 +267,7 @@ impl Input {
     /// # Errors
     /// The field moves.
     pub fn hold_static(&self) -> anyhow::Result<()> {
-        self.hold_cartesian()?;
+        self.hold_rings()?;
         ensure!(
             self.is_static(),
             "`--relax`: `{}` moves, and has an equilibrium at no time but by chance; leave `--relax` out to follow it, or give a \
@@ -288,6 +288,20 @@ impl Input {
     /// There is none.
     pub fn hold_body(&self, why: &str) -> anyhow::Result<()> {
         hold_body(&self.compiled, why)
+    }
+
+    /// Refuses an axisymmetric field with a swirl, which the solver has no particles for.
+    ///
+    /// # Errors
+    /// The field has a swirl.
+    fn hold_rings(&self) -> anyhow::Result<()> {
+        ensure!(
+            self.compiled.field.space != (Space::Axisymmetric { swirl: true }),
+            "`{}` has a swirl, and the solver of this project moves rings along R and Z alone; `mms check`, `mms eval`, `mms \
+             show`, `mms accuracy` and `mms emit` take this field",
+            self.name.shown()
+        );
+        Ok(())
     }
 
     /// Refuses an axisymmetric field, which the solver and what judges results do not know.

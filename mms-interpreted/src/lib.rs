@@ -19,12 +19,13 @@ use mms_mechanics::{Bound, Output};
 use mms_program::Op;
 use mms_program::block::{Blockwise, Component, Inputs, Outputs, Plan, Prepared, Rooms, Way};
 use mms_program::interpret::Interpreter;
+use mms_runtime::axisymmetric::{energy_at_own_strain, stress_at_own_strain};
 use mms_runtime::column::BUNCH;
 use mms_runtime::column::Matrices;
 use mms_runtime::material::by_bunches;
 use mms_runtime::scene::Scene;
 use mms_runtime::{
-    Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Real, Vector,
+    Axisymmetric, Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Real, Vector,
 };
 use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Space};
@@ -85,7 +86,7 @@ pub trait Interpretable: Real + Blockwise {
     fn scene(
         compiled: Arc<Compiled>,
         set: &SortedMap<usize, RBig>,
-    ) -> Result<Scene<Self>, Axisymmetric>;
+    ) -> Result<Scene<Self>, Swirling>;
 }
 
 macro_rules! interpretable {
@@ -94,7 +95,7 @@ macro_rules! interpretable {
             fn scene(
                 compiled: Arc<Compiled>,
                 set: &SortedMap<usize, RBig>,
-            ) -> Result<Scene<Self>, Axisymmetric> {
+            ) -> Result<Scene<Self>, Swirling> {
                 interpreted(compiled, set)
             }
         })*
@@ -103,38 +104,39 @@ macro_rules! interpretable {
 
 interpretable!(f32 f64);
 
-/// An axisymmetric field, of which there is no scene.
+/// An axisymmetric field with a swirl, of which there is no scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Axisymmetric;
+pub struct Swirling;
 
-impl fmt::Display for Axisymmetric {
+impl fmt::Display for Swirling {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the field is axisymmetric, and the solver works in Cartesian coordinates")
+        f.write_str("the field has a swirl, and the solver moves rings along R and Z alone")
     }
 }
 
-impl Error for Axisymmetric {}
+impl Error for Swirling {}
 
 /// The scene of a compiled text, some of its parameters set by the caller.
 ///
 /// # Errors
-/// An axisymmetric field.
+/// An axisymmetric field with a swirl.
 pub fn scene<T: Interpretable>(
     compiled: Arc<Compiled>,
     set: &SortedMap<usize, RBig>,
-) -> Result<Scene<T>, Axisymmetric> {
+) -> Result<Scene<T>, Swirling> {
     T::scene(compiled, set)
 }
 
 fn interpreted<T: Real + Blockwise>(
     compiled: Arc<Compiled>,
     set: &SortedMap<usize, RBig>,
-) -> Result<Scene<T>, Axisymmetric> {
+) -> Result<Scene<T>, Swirling> {
     let parameters = compiled.parameters(set);
     let space = compiled.field.space;
     let field = Interpreted { compiled, parameters, asked: asked() };
     match space {
-        Space::Axisymmetric { .. } => Err(Axisymmetric),
+        Space::Axisymmetric { swirl: true } => Err(Swirling),
+        Space::Axisymmetric { swirl: false } => Ok(Scene::Plane(Box::new(field))),
         Space::Cartesian(1) => Ok(Scene::Line(Box::new(field))),
         Space::Cartesian(2) => Ok(Scene::Plane(Box::new(field))),
         Space::Cartesian(_) => Ok(Scene::Space(Box::new(field))),
@@ -170,13 +172,15 @@ impl<T: Real + Blockwise> Interpreted<T> {
         asked.rooms.lend(|room| prepared.run(room, time, count, bring, take));
     }
 
-    /// Evaluates an output of positions. `place` is that of a component in the result of a point.
+    /// Evaluates an output of positions. `place` is that of a component in the result of a point; some tensors have components
+    /// without one.
     fn at_points<R, const D: usize>(
         &self,
         time: T,
         output: Output,
         reference: &[Vector<T, D>],
         out: &mut [R],
+        has_place: impl Fn(usize) -> bool,
         place: impl Fn(&mut R, usize) -> &mut T,
     ) {
         self.evaluate(
@@ -193,7 +197,9 @@ impl<T: Real + Blockwise> Interpreted<T> {
             &mut |start, outputs| {
                 let out = &mut out[start..start + outputs.count()];
                 for (index, component) in outputs.components(0).enumerate() {
-                    component.write(out.iter_mut().map(|it| place(it, index)));
+                    if has_place(index) {
+                        component.write(out.iter_mut().map(|it| place(it, index)));
+                    }
                 }
             },
         );
@@ -206,7 +212,8 @@ impl<T: Real + Blockwise> Interpreted<T> {
         reference: &[Vector<T, D>],
         out: &mut [Vector<T, D>],
     ) {
-        self.at_points(time, Output::Quantity(quantity), reference, out, |it, axis| &mut it[axis]);
+        let output = Output::Quantity(quantity);
+        self.at_points(time, output, reference, out, |_| true, |it, axis| &mut it[axis]);
     }
 
     fn scalars<const D: usize>(
@@ -215,7 +222,143 @@ impl<T: Real + Blockwise> Interpreted<T> {
         reference: &[Vector<T, D>],
         out: &mut [T],
     ) {
-        self.at_points(T::of(0.0), Output::Response(response), reference, out, |it, _| it);
+        self.at_points(
+            T::of(0.0),
+            Output::Response(response),
+            reference,
+            out,
+            |_| true,
+            |it, _| it,
+        );
+    }
+
+    /// Rows of tensors.
+    fn rows(&self) -> usize {
+        self.compiled.field.space.rows()
+    }
+
+    /// Evaluates the Kirchhoff stress of whole bunches; hoop strains and stresses are there if the field is axisymmetric.
+    fn stress_of_bunches<const D: usize>(
+        &self,
+        time: T,
+        reference: &[[Vector<T, D>; BUNCH]],
+        (displacement_gradient, hoop_strain): (&[Matrices<T, D>], &[[T; BUNCH]]),
+        (stress, hoop_stress): (&mut [Matrices<T, D>], &mut [[T; BUNCH]]),
+    ) {
+        let (points, rows) = (reference.as_flattened(), self.rows());
+        self.evaluate(
+            Output::Response(Response::KirchhoffStress),
+            time,
+            BUNCH * stress.len(),
+            &mut |start, inputs| {
+                for (symbol, column) in inputs.columns() {
+                    let bunches = column.as_chunks_mut().0.iter_mut();
+                    let first = start / BUNCH;
+                    match symbol {
+                        Symbol::Gradient(row, axis) if row < D && axis < D => bunches
+                            .zip(&displacement_gradient[first..])
+                            .for_each(|(to, bunch)| *to = bunch.0[axis][row]),
+                        Symbol::Gradient(row, axis) if row == axis => {
+                            bunches.zip(&hoop_strain[first..]).for_each(|(to, bunch)| *to = *bunch);
+                        }
+                        Symbol::Gradient(..) => column.fill(T::of(0.0)),
+                        Symbol::Coordinate(axis) => coordinate(column, &points[start..], axis),
+                        _ => {}
+                    }
+                }
+            },
+            &mut |start, outputs| {
+                let (first, count) = (start / BUNCH, outputs.count() / BUNCH);
+                for (index, component) in outputs.components(0).enumerate() {
+                    let (row, axis) = (index / rows, index % rows);
+                    if row < D && axis < D {
+                        let bunches = stress[first..].iter_mut().take(count);
+                        write_bunches(&component, bunches.map(|bunch| &mut bunch.0[axis][row]));
+                    } else if row == axis {
+                        write_bunches(&component, hoop_stress[first..].iter_mut().take(count));
+                    }
+                }
+            },
+        );
+    }
+
+    /// Evaluates the strain energy; hoop strains are there if the field is axisymmetric.
+    fn energy<const D: usize>(
+        &self,
+        time: T,
+        reference: &[Vector<T, D>],
+        (displacement_gradient, hoop_strain): (&[Matrix<T, D>], &[T]),
+        energy: &mut [T],
+    ) {
+        self.evaluate(
+            Output::Response(Response::StrainEnergy),
+            time,
+            energy.len(),
+            &mut |start, inputs| {
+                for (symbol, column) in inputs.columns() {
+                    match symbol {
+                        Symbol::Gradient(row, axis) if row < D && axis < D => {
+                            let gradients = &displacement_gradient[start..];
+                            let columns = column.iter_mut().zip(gradients);
+                            columns.for_each(|(to, gradient)| *to = gradient[(row, axis)]);
+                        }
+                        Symbol::Gradient(row, axis) if row == axis => {
+                            let strains = &hoop_strain[start..];
+                            column.iter_mut().zip(strains).for_each(|(to, strain)| *to = *strain);
+                        }
+                        Symbol::Gradient(..) => column.fill(T::of(0.0)),
+                        Symbol::Coordinate(axis) => coordinate(column, &reference[start..], axis),
+                        _ => {}
+                    }
+                }
+            },
+            &mut |start, outputs| {
+                let out = &mut energy[start..start + outputs.count()];
+                outputs.components(0).for_each(|component| component.write(out.iter_mut()));
+            },
+        );
+    }
+}
+
+/// Writes a component of whole bunches.
+fn write_bunches<'a, T: Real>(
+    component: &Component<'_, T>,
+    bunches: impl Iterator<Item = &'a mut [T; BUNCH]>,
+) {
+    match component {
+        Component::Each(numbers) => {
+            bunches.zip(numbers.as_chunks().0).for_each(|(to, numbers)| *to = *numbers);
+        }
+        Component::Same(number) => bunches.for_each(|to| *to = [*number; BUNCH]),
+    }
+}
+
+impl<T: Real + Blockwise, const D: usize> Axisymmetric<T, D> for Interpreted<T> {
+    fn hoop_strain(&self, time: T, reference: &[Vector<T, D>], out: &mut [T]) {
+        let (output, last) =
+            (Output::Quantity(Quantity::DisplacementGradient), self.rows() * self.rows() - 1);
+        self.at_points(time, output, reference, out, |index| index == last, |it, _| it);
+    }
+
+    fn kirchhoff_stress_of_bunches(
+        &self,
+        time: T,
+        reference: &[[Vector<T, D>; BUNCH]],
+        strains: (&[Matrices<T, D>], &[[T; BUNCH]]),
+        stresses: (&mut [Matrices<T, D>], &mut [[T; BUNCH]]),
+    ) {
+        self.stress_of_bunches(time, reference, strains, stresses);
+    }
+
+    fn strain_energy(
+        &self,
+        time: T,
+        reference: &[Vector<T, D>],
+        strains: (&[Matrix<T, D>], &[T]),
+        energy: &mut [T],
+    ) -> bool {
+        self.energy(time, reference, strains, energy);
+        true
     }
 }
 
@@ -230,6 +373,10 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
 
     fn is_small_strain(&self) -> bool {
         self.compiled.model.kind == Kind::SmallStrain
+    }
+
+    fn axisymmetric(&self) -> Option<&dyn Axisymmetric<T, D>> {
+        self.compiled.field.space.is_axisymmetric().then_some(self)
     }
 
     fn changes_with_time(&self) -> bool {
@@ -256,41 +403,10 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
         displacement_gradient: &[Matrices<T, D>],
         stress: &mut [Matrices<T, D>],
     ) {
-        let points = reference.as_flattened();
-        self.evaluate(
-            Output::Response(Response::KirchhoffStress),
-            time,
-            BUNCH * stress.len(),
-            &mut |start, inputs| {
-                for (symbol, column) in inputs.columns() {
-                    match symbol {
-                        Symbol::Gradient(row, axis) => {
-                            let bunches = &displacement_gradient[start / BUNCH..];
-                            let columns = column.as_chunks_mut().0.iter_mut().zip(bunches);
-                            columns.for_each(|(to, bunch)| *to = bunch.0[axis][row]);
-                        }
-                        Symbol::Coordinate(axis) => coordinate(column, &points[start..], axis),
-                        _ => {}
-                    }
-                }
-            },
-            &mut |start, outputs| {
-                let bunches = &mut stress[start / BUNCH..];
-                for (index, component) in outputs.components(0).enumerate() {
-                    let entries =
-                        bunches.iter_mut().map(|bunch| &mut bunch.0[index % D][index / D]);
-                    match component {
-                        Component::Each(numbers) => {
-                            let numbers = numbers.as_chunks().0;
-                            entries.zip(numbers).for_each(|(to, numbers)| *to = *numbers);
-                        }
-                        Component::Same(number) => entries
-                            .take(outputs.count() / BUNCH)
-                            .for_each(|to| *to = [number; BUNCH]),
-                    }
-                }
-            },
-        );
+        if self.compiled.field.space.is_axisymmetric() {
+            return stress_at_own_strain(self, time, reference, displacement_gradient, stress);
+        }
+        self.stress_of_bunches(time, reference, (displacement_gradient, &[]), (stress, &mut []));
     }
 
     fn strain_energy(
@@ -300,28 +416,10 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
         displacement_gradient: &[Matrix<T, D>],
         energy: &mut [T],
     ) -> bool {
-        self.evaluate(
-            Output::Response(Response::StrainEnergy),
-            time,
-            energy.len(),
-            &mut |start, inputs| {
-                for (symbol, column) in inputs.columns() {
-                    match symbol {
-                        Symbol::Gradient(row, axis) => {
-                            let gradients = &displacement_gradient[start..];
-                            let columns = column.iter_mut().zip(gradients);
-                            columns.for_each(|(to, gradient)| *to = gradient[(row, axis)]);
-                        }
-                        Symbol::Coordinate(axis) => coordinate(column, &reference[start..], axis),
-                        _ => {}
-                    }
-                }
-            },
-            &mut |start, outputs| {
-                let out = &mut energy[start..start + outputs.count()];
-                outputs.components(0).for_each(|component| component.write(out.iter_mut()));
-            },
-        );
+        if self.compiled.field.space.is_axisymmetric() {
+            return energy_at_own_strain(self, time, reference, displacement_gradient, energy);
+        }
+        self.energy(time, reference, (displacement_gradient, &[]), energy);
         true
     }
 }
@@ -356,8 +454,7 @@ impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interprete
         };
         let time = self.bound(Bound::Time);
         let claims = self.compiled.field.boundary.iter();
-        let faces = claims
-            .filter_map(|claim| Some((face(claim.face.value)?, condition(claim.claim.value)?)));
+        let faces = claims.map(|claim| (face(claim.face.value), condition(claim.claim.value)));
         Domain { body, time: [time[0], time[1]], faces: faces.collect() }
     }
 
@@ -379,13 +476,17 @@ impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interprete
 
     fn displacement_gradient(&self, time: T, reference: &[Vector<T, D>], out: &mut [Matrix<T, D>]) {
         let output = Output::Quantity(Quantity::DisplacementGradient);
-        self.at_points(time, output, reference, out, |it, index| &mut it[(index / D, index % D)]);
+        let rows = self.rows();
+        let has_place = |index| index / rows < D && index % rows < D;
+        self.at_points(time, output, reference, out, has_place, |it, index| {
+            &mut it[(index / rows, index % rows)]
+        });
     }
 }
 
-/// A face as the solver knows it; none of an axisymmetric body.
-fn face(face: mms_spec::Face) -> Option<Face> {
-    Some(match face {
+/// A face as the solver knows it.
+fn face(face: mms_spec::Face) -> Face {
+    match face {
         mms_spec::Face::Min(axis) => Face::Min(axis),
         mms_spec::Face::Max(axis) => Face::Max(axis),
         mms_spec::Face::Inner => Face::Inner,
@@ -395,21 +496,20 @@ fn face(face: mms_spec::Face) -> Option<Face> {
         mms_spec::Face::PhiMin => Face::PhiMin,
         mms_spec::Face::PhiMax => Face::PhiMax,
         mms_spec::Face::Edge(first, name) => Face::Edge(first, name),
-        mms_spec::Face::RadialMin
-        | mms_spec::Face::RadialMax
-        | mms_spec::Face::AxialMin
-        | mms_spec::Face::AxialMax => return None,
-    })
+        mms_spec::Face::RadialMin => Face::Min(0),
+        mms_spec::Face::RadialMax => Face::Max(0),
+        mms_spec::Face::AxialMin => Face::Min(1),
+        mms_spec::Face::AxialMax => Face::Max(1),
+    }
 }
 
-/// A claim as the solver knows it; none of the axis.
-fn condition(claim: Claim) -> Option<Condition> {
-    Some(match claim {
+/// A claim as the solver knows it: the axis is a plane that is not left, and has no traction along it.
+fn condition(claim: Claim) -> Condition {
+    match claim {
         Claim::Fixed => Condition::Fixed,
-        Claim::Roller => Condition::Roller,
+        Claim::Roller | Claim::Axis => Condition::Roller,
         Claim::Free => Condition::Free,
         Claim::Prescribed => Condition::Prescribed,
         Claim::Traction => Condition::Traction,
-        Claim::Axis => return None,
-    })
+    }
 }

@@ -223,6 +223,8 @@ mod tests {
             velocity: vec![0.0; 4],
             deformation_gradient: vec![1.0; 4],
             cauchy_stress: vec![0.0; 4],
+            hoop_stretch: Vec::new(),
+            hoop_stress: Vec::new(),
         }
     }
 

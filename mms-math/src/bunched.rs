@@ -12,6 +12,18 @@ pub trait Numbers<T, const N: usize> {
     fn numbers_mut(&mut self) -> [&mut [T; 8]; N];
 }
 
+impl<T, const N: usize> Numbers<T, N> for [[T; 8]; N] {
+    #[inline(always)]
+    fn numbers(&self) -> [&[T; 8]; N] {
+        self.each_ref()
+    }
+
+    #[inline(always)]
+    fn numbers_mut(&mut self) -> [&mut [T; 8]; N] {
+        self.each_mut()
+    }
+}
+
 /// Some bunches, as a place to read points from or to write them to.
 pub struct Bunched<B, const N: usize>(pub B);
 
@@ -73,17 +85,8 @@ impl<T: Float, B: Numbers<T, N>, const N: usize> Sink<T, N> for Bunched<&mut [B]
 pub(crate) mod tests {
     use std::vec::Vec;
 
-    use super::{Bunched, Numbers};
+    use super::Bunched;
     use crate::batch::{Function, Kernel, Points, Stand, run};
-
-    impl<const N: usize> Numbers<f64, N> for [[f64; 8]; N] {
-        fn numbers(&self) -> [&[f64; 8]; N] {
-            self.each_ref()
-        }
-        fn numbers_mut(&mut self) -> [&mut [f64; 8]; N] {
-            self.each_mut()
-        }
-    }
 
     /// x y and x + 2 y.
     pub(crate) struct Both;

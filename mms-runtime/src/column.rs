@@ -28,6 +28,11 @@ impl<V: Copy> Column<V> {
         self.entries.as_chunks().0
     }
 
+    /// Bunch by bunch; those that stand for the last particle have to become what its own does.
+    pub(crate) fn bunches_mut(&mut self) -> &mut [[V; BUNCH]] {
+        self.entries.as_chunks_mut().0
+    }
+
     /// Has the last entry stand in again for those that there are not.
     pub(crate) fn fill_up(&mut self) {
         let last = self.last().copied();

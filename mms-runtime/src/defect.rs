@@ -37,6 +37,11 @@ mms_math::defects! {
     SplineConstant, "spline_constant", "the 2/3 of the cubic spline is typed as 0.667";
     SquareCells, "square_cells", "gradients of weights take h of the first axis along all of them";
     RingVolumes, "ring_volumes", "all particles of an annulus have the volume of those on the middle circle";
+    HoopStress, "hoop_stress", "the stress around the axis is left out: no - V0 tau_tt w/r";
+    RadiusWeight, "radius_weight", "masses and volumes of rings lack the radius: those of boxes in a plane";
+    EdgeVolume, "edge_volume", "the volume of a ring takes the radius of its outer edge";
+    FlatWeights, "flat_weights", "averages over a ring lack the weight r";
+    AxisFixed, "axis_fixed", "the axis is a fixed wall, whose nodes move along it no more than away from it";
     NoGhosts, "no_ghosts", "what reaches past a wall is lost: there are no ghost nodes";
     WallReleased, "wall_released", "nodes on a wall are not held";
     MirrorSign, "mirror_sign", "ghost nodes move with their images in place of opposite to them";

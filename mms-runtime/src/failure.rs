@@ -46,6 +46,12 @@ pub enum Refusal {
         /// The name of the shape function.
         shape: &'static str,
     },
+    /// A field that the solver has no particles for.
+    #[error("the field is axisymmetric, and {what}")]
+    NotOfRings {
+        /// What there is not for rings, and what to do.
+        what: &'static str,
+    },
     /// An integrator that moves particles and deforms them by different velocities.
     #[error(
         "integrator `{integrator}` moves particles by one velocity and deforms them by another, and each halt of a \
@@ -298,6 +304,12 @@ pub enum Cause {
         /// The grid spacing.
         cell_size: f64,
     },
+    /// A ring that has shrunk to nothing.
+    #[error("the particle has crossed the axis of revolution, r = {radius:e}")]
+    BeyondAxis {
+        /// The particle's distance from the axis.
+        radius: f64,
+    },
     /// A particle's domain is flat or not finite.
     #[error("the particle's domain is flat or not finite")]
     FlatDomain,
@@ -344,6 +356,10 @@ impl Cause {
                  together: try a smaller Courant number or more cells"
             }
             Cause::OutOfRange { .. } => "use double precision, or units in which it is closer to 1",
+            Cause::BeyondAxis { .. } => {
+                "likely an unstable run, for the field's own motion keeps rings apart from the axis: try a smaller Courant \
+                 number or more cells"
+            }
             Cause::Lost { .. } => {
                 "likely an unstable run, for the grid holds the field's own motion with room to \
                  spare: try a smaller Courant number or more cells"

@@ -5,6 +5,14 @@
 //! gradient are the averages of the hat function and of its slope over the particle's domain,
 //!
 //! w = 1/(2 l) int hat(x) dx,  grad w = 1/(2 l) int hat'(x) dx,  x from x_p - l to x_p + l.
+//!
+//! On a meridian the domain is that of a ring, and the averages along R are those over the ring, that is with the weight r
+//! (Nairn and Guilkey, "Axisymmetric form of the generalized interpolation material point method", Int. J. Numer. Meth. Engng
+//! 101 (2015) 127-147). With the middle r_m of the box they are the averages above and a first moment each,
+//!
+//! w + 1/(2 l r_m) int (r - r_m) hat(r) dr,  grad w + 1/(2 l r_m) int (r - r_m) hat'(r) dr,
+//!
+//! and the weights w/r of the strain around the axis are those above over r_m. A ring that would cross the axis ends there.
 
 use mms_math::machine::{Machine, Plain};
 use nalgebra::ComplexField;
@@ -58,6 +66,11 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
                 half_width[a] = machine.times(half_width[a], stretch[a]);
             }
         }
+        let mut middle = *position;
+        if lattice.is_meridian {
+            (middle[0], half_width[0]) = ring(machine, position[0], half_width[0]);
+        }
+        let position = &middle;
         let mut in_cells = half_width;
         for a in 0..D {
             in_cells[a] = machine.times(in_cells[a], machine.splat(lattice.per_length[a]));
@@ -78,6 +91,13 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             let cells = lattice.cells_along(machine, a, position[a]);
             let mut weights;
             (first[a], weights) = around_nearest(machine, cells, in_cells[a]);
+            if a == 0 && lattice.is_meridian {
+                let radius = machine.times(position[0], machine.splat(lattice.per_length[0]));
+                let moments = moments_around_nearest(machine, cells, in_cells[0]);
+                let flat = weights;
+                revolve(machine, &mut weights, moments, radius);
+                stencil.set_around(machine, position[0], Some(flat[0]));
+            }
             if short {
                 weights.iter_mut().for_each(|weights| weights[2] = machine.splat(T::zero()));
             }
@@ -121,6 +141,7 @@ fn place_wide<T: Real, const D: usize>(
         let last_first = lattice.nodes[a] - T::of(MOST as f64);
         let mut first = [T::zero(); BUNCH];
         let [mut weights, mut slopes] = [[[T::zero(); BUNCH]; MOST]; 2];
+        let mut moments = [[[T::zero(); BUNCH]; MOST]; 2];
         for p in 0..BUNCH {
             let l = half_width.0[a][p];
             if !(l > T::zero() && l < h) {
@@ -133,9 +154,17 @@ fn place_wide<T: Real, const D: usize>(
             for k in 0..MOST {
                 let offset = cells[p] - (first[p] + T::of(k as f64));
                 [weights[k][p], slopes[k][p]] = average_of_hat(offset, l);
+                [moments[0][k][p], moments[1][k][p]] = moment_of_hat(offset, l);
             }
         }
-        let all = [weights, slopes].map(|all| all.map(|along| machine.eight(&along)));
+        let mut all = [weights, slopes].map(|all| all.map(|along| machine.eight(&along)));
+        if a == 0 && lattice.is_meridian {
+            let radius = machine.eight(&position.0[0]);
+            stencil.set_around(machine, radius, Some(all[0]));
+            let radius = machine.times(radius, machine.splat(lattice.per_length[0]));
+            let moments = moments.map(|all| all.map(|along| machine.eight(&along)));
+            revolve(machine, &mut all, moments, radius);
+        }
         stencil.set(machine, lattice, a, machine.eight(&first), all);
     }
     if fits { Ok(()) } else { Err(lost(position)) }
@@ -179,6 +208,95 @@ fn around_nearest<T: Real, M: Machine<T>>(
     let middle = machine.minus(machine.minus(one, below), above);
     let slopes = [machine.minus(zero, fall), machine.minus(fall, rise), rise];
     (machine.minus(nearest, one), [[below, middle, above], slopes])
+}
+
+/// The middle and the half width of a box of the meridian, along R, whose ring has its centroid at `position`; of a ring that
+/// would cross the axis those of one that ends there.
+#[inline(always)]
+fn ring<T: Real, M: Machine<T>>(
+    machine: M,
+    position: M::Eight,
+    half_width: M::Eight,
+) -> (M::Eight, M::Eight) {
+    let widest = machine.times(machine.splat(T::ratio(3, 4)), position);
+    let half_width = machine.least(half_width, widest);
+    let square = machine.times(half_width, half_width);
+    // The larger root of r_m^2 - r_p r_m + l^2/3 = 0.
+    let part = machine.times(machine.splat(T::ratio(4, 3)), square);
+    let apart = machine.root(machine.minus(machine.times(position, position), part));
+    let middle = machine.times(machine.splat(T::ratio(1, 2)), machine.plus(position, apart));
+    (middle, half_width)
+}
+
+/// Adds the first moments over the radius, in cells, to weights and slopes.
+#[inline(always)]
+fn revolve<T: Real, M: Machine<T>, const W: usize>(
+    machine: M,
+    weights: &mut [[M::Eight; W]; 2],
+    moments: [[M::Eight; W]; 2],
+    radius: M::Eight,
+) {
+    if on(Defect::FlatWeights) {
+        return;
+    }
+    let per_radius = machine.over(machine.splat(T::one()), radius);
+    for s in 0..2 {
+        for k in 0..W {
+            weights[s][k] = machine.times_plus(moments[s][k], per_radius, weights[s][k]);
+        }
+    }
+}
+
+/// The averages of (x - position) times hat functions, and times their slopes, over the domains of [`around_nearest`].
+#[inline(always)]
+fn moments_around_nearest<T: Real, M: Machine<T>>(
+    machine: M,
+    position: M::Eight,
+    half_width: M::Eight,
+) -> [[M::Eight; NEAREST]; 2] {
+    let halves = |count: i32| machine.splat(T::ratio(count, 2));
+    let (zero, half) = (halves(0), halves(1));
+    let nearest = machine.floor(machine.plus(position, half));
+    let offset = machine.minus(position, nearest);
+    let before = machine.minus(zero, half_width);
+    let inside = machine.least(machine.greatest(offset, before), half_width);
+    let (right, left) = (machine.plus(half_width, inside), machine.minus(half_width, inside));
+    let per_width = machine.over(half, half_width);
+    // Of the part of the domain on one side of the nearest node, whose middle is `apart` from that of the domain: the
+    // average of x - position, and of that times x.
+    let of_part = |length: M::Eight, apart: M::Eight| {
+        let share = machine.times(length, per_width);
+        let variance = machine.times(machine.splat(T::ratio(1, 12)), machine.times(length, length));
+        let middle = machine.plus(offset, apart);
+        let product = machine.times_plus(middle, apart, variance);
+        [machine.times(share, product), machine.times(share, apart)]
+    };
+    let above = of_part(right, machine.minus(half_width, machine.times(half, right)));
+    let below = of_part(left, machine.minus(machine.times(half, left), half_width));
+    let mut moments = [[zero; NEAREST]; 2];
+    for s in 0..2 {
+        let falling = machine.minus(zero, below[s]);
+        moments[s] = [falling, machine.minus(below[s], above[s]), above[s]];
+    }
+    moments
+}
+
+/// The averages of (x - offset) times the hat 1 - |x|, and times its slope, over the domain of [`average_of_hat`].
+fn moment_of_hat<T: Real>(offset: T, half_width: T) -> [T; 2] {
+    let (zero, one) = (T::zero(), T::one());
+    let (from, to) = (offset - half_width, offset + half_width);
+    let width = half_width + half_width;
+    // Over the part between two ends, with the slope of the hat there.
+    let part = |left: T, right: T, slope: T| {
+        let length = (right - left).max(zero);
+        let middle = (left + right) * T::ratio(1, 2);
+        let apart = middle - offset;
+        let product = (one + slope * middle) * apart + slope * length * length * T::ratio(1, 12);
+        [length * product, length * slope * apart]
+    };
+    let rising = part(from.max(-one), to.min(zero), one);
+    let falling = part(from.max(zero), to.min(one), -one);
+    std::array::from_fn(|s| (rising[s] + falling[s]) / width)
 }
 
 /// The average of the hat 1 - |x|, and of its slope, over [offset - l, offset + l]: on either side

@@ -56,6 +56,8 @@ pub struct Lattice<T, const D: usize> {
     pub period: [Option<T>; D],
     /// The coordinates of the nodes along each axis.
     pub coordinate: [Vec<T>; D],
+    /// Whether the first axis is the distance from an axis of revolution.
+    pub is_meridian: bool,
 }
 
 impl<T: Real, const D: usize> Lattice<T, D> {
@@ -96,6 +98,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             degree,
             axes,
             coordinate,
+            is_meridian: false,
         })
     }
 

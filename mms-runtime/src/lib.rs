@@ -14,6 +14,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | `axisymmetric` | bodies of revolution: rings, hoop strain, hoop stress |
 //! | `body` | bodies full of particles: boxes, annuli and sectors, Cartesian or fitted; the pieces of faces that particles carry; jitter |
 //! | `lattice` | where nodes are: cells of any edge lengths, offset, period, knots |
 //! | `stencil`, `shape` | the nodes of a bunch with w and grad w; the sums between them |
@@ -38,6 +39,7 @@ mod defect;
 mod extension;
 pub mod spline;
 
+pub mod axisymmetric;
 pub mod body;
 pub mod boundary;
 pub mod column;
@@ -75,7 +77,7 @@ pub use formulation::FormulationName;
 pub use grid::Grid;
 pub use integrator::IntegratorName;
 pub use lattice::Lattice;
-pub use material::Material;
+pub use material::{Axisymmetric, Material};
 pub use method::{Division, Method, Setup};
 pub use real::{Matrix, Real, Vector, arrays, arrays_mut};
 pub use shape::ShapeName;

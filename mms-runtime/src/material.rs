@@ -26,6 +26,12 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
         false
     }
 
+    /// The material and the hoop strain of a field of a body of revolution, whose plane is the meridian; `None` for all other
+    /// fields. Stress and energy at hoop strains other than the field's own are asked of it.
+    fn axisymmetric(&self) -> Option<&dyn Axisymmetric<T, D>> {
+        None
+    }
+
     /// Kirchhoff stress tau = P F^T (force per reference area) of the displacement gradient
     /// H = F - I, at a time. It takes H, not F, so that nothing cancels at small strain. It is P F^T for a W of the small strain too:
     /// the updated formulation takes the divergence in the present configuration.
@@ -73,6 +79,31 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     ) -> bool {
         false
     }
+}
+
+/// The hoop strain and the material of a body of revolution. Every method works on a batch, as those of
+/// [`Material`] do.
+pub trait Axisymmetric<T: Real, const D: usize>: Send + Sync {
+    /// u_R/R; its limit on the axis.
+    fn hoop_strain(&self, time: T, reference: &[Vector<T, D>], out: &mut [T]);
+
+    /// The Kirchhoff stress of whole bunches of particles, in the meridian and around the axis.
+    fn kirchhoff_stress_of_bunches(
+        &self,
+        time: T,
+        reference: &[[Vector<T, D>; BUNCH]],
+        strains: (&[Matrices<T, D>], &[[T; BUNCH]]),
+        stresses: (&mut [Matrices<T, D>], &mut [[T; BUNCH]]),
+    );
+
+    /// The strain energy W per reference volume, and whether the material offers it.
+    fn strain_energy(
+        &self,
+        time: T,
+        reference: &[Vector<T, D>],
+        strains: (&[Matrix<T, D>], &[T]),
+        energy: &mut [T],
+    ) -> bool;
 }
 
 /// How many bunches are evaluated together.

@@ -6,10 +6,12 @@ use std::ops::Range;
 
 use mms_math::machine::Machine;
 
+use crate::axisymmetric::hoop_stretch;
 use crate::body::Filling;
 use crate::column::BUNCH;
 use crate::column::{Bunch, Bunches, Column, Matrices, Vectors};
 use crate::real::{Matrix, Real, Vector};
+use crate::tensor::jacobian;
 use crate::threads::Parts;
 use crate::transfer::Transfer;
 
@@ -29,6 +31,8 @@ pub struct Particles<T, const D: usize> {
     pub velocity: Bunches<Vectors<T, D>>,
     /// H = F - I.
     pub displacement_gradient: Bunches<Matrices<T, D>>,
+    /// h = F_tt - 1, the strain around the axis; only of a body of revolution.
+    pub hoop_strain: Column<T>,
     /// m.
     pub mass: Column<T>,
     /// V0.
@@ -56,6 +60,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
             displacement: repeat_n(Vector::zeros(), count).collect(),
             velocity: repeat_n(Vector::zeros(), count).collect(),
             displacement_gradient: repeat_n(Matrix::zeros(), count).collect(),
+            hoop_strain: Vec::new().into(),
             mass: vec![T::zero(); count].into(),
             reference_volume: filling.volume.iter().map(|&volume| T::of(volume)).collect(),
             affine: repeat_n(Matrix::zeros(), affine).collect(),
@@ -79,9 +84,16 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.reference_position[particle] + self.displacement.get(particle)
     }
 
+    /// J of one particle.
+    pub fn jacobian(&self, particle: usize) -> T {
+        jacobian(&self.displacement_gradient.get(particle))
+            * hoop_stretch(&self.hoop_strain, particle)
+    }
+
     /// What is kept of one particle, in bytes.
     pub fn bytes_per_particle(&self) -> usize {
-        let given = size_of::<Vector<T, D>>() + 2 * size_of::<T>();
+        let numbers = if self.hoop_strain.is_empty() { 2 } else { 3 };
+        let given = size_of::<Vector<T, D>>() + numbers * size_of::<T>();
         let kept = self.displacement.bytes() + self.velocity.bytes();
         let deformation = self.displacement_gradient.bytes();
         let transfer = self.affine.bytes() + self.residual.bytes();
@@ -96,6 +108,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
             displacement,
             velocity,
             displacement_gradient,
+            hoop_strain,
             mass,
             reference_volume,
             affine,
@@ -106,6 +119,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         reorder_bunches(displacement, order);
         reorder_bunches(velocity, order);
         reorder_bunches(displacement_gradient, order);
+        reorder(hoop_strain, order);
         reorder(mass, order);
         reorder(reference_volume, order);
         reorder_bunches(affine, order);
@@ -119,6 +133,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.displacement.fill_up();
         self.velocity.fill_up();
         self.displacement_gradient.fill_up();
+        self.hoop_strain.fill_up();
         self.mass.fill_up();
         self.reference_volume.fill_up();
         self.affine.fill_up();
@@ -142,6 +157,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
             displacement: self.displacement.bunches_mut(),
             velocity: self.velocity.bunches_mut(),
             displacement_gradient: self.displacement_gradient.bunches_mut(),
+            hoop_strain: self.hoop_strain.bunches_mut(),
             affine: self.affine.bunches_mut(),
             residual: self.residual.bunches_mut(),
         };
@@ -188,6 +204,7 @@ pub(crate) struct Columns<'a, T, const D: usize> {
     pub displacement: &'a mut [Vectors<T, D>],
     pub velocity: &'a mut [Vectors<T, D>],
     pub displacement_gradient: &'a mut [Matrices<T, D>],
+    pub hoop_strain: &'a mut [[T; BUNCH]],
     pub affine: &'a mut [Matrices<T, D>],
     pub residual: &'a mut [Vectors<T, D>],
 }
@@ -218,6 +235,7 @@ impl<T: Real, const D: usize> Parts for Columns<'_, T, D> {
         let (displacement, displacements) = self.displacement.split_at_mut(count);
         let (velocity, velocities) = self.velocity.split_at_mut(count);
         let (gradient, gradients) = self.displacement_gradient.split_at_mut(count);
+        let (hoop, hoops) = self.hoop_strain.split_at_mut(count.min(self.hoop_strain.len()));
         let (affine, affines) = self.affine.split_at_mut(count.min(self.affine.len()));
         let (residual, residuals) = self.residual.split_at_mut(count.min(self.residual.len()));
         let first = Self {
@@ -225,6 +243,7 @@ impl<T: Real, const D: usize> Parts for Columns<'_, T, D> {
             displacement,
             velocity,
             displacement_gradient: gradient,
+            hoop_strain: hoop,
             affine,
             residual,
         };
@@ -233,6 +252,7 @@ impl<T: Real, const D: usize> Parts for Columns<'_, T, D> {
             displacement: displacements,
             velocity: velocities,
             displacement_gradient: gradients,
+            hoop_strain: hoops,
             affine: affines,
             residual: residuals,
         };

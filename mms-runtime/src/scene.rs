@@ -1,5 +1,6 @@
 //! A field of any dimension, ready for a solver.
 
+use crate::axisymmetric::Station;
 use crate::body::bounding_box;
 use crate::failure::Refusal;
 use crate::field::{Body, ManufacturedField};
@@ -114,9 +115,12 @@ impl<T: Real> Scene<T> {
     /// A body or a grid that cannot be filled.
     pub fn layout(&self, setup: &Setup, cells: &Division) -> Result<Layout, Refusal> {
         match self {
-            Scene::Line(field) => layout(&field.domain().body, setup, cells),
-            Scene::Plane(field) => layout(&field.domain().body, setup, cells),
-            Scene::Space(field) => layout(&field.domain().body, setup, cells),
+            Scene::Line(field) => layout(&field.domain().body, setup, cells, None),
+            Scene::Plane(field) => {
+                let rings = field.axisymmetric().map(|_| Station::Middle);
+                layout(&field.domain().body, setup, cells, rings)
+            }
+            Scene::Space(field) => layout(&field.domain().body, setup, cells, None),
         }
     }
 
@@ -143,8 +147,9 @@ fn layout<T: Real, const D: usize>(
     body: &Body<T, D>,
     setup: &Setup,
     cells: &Division,
+    rings: Option<Station>,
 ) -> Result<Layout, Refusal> {
-    let filling = filling(body, setup, cells)?;
+    let filling = filling(body, setup, cells, rings)?;
     let reference = filling.position.iter().flat_map(|position| position.iter().copied());
     Ok(Layout { reference: reference.collect(), volume: filling.volume })
 }

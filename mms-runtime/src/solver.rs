@@ -63,6 +63,7 @@ mod slabs;
 mod state;
 mod weights;
 
+use crate::axisymmetric::hoop_stretch;
 use crate::boundary::Boundary;
 use crate::failure::{Cause, Failure};
 use crate::field::ManufacturedField;
@@ -72,7 +73,7 @@ use crate::integrator::Integrator;
 use crate::nodal::Nodal;
 use crate::particle::Particles;
 use crate::real::Real;
-use crate::tensor::{is_finite, jacobian, matrix_is_finite};
+use crate::tensor::{is_finite, matrix_is_finite};
 use crate::transfer::Transfer;
 use clock::Clock;
 use order::When;
@@ -143,8 +144,8 @@ where
     pub fn check(&self) -> Result<(), Failure> {
         let particles = &self.particles;
         // An inverted particle first: what is not finite is often its consequence.
-        for (p, h) in particles.displacement_gradient.iter().enumerate() {
-            let jacobian = jacobian(&h);
+        for p in 0..particles.len() {
+            let jacobian = particles.jacobian(p);
             if jacobian <= T::zero() {
                 let jacobian = jacobian.to_f64();
                 return Err(self.failure(p, Cause::Inverted { jacobian }));
@@ -154,6 +155,7 @@ where
             let suspect = [
                 ("displacement", is_finite(&particles.displacement.get(p))),
                 ("velocity", is_finite(&particles.velocity.get(p))),
+                ("hoop strain", hoop_stretch(&particles.hoop_strain, p).is_finite()),
                 (
                     "displacement gradient",
                     matrix_is_finite(&particles.displacement_gradient.get(p)),

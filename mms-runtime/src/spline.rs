@@ -75,6 +75,9 @@ where
         return place_near_ends::<T, D, P, N>(stencil, lattice, &position, &cells);
     }
     stencil.begin::<N>(lattice, Known::Splines);
+    if lattice.is_meridian {
+        stencil.set_around::<M, N>(machine, position[0], None);
+    }
     for a in 0..D {
         let weights = regular::<T, M, P, N>(machine, machine.minus(cells[a], cell[a]));
         stencil.set(machine, lattice, a, cell[a], weights);
@@ -100,6 +103,9 @@ fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
     }
     let is_regular = P == 1 || on(Defect::SplineEnds);
     stencil.begin::<N>(lattice, if is_regular { Known::Splines } else { Known::Nothing });
+    if lattice.is_meridian {
+        stencil.set_around::<_, N>(machine, machine.eight(&position.0[0]), None);
+    }
     for a in 0..D {
         let [first, last] = lattice.ends[a];
         let floor = machine.greatest(machine.floor(cells[a]), machine.splat(first));

@@ -175,6 +175,11 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
         wanted: Wanted,
         nodes: &[Nodal<T>],
     ) -> Gathered<M::Eight, D>;
+
+    /// The stencil as a product of weights along the axes, if it is one.
+    fn product(&self) -> Option<&Tensor<T, D>> {
+        None
+    }
 }
 
 /// Which particles of a bunch are meant, from one on and before another.

@@ -1,5 +1,6 @@
 //! The tests of this crate, as one program, so that what they share is compiled and linked once.
 
+mod axisymmetric;
 mod bodies;
 mod boundaries;
 mod common;

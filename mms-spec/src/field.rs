@@ -213,10 +213,10 @@ fn hold_density(material: &MaterialUse, domain: &DomainSpec, reader: &mut Reader
 /// Refuses studies of a field on which the solver cannot run.
 fn refuse_studies(studies: &[StudySpec], field: &FieldSpec, reader: &mut Reader<'_>) {
     let Some(first) = studies.first() else { return };
-    if field.space.is_axisymmetric() {
+    if field.space == (Space::Axisymmetric { swirl: true }) {
         reader.report(
-            Diagnostic::error(first.span, "an axisymmetric field has no studies")
-                .label("the solver works in Cartesian coordinates")
+            Diagnostic::error(first.span, "a field with a swirl has no studies")
+                .label("the solver moves rings along R and Z alone")
                 .help("remove [[study]], or write the field in three dimensions"),
         );
     } else if field.domain.body.is_nothing() {

@@ -104,7 +104,6 @@ fn axisymmetric() -> [Value; 3] {
         at("field.dimension", json!({ "const": 2 })),
         at("domain.shape", json!({ "enum": ["box", "none"] })),
         at("rigid.rotation", json!(false)),
-        at("study", json!({ "maxItems": 0 })),
         at("check", json!({ "items": at("let", named.clone()) })),
     ];
     asked.extend(["parameters", "let", "given"].map(|table| at(table, named.clone())));
@@ -115,7 +114,9 @@ fn axisymmetric() -> [Value; 3] {
     extend(&mut plain, json!({ "not": has(&[swirl]) }));
     let of = |swirl: bool| all(in_space(Space::Axisymmetric { swirl }));
     let axisymmetric = if_then(has(&[coordinates()]), all(asked));
-    [axisymmetric, if_then(plain, of(false)), if_then(twisted, of(true))]
+    let without_studies = at("study", json!({ "maxItems": 0 }));
+    let twisted = if_then(twisted, all([of(true), without_studies]));
+    [axisymmetric, if_then(plain, of(false)), twisted]
 }
 
 /// A swirl and an axis are of axisymmetric fields alone.

@@ -43,21 +43,77 @@ fn values_on_the_axis_are_those_of_a_round_body() {
 }
 
 #[test]
-fn what_works_in_cartesian_coordinates_refuses_an_axisymmetric_field() {
+fn what_works_in_cartesian_coordinates_refuses_an_axisymmetric_field_and_the_solver_a_swirl() {
     let folder = folder();
     folder.write("table.csv", "h,error\n0.1,0.1\n0.05,0.025\n");
+    for arguments in
+        ["run shaft.toml", "study shaft.toml", "tradeoff shaft.toml", "extremes shaft.toml"]
+    {
+        let says = "`shaft` has a swirl, and the solver of this project moves rings along R and Z";
+        folder.mms(arguments).exits(2).complains(says);
+    }
     for arguments in [
-        "run shaft.toml",
-        "study shaft.toml",
         "state shaft.toml --time 0.01 --cells 4 --output state.csv",
-        "tradeoff shaft.toml",
-        "extremes shaft.toml",
         "judge shaft.toml table.csv",
         "diagnose shaft.toml table.csv",
     ] {
         let says = "`shaft` is axisymmetric, and this command works in Cartesian coordinates";
         folder.mms(arguments).exits(2).complains(says);
     }
+}
+
+/// States of a run have all nine components of tensors, the one around the axis last; weights of rings are for boxes.
+#[test]
+fn the_solver_runs_a_body_of_revolution() {
+    let folder = Folder::new();
+    let run = folder.mms("run axisymmetric_rod --cells 8 --frames 1 --vtk states --json").exits(0);
+    let errors = run.json();
+    assert!(errors["runs"].is_array() || errors.is_object(), "{errors}");
+    let state = std::fs::read_to_string(folder.path("states/axisymmetric_rod_0001.vtu"));
+    let state = state.expect("a state");
+    for name in ["deformation_gradient", "cauchy_stress"] {
+        let column = format!("Name=\"{name}\" NumberOfComponents=\"9\"");
+        assert!(state.contains(&column), "no {column}");
+    }
+    for (arguments, says) in [
+        ("--shape cpdi", "the corners of `cpdi` have no weights of rings: use `cpgimp`"),
+        ("--periodic x", "it cannot repeat itself along R: leave out that axis"),
+    ] {
+        let run = format!("run axisymmetric_rod --cells 8 {arguments}");
+        folder.mms(&run).exits(2).complains(says);
+    }
+}
+
+/// A static body of revolution comes to its equilibrium, of second order.
+#[test]
+fn a_static_body_of_revolution_relaxes() {
+    let folder = Folder::new();
+    folder.write(
+        "static.toml",
+        r#"[field]
+title = "A rod at rest"
+dimension = 2
+coordinates = "axisymmetric"
+[displacement]
+u = ["0.02*R*(1 - R^2)*sin(pi*Z)", "0.02*(1 - R^2)*sin(pi*Z)"]
+[material]
+model = "neo_hookean"
+young = "1"
+nu = "0.3"
+density = "1"
+[domain]
+shape = "box"
+lower = [0, 0]
+upper = [1, 1]
+[boundary]
+r_min = "axis"
+r_max = "fixed"
+z_min = "fixed"
+z_max = "fixed"
+"#,
+    );
+    let study = "study static.toml --relax --formulation total --shape linear --cells 4,8,16";
+    folder.mms(study).exits(0).prints("pass: observed order 2.");
 }
 
 /// A disk that turns about its axis: no point of it moves outward, whatever its components in the fixed basis do.

@@ -3,8 +3,8 @@
 use mms_mechanics::invariant::Kind;
 use mms_spec::quantity::Quantity;
 
-use super::largest;
 use super::support::kernel::{Kernel, compiled, sample};
+use super::{largest, rows, spreading};
 
 /// A correction of this part of the size of the body is the last: rounding, enlarged by F^-1, may
 /// leave no smaller one, and the next would be its square.
@@ -39,11 +39,18 @@ pub fn both_frames<K: Kernel>() {
 
 /// The error and the size of F, and of div sigma, at one point.
 fn differences<K: Kernel>(at: &[f64], time: f64, step: f64) -> [[f64; 2]; 2] {
-    let dimension = K::DIMENSION;
+    let (dimension, width) = (K::DIMENSION, rows::<K>());
     let place = K::quantity(Quantity::Position, time, at);
     let mut gradient = vec![0.0; dimension * dimension];
     let mut divergence = vec![0.0; dimension];
     let mut parts = Vec::new();
+    if width > dimension {
+        // At small strain the radius is that of the reference configuration.
+        let radius =
+            if compiled(K::NAME).model.kind == Kind::SmallStrain { at[0] } else { place[0] };
+        divergence = spreading(&K::quantity(Quantity::CauchyStress, time, at), radius).to_vec();
+        parts.extend_from_slice(&divergence);
+    }
     // At small strain the divergence of sigma is that over X.
     let is_small = compiled(K::NAME).model.kind == Kind::SmallStrain;
     for axis in 0..dimension {
@@ -61,14 +68,14 @@ fn differences<K: Kernel>(at: &[f64], time: f64, step: f64) -> [[f64; 2]; 2] {
         };
         let (ahead, behind) = (beside(1.0), beside(-1.0));
         for (row, divergence) in divergence.iter_mut().enumerate() {
-            let k = row * dimension + axis;
-            gradient[k] = (ahead.0[row] - behind.0[row]) / (2.0 * step);
+            gradient[row * dimension + axis] = (ahead.0[row] - behind.0[row]) / (2.0 * step);
+            let k = row * width + axis;
             let slope = (ahead.1[k] - behind.1[k]) / (2.0 * step);
             *divergence += slope;
             parts.push(slope);
         }
     }
-    let deformation = K::quantity(Quantity::DeformationGradient, time, at);
+    let deformation = of_coordinates::<K>(&K::quantity(Quantity::DeformationGradient, time, at));
     // F (I - grad_x u) - I, so that nothing needs to be inverted.
     let residual = (0..dimension * dimension).map(|k| {
         let (row, column) = (k / dimension, k % dimension);
@@ -86,6 +93,12 @@ fn differences<K: Kernel>(at: &[f64], time: f64, step: f64) -> [[f64; 2]; 2] {
     [[largest(residual), largest(deformation.clone())], [largest(errors), scale]]
 }
 
+/// The components of a tensor along the coordinates: all but those around the axis of an axisymmetric field.
+fn of_coordinates<K: Kernel>(tensor: &[f64]) -> Vec<f64> {
+    let kept = tensor.chunks_exact(rows::<K>()).take(K::DIMENSION);
+    kept.flat_map(|row| &row[..K::DIMENSION]).copied().collect()
+}
+
 /// X with X + u(X, t) = x, by Newton's method from `start`.
 fn invert<K: Kernel>(place: &[f64], start: &[f64], time: f64) -> Vec<f64> {
     let mut reference = start.to_vec();
@@ -93,6 +106,7 @@ fn invert<K: Kernel>(place: &[f64], start: &[f64], time: f64) -> Vec<f64> {
         let reached = K::quantity(Quantity::Position, time, &reference);
         let missing: Vec<f64> = place.iter().zip(&reached).map(|(x, found)| x - found).collect();
         let gradient = K::quantity(Quantity::DeformationGradient, time, &reference);
+        let gradient = of_coordinates::<K>(&gradient);
         let correction = solve(gradient, missing);
         let size = largest(place.iter().copied());
         let is_found = largest(correction.iter().copied()) <= NEGLIGIBLE * size;

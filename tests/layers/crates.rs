@@ -212,6 +212,7 @@ pub const CRATES: &[Crate] = &[
             "field",
             "failure",
             "body integrator lattice",
+            "axisymmetric",
             "grid particle stencil",
             "boundary gimp shape spline",
             "method",

@@ -17,14 +17,11 @@ impl Emitter<'_> {
         let runtime = Ident::new(RUNTIME, Span::call_site());
         let dimension = self.dimension();
         let (domain, response) = (self.domain(), self.response());
-        let (reference, source) = match self.stress_depends_on_position() {
-            true => (
-                quote!(reference),
-                quote! {
-                    &(::#runtime::arrays::<T, _, #dimension>(reference.as_flattened()), gradients)
-                },
-            ),
-            false => (quote!(_), quote!(&gradients)),
+        let source = match self.stress_depends_on_position() {
+            true => quote! {
+                &(::#runtime::arrays::<T, _, #dimension>(reference.as_flattened()), gradients)
+            },
+            false => quote!(&gradients),
         };
         let is_small = self.compiled.model.kind == Kind::SmallStrain;
         let small_strain = is_small.then(|| {
@@ -44,7 +41,43 @@ impl Emitter<'_> {
                 }
             }
         });
-        let components = Literal::usize_unsuffixed(self.axes().len().pow(2));
+        let is_axisymmetric = self.compiled.field.space.is_axisymmetric();
+        let components = Literal::usize_unsuffixed(self.components().count());
+        let material = quote! {
+            use ::#runtime::math::bunched::Bunched;
+            let gradients = Bunched::<_, #components>(gradients);
+            let mut stress = Bunched::<_, #components>(stress);
+            batch::run(&Response(&#stress_owner), #source, &mut stress);
+        };
+        let [own_stress, own_energy, revolved] = match is_axisymmetric {
+            true => self.revolved(&material, &energy_owner),
+            false => [
+                quote! {
+                    let gradients = displacement_gradient;
+                    #material
+                },
+                quote! {
+                    let material = #energy_owner;
+                    let states = reference.iter().zip(displacement_gradient);
+                    for (energy, (point, gradient)) in energy.iter_mut().zip(states) {
+                        // Matrices are stored by columns.
+                        let rows = gradient.transpose().into();
+                        *energy = material.material_strain_energy((*point).into(), rows);
+                    }
+                    true
+                },
+                TokenStream::new(),
+            ],
+        };
+        let axisymmetric = is_axisymmetric.then(|| {
+            quote! {
+                fn axisymmetric(
+                    &self,
+                ) -> ::std::option::Option<&dyn ::#runtime::Axisymmetric<T, #dimension>> {
+                    ::std::option::Option::Some(self)
+                }
+            }
+        });
         // A solver asks for these two, and for the stress, at every particle in every step, and for the others
         // at some points or times: loops over many points are long to compile.
         let batches = [Quantity::Displacement, Quantity::BodyForce].map(|quantity| {
@@ -97,6 +130,8 @@ impl Emitter<'_> {
 
                 #small_strain
 
+                #axisymmetric
+
                 #changes
 
                 fn kirchhoff_stress(
@@ -114,14 +149,11 @@ impl Emitter<'_> {
                 fn kirchhoff_stress_of_bunches(
                     &self,
                     time: T,
-                    #reference: &[[Vector<T>; ::#runtime::column::BUNCH]],
+                    reference: &[[Vector<T>; ::#runtime::column::BUNCH]],
                     displacement_gradient: &[::#runtime::column::Matrices<T, #dimension>],
                     stress: &mut [::#runtime::column::Matrices<T, #dimension>],
                 ) {
-                    use ::#runtime::math::bunched::Bunched;
-                    let gradients = Bunched::<_, #components>(displacement_gradient);
-                    let mut stress = Bunched::<_, #components>(stress);
-                    batch::run(&Response(&#stress_owner), #source, &mut stress);
+                    #own_stress
                 }
 
                 fn strain_energy(
@@ -131,16 +163,11 @@ impl Emitter<'_> {
                     displacement_gradient: &[Matrix<T>],
                     energy: &mut [T],
                 ) -> bool {
-                    let material = #energy_owner;
-                    let states = reference.iter().zip(displacement_gradient);
-                    for (energy, (point, gradient)) in energy.iter_mut().zip(states) {
-                        // Matrices are stored by columns.
-                        let rows = gradient.transpose().into();
-                        *energy = material.material_strain_energy((*point).into(), rows);
-                    }
-                    true
+                    #own_energy
                 }
             }
+
+            #revolved
 
             impl<T: ::#runtime::Real> ::#runtime::ManufacturedField<T, #dimension> for Field<T> {
                 #domain
@@ -163,6 +190,77 @@ impl Emitter<'_> {
         }
     }
 
+    /// Of an axisymmetric field: stress and energy at its own hoop strains, and the contract of a body of revolution, whose
+    /// stress is `material`.
+    fn revolved(&self, material: &TokenStream, energy_owner: &TokenStream) -> [TokenStream; 3] {
+        let runtime = Ident::new(RUNTIME, Span::call_site());
+        let dimension = self.dimension();
+        let module = quote!(::#runtime::axisymmetric);
+        let own_stress = quote! {
+            #module::stress_at_own_strain(self, time, reference, displacement_gradient, stress);
+        };
+        let own_energy = quote! {
+            #module::energy_at_own_strain(self, time, reference, displacement_gradient, energy)
+        };
+        let revolved = quote! {
+            impl<T: ::#runtime::Real> ::#runtime::Axisymmetric<T, #dimension> for Field<T> {
+                fn hoop_strain(&self, time: T, reference: &[Vector<T>], out: &mut [T]) {
+                    let field = self.at_time(time);
+                    for (out, point) in out.iter_mut().zip(reference) {
+                        *out = field.displacement_gradient((*point).into())[2][2];
+                    }
+                }
+
+                fn kirchhoff_stress_of_bunches(
+                    &self,
+                    time: T,
+                    reference: &[[Vector<T>; ::#runtime::column::BUNCH]],
+                    strains: (
+                        &[::#runtime::column::Matrices<T, #dimension>],
+                        &[[T; ::#runtime::column::BUNCH]],
+                    ),
+                    stresses: (
+                        &mut [::#runtime::column::Matrices<T, #dimension>],
+                        &mut [[T; ::#runtime::column::BUNCH]],
+                    ),
+                ) {
+                    #module::by_rings(reference, strains, stresses, |reference, gradients, stress| {
+                        #material
+                    });
+                }
+
+                fn strain_energy(
+                    &self,
+                    time: T,
+                    reference: &[Vector<T>],
+                    (displacement_gradient, hoop_strain): (&[Matrix<T>], &[T]),
+                    energy: &mut [T],
+                ) -> bool {
+                    let material = #energy_owner;
+                    let zero = T::of(0.0);
+                    let states = reference.iter().zip(displacement_gradient).zip(hoop_strain);
+                    for (energy, ((point, h), &hoop)) in energy.iter_mut().zip(states) {
+                        let rows = [
+                            [h[(0, 0)], h[(0, 1)], zero],
+                            [h[(1, 0)], h[(1, 1)], zero],
+                            [zero, zero, hoop],
+                        ];
+                        *energy = material.material_strain_energy((*point).into(), rows);
+                    }
+                    true
+                }
+            }
+        };
+        [own_stress, own_energy, revolved]
+    }
+
+    /// The components of strain and stress that the solver keeps, column by column; of an axisymmetric field those of the
+    /// meridian and the one around the axis.
+    fn components(&self) -> impl Iterator<Item = (usize, usize)> {
+        let hoop = self.compiled.field.space.is_axisymmetric().then_some((2, 2));
+        self.axes().flat_map(|j| self.axes().map(move |i| (i, j))).chain(hoop)
+    }
+
     /// Whether the Kirchhoff stress of a displacement gradient is another one elsewhere in the body.
     fn stress_depends_on_position(&self) -> bool {
         let stress = Output::Response(Response::KirchhoffStress);
@@ -180,18 +278,19 @@ impl Emitter<'_> {
     /// The Kirchhoff stress of a displacement gradient, as a kernel. Matrices go by columns here.
     fn response(&self) -> TokenStream {
         let columns = |symbol: &dyn Fn(usize, usize) -> TokenStream| -> Vec<TokenStream> {
-            self.axes()
-                .flat_map(|j| self.axes().map(move |i| (i, j)))
-                .map(|(i, j)| symbol(i, j))
-                .collect()
+            self.components().map(|(i, j)| symbol(i, j)).collect()
         };
         let gradients = columns(&|i, j| input(Symbol::Gradient(i, j)).into_token_stream());
         let stresses = columns(&|i, j| {
             let [i, j] = [i, j].map(Literal::usize_unsuffixed);
             quote!(stress[#i][#j])
         });
-        let rows = self.axes().map(|i| {
-            let row = self.axes().map(|j| input(Symbol::Gradient(i, j)));
+        let entry = |i, j| match self.components().any(|it| it == (i, j)) {
+            true => input(Symbol::Gradient(i, j)).into_token_stream(),
+            false => quote!(T::from_f64(0.0)),
+        };
+        let rows = self.rows().map(|i| {
+            let row = self.rows().map(|j| entry(i, j));
             quote!([#(#row),*])
         });
         let mut point: Vec<_> =
@@ -270,7 +369,7 @@ impl Emitter<'_> {
             }
             Body::Nothing => quote!(Nothing),
         };
-        let faces = self.compiled.field.boundary.iter().filter_map(|boundary| {
+        let faces = self.compiled.field.boundary.iter().map(|boundary| {
             let index = Literal::usize_unsuffixed;
             let face = match boundary.face.value {
                 Face::Min(axis) => {
@@ -281,6 +380,10 @@ impl Emitter<'_> {
                     let axis = index(axis);
                     quote!(Max(#axis))
                 }
+                Face::RadialMin => quote!(Min(0)),
+                Face::RadialMax => quote!(Max(0)),
+                Face::AxialMin => quote!(Min(1)),
+                Face::AxialMax => quote!(Max(1)),
                 Face::Inner => quote!(Inner),
                 Face::Outer => quote!(Outer),
                 Face::ThetaMin => quote!(ThetaMin),
@@ -291,18 +394,16 @@ impl Emitter<'_> {
                     let first = index(first);
                     quote!(Edge(#first, #name))
                 }
-                // Of an axisymmetric body, which the solver does not know.
-                Face::RadialMin | Face::RadialMax | Face::AxialMin | Face::AxialMax => return None,
             };
             let condition = match boundary.claim.value {
                 Claim::Fixed => quote!(Fixed),
-                Claim::Roller => quote!(Roller),
+                // The axis is a plane that is not left, and has no traction along it.
+                Claim::Roller | Claim::Axis => quote!(Roller),
                 Claim::Free => quote!(Free),
                 Claim::Prescribed => quote!(Prescribed),
                 Claim::Traction => quote!(Traction),
-                Claim::Axis => return None,
             };
-            Some(quote!((::#runtime::Face::#face, ::#runtime::Condition::#condition)))
+            quote!((::#runtime::Face::#face, ::#runtime::Condition::#condition))
         });
         quote! {
             fn domain(&self) -> ::#runtime::Domain<T, #dimension> {

@@ -18,6 +18,7 @@ use crate::liveness::Later;
 use mms_mechanics::{Output, Program};
 use mms_program::interpret::{parts, small_ratio};
 use mms_program::{Op, Stage, Value};
+use mms_spec::Space;
 use mms_spec::foreign::blanked;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Rational, Symbol};
@@ -39,8 +40,9 @@ pub fn module(compiled: &Compiled) -> TokenStream {
 
 /// As [`module`], under another name.
 pub fn module_named(compiled: &Compiled, name: &Ident) -> TokenStream {
-    // The runtime knows Cartesian coordinates alone.
-    let solver = compiled.is_for_a_solver() && !compiled.field.space.is_axisymmetric();
+    // The runtime has no rings that turn.
+    let swirls = compiled.field.space == (Space::Axisymmetric { swirl: true });
+    let solver = compiled.is_for_a_solver() && !swirls;
     let emitter = Emitter::new(compiled, solver);
     let docs = docs(compiled);
     let kernels = emitter.kernels();

@@ -43,7 +43,7 @@ impl Diagnosis {
     pub fn of_cause(cause: &Cause) -> Self {
         match cause {
             Cause::UnstableStep { .. } => Diagnosis::UnstableStep,
-            Cause::Inverted { .. } => Diagnosis::Inverted,
+            Cause::Inverted { .. } | Cause::BeyondAxis { .. } => Diagnosis::Inverted,
             Cause::NotFinite { .. } | Cause::OutOfRange { .. } => Diagnosis::NotFinite,
             Cause::Lost { .. } => Diagnosis::Lost,
             Cause::HalfWidth { .. } => Diagnosis::HalfWidth,

@@ -2,12 +2,14 @@
 //!
 //! f_i += sum over the pieces of a face of w_i(x_s) sigma n a, with sigma the stress that the material has
 //! at the field's H at X_s. In the updated formulation a piece is carried by the particle next to it, to
-//! x_s = x_p + F_p (X_s - X_p), and n a = cof(F_p) N A0 (Nanson): a load that turns with the surface. Loads
+//! x_s = x_p + F_p (X_s - X_p), and n a = cof(F_p) N A0 (Nanson): a load that turns with the surface. On a meridian cof(F_p)
+//! is that of the plane times F_tt. Loads
 //! P N A0, whose directions are given, let a body under pressure on all sides turn over. In the total
 //! formulation F_p is the field's, and they are just that.
 
 use mms_math::machine::Plain;
 
+use crate::axisymmetric::{hoop_strain, hoop_stretch};
 use crate::body::Piece;
 use crate::column::HALF;
 use crate::defect::{Defect, on};
@@ -23,8 +25,8 @@ use crate::tensor::{cofactor, components, jacobian};
 pub struct Place<T, const D: usize> {
     /// x_s, where its force acts.
     pub position: Vector<T, D>,
-    /// H of the particle that carries it, or the field's.
-    pub carrier: Option<Matrix<T, D>>,
+    /// H of the particle that carries it, and F_tt or 1, unless the field's.
+    pub carrier: Option<(Matrix<T, D>, T)>,
 }
 
 /// The grid's geometry, and the nodes and weights of a point on it ([`Shape::point`](crate::shape::Shape::point)).
@@ -107,6 +109,7 @@ impl<T: Real, const D: usize> Traction<T, D> {
         let Self { particle, reference, area, displacement_gradient, kirchhoff_stress } = self;
         field.displacement_gradient(time, reference, displacement_gradient);
         field.surface_stress(time, reference, displacement_gradient, kirchhoff_stress);
+        let hoop_strain = hoop_strain(field, time, reference);
         for (k, &particle) in particle.iter().enumerate() {
             let fail = |cause: Cause| Failure {
                 step: 0, // the solver knows
@@ -115,12 +118,21 @@ impl<T: Real, const D: usize> Traction<T, D> {
                 reference_position: components(&reference[k]),
                 cause,
             };
-            let exact = &displacement_gradient[k];
+            let exact = (displacement_gradient[k], hoop_stretch(&hoop_strain, k));
             let Place { position, carrier } = place(particle, &reference[k]);
-            let present_area = cofactor(&carrier.unwrap_or(*exact))
-                .map(|cofactor| if on(Defect::TractionArea) { area[k] } else { cofactor * area[k] })
+            let (carrier, hoop) = carrier.unwrap_or(exact);
+            let present_area = cofactor(&carrier)
+                .map(
+                    |cofactor| {
+                        if on(Defect::TractionArea) { area[k] } else { cofactor * area[k] * hoop }
+                    },
+                )
                 .ok_or_else(|| fail(Cause::NotFinite { quantity: "traction" }))?;
-            let ratio = if on(Defect::TractionOfKirchhoff) { T::one() } else { jacobian(exact) };
+            let ratio = if on(Defect::TractionOfKirchhoff) {
+                T::one()
+            } else {
+                jacobian(&exact.0) * exact.1
+            };
             let traction = kirchhoff_stress[k] * present_area * share / ratio;
             let stencil = (point.stencil)(point.lattice, &position).map_err(fail)?;
             let traction = halves(machine, [&traction; 2], T::zero());

@@ -59,7 +59,12 @@ impl Wall {
                 images.push((k.abs_diff(plane) - 1, (node, inside)));
             }
         }
-        let fixed = condition == Condition::Fixed || on(Defect::StickyRoller);
+        let is_axis = lattice.is_meridian
+            && face == Face::Min(0)
+            && from * lattice.axes[0].cell_size == -lattice.axes[0].lower;
+        let fixed = condition == Condition::Fixed
+            || on(Defect::StickyRoller)
+            || is_axis && on(Defect::AxisFixed);
         Ok(Self { on_wall, images: Images::new(images), axis, fixed })
     }
 

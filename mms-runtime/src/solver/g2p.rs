@@ -1,17 +1,19 @@
 //! From nodes to particles (G2P): velocity, displacement, deformation.
 
 use mms_math::dispatch::{Work, best};
-use mms_math::machine::Machine;
+use mms_math::machine::{Machine, Plain};
 
 use super::misread;
 use super::weights::{AHEAD, Room, Scene, TOGETHER, Weigh};
+use crate::column::BUNCH;
 use crate::defect::{Defect, on};
 use crate::failure::Cause;
 use crate::lanes::{columns, components, determinants, set_columns, set_components};
+use crate::lattice::Lattice;
 use crate::nodal::Nodal;
 use crate::particle::Columns;
 use crate::real::Real;
-use crate::stencil::{Stencil, Wanted};
+use crate::stencil::{Stencil, Tensor, Wanted};
 use crate::threads::Parts as _;
 use crate::transfer::Reads;
 use crate::transfer::Transfer;
@@ -138,6 +140,26 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
             set_components(machine, &mut particles.displacement[k], next);
         }
         let Some(time_step) = steps.deformation else { return true };
+        let mut sound = true;
+        if D == 2
+            && let Some(strain) = particles.hoop_strain.get_mut(k)
+            && let Some(stencil) = stencil.product()
+        {
+            let speed = match stencil.around() {
+                Some(around) => machine.eight(&along_first(scene.lattice, &around, velocity)),
+                None => mapped.value[0],
+            };
+            let mut rate = machine.over(speed, machine.eight(stencil.radius()));
+            let before = machine.eight(strain);
+            if scene.moves {
+                rate = machine.times_plus(rate, before, rate);
+            }
+            let next = machine.times_plus(machine.splat(time_step), rate, before);
+            *strain = machine.numbers(next);
+            *rest = machine.times_plus(next, zero, *rest);
+            let least = machine.splat(T::of(f64::from(f32::MIN_POSITIVE)));
+            sound = machine.all_at_most(least, machine.plus(next, machine.splat(T::one())));
+        }
         let h = columns(machine, &particles.displacement_gradient[k]);
         let gradient = misread::velocity_gradient(machine, mapped.gradient);
         let moves = scene.moves && !on(Defect::ReferenceGradient);
@@ -150,7 +172,7 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
             next[j][j] = machine.plus(next[j][j], machine.splat(T::one()));
         }
         let least = machine.splat(T::of(f64::from(f32::MIN_POSITIVE)));
-        machine.all_at_most(least, determinants(machine, &next))
+        sound & machine.all_at_most(least, determinants(machine, &next))
     }
 
     /// The velocities after a kick, of particles where that of the nodes is `mapped`.
@@ -192,6 +214,17 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
         }
         next
     }
+}
+
+/// The first component of the nodes' vector as particles see it: a function of its own, for it is compiled for one machine.
+#[inline(never)]
+fn along_first<T: Real, const D: usize>(
+    lattice: &Lattice<T, D>,
+    stencil: &Tensor<T, D>,
+    nodes: &[Nodal<T>],
+) -> [T; BUNCH] {
+    let machine = T::PlainMachine::from(Plain);
+    machine.numbers(stencil.gather(machine, lattice, Wanted::Value, nodes).value[0])
 }
 
 /// The columns of H + dt G F, or of H + dt G if nothing `moves`, G being the gradient whose columns are given.

@@ -9,6 +9,7 @@ use super::order::When;
 use super::p2g::{Added, Map, Stop};
 use super::relaxation::norm;
 use super::weights::Scene;
+use crate::axisymmetric::hoop_stretch;
 use crate::boundary::traction::Place;
 use crate::column::BUNCH;
 use crate::defect::{Defect, on};
@@ -323,7 +324,8 @@ where
             let apart = reference - particles.reference_position[p];
             let apart = if on(Defect::TractionAtParticle) { Vector::zeros() } else { apart };
             let position = particles.position(p) + deformation_gradient(&h) * apart;
-            Place { position, carrier: Some(h) }
+            let hoop = hoop_stretch(&particles.hoop_strain, p);
+            Place { position, carrier: Some((h, hoop)) }
         };
         let (share, nodes) = match kick {
             Some(time_step) => (time_step, &mut grid.momentum),

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use mms_math::dispatch::{Work, best};
-use mms_math::machine::Machine;
+use mms_math::machine::{Machine, Plain};
 
 use super::clock::{Laps, Seconds};
 use super::misread;
@@ -20,7 +20,7 @@ use crate::lattice::Lattice;
 use crate::nodal::{LAST, Window};
 use crate::particle::{Particles, material_points};
 use crate::real::{Real, Vector};
-use crate::stencil::{Carried, Members, Stencil};
+use crate::stencil::{Carried, Members, Stencil, Tensor};
 use crate::tensor::matrix_is_finite;
 
 /// Particles whose stresses are computed together: so few that their stresses stay near.
@@ -91,6 +91,7 @@ where
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();
         let mut stress = [Matrices::zeros(); PART / BUNCH];
+        let mut hoop_stress = [[T::zero(); BUNCH]; PART / BUNCH];
         let mut body_force = [[Vector::zeros(); BUNCH]; FORCED / BUNCH];
         let has_force = self.added.has_force();
         // Bunches are the same whatever the slabs are: the first and the last one may have others' particles.
@@ -104,8 +105,9 @@ where
             }
             for part in parts(forced.clone(), PART / BUNCH) {
                 let stress = &mut stress[..part.len()];
+                let hoop_stress = &mut hoop_stress[..part.len()];
                 if has_force {
-                    self.find_stress(part.clone(), stress)?;
+                    self.find_stress(part.clone(), stress, hoop_stress)?;
                     laps.end(&mut seconds.stress);
                 }
                 let sums = Sums {
@@ -115,6 +117,8 @@ where
                     body_force: &body_force[part.start - forced.start..][..part.len()],
                     bunches: part,
                     stress,
+                    hoop_stress: (has_force && self.scene.lattice.is_meridian)
+                        .then_some(&*hoop_stress),
                     nodes: [momentum.reborrow(), force.reborrow()],
                     slab,
                 };
@@ -125,14 +129,35 @@ where
         Ok(seconds)
     }
 
-    /// The stress that works on grad w, of every particle of a part.
-    fn find_stress(&self, part: Range<usize>, stress: &mut [Matrices<T, D>]) -> Result<(), Stop> {
+    /// The stress that works on grad w, of every particle of a part, and on a meridian the one around the axis.
+    fn find_stress(
+        &self,
+        part: Range<usize>,
+        stress: &mut [Matrices<T, D>],
+        hoop_stress: &mut [[T; BUNCH]],
+    ) -> Result<(), Stop> {
         let all = self.particles;
         let gradients = &all.displacement_gradient.bunches()[part.clone()];
         let reference = &all.reference_position.bunches()[part.clone()];
         let displacement = &all.displacement.bunches()[part.clone()];
         let points = material_points(reference, displacement, on(Defect::ModuliAtPresent));
-        self.field.kirchhoff_stress_of_bunches(self.time, &points, gradients, stress);
+        match self.field.axisymmetric() {
+            None => {
+                self.field.kirchhoff_stress_of_bunches(self.time, &points, gradients, stress);
+            }
+            Some(axisymmetric) => {
+                let strains = &all.hoop_strain.bunches()[part.clone()];
+                axisymmetric.kirchhoff_stress_of_bunches(
+                    self.time,
+                    &points,
+                    (gradients, strains),
+                    (stress, hoop_stress),
+                );
+                if !self.formulation.moves {
+                    first_piola_kirchhoff(strains, hoop_stress);
+                }
+            }
+        }
         let singular = |k| (BUNCH * part.start + k, Cause::Inverted { jacobian: 0.0 });
         Ok((self.formulation.stress)(gradients, stress).map_err(singular)?)
     }
@@ -161,6 +186,7 @@ pub(super) struct Sums<'a, T: Real, const D: usize> {
     bunches: Range<usize>,
     /// From the first one of these on.
     stress: &'a [Matrices<T, D>],
+    hoop_stress: Option<&'a [[T; BUNCH]]>,
     body_force: &'a [[Vector<T, D>; BUNCH]],
     /// Momentum and force.
     nodes: [Window<'a, T>; 2],
@@ -187,8 +213,9 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Work<T> for Scatter<'_, T, D, S
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
         let Sums { scene, particles, added, bunches: range, mut nodes, slab, .. } = self.sums;
-        let (stress, body_force) = (self.sums.stress, self.sums.body_force);
-        let bunches = Arrays::new(particles, range.clone(), stress, body_force);
+        let Sums { stress, hoop_stress, body_force, .. } = self.sums;
+        let bunches =
+            Arrays { hoop_stress, ..Arrays::new(particles, range.clone(), stress, body_force) };
         let mut room = Room::<St>::default();
         let mut rest = machine.splat(T::zero());
         let count = range.len();
@@ -223,6 +250,28 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Work<T> for Scatter<'_, T, D, S
     }
 }
 
+/// P_tt = tau_tt/F_tt in the place of tau_tt.
+fn first_piola_kirchhoff<T: Real>(hoop_strain: &[[T; BUNCH]], hoop_stress: &mut [[T; BUNCH]]) {
+    let strains = hoop_strain.as_flattened().iter();
+    strains.zip(hoop_stress.as_flattened_mut()).for_each(|(&h, stress)| *stress /= T::one() + h);
+}
+
+/// Adds forces along the first axis to the nodes: a function of its own, for it is compiled for one machine.
+#[inline(never)]
+fn add_along_first<T: Real, const D: usize>(
+    lattice: &Lattice<T, D>,
+    stencil: &Tensor<T, D>,
+    forces: [T; BUNCH],
+    members: Members,
+    nodes: Window<'_, T>,
+) {
+    let machine = T::PlainMachine::from(Plain);
+    let nothing = machine.splat(T::zero());
+    let rows = [machine.eight(&forces), nothing, nothing, nothing];
+    let carried = Carried::value(machine.transposed(rows));
+    stencil.scatter(machine, lattice, &carried, members, nodes);
+}
+
 /// The particles that are added, bunch by bunch.
 struct Arrays<'a, T: Real, const D: usize> {
     displacement: &'a [Vectors<T, D>],
@@ -232,6 +281,8 @@ struct Arrays<'a, T: Real, const D: usize> {
     mass: &'a [[T; BUNCH]],
     reference_volume: &'a [[T; BUNCH]],
     stress: &'a [Matrices<T, D>],
+    /// On a meridian.
+    hoop_stress: Option<&'a [[T; BUNCH]]>,
     /// With APIC.
     affine: Option<&'a [Matrices<T, D>]>,
     /// With XPIC.
@@ -253,6 +304,7 @@ impl<'a, T: Real, const D: usize> Arrays<'a, T, D> {
             mass: &all.mass.bunches()[range.clone()],
             reference_volume: &all.reference_volume.bunches()[range.clone()],
             stress,
+            hoop_stress: None,
             body_force,
             affine: all.affine.bunches().get(range.clone()),
             residual: all.residual.bunches().get(range),
@@ -311,8 +363,11 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
             self.add_body_force(machine, machine.splat(share), &mut numbers);
         }
         let slopes = Some(self.stress(machine, machine.splat(share), rest));
+        let mut nodes = if with_momentum { momentum } else { force };
+        if D == 2 && bunches.hoop_stress.is_some() {
+            self.add_hoop_stress(machine, share, lattice, &mut numbers, nodes.reborrow());
+        }
         let carried = Carried { value: machine.transposed(numbers), slopes, moments };
-        let nodes = if with_momentum { momentum } else { force };
         stencil.scatter(machine, lattice, &carried, members, nodes);
     }
 
@@ -341,6 +396,34 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
         let body_force: [M::Eight; D] = turned(machine, &body_force[self.k]);
         for i in 0..D {
             numbers[i] = machine.times_plus(mass, body_force[i], numbers[i]);
+        }
+    }
+
+    /// Adds this `share` of - V0 S_tt / r to the force along R: to the `numbers`, or to the nodes if the weights of the strain
+    /// around the axis are others.
+    #[inline(always)]
+    fn add_hoop_stress<M: Machine<T>>(
+        &self,
+        machine: M,
+        share: T,
+        lattice: &Lattice<T, D>,
+        numbers: &mut [M::Eight; HALF],
+        nodes: Window<'_, T>,
+    ) {
+        let Arrays { hoop_stress, reference_volume, .. } = self.bunches;
+        let (Some(stress), Some(stencil)) = (hoop_stress, self.stencil.product()) else { return };
+        let volume = machine.eight(&reference_volume[self.k]);
+        let force = machine
+            .times(machine.times(machine.splat(-share), volume), machine.eight(&stress[self.k]));
+        let force = machine.over(force, machine.eight(stencil.radius()));
+        if on(Defect::HoopStress) {
+            return;
+        }
+        match stencil.around() {
+            Some(around) => {
+                add_along_first(lattice, &around, machine.numbers(force), self.members, nodes)
+            }
+            None => numbers[0] = machine.plus(numbers[0], force),
         }
     }
 

@@ -36,7 +36,7 @@ use crate::column::{BUNCH, Matrices};
 use crate::failure::{Failure, Refusal};
 use crate::field::{Domain, ManufacturedField};
 use crate::grid::Grid;
-use crate::material::Material;
+use crate::material::{Axisymmetric, Material};
 use crate::nodal::Nodal;
 use crate::real::{Matrix, Real, Vector};
 
@@ -101,6 +101,10 @@ impl<T: Real, const D: usize> Material<T, D> for Ramp<'_, T, D> {
         self.field.is_small_strain()
     }
 
+    fn axisymmetric(&self) -> Option<&dyn Axisymmetric<T, D>> {
+        self.field.axisymmetric().map(|_| self as &dyn Axisymmetric<T, D>)
+    }
+
     fn kirchhoff_stress(
         &self,
         time: T,
@@ -129,6 +133,41 @@ impl<T: Real, const D: usize> Material<T, D> for Ramp<'_, T, D> {
         energy: &mut [T],
     ) -> bool {
         self.field.strain_energy(time, reference, displacement_gradient, energy)
+    }
+}
+
+impl<T: Real, const D: usize> Ramp<'_, T, D> {
+    /// The field as one of a body of revolution, which it is where this is asked for.
+    fn revolved(&self) -> &dyn Axisymmetric<T, D> {
+        self.field.axisymmetric().expect("an axisymmetric field")
+    }
+}
+
+impl<T: Real, const D: usize> Axisymmetric<T, D> for Ramp<'_, T, D> {
+    fn hoop_strain(&self, time: T, reference: &[Vector<T, D>], out: &mut [T]) {
+        self.revolved().hoop_strain(T::zero(), reference, out);
+        let share = self.share(time);
+        out.iter_mut().for_each(|strain| *strain *= share);
+    }
+
+    fn kirchhoff_stress_of_bunches(
+        &self,
+        time: T,
+        reference: &[[Vector<T, D>; BUNCH]],
+        strains: (&[Matrices<T, D>], &[[T; BUNCH]]),
+        stresses: (&mut [Matrices<T, D>], &mut [[T; BUNCH]]),
+    ) {
+        self.revolved().kirchhoff_stress_of_bunches(time, reference, strains, stresses);
+    }
+
+    fn strain_energy(
+        &self,
+        time: T,
+        reference: &[Vector<T, D>],
+        strains: (&[Matrix<T, D>], &[T]),
+        energy: &mut [T],
+    ) -> bool {
+        self.revolved().strain_energy(time, reference, strains, energy)
     }
 }
 

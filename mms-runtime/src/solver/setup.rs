@@ -6,6 +6,7 @@ use super::need::Need;
 use super::order::When;
 use super::slabs::Slabs;
 use super::weights::Kind;
+use crate::axisymmetric::{Station, hoop_strain};
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
 use crate::defect::{Defect, on};
@@ -66,7 +67,12 @@ where
         let spacing = spacing::<D>(setup, &cell_size)?;
         let expected = (upper - lower).component_div(&spacing).iter().product();
         need.check(expected, 0.0)?;
-        let filling = fill(&domain.body, setup, &spacing)?;
+        let is_meridian = field.axisymmetric().is_some();
+        if is_meridian {
+            of_rings(kind.is_product, setup)?;
+        }
+        let station = if kind.domain > 0 { Station::Centroid } else { Station::Middle };
+        let filling = fill(&domain.body, setup, &spacing, is_meridian.then_some(station))?;
 
         let mut particles = Particles::new(&filling, setup.transfer);
         let speed = largest_wave_speed(field, &particles.reference_position)?;
@@ -89,6 +95,7 @@ where
         };
         let periodic = std::array::from_fn(|a| setup.periodic[a]);
         let lattice = Lattice::new(std::array::from_fn(axis), kind.degree, periodic)?;
+        let lattice = Lattice { is_meridian, ..lattice };
         need.check(particles.len() as f64, lattice.len() as f64)?;
         // A period of the grid is a whole number of its cells.
         repeats(field, setup, &filling.pieces, &lattice, clock.window())?;
@@ -162,7 +169,7 @@ pub fn cell_size<const D: usize>(
     }
 }
 
-/// The particles that a run with this grid starts from, in the reference configuration.
+/// The particles that a run with this grid starts from, in the reference configuration; of a body of revolution its `rings`.
 ///
 /// # Errors
 /// A body or a grid that cannot be filled.
@@ -170,10 +177,23 @@ pub fn filling<T: Real, const D: usize>(
     body: &Body<T, D>,
     setup: &Setup,
     cells: &Division,
+    rings: Option<Station>,
 ) -> Result<Filling<D>, Refusal> {
     let [lower, upper] = bounding_box(body)?;
     let cell_size = cell_size(&(upper - lower), cells)?;
-    fill(body, setup, &spacing::<D>(setup, &cell_size)?)
+    fill(body, setup, &spacing::<D>(setup, &cell_size)?, rings)
+}
+
+/// Refuses a method that rings have no weights for.
+fn of_rings(is_product: bool, setup: &Setup) -> Result<(), Refusal> {
+    let what = if !is_product {
+        "the corners of `cpdi` have no weights of rings: use `cpgimp`"
+    } else if setup.periodic[0] {
+        "it cannot repeat itself along R: leave out that axis"
+    } else {
+        return Ok(());
+    };
+    Err(Refusal::NotOfRings { what })
 }
 
 /// The distance between particles along each axis.
@@ -195,17 +215,21 @@ fn spacing<const D: usize>(
     Ok(Vector::from_fn(|a, _| cell_size[a] / per_cell.along(a) as f64))
 }
 
-/// The body full of particles.
+/// The body full of particles; of a body of revolution its `rings`.
 fn fill<T: Real, const D: usize>(
     body: &Body<T, D>,
     setup: &Setup,
     spacing: &Vector<f64, D>,
+    rings: Option<Station>,
 ) -> Result<Filling<D>, Refusal> {
     let along_faces = match body {
         Body::Box { .. } => Fill::Cartesian,
         _ => Fill::Fitted,
     };
     let mut filling = Filling::new(body, setup.fill.unwrap_or(along_faces), spacing)?;
+    if let Some(station) = rings {
+        filling.revolve(station);
+    }
     if setup.jitter != 0.0 {
         filling.jitter(setup.jitter, setup.seed);
     }
@@ -380,6 +404,13 @@ fn initialise<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     }
     let odd = gradients.iter().position(|h| !matrix_is_finite(h));
     refuse_at("displacement gradient", start, reference, odd)?;
+    let mut hoop_strain = hoop_strain(field, start, reference);
+    let odd = hoop_strain.iter().position(|h| !h.is_finite());
+    refuse_at("hoop strain", start, reference, odd)?;
+    if on(Defect::StartUndeformed) {
+        hoop_strain.fill(T::zero());
+    }
+    particles.hoop_strain = hoop_strain.into();
     particles.displacement_gradient = gradients.into_iter().collect();
     Ok(())
 }

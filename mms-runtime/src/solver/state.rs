@@ -27,6 +27,8 @@ pub struct State<'a, T: Real, const D: usize> {
     displacement: Vec<Vector<T, D>>,
     velocity: Vec<Vector<T, D>>,
     displacement_gradient: Vec<Matrix<T, D>>,
+    /// Of a body of revolution only.
+    hoop_strain: Cow<'a, [T]>,
     /// C, with APIC only.
     affine: Vec<Matrix<T, D>>,
     /// Where slabs begin.
@@ -45,6 +47,7 @@ impl<T: Real, const D: usize, F: ?Sized> Solver<'_, T, D, F> {
             displacement: particles.displacement.iter().collect(),
             velocity: particles.velocity.iter().collect(),
             displacement_gradient: particles.displacement_gradient.iter().collect(),
+            hoop_strain: Cow::from(&*particles.hoop_strain),
             affine: particles.affine.iter().collect(),
             cuts: Cow::from(self.slabs.cuts()),
             seconds: self.seconds,
@@ -66,6 +69,7 @@ impl<T: Real, const D: usize, F: ?Sized> Solver<'_, T, D, F> {
             [state.displacement.len(), state.velocity.len(), state.displacement_gradient.len()];
         let orders = !self.slabs.order.is_fixed() || state.id.is_sorted();
         fits(lengths == [count; 3] && is_order(&state.id, count) && orders, "particles")?;
+        fits(state.hoop_strain.len() == self.particles.hoop_strain.len(), "axes")?;
         fits(state.affine.len() == self.particles.affine.len(), "transfers")?;
         fits(self.slabs.accept(&state.cuts, count), "slabs")?;
         let mut order: Vec<u32> =
@@ -76,6 +80,7 @@ impl<T: Real, const D: usize, F: ?Sized> Solver<'_, T, D, F> {
         self.particles.displacement = state.displacement.into_iter().collect();
         self.particles.velocity = state.velocity.into_iter().collect();
         self.particles.displacement_gradient = state.displacement_gradient.into_iter().collect();
+        self.particles.hoop_strain = state.hoop_strain.into_owned().into();
         self.particles.affine = state.affine.into_iter().collect();
         (self.clock.step, self.clock.lag) = (state.step, state.lag);
         self.seconds = state.seconds;

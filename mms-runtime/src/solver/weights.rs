@@ -57,6 +57,8 @@ pub(super) struct Kind<T: Real, const D: usize> {
     pub degree: usize,
     /// [`Shape::NEAR`].
     pub near: bool,
+    /// Whether stencils are products of weights along the axes.
+    pub is_product: bool,
     /// [`Shape::ORIGIN`].
     pub origin: f64,
     /// Bytes of the domains of a bunch.
@@ -74,6 +76,7 @@ impl<T: Real, const D: usize> Kind<T, D> {
         Self {
             degree: S::DEGREE,
             near: S::NEAR,
+            is_product: S::Stencil::<T, D>::default().product().is_some(),
             origin: S::ORIGIN,
             domain: size_of::<S::Domain<T, D>>(),
             point: S::point,
@@ -182,6 +185,10 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
             };
             let reference = &scene.reference_position[bunch];
             let position = positions(machine, reference, displacement, scene.moves);
+            if scene.lattice.is_meridian {
+                off_the_axis(machine, position[0])
+                    .map_err(|(p, cause)| (BUNCH * bunch + p, cause))?;
+            }
             let unmoved;
             let h = if scene.moves {
                 gradient
@@ -204,6 +211,22 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
         }
         Ok(())
     }
+}
+
+/// Refuses particles that do not lie beyond the axis of revolution.
+#[inline(always)]
+fn off_the_axis<T: Real, M: Machine<T>>(
+    machine: M,
+    radius: M::Eight,
+) -> Result<(), (usize, Cause)> {
+    let least = T::of(f64::from(f32::MIN_POSITIVE));
+    if machine.all_at_most(machine.splat(least), radius) {
+        return Ok(());
+    }
+    let radius = machine.numbers(radius);
+    let beyond = |r: &T| !(*r >= least);
+    let p = radius.iter().position(beyond).unwrap_or_default();
+    Err((p, Cause::BeyondAxis { radius: radius[p].to_f64() }))
 }
 
 /// Which of a bunch could not be placed alone, and why; the first one, if each could.

@@ -65,6 +65,10 @@ pub struct Tensor<T, const D: usize> {
     /// How many nodes along each axis have a weight, at most: 2, 3 or 4. Beyond those nothing means anything.
     pub(super) width: usize,
     known: Known,
+    /// On a meridian, how far the particles are from the axis, for the weights w/r of the strain around it.
+    radius: [T; BUNCH],
+    /// On a meridian, the w of those weights along the first axis, if they are not [`weight`](Self::weight).
+    around: Option<[[T; BUNCH]; MOST]>,
 }
 
 impl<T: Real, const D: usize> Tensor<T, D> {
@@ -81,7 +85,42 @@ impl<T: Real, const D: usize> Tensor<T, D> {
             shared: true,
             width: MOST,
             known: Known::Nothing,
+            radius: [T::one(); BUNCH],
+            around: None,
         }
+    }
+
+    /// Takes the distances r from the axis, and the w of the weights w/r along the first axis if they are others than those
+    /// that [`set`](Self::set) took.
+    #[inline(always)]
+    pub fn set_around<M: Machine<T>, const W: usize>(
+        &mut self,
+        machine: M,
+        radius: M::Eight,
+        weights: Option<[M::Eight; W]>,
+    ) {
+        self.radius = machine.numbers(radius);
+        self.around = weights.map(|weights| {
+            let mut numbers = [[T::zero(); BUNCH]; MOST];
+            for k in 0..W {
+                numbers[k] = machine.numbers(weights[k]);
+            }
+            numbers
+        });
+    }
+
+    /// The distances from the axis of revolution.
+    pub fn radius(&self) -> &[T; BUNCH] {
+        &self.radius
+    }
+
+    /// The stencil with the weights w of w/r, if they are others than those of sums without a division by r.
+    pub fn around(&self) -> Option<Self> {
+        self.around.map(|weights| {
+            let mut stencil = *self;
+            stencil.weight[0] = weights;
+            stencil
+        })
     }
 
     /// Begins to take `W` weights along each axis.
@@ -404,5 +443,9 @@ impl<T: Real, const D: usize> Stencil<T, D> for Tensor<T, D> {
             3 => self.gather_from::<M, 3>(machine, lattice, wanted, nodes),
             _ => self.gather_from::<M, MOST>(machine, lattice, wanted, nodes),
         }
+    }
+
+    fn product(&self) -> Option<&Tensor<T, D>> {
+        Some(self)
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::axisymmetric::strain_energy;
 use crate::field::ManufacturedField;
 use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
@@ -49,6 +50,7 @@ struct Strained<T, const D: usize> {
     time: f64,
     reference: Vec<Vector<T, D>>,
     gradient: Vec<Matrix<T, D>>,
+    hoop_strain: Vec<T>,
     volume: Vec<T>,
 }
 
@@ -63,6 +65,7 @@ impl<T: Real, const D: usize> Strained<T, D> {
             time: present.time,
             reference: particles.reference_position.to_vec(),
             gradient: particles.displacement_gradient.iter().collect(),
+            hoop_strain: particles.hoop_strain.to_vec(),
             volume: particles.reference_volume.to_vec(),
         })
     }
@@ -73,7 +76,8 @@ impl<T: Real, const D: usize> Strained<T, D> {
         F: ManufacturedField<T, D> + ?Sized,
     {
         let [before, after] = times.map(|time| {
-            field.strain_energy(T::of(time), &self.reference, &self.gradient, energy);
+            let strains = (&self.gradient[..], &self.hoop_strain[..]);
+            strain_energy(field, T::of(time), &self.reference, strains, energy);
             let shares = energy.iter().zip(&self.volume);
             shares.map(|(w, volume)| w.to_f64() * volume.to_f64()).sum::<f64>()
         });
@@ -213,7 +217,9 @@ impl<T: Real, const D: usize> Account<T, D> {
         let (x, h) = (&particles.reference_position, &mut self.displacement_gradient);
         h.clear();
         h.extend(particles.displacement_gradient.iter());
-        let offered = present.field.strain_energy(T::of(present.time), x, h, &mut self.energy);
+        let strains = (&h[..], &*particles.hoop_strain);
+        let offered =
+            strain_energy(present.field, T::of(present.time), x, strains, &mut self.energy);
         let shares = self.energy.iter().zip(&particles.reference_volume);
         offered.then(|| shares.map(|(w, volume)| w.to_f64() * volume.to_f64()).sum())
     }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Errors, Watch};
+use crate::axisymmetric::{hoop_strain, kirchhoff_stress};
 use crate::failure::{Cause, Failure};
 use crate::field::ManufacturedField;
 use crate::particle::Particles;
@@ -102,26 +103,35 @@ impl<T: Real, const D: usize> Watcher<T, D> {
     {
         let Present { field, particles, .. } = *present;
         let reference = &particles.reference_position;
+        let weights = field.axisymmetric().map(|_| &*particles.reference_volume);
         let now = T::of(present.time);
         let odd = |quantity| move |p| present.failure(p, Cause::NotFinite { quantity });
         field.displacement(now, reference, &mut self.vector);
-        let displacement = Errors::of(particles.displacement.iter(), &self.vector)
+        let displacement = Errors::of(particles.displacement.iter(), &self.vector, weights)
             .map_err(odd("displacement's error"))?;
         self.weigh(particles, present.moves);
         if self.watch == Watch::Displacement {
             return Ok(Deviations { displacement, ..Deviations::default() });
         }
         field.velocity(T::of(present.time_of_velocity), reference, &mut self.vector);
-        let velocity =
-            Errors::of(particles.velocity.iter(), &self.vector).map_err(odd("velocity's error"))?;
+        let velocity = Errors::of(particles.velocity.iter(), &self.vector, weights)
+            .map_err(odd("velocity's error"))?;
 
         let [computed, exact] = &mut self.gradients;
         computed.clear();
         computed.extend(particles.displacement_gradient.iter());
         field.displacement_gradient(now, reference, exact);
-        let deformation_gradient = Errors::of_tensors(computed, exact).map_err(odd("F's error"))?;
-        for (stress, gradient) in self.stress.iter_mut().zip(&self.gradients) {
-            field.kirchhoff_stress(now, reference, gradient, stress);
+        let strains = [particles.hoop_strain.to_vec(), hoop_strain(field, now, reference)];
+        let deformation_gradient =
+            Errors::of_tensors((computed, &strains[0]), (exact, &strains[1]), weights)
+                .map_err(odd("F's error"))?;
+        let mut hoop_stresses = strains.clone();
+        let stresses = self.stress.iter_mut().zip(&mut hoop_stresses);
+        for ((stress, hoop_stress), (gradient, strain)) in
+            stresses.zip(self.gradients.iter().zip(&strains))
+        {
+            kirchhoff_stress(field, now, reference, (gradient, strain), (stress, hoop_stress));
+            hoop_stress.iter_mut().zip(strain).for_each(|(stress, &h)| *stress /= T::one() + h);
             for (stress, gradient) in stress.iter_mut().zip(gradient) {
                 // J > 0 has been checked; where the exact F is singular, the error is not finite.
                 let inverse = inverse_deformation_gradient(gradient)
@@ -129,8 +139,12 @@ impl<T: Real, const D: usize> Watcher<T, D> {
                 *stress *= inverse.transpose();
             }
         }
-        let first_piola_kirchhoff =
-            Errors::of_tensors(&self.stress[0], &self.stress[1]).map_err(odd("P's error"))?;
+        let first_piola_kirchhoff = Errors::of_tensors(
+            (&self.stress[0], &hoop_stresses[0]),
+            (&self.stress[1], &hoop_stresses[1]),
+            weights,
+        )
+        .map_err(odd("P's error"))?;
         Ok(Deviations { displacement, velocity, deformation_gradient, first_piola_kirchhoff })
     }
 }

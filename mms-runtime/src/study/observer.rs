@@ -3,10 +3,11 @@
 use std::io::{self, Read, Write};
 
 use super::{Diagnostics, Errors};
+use crate::axisymmetric::{hoop_stretch, kirchhoff_stress};
 use crate::field::ManufacturedField;
 use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
-use crate::tensor::{deformation_gradient, inverse, jacobian};
+use crate::tensor::{deformation_gradient, inverse};
 
 /// Follows a run. A closure does, if it wants no states, and `()` looks away.
 pub trait Observer: Send {
@@ -114,6 +115,10 @@ pub struct Frame {
     pub deformation_gradient: Vec<f64>,
     /// The Cauchy stress tau/J; P at small strain.
     pub cauchy_stress: Vec<f64>,
+    /// F_tt of a body of revolution; empty otherwise.
+    pub hoop_stretch: Vec<f64>,
+    /// The component of the Cauchy stress around the axis; empty otherwise.
+    pub hoop_stress: Vec<f64>,
 }
 
 impl Frame {
@@ -129,15 +134,25 @@ impl Frame {
         let now = T::of(present.time);
         field.displacement(now, x, &mut exact);
         let mut stress = vec![Matrix::zeros(); particles.len()];
-        field.kirchhoff_stress(now, x, &h, &mut stress);
+        let mut hoop = particles.hoop_strain.to_vec();
+        kirchhoff_stress(field, now, x, (&h, &particles.hoop_strain), (&mut stress, &mut hoop));
         let d = &particles.displacement;
         let is_small = field.is_small_strain();
         let cauchy = |p: usize| {
             let deformation = deformation_gradient(&h[p]);
             match inverse(&deformation).filter(|_| is_small) {
                 Some(inverse) => stress[p] * inverse.transpose(),
-                None => stress[p] / jacobian(&h[p]),
+                None => stress[p] / particles.jacobian(p),
             }
+        };
+        let stretch = |p: usize| hoop_stretch(&particles.hoop_strain, p);
+        let hoop_stress = |p: usize| match is_small {
+            true => hoop[p] / stretch(p),
+            false => hoop[p] / particles.jacobian(p),
+        };
+        let around = |of: &dyn Fn(usize) -> T| match hoop.is_empty() {
+            true => Vec::new(),
+            false => by_number(&particles.id, 1, |p, out| out[0] = of(p).to_f64()),
         };
         let vectors = |of: &dyn Fn(usize) -> Vector<T, D>| {
             by_number(&particles.id, D, |p, out| {
@@ -160,6 +175,8 @@ impl Frame {
             velocity: vectors(&|p| particles.velocity.get(p)),
             deformation_gradient: tensors(&|p| deformation_gradient(&h[p])),
             cauchy_stress: tensors(&cauchy),
+            hoop_stretch: around(&stretch),
+            hoop_stress: around(&hoop_stress),
         }
     }
 }

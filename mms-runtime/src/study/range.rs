@@ -1,5 +1,6 @@
 //! Numbers beyond the range of a precision: a run that stops for them looks like an unstable one, and is none.
 
+use crate::axisymmetric::{hoop_strain, kirchhoff_stress};
 use crate::failure::{Cause, Failure};
 use crate::field::ManufacturedField;
 use crate::real::{Matrix, Real, Vector};
@@ -54,8 +55,11 @@ fn sizes<T: Real, const D: usize>(
     let mut gradients = vec![Matrix::<T, D>::zeros(); particles.len()];
     field.displacement_gradient(now, reference, &mut gradients);
     let mut stresses = vec![Matrix::<T, D>::zeros(); particles.len()];
-    field.kirchhoff_stress(now, reference, &gradients, &mut stresses);
-    let stress = largest(stresses.iter().flat_map(Matrix::iter));
+    let strains = hoop_strain(*field, now, reference);
+    let mut hoop_stresses = strains.clone();
+    let all = (&mut stresses[..], &mut hoop_stresses[..]);
+    kirchhoff_stress(*field, now, reference, (&gradients, &strains), all);
+    let stress = largest(stresses.iter().flat_map(Matrix::iter).chain(&hoop_stresses));
     let [mass, volume] =
         [&particles.mass, &particles.reference_volume].map(|it| largest(it.iter()));
     vec![

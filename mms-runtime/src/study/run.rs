@@ -10,7 +10,6 @@ use crate::method::{Division, Method};
 use crate::particle::Particles;
 use crate::real::{Real, Vector};
 use crate::solver::{AnySolver, Ramp, Residual, Seconds, of_method};
-use crate::tensor::jacobian;
 
 /// Which errors are measured in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +81,7 @@ impl Diagnostics {
             momentum += v * m;
             kinetic_energy += m * v.norm_squared() / 2.0;
         }
-        let all = particles.displacement_gradient.iter().map(|h| jacobian(&h).to_f64());
+        let all = (0..particles.len()).map(|p| particles.jacobian(p).to_f64());
         Self {
             mass: particles.mass.iter().map(|m| m.to_f64()).sum(),
             momentum: momentum.as_slice().to_vec(),

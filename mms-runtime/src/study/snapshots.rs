@@ -46,7 +46,7 @@ impl Snapshots {
         let times = [self, other].map(|it| vectors(&it.values).chunks(it.particles));
         let [own, others] = times;
         own.zip(others).try_fold(Errors::default(), |largest, (a, b)| {
-            Some(largest.larger(&Errors::of(a.iter().copied(), b).ok()?))
+            Some(largest.larger(&Errors::of::<f64, _>(a.iter().copied(), b, None).ok()?))
         })
     }
 }
