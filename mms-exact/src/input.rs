@@ -304,15 +304,15 @@ impl Input {
         Ok(())
     }
 
-    /// Refuses an axisymmetric field, which the solver and what judges results do not know.
+    /// Refuses an axisymmetric field, whose results nothing judges.
     ///
     /// # Errors
     /// The field is axisymmetric.
     pub fn hold_cartesian(&self) -> anyhow::Result<()> {
         ensure!(
             !self.compiled.field.space.is_axisymmetric(),
-            "`{}` is axisymmetric, and this command works in Cartesian coordinates, as the solver of this project does; `mms \
-             check`, `mms eval`, `mms show`, `mms accuracy` and `mms emit` take this field",
+            "`{}` is axisymmetric, and this command works in Cartesian coordinates; `mms check`, `mms eval`, `mms show`, `mms \
+             accuracy`, `mms emit`, `mms run` and `mms study` take this field",
             self.name.shown()
         );
         Ok(())

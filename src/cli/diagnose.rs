@@ -181,6 +181,7 @@ impl Diagnose {
         let variation = if self.affine { Variation::Affine } else { Variation::Nothing };
         let options = Options { variation, ..self.variant.options(Selection::default()) };
         let input = Input::new(open(self.field.as_deref().unwrap_or(LISTED))?, &options)?;
+        input.hold_cartesian()?;
         let scene = input.scene(&self.set, |code| code.double)?;
         if self.list {
             let report = Hypotheses { field: &input.name, all: scene::hypotheses(&scene) };
