@@ -15,6 +15,7 @@
 mod accuracy;
 mod campaign;
 mod check;
+mod demo;
 mod diagnose;
 mod emit;
 mod eval;
@@ -73,6 +74,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    Demo(demo::Demo),
     List(list::List),
     Show(show::Show),
     Check(check::Check),
@@ -139,6 +141,7 @@ fn answer() -> anyhow::Result<Outcome> {
     }
     match parsed.command {
         None => study::main_job(),
+        Some(Command::Demo(demo)) => demo.run(),
         Some(Command::List(list)) => list.run(),
         Some(Command::Show(show)) => show.run(),
         Some(Command::Check(check)) => check.run(),
@@ -166,7 +169,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
     ("Fields", &["new", "check", "show", "eval", "accuracy", "list", "schema"]),
     ("Your own solver", &["emit", "state", "judge", "diagnose", "campaign", "report"]),
     ("The solver of this project", &["run", "study", "verify", "tradeoff", "extremes"]),
-    ("Words", &["explain", "help"]),
+    ("First steps", &["demo", "explain", "help"]),
 ];
 
 /// The commands in groups, each with the first sentence of its help.

@@ -8,6 +8,7 @@ mod campaign_runs;
 mod check;
 mod check_sweep;
 mod checkpoint;
+mod demo;
 mod diagnose;
 mod diagnose_foreign;
 mod diagnose_order;
