@@ -19,10 +19,10 @@ mod session;
 mod terminal;
 mod vtk;
 
-/// The README's programs.
+/// The tour's programs.
 #[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-pub struct Readme;
+#[doc = include_str!("../docs/guide/tour.md")]
+pub struct Tour;
 
 /// The guide's programs.
 #[cfg(doctest)]

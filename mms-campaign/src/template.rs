@@ -44,6 +44,7 @@ placeholders! {
     Steps "steps" false "How many time steps lead from the start to the end.",
     Start "start" false "The first time.",
     End "end" false "The last time.",
+    ForceFactor "force_factor" false "The factor of b: 1, or -1 in runs of `--canary`.",
     Output "output" true "The folder for the results of the run.",
     Emitted "emitted" true "The folder with the source of the field.",
     State "state" true "The file with the exact state at the start.",

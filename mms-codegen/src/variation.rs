@@ -8,10 +8,12 @@
 
 use std::ops::Range;
 
+use mms_mechanics::derivation::Derivation;
 use mms_mechanics::extent::Region;
 use mms_mechanics::face::Formulas;
 use mms_mechanics::largest_triangle;
 use mms_mechanics::model::Model;
+use mms_spec::quantity::Quantity;
 use mms_spec::source::{Sources, Spanned};
 use mms_spec::{Claim, FieldSpec, Formula, ParameterSpec, Space};
 use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
@@ -40,7 +42,14 @@ pub enum Variation {
     /// Each parameter of the material is times a factor, of 1: parameters behind those of the file, in the order of the material's
     /// arguments, under the names that [`factor_of`] gives them.
     Factors,
+    /// Everything is as in the file but the body force, which has the other sign: a mistake on purpose. Closed forms are left
+    /// out.
+    ForceReversed,
 }
+
+/// The body force, per mass and per volume.
+const FORCES: [Quantity; 3] =
+    [Quantity::BodyForce, Quantity::BodyForceDensity, Quantity::CurrentBodyForceDensity];
 
 /// The name of the factor of a parameter of the material.
 pub fn factor_of(parameter: &str) -> String {
@@ -86,6 +95,18 @@ impl Variation {
             }
             Variation::Moduli(ratio) => set_moduli(sources, field, ratio),
             Variation::Factors => set_factors(sources, field),
+            Variation::ForceReversed => field.checks.clear(),
+        }
+    }
+
+    /// Changes what was derived.
+    pub(crate) fn falsify(&self, graph: &mut Graph, derivation: &mut Derivation) {
+        if *self == Variation::ForceReversed {
+            for quantity in FORCES {
+                for component in derivation.quantities.get_mut(&quantity).into_iter().flatten() {
+                    *component = graph.scale(*component, -1);
+                }
+            }
         }
     }
 
@@ -98,7 +119,7 @@ impl Variation {
         let parameter = graph.symbol(Symbol::Parameter(last));
         match self {
             Variation::Nothing | Variation::Affine => {}
-            Variation::Moduli(_) | Variation::Factors => {}
+            Variation::Moduli(_) | Variation::Factors | Variation::ForceReversed => {}
             Variation::Scaled => {
                 for component in &mut model.displacement {
                     *component = graph.mul(parameter, *component);

@@ -51,6 +51,9 @@ pub struct CampaignStudy {
     pub mistake: Option<String>,
     /// The verdict; null if nothing was judged.
     pub verdict: Option<String>,
+    /// With `--canary`, the same study with -b in place of b: `fails`, as it must, `passes`, so that the study measures nothing, or
+    /// `open`, if it does not pass with b either. Null without the option, and for a field without a body force.
+    pub canary: Option<String>,
     /// The judgement of the results.
     pub judgement: Option<Judge>,
 }

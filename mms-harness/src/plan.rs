@@ -7,6 +7,7 @@ use anyhow::{Context as _, anyhow, bail};
 use mms_campaign::template::{PARAMETER, Placeholder, Template};
 use mms_campaign::{Campaign, Study};
 use mms_codegen::Options;
+use mms_codegen::variation::Variation;
 use mms_emit::{TARGETS, Target};
 use mms_exact::hold_division;
 use mms_exact::wave::sound;
@@ -50,6 +51,8 @@ pub struct Planned {
     pub study: Study,
     /// Its field.
     pub input: Input,
+    /// The field that its runs are given where that is another one.
+    pub wrong: Option<Input>,
     /// The first and the last time.
     pub window: [f64; 2],
     /// How its results are judged.
@@ -75,6 +78,11 @@ pub struct Judging {
 }
 
 impl Planned {
+    /// The field that its runs are given.
+    pub fn given(&self) -> &Input {
+        self.wrong.as_ref().unwrap_or(&self.input)
+    }
+
     /// Whether all of its levels were asked for, so that it can be judged.
     pub fn is_whole(&self) -> bool {
         self.jobs.len() == self.study.levels()
@@ -95,7 +103,7 @@ pub struct Job {
     pub time_step: Option<f64>,
     /// How many there are; none of a static field.
     pub steps: Option<u64>,
-    /// What its result depends on.
+    /// What its result depends on; whether b is wrong, too.
     pub key: Key,
     /// The files among that.
     pub dependencies: Vec<Dependency>,
@@ -126,6 +134,9 @@ pub struct Key {
     pub field: String,
     /// Parameters.
     pub set: Vec<String>,
+    /// Whether it is given a wrong b.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_canary: bool,
 }
 
 /// What is not said of an exact state at the start by the field and its parameters.
@@ -156,6 +167,17 @@ impl Plan {
         only: &[Only],
         open: Open<'_>,
     ) -> anyhow::Result<Self> {
+        Self::with(path, campaign, only, open, false)
+    }
+
+    /// Plans the runs; those of canaries are given -b for b.
+    pub(crate) fn with(
+        path: &Path,
+        campaign: Campaign,
+        only: &[Only],
+        open: Open<'_>,
+        is_canary: bool,
+    ) -> anyhow::Result<Self> {
         only::validate(&campaign, only)?;
         let here = folder_of(path)?;
         let target = target(&campaign)?;
@@ -168,13 +190,20 @@ impl Plan {
             let levels: Vec<usize> = (1..=study.levels()).filter(is_asked).collect();
             if !levels.is_empty() {
                 let (campaign, here) = (&campaign, here.as_path());
-                let setting =
-                    Setting { campaign, here, target, sources: &sources, digests: &digests, open };
+                let sources = &sources;
+                let digests = &digests;
+                let setting = Setting { campaign, here, target, sources, digests, open, is_canary };
                 studies.push(setting.planned(study, &levels)?);
             }
         }
         Ok(Plan { campaign, here, target, studies, digests })
     }
+}
+
+/// The texts of a file that are filled in for each run.
+pub(crate) fn templates(campaign: &Campaign) -> impl Iterator<Item = &Template> {
+    let solver = &campaign.solver;
+    solver.run.iter().chain(&solver.directory).chain([&solver.output])
 }
 
 /// The folder of a file, whatever the working directory of a run will be.
@@ -213,6 +242,7 @@ struct Setting<'a> {
     sources: &'a [Dependency],
     digests: &'a Digests,
     open: Open<'a>,
+    is_canary: bool,
 }
 
 impl Setting<'_> {
@@ -238,12 +268,13 @@ impl Setting<'_> {
     }
 
     /// The field of a study; a path is one from the folder of the file.
-    fn field(&self, study: &Study) -> anyhow::Result<Input> {
+    fn field(&self, study: &Study, variation: Variation) -> anyhow::Result<Input> {
         let field = &study.field;
         let path = self.here.join(&field.value);
         let is_path = field.value.ends_with(".toml");
         let named = if is_path { path.to_string_lossy() } else { field.value.as_str().into() };
-        let input = (self.open)(&named).and_then(|source| Input::new(source, &Options::default()));
+        let options = Options { variation, ..Options::default() };
+        let input = (self.open)(&named).and_then(|source| Input::new(source, &options));
         let input = input.and_then(|input| input.hold(&study.set).map(|()| input));
         input.map_err(|error| {
             let why = format!("{error:#}");
@@ -254,7 +285,11 @@ impl Setting<'_> {
     }
 
     fn planned(&self, study: &Study, levels: &[usize]) -> anyhow::Result<Planned> {
-        let input = self.field(study)?;
+        let input = self.field(study, Variation::Nothing)?;
+        let wrong = match self.is_canary {
+            true => Some(self.field(study, Variation::ForceReversed)?),
+            false => None,
+        };
         let settings = input.settings(&study.set)?;
         let parameters = input.compiled.parameters::<f64>(&settings);
         let (_, [first, last]) = domain(&input.compiled.program, &parameters);
@@ -271,13 +306,7 @@ impl Setting<'_> {
         let place = Place { setting: self, study, input: &input, window, per_cell, speed };
         let jobs = levels.iter().map(|&level| place.job(level)).collect::<Result<_, _>>()?;
         let options = self.judging(study, &input.own_quantities())?;
-        Ok(Planned { study: study.clone(), window, options, per_cell, jobs, input })
-    }
-
-    /// The texts of the file that are filled in for each run.
-    fn templates(&self) -> impl Iterator<Item = &Template> {
-        let solver = &self.campaign.solver;
-        solver.run.iter().chain(&solver.directory).chain([&solver.output])
+        Ok(Planned { study: study.clone(), window, options, per_cell, jobs, input, wrong })
     }
 
     /// Refuses an axisymmetric field, whose results nothing judges.
@@ -299,7 +328,8 @@ impl Setting<'_> {
             ("time", !study.time.is_empty()),
         ];
         let key = keys.into_iter().find(|(_, is_given)| *is_given).map(|(key, _)| key.to_owned());
-        let timed = self.templates().flat_map(Template::placeholders).find(|it| it.is_time());
+        let timed =
+            templates(self.campaign).flat_map(Template::placeholders).find(|it| it.is_time());
         let Some(found) = key.or_else(|| Some(format!("{{{}}}", timed?.name()))) else {
             return Ok(());
         };
@@ -312,7 +342,8 @@ impl Setting<'_> {
     fn hold_parameters(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
         let parameters = &input.compiled.model.parameters;
         let known = |name: &str| parameters.iter().any(|it| it.name == name);
-        let Some(unknown) = self.templates().flat_map(Template::parameters).find(|it| !known(it))
+        let Some(unknown) =
+            templates(self.campaign).flat_map(Template::parameters).find(|it| !known(it))
         else {
             return Ok(());
         };
@@ -388,7 +419,9 @@ impl Place<'_> {
             true => (None, None),
             false => self.steps(level, cell_size).map(|(step, steps)| (Some(step), Some(steps)))?,
         };
-        let name = format!("{}/{level}", study.name);
+        let is_canary = self.setting.is_canary;
+        let with = if is_canary { " with -b" } else { "" };
+        let name = format!("{}/{level}{with}", study.name);
         let key = Key {
             version: env!("CARGO_PKG_VERSION"),
             solver: None,
@@ -406,6 +439,7 @@ impl Place<'_> {
                 .map(|it| Start::new(it, cells, self.per_cell)),
             field: self.input.compiled.input_hash(),
             set: study.set.clone(),
+            is_canary,
         };
         let job =
             Job { name, level, cells, cell_size, time_step, steps, key, dependencies: Vec::new() };
@@ -504,6 +538,7 @@ fn value(
         Placeholder::Steps => job.steps.map_or_else(String::new, |it| it.to_string()),
         Placeholder::Start => format!("{start:?}"),
         Placeholder::End => format!("{end:?}"),
+        Placeholder::ForceFactor => if job.key.is_canary { "-1" } else { "1" }.to_owned(),
         Placeholder::Output | Placeholder::Emitted | Placeholder::State | Placeholder::Here => {
             String::new()
         }

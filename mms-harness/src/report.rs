@@ -15,8 +15,32 @@ pub struct Report<'a> {
     pub plan: &'a Plan,
     /// The judgement of each study.
     pub studies: Vec<Judged<'a>>,
+    /// The same studies with a wrong b, where that was asked for; those of fields without a body force have none.
+    pub canaries: Option<Vec<Judged<'a>>>,
     /// Where it is from.
     pub provenance: Provenance,
+}
+
+/// What a study does with a wrong b.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Canary {
+    /// It does not pass: it measures the solver.
+    Fails,
+    /// It passes: it measures nothing.
+    Passes,
+    /// Nobody knows: the study does not pass with the right b either, or runs are missing.
+    Open,
+}
+
+impl Canary {
+    /// Its name in a document.
+    pub fn name(self) -> &'static str {
+        match self {
+            Canary::Fails => "fails",
+            Canary::Passes => "passes",
+            Canary::Open => "open",
+        }
+    }
 }
 
 impl Report<'_> {
@@ -31,10 +55,29 @@ impl Report<'_> {
         self.outcomes().any(failed) || self.studies.iter().any(|it| it.mistake.is_some())
     }
 
-    /// Whether a verdict is no pass.
+    /// Whether a verdict is no pass, or is one with a wrong b.
     pub fn is_refuted(&self) -> bool {
         let mut verdicts = self.studies.iter().filter_map(Judged::verdict);
-        !verdicts.all(Verdict::is_good)
+        !verdicts.all(Verdict::is_good) || !self.with_canary(Canary::Passes).is_empty()
+    }
+
+    /// What a study does with a wrong b; nothing without one.
+    pub fn canary(&self, study: &str) -> Option<Canary> {
+        let found = self.canaries.iter().flatten().find(|it| it.planned.study.name == study)?;
+        let passes = |it: &Judged<'_>| it.verdict().is_some_and(Verdict::is_good);
+        let mut right = self.studies.iter().filter(|it| it.planned.study.name == study);
+        let is_missing = found.outcomes.contains(&Outcome::Interrupted);
+        Some(match right.any(passes) && !is_missing {
+            _ if passes(found) => Canary::Passes,
+            true => Canary::Fails,
+            false => Canary::Open,
+        })
+    }
+
+    /// The studies that do so with a wrong b.
+    pub fn with_canary(&self, wanted: Canary) -> Vec<&str> {
+        let names = self.canaries.iter().flatten().map(|it| it.planned.study.name.as_str());
+        names.filter(|name| self.canary(name) == Some(wanted)).collect()
     }
 
     /// The mistakes that all passing studies exclude together.
@@ -45,6 +88,11 @@ impl Report<'_> {
         }))
     }
 
+    fn study(&self, judged: &Judged<'_>) -> CampaignStudy {
+        let canary = self.canary(&judged.planned.study.name);
+        CampaignStudy { canary: canary.map(|it| it.name().to_owned()), ..judged.document() }
+    }
+
     /// The JSON document.
     pub fn document(&self) -> documents::Campaign {
         let solver = &self.plan.campaign.solver;
@@ -52,7 +100,7 @@ impl Report<'_> {
         documents::Campaign {
             solver: solver.name.clone(),
             solver_version: solver.version.clone(),
-            studies: self.studies.iter().map(Judged::document).collect(),
+            studies: self.studies.iter().map(|it| self.study(it)).collect(),
             excluded: self.excluded().map(|it| it.document()),
             passed: self.studies.iter().filter(passes).count(),
             provenance: self.provenance.clone(),
@@ -77,6 +125,7 @@ impl Judged<'_> {
             runs: runs.collect(),
             mistake: self.mistake.clone(),
             verdict: self.verdict().map(|it| it.to_string()),
+            canary: None,
             judgement: self.judgements.as_ref().map(|it| it.document()),
         }
     }

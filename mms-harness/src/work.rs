@@ -352,7 +352,7 @@ impl<'a> Work<'a> {
         if let Some(files) = all.get(&planned.study.name) {
             return Ok(files.clone());
         }
-        let input = planned.input.with_defaults(&planned.study.set)?;
+        let input = planned.given().with_defaults(&planned.study.set)?;
         let bundle = (target.emit)(&Subject::new(&input.compiled));
         let files = Arc::new(bundle.sources().to_vec());
         all.insert(planned.study.name.clone(), files.clone());
@@ -467,7 +467,7 @@ pub fn left_behind_too(names: &[String]) -> String {
 
 /// Writes the exact state at the start, at the particles of a grid of the level.
 fn write_state(planned: &Planned, job: &Job, path: &str) -> anyhow::Result<()> {
-    let Planned { study, input, window: [start, _], .. } = planned;
+    let (study, input, [start, _]) = (&planned.study, planned.given(), &planned.window);
     let file: file::Target = path.parse().map_err(anyhow::Error::msg)?;
     let scene = input.scene(&study.set, |code| code.double)?;
     let points = Points::of_grid(&scene, &Division::Uniform(job.cells), planned.per_cell)?;

@@ -9,12 +9,14 @@ use mms_files::words::duration;
 use mms_files::write::{pretty, refuse_link, write_files};
 use mms_harness::judged::Judged;
 use mms_harness::plan::Job;
-use mms_harness::report::Report;
+use mms_harness::report::{Canary, Report};
 use mms_harness::work::{Finished, Outcome, left_behind_too};
+use mms_judge::Judgements;
 use mms_spec::foreign::{self, one_line, shown};
 
 use super::excluded;
 use super::judge::View as JudgementView;
+use super::junit;
 use super::shown::Shown;
 use super::table::Table;
 
@@ -45,6 +47,37 @@ impl View<'_> {
         }
     }
 
+    /// What studies do with a wrong b, a line each for those that pass.
+    fn canaries(&self) -> Option<String> {
+        let all = self.0.canaries.as_ref()?.len();
+        let fails = self.0.with_canary(Canary::Fails).len();
+        let head = match all {
+            0 => "canary: no study has a body force, so none can be given a wrong one".to_owned(),
+            _ => {
+                format!("canary: with -b in place of b {fails} of {all} studies fail, as all must")
+            }
+        };
+        let lines = self.0.with_canary(Canary::Passes).into_iter().map(|name| {
+            format!(
+                "{} passes with -b: it measures nothing. Does the solver use the b that it is given, and are these its results?",
+                shown(name)
+            )
+        });
+        Some(std::iter::once(head).chain(lines).collect::<Vec<_>>().join("\n"))
+    }
+
+    /// The verdict of each study that does not pass, with its name.
+    fn reasons(&self) -> Vec<String> {
+        let judged = self.0.studies.iter().filter_map(|it| Some((it, it.judgements.as_ref()?)));
+        let reason = |(it, judgements): (&Judged<'_>, &Judgements)| {
+            let (at, _) = judgements.decided();
+            let (quantity, found) = judgements.each().nth(at)?;
+            let says = judgements.says(quantity, found).into_iter().next()?;
+            Some(format!("{}: {says}", shown(&it.planned.study.name)))
+        };
+        judged.filter(|(_, it)| !it.verdict().is_good()).filter_map(reason).collect()
+    }
+
     /// Writes campaign.json, and for each study its picture and its table; returns their paths.
     ///
     /// # Errors
@@ -73,7 +106,24 @@ impl Shown for View<'_> {
         }
         parts.extend(self.0.excluded().map(|it| excluded::together(&it)));
         parts.push(self.tally());
+        parts.extend(self.canaries());
         parts.join("\n\n")
+    }
+
+    fn markdown(&self) -> String {
+        let runs = self.0.outcomes().filter_map(|(job, outcome)| failure(job, outcome));
+        let mistakes = self.0.studies.iter().filter_map(|it| {
+            Some(format!("{}: {}", shown(&it.planned.study.name), it.mistake.as_ref()?))
+        });
+        let quoted = |it: String| format!("```text\n{}\n```\n", it.replace("```", "` ` `"));
+        let mut parts = vec![self.matrix().markdown(), self.tally() + "\n"];
+        parts.extend(self.canaries().map(quoted));
+        parts.extend(self.reasons().into_iter().chain(mistakes).chain(runs).map(quoted));
+        parts.join("\n")
+    }
+
+    fn junit(&self) -> anyhow::Result<String> {
+        Ok(junit::document(self.0))
     }
 
     fn tables(&self) -> Vec<Table> {

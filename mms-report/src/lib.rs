@@ -17,6 +17,7 @@ pub mod excluded;
 pub mod extremes;
 pub mod front;
 mod judge;
+mod junit;
 pub mod method;
 pub mod page;
 mod phase;

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use anyhow::bail;
 use serde::Serialize;
 
 use super::table::Table;
@@ -21,11 +22,13 @@ pub enum Format {
     Markdown,
     /// The tables, for the package booktabs.
     Latex,
+    /// The cases of a test, as JUnit XML.
+    Junit,
 }
 
 impl Format {
     /// The names of all formats.
-    pub const NAMES: [&str; 5] = ["text", "json", "csv", "markdown", "latex"];
+    pub const NAMES: [&str; 6] = ["text", "json", "csv", "markdown", "latex", "junit"];
 }
 
 impl fmt::Display for Format {
@@ -44,7 +47,8 @@ impl FromStr for Format {
             "csv" => Ok(Format::Csv),
             "markdown" => Ok(Format::Markdown),
             "latex" => Ok(Format::Latex),
-            _ => Err("expected text, json, csv, markdown or latex"),
+            "junit" => Ok(Format::Junit),
+            _ => Err("expected text, json, csv, markdown, latex or junit"),
         }
     }
 }
@@ -72,19 +76,30 @@ pub trait Shown {
         Ok(tables?.join("\n"))
     }
 
+    /// The tables as GitHub and GitLab show them.
+    fn markdown(&self) -> String {
+        self.tables().iter().map(Table::markdown).collect::<Vec<_>>().join("\n")
+    }
+
+    /// The cases of a test, as JUnit XML.
+    ///
+    /// # Errors
+    /// A result that has none: all but campaigns.
+    fn junit(&self) -> anyhow::Result<String> {
+        bail!("`--format junit`: studies of `mms campaign` are cases of a test, and this is none")
+    }
+
     /// The result in a format other than JSON.
     ///
     /// # Errors
-    /// As of [`csv`](Self::csv).
+    /// As of [`csv`](Self::csv) and [`junit`](Self::junit).
     fn in_format(&self, format: Format) -> anyhow::Result<String> {
-        let all = |view: fn(&Table) -> String| {
-            self.tables().iter().map(view).collect::<Vec<_>>().join("\n")
-        };
         Ok(match format {
             Format::Text | Format::Json => self.text(),
             Format::Csv => self.csv()?,
-            Format::Markdown => all(Table::markdown),
-            Format::Latex => all(Table::latex),
+            Format::Markdown => self.markdown(),
+            Format::Latex => self.tables().iter().map(Table::latex).collect::<Vec<_>>().join("\n"),
+            Format::Junit => self.junit()?,
         })
     }
 }

@@ -6,6 +6,16 @@ pub const FUNCTIONS: &[&str] = &[
     "atan2", "hypot", "cbrt",
 ];
 
+/// The page on what is not covered, as a literal.
+macro_rules! scope {
+    () => {
+        "docs/scope.md"
+    };
+}
+
+/// The page on what is not covered, and what is nearest to it.
+pub const SCOPE: &str = scope!();
+
 /// The advice on a word that other languages and books have, and this one not.
 pub fn elsewhere(word: &str) -> Option<&'static str> {
     Some(match word {
@@ -18,10 +28,16 @@ pub fn elsewhere(word: &str) -> Option<&'static str> {
         "sec" | "csc" | "cot" => "write it with `sin(x)` and `cos(x)`",
         "arcsin" | "arccos" | "arctan" => "it is `asin(x)`, `acos(x)` or `atan(x)` here",
         "lambda1" | "lambda2" | "lambda3" | "lambda_1" | "lambda_2" | "lambda_3" => {
-            "a material is a function of the invariants I1, I2, J, and principal stretches are not known"
+            concat!(
+                "a material is a function of the invariants I1, I2, J, and principal stretches are not known: ",
+                scope!()
+            )
         }
         "plane" => {
-            "a field in a plane is in plane strain; plane stress takes the moduli that it reduces to"
+            concat!(
+                "a field in a plane is in plane strain; plane stress takes the moduli that it reduces to: ",
+                scope!()
+            )
         }
         _ => return None,
     })

@@ -14,6 +14,7 @@ use mms_documents::campaign::{CampaignRuns, ListedRun};
 use mms_files::read::{self, Kind};
 use mms_files::shell::{command, quoted};
 use mms_files::store::Store;
+use mms_harness::canary;
 use mms_harness::judged::Judged;
 use mms_harness::only::Only;
 use mms_harness::plan::{Job, Plan, Planned};
@@ -32,7 +33,7 @@ use crate::provenance::{Input, Provenance};
 ///
 /// FILE says how the solver is run ([solver]: run, output) and on what ([[study]]: field, cells, order). There is no
 /// shell. Placeholders of `run`, `directory` and `output` are {name}, {field}, {level}, {cells}, {cell_size},
-/// {time_step}, {steps}, {start}, {end}, {output}, {emitted}, {state} and {here}, and {set.NAME} of a parameter; docs/guide/campaign.md has them all.
+/// {time_step}, {steps}, {start}, {end}, {force_factor}, {output}, {emitted}, {state} and {here}, and {set.NAME} of a parameter; docs/guide/campaign.md has them all.
 /// Before a run `emit` writes the source of the field, and `state`, or {state}, the exact state at the start.
 ///
 /// Each run has a folder of its own in the store, with what it printed. It is done when its command has ended well and its
@@ -43,7 +44,7 @@ use crate::provenance::{Input, Provenance};
 /// runs; the same command goes on with what is left. A run that fails is named with the last lines that it printed, ends no
 /// other, and is tried again the next time.
 ///
-/// Exit codes: 0 all studies pass; 1 another verdict; 2 bad usage, or a bad file; 3 a run failed, or has no results that can be judged.
+/// Exit codes: 0 all studies pass; 1 another verdict, or a pass with a wrong b; 2 bad usage, or a bad file; 3 a run failed, or has no results that can be judged.
 #[derive(Args)]
 pub struct Campaign {
     /// The campaign file.
@@ -55,6 +56,10 @@ pub struct Campaign {
     /// How many runs go side by side; by default as many as there are processors for `threads` each.
     #[arg(long, value_name = "N")]
     jobs: Option<NonZero<usize>>,
+    /// Then run each study once more with -b in place of b, and demand that it does not pass: a study that passes then measures
+    /// nothing. The wrong b goes where the solver gets its b from: into {emitted}, into {state}, and as {force_factor}, which is -1.
+    #[arg(long, conflicts_with_all = ["dry_run", "list", "suggest"])]
+    canary: bool,
     /// Show what would be run, and what is done already; run nothing.
     #[arg(long)]
     dry_run: bool,
@@ -91,17 +96,21 @@ impl Campaign {
             );
         }
         let only: Vec<Only> = self.only.iter().cloned().map(Only::from).collect();
+        let canaries = match self.canary {
+            true => Some(canary::plan(&self.file, file.clone(), &only, &open)?),
+            false => None,
+        };
         let plan = Plan::new(&self.file, file, &only, &open)?;
         let given = self.folder();
         let (store, set_aside) = Store::open(&given)?;
         let folder = given.canonicalize().with_context(|| read::cannot_read(&given))?;
-        let progress = Progress::new(&plan)?;
+        let progress = Progress::new(&plan, canaries.as_ref())?;
         set_aside.iter().for_each(|what| progress.set_aside(what));
         let work = Work::new(&plan, &store, &folder, &progress);
         match (self.dry_run, self.list) {
             (true, _) => self.show(&work),
             (_, true) => self.commands(&work),
-            _ => self.carry_out(&work, &plan, &text),
+            _ => self.carry_out(&work, canaries.as_ref(), &text),
         }
     }
 
@@ -111,13 +120,24 @@ impl Campaign {
         self.store.clone().unwrap_or_else(|| Path::new("target/mms/campaign").join(name))
     }
 
-    fn carry_out(&self, work: &Work<'_>, plan: &Plan, text: &str) -> anyhow::Result<Outcome> {
-        let jobs = self.jobs.unwrap_or_else(|| side_by_side_of(plan));
-        let outcomes = work.outcomes(jobs)?;
-        let mut studies = Vec::new();
-        for (planned, outcomes) in plan.studies.iter().zip(outcomes) {
-            studies.push(Judged::new(work, planned, outcomes, &signed)?);
-        }
+    /// Makes the runs of a plan, and judges its studies.
+    fn judged<'a>(&self, work: &Work<'a>) -> anyhow::Result<Vec<Judged<'a>>> {
+        let jobs = self.jobs.unwrap_or_else(|| side_by_side_of(work.plan));
+        let all = work.plan.studies.iter().zip(work.outcomes(jobs)?);
+        all.map(|(planned, outcomes)| Judged::new(work, planned, outcomes, &signed)).collect()
+    }
+
+    fn carry_out(
+        &self,
+        work: &Work<'_>,
+        canaries: Option<&Plan>,
+        text: &str,
+    ) -> anyhow::Result<Outcome> {
+        let plan = work.plan;
+        let studies = self.judged(work)?;
+        let Work { store, folder, watcher, .. } = *work;
+        let canaries = canaries.map(|plan| self.judged(&Work::new(plan, store, folder, watcher)));
+        let canaries = canaries.transpose()?;
         for (study, warning) in
             studies.iter().flat_map(|it| it.warnings.iter().map(move |w| (it, w)))
         {
@@ -130,7 +150,8 @@ impl Campaign {
             set: Vec::new(),
             hash: hash(plan, text),
         };
-        let report = Report { plan, studies, provenance: this_command("campaign", input) };
+        let report =
+            Report { plan, studies, canaries, provenance: this_command("campaign", input) };
         self.tell(&report, work)
     }
 
@@ -249,8 +270,9 @@ struct Progress {
 }
 
 impl Progress {
-    fn new(plan: &Plan) -> anyhow::Result<Self> {
-        let all = plan.studies.iter().map(|it| it.jobs.len()).sum();
+    fn new(plan: &Plan, canaries: Option<&Plan>) -> anyhow::Result<Self> {
+        let studies = [Some(plan), canaries].into_iter().flatten().flat_map(|it| &it.studies);
+        let all = studies.map(|it| it.jobs.len()).sum();
         Ok(Self { all, ended: AtomicUsize::new(0), interrupted: Interrupted::listen()? })
     }
 

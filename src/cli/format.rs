@@ -14,8 +14,8 @@ pub struct Printing {
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
-    /// The format of what is printed: text for a terminal; json, as --json; or the tables alone as csv, markdown or latex (with
-    /// the package booktabs).
+    /// The format of what is printed: text for a terminal; json, as --json; the tables alone as csv, markdown or latex (with
+    /// the package booktabs); of a campaign also its studies as junit.
     #[arg(long, value_name = "FORMAT", conflicts_with = "json", value_parser = formats())]
     format: Option<Format>,
 }

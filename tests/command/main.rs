@@ -4,6 +4,7 @@ mod accuracy;
 mod axisymmetric;
 mod bound;
 mod campaign;
+mod campaign_canary;
 mod campaign_runs;
 mod check;
 mod check_sweep;

@@ -310,7 +310,7 @@ pub const CRATES: &[Crate] = &[
             "digests only profile",
             "dependencies sources",
             "plan suggest",
-            "work",
+            "canary work",
             "judged",
             "report",
         ],
@@ -384,7 +384,7 @@ pub const CRATES: &[Crate] = &[
         ],
         layers: &[
             "axis excluded front table text",
-            "method plot shown",
+            "junit method plot shown",
             "accuracy campaign comparison defects diagnosis extremes judge page phase plan results run study tradeoff verify",
         ],
     },

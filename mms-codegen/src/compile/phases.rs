@@ -21,6 +21,7 @@ use mms_mechanics::{Derivation, Model, TooLarge, derive};
 use mms_program::Op;
 use mms_program::schedule::schedule;
 use mms_spec::diagnostic::Diagnostic;
+use mms_spec::language::SCOPE;
 use mms_spec::own::Own;
 use mms_spec::source::{SourceId, Sources, Span};
 use mms_spec::suggest::advice;
@@ -70,7 +71,8 @@ impl<'a> Phases<'a> {
         about_its_place(&mut graph, &mut read.model);
         let (derived, simplest) = self.derive(&mut graph, &mut read)?;
         let simplified = simplest.is_some() && !graph.work().is_over();
-        let derivation = simplest.unwrap_or_else(|| derived.clone());
+        let mut derivation = simplest.unwrap_or_else(|| derived.clone());
+        self.options.variation.falsify(&mut graph, &mut derivation);
         self.allow(&graph, STEPS_OF_SIMPLIFYING);
         let program = self.schedule(&mut graph, &read, &derivation)?;
         // What others do with it has budgets of its own.
@@ -242,7 +244,7 @@ impl<'a> Phases<'a> {
             Diagnostic::error(model.span, format!("unknown material `{}`", model.value.shown()))
                 .label("no such material");
         diagnostics.push(diagnostic.help(advice(path, stems, |all| {
-            format!("shipped materials: {all}; one of your own is written \"./mine.toml\"")
+            format!("shipped materials: {all}; one of your own is written \"./mine.toml\": {SCOPE}")
         })));
         None
     }

@@ -1,0 +1,49 @@
+//! Canaries: the runs of a campaign, given a wrong b. A study that passes with it measures nothing.
+
+use std::path::Path;
+
+use anyhow::bail;
+use mms_campaign::Campaign;
+use mms_campaign::template::{Placeholder, Template};
+use mms_exact::{Input, Open};
+use mms_spec::quantity::Quantity;
+
+use crate::only::Only;
+use crate::plan::{Plan, Planned, templates};
+
+/// Plans the runs of a file with -b in what each is given. Studies of fields without a body force are left out.
+///
+/// # Errors
+/// As of [`Plan::new`]; a solver that the campaign does not give b to.
+pub fn plan(
+    path: &Path,
+    campaign: Campaign,
+    only: &[Only],
+    open: Open<'_>,
+) -> anyhow::Result<Plan> {
+    let mut plan = Plan::with(path, campaign, only, open, true)?;
+    plan.studies.retain(|it| has_force(&it.input));
+    hold_force(&plan)?;
+    Ok(plan)
+}
+
+/// Whether a field has a body force other than 0.
+fn has_force(input: &Input) -> bool {
+    let force = input.compiled.derivation.quantities.get(&Quantity::BodyForce);
+    force.is_some_and(|it| it.iter().any(|part| !input.compiled.graph.is_zero(*part)))
+}
+
+/// Refuses a solver whose b does not come from the campaign: no run of it can be given another one.
+fn hold_force(plan: &Plan) -> anyhow::Result<()> {
+    let mut words = templates(&plan.campaign).flat_map(Template::placeholders);
+    let names_factor = words.any(|it| it == Placeholder::ForceFactor);
+    let is_static = |it: &Planned| it.input.is_static();
+    let has_state = plan.campaign.solver.state().is_some() && plan.studies.iter().all(is_static);
+    if plan.target.is_some() || names_factor || has_state {
+        return Ok(());
+    }
+    bail!(
+        "`--canary`: the solver does not get b from the campaign, so no run can be given a wrong one; let `run` name \
+         {{force_factor}} and multiply b by it (it is 1, and -1 for a canary), or take b from {{emitted}}"
+    )
+}
