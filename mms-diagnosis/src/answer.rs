@@ -123,21 +123,21 @@ impl Rung {
     /// What to ask for next, after this finding.
     pub fn next(self, finding: Finding) -> &'static str {
         match (self, finding) {
-            (_, Finding::Named) => "mend it, and ask the same again",
+            (_, Finding::Named) => "fix it, run your code again, and ask again",
             (Rung::Law, Finding::Nothing) => {
-                "the law is right for these F; next: accelerations or residuals at an exact state, which `mms state` writes"
+                "the law is right for these F; look at accelerations or residuals at an exact state, which `mms state` writes"
             }
             (Rung::Law, Finding::Unexplained) => {
                 "stresses at F of volume changes alone, and at F of one shear alone: which of them is wrong?"
             }
             (Rung::State(_), Finding::Nothing) => {
-                "force, stress, mass and loads are right at this state; next: velocities after one small step from it"
+                "force, stress, mass and loads are right at this state; look at velocities after one small step from it"
             }
             (Rung::State(_), Finding::Unexplained) => {
                 "the same with a term left out (`--without body_force`, stress, traction), and a table of the law alone"
             }
             (Rung::Step, Finding::Nothing) => {
-                "one step is right; next: results at later times, of two meshes"
+                "one step is right; look at results at later times, of two meshes"
             }
             (Rung::Step, Finding::Unexplained) => {
                 "accelerations at the exact state from which it starts"

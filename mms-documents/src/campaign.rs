@@ -19,6 +19,9 @@ pub struct Campaign {
     pub excluded: Option<Vec<ExcludedTogether>>,
     /// The number of studies that pass.
     pub passed: usize,
+    /// The words of the command to type next, `mms` first; missing if all studies pass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub next_command: Option<Vec<String>>,
     /// How the document was made.
     pub provenance: Provenance,
 }

@@ -39,6 +39,9 @@ pub struct Diagnose {
     pub fields: Option<ErrorFields>,
     /// The next step to take.
     pub next: String,
+    /// The words of the command to type next, `mms` first; missing if the finding is `nothing`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub next_command: Option<Vec<String>>,
     /// How the document was made.
     pub provenance: Provenance,
 }

@@ -61,6 +61,9 @@ pub struct Judge {
     #[cfg_attr(feature = "schema", schemars(extend("x-or-null" = true)))]
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
     pub excluded: Option<Option<Vec<Excluded>>>,
+    /// The words of the command to type next, `mms` first; missing after a good verdict.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub next_command: Option<Vec<String>>,
     /// How the document was made.
     pub provenance: Provenance,
 }

@@ -64,6 +64,12 @@ pub struct StudyOfMethod {
     #[cfg_attr(feature = "schema", schemars(extend("x-or-null" = true)))]
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
     pub excluded: Option<Option<Vec<Excluded>>>,
+    /// The likely causes of a verdict that is no pass, and errors of F or P that grow on finer meshes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub causes: Vec<String>,
+    /// The words of the command to type next, `mms` first; missing after a good verdict.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub next_command: Option<Vec<String>>,
 }
 
 /// The orders of a norm: see [the verdict](../guide/judging.md).

@@ -17,6 +17,8 @@ pub struct Report<'a> {
     pub studies: Vec<Judged<'a>>,
     /// The same studies with a wrong b, where that was asked for; those of fields without a body force have none.
     pub canaries: Option<Vec<Judged<'a>>>,
+    /// The words of the command to type next, if a study does not pass.
+    pub next: Option<Vec<String>>,
     /// Where it is from.
     pub provenance: Provenance,
 }
@@ -103,6 +105,7 @@ impl Report<'_> {
             studies: self.studies.iter().map(|it| self.study(it)).collect(),
             excluded: self.excluded().map(|it| it.document()),
             passed: self.studies.iter().filter(passes).count(),
+            next_command: self.next.clone(),
             provenance: self.provenance.clone(),
         }
     }

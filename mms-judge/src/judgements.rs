@@ -27,6 +27,8 @@ pub struct Judgements {
     pub part: Option<String>,
     /// The mistakes that results exclude if they pass.
     pub exclusions: Option<Exclusions>,
+    /// The words of the command to type next, if the verdict is no pass.
+    pub next: Option<Vec<String>>,
     /// The keys of results of files.
     results: Results,
     /// Where the verdicts are from.
@@ -60,6 +62,7 @@ impl Judgements {
             notes: Vec::new(),
             part: None,
             exclusions: None,
+            next: None,
             results: Results::default(),
             provenance,
         })
@@ -99,6 +102,16 @@ impl Judgements {
     /// Each quantity with its judgement.
     pub fn each(&self) -> impl Iterator<Item = (&Quantity, &Judged)> {
         self.measured.quantities.iter().zip(&self.judged)
+    }
+
+    /// The sampling of each quantity of results.
+    pub fn samplings(&self) -> Option<&Names<String>> {
+        self.results.samplings.as_ref()
+    }
+
+    /// The files of results.
+    pub fn files(&self) -> &[String] {
+        self.results.files.as_deref().unwrap_or_default()
     }
 
     /// How a level is called.
@@ -171,6 +184,7 @@ impl Judgements {
             warnings: results.warnings,
             iterative_errors: results.iterative_errors,
             excluded: self.exclusions.as_ref().map(Exclusions::document),
+            next_command: self.next.clone(),
             provenance: self.provenance.clone(),
         }
     }

@@ -48,6 +48,11 @@ pub struct Amplitude {
 }
 
 impl Amplitude {
+    /// Its number among the parameters.
+    pub fn index(&self) -> usize {
+        self.index
+    }
+
     /// The first parameter with which u vanishes at the defaults of the others. The body does not
     /// depend on it.
     pub fn find(graph: &Graph, model: &Model) -> Option<Amplitude> {

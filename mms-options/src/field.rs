@@ -93,6 +93,15 @@ impl Variant {
         Variant { motion, form }
     }
 
+    /// The arguments that ask for it.
+    pub fn arguments(&self) -> Vec<String> {
+        let mut arguments = self.motion.arguments();
+        if self.form != Form::default() {
+            arguments.push(format!("--form={}", self.form.name()));
+        }
+        arguments
+    }
+
     /// Its form.
     pub fn form(&self) -> Form {
         self.form

@@ -19,6 +19,7 @@ use super::judge::View as JudgementView;
 use super::junit;
 use super::shown::Shown;
 use super::table::Table;
+use super::text::next;
 
 /// The text of a campaign.
 pub struct View<'a>(pub &'a Report<'a>);
@@ -107,6 +108,7 @@ impl Shown for View<'_> {
         parts.extend(self.0.excluded().map(|it| excluded::together(&it)));
         parts.push(self.tally());
         parts.extend(self.canaries());
+        parts.extend(next(self.0.next.as_ref()));
         parts.join("\n\n")
     }
 

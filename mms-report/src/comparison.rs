@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use anyhow::Context as _;
-use mms_convergence::Verdict;
 use mms_documents::provenance::Provenance;
 use mms_documents::study::{self as documents, Studies, StudyOfOne};
 use mms_files::write::{pretty, write_files};
@@ -14,6 +13,7 @@ use super::page;
 use super::plot::Width;
 use crate::shown::Shown;
 use crate::table::Table;
+use crate::text::next;
 
 /// The document of one study, or of several methods.
 #[derive(Serialize)]
@@ -34,7 +34,7 @@ pub struct Comparison {
 impl Comparison {
     /// How many studies pass.
     fn passed(&self) -> usize {
-        let passes = |study: &&Study| study.verdict == Verdict::Pass;
+        let passes = |study: &&Study| study.verdict.is_good();
         self.studies.iter().filter(passes).count()
     }
 
@@ -125,6 +125,7 @@ impl Shown for Comparison {
             parts.extend(study.phase_text().map(|table| format!("{name}\n{table}")));
         }
         parts.push(format!("{} of {} methods pass", self.passed(), self.studies.len()));
+        parts.extend(self.studies.iter().find_map(|it| next(it.next.as_ref())));
         parts.join("\n\n")
     }
 

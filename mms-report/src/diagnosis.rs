@@ -12,6 +12,7 @@ use mms_spec::foreign::Foreign;
 
 use crate::shown::Shown;
 use crate::table::Table;
+use crate::text::next;
 
 /// How many hypotheses a text shows.
 const SHOWN: usize = 5;
@@ -24,6 +25,8 @@ pub struct Diagnosed<'a> {
     pub files: &'a [String],
     /// The diagnosis.
     pub diagnosis: &'a Diagnosis,
+    /// The words of the command to type next, if something is wrong.
+    pub next: Option<Vec<String>>,
     /// Where it is from.
     pub provenance: Provenance,
 }
@@ -94,7 +97,8 @@ impl Shown for Diagnosed<'_> {
         if !it.cannot_be_seen.is_empty() {
             parts.push(format!("these results cannot show: {}", it.cannot_be_seen.join(", ")));
         }
-        parts.push(format!("next: {}", it.rung.next(it.finding)));
+        parts.push(format!("to do: {}", it.rung.next(it.finding)));
+        parts.extend(next(self.next.as_ref()));
         parts.join("\n\n")
     }
 
@@ -127,6 +131,7 @@ impl Shown for Diagnosed<'_> {
             place: it.place.as_ref().map(place_document),
             fields: it.fields.as_ref().map(fields),
             next: it.rung.next(it.finding).to_string(),
+            next_command: self.next.clone(),
             provenance: self.provenance.clone(),
         }
     }

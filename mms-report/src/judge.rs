@@ -14,6 +14,7 @@ use super::page;
 use super::plot::Width;
 use super::shown::Shown;
 use super::table::Table;
+use super::text::next;
 
 /// The text, the table and the picture of judgements.
 pub struct View<'a>(pub &'a Judgements);
@@ -134,6 +135,7 @@ impl Shown for View<'_> {
         }
         parts.push(format!("by rule {RULE} of docs/guide/judging.md"));
         parts.extend(self.0.exclusions.as_ref().map(excluded::text));
+        parts.extend(next(self.0.next.as_ref()));
         parts.join("\n\n")
     }
 

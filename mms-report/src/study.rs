@@ -19,6 +19,7 @@ use super::plot::Width;
 use super::run::quantities;
 use super::shown::Shown;
 use super::table::Table;
+use super::text::next;
 use super::{Phases, method, page};
 
 /// A finished study.
@@ -55,6 +56,10 @@ pub struct Study {
     pub phases: Option<Phases>,
     /// The mistakes that a pass excludes, if they were asked for.
     pub exclusions: Option<Exclusions>,
+    /// The likely causes of a verdict that is no pass.
+    pub causes: Vec<String>,
+    /// The words of the command to type next after such a verdict.
+    pub next: Option<Vec<String>>,
     /// Where it is from.
     pub provenance: Provenance,
 }
@@ -292,6 +297,8 @@ impl Study {
             phase: self.phases.as_ref().map(|it| it.document(&self.lengths(), self.refinement)),
             verdict: self.verdict.to_string(),
             excluded: self.exclusions.as_ref().map(Exclusions::document),
+            causes: self.causes.iter().cloned().chain(self.growth()).collect(),
+            next_command: self.next.clone(),
         }
     }
 
@@ -425,6 +432,8 @@ impl Study {
         lines.extend(
             self.judgement.explanations(self.symbol(), &|length| self.name_of_level(length)),
         );
+        lines.extend(self.causes.iter().map(|it| format!("likely cause: {it}")));
+        lines.extend(self.growth());
         lines.push(self.constant());
         lines.extend(self.fit.map(|fit| fit.sentence("l2")));
         if self.refinement == Refinement::Time {
@@ -434,6 +443,29 @@ impl Study {
             lines.push("~ an error that may be nothing but round-off, and is not judged".into());
         }
         lines.join("\n")
+    }
+
+    /// The errors of F and P that grow from level to level, at which the stress does not converge.
+    fn growth(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        let [_, _, gradient, stress] = self.quantities();
+        for (symbol, _, levels) in [gradient, stress] {
+            let of = |norm: fn(&Errors) -> f64| -> Vec<f64> {
+                levels.iter().filter_map(|(errors, _)| errors.as_ref().map(norm)).collect()
+            };
+            let norms = [("l2", of(|it| it.l2)), ("linf", of(|it| it.linf))];
+            let grows = |errors: &[f64]| matches!(errors, [.., coarse, fine] if fine > coarse);
+            let is_noise =
+                self.started().last().is_some_and(|run| is_noise(&row(run, None, self.refinement)));
+            if let Some((norm, errors)) = norms.iter().find(|(_, it)| grows(it) && !is_noise) {
+                let errors: Vec<_> = errors.iter().map(|it| format!("{it:.2e}")).collect();
+                lines.push(format!(
+                    "the error of {symbol} grows on finer meshes ({norm}: {}): {symbol} does not converge",
+                    errors.join(", ")
+                ));
+            }
+        }
+        lines
     }
 
     /// The error constant, and what it was held to: a defect may leave the order and change it.
@@ -487,6 +519,7 @@ impl Shown for Study {
         }
         parts.extend(self.phase_text());
         parts.extend(self.exclusions.as_ref().map(super::excluded::text));
+        parts.extend(next(self.next.as_ref()));
         parts.join("\n\n")
     }
 

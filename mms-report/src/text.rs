@@ -1,5 +1,12 @@
 //! Sentences that reports share.
 
+use mms_files::shell;
+
+/// The line with the command to type next, if there is one.
+pub fn next(words: Option<&Vec<String>>) -> Option<String> {
+    words.map(|words| format!("next: {}", shell::command(&words[1..])))
+}
+
 /// How many of all verdicts are not as expected; `expected` is how to say that, as in "as theory expects".
 pub fn tally(unexpected: usize, all: usize, expected: &str) -> String {
     match (unexpected, all) {

@@ -227,12 +227,7 @@ pub(crate) fn at_most(what: &'static str, count: f64, limit: f64) -> Result<f64,
 
 /// Why a run stopped, where and when.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "stopped in step {step} at time {time:e}{}{}: {cause}; {}",
-    particle.map_or(String::new(), |p| format!(", particle {p}")),
-    if reference_position.is_empty() { String::new() } else { format!(", X = {reference_position:?}") },
-    cause.advice()
-)]
+#[error("{}; {}", self.place(), cause.advice())]
 pub struct Failure {
     /// The step that led to the bad state, counted from 1; 0 is the initial state.
     pub step: usize,
@@ -244,6 +239,16 @@ pub struct Failure {
     pub reference_position: Vec<f64>,
     /// What happened.
     pub cause: Cause,
+}
+
+impl Failure {
+    /// What happened, where and when, without advice.
+    pub fn place(&self) -> String {
+        let Failure { step, time, particle, reference_position: at, cause } = self;
+        let particle = particle.map_or(String::new(), |it| format!(", particle {it}"));
+        let at = if at.is_empty() { String::new() } else { format!(", X = {at:?}") };
+        format!("stopped in step {step} at time {time:e}{particle}{at}: {cause}")
+    }
 }
 
 /// What stopped a run.

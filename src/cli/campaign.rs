@@ -12,7 +12,7 @@ use clap::Args;
 use mms_campaign::Campaign as File;
 use mms_documents::campaign::{CampaignRuns, ListedRun};
 use mms_files::read::{self, Kind};
-use mms_files::shell::{command, quoted};
+use mms_files::shell::{command, quoted, words};
 use mms_files::store::Store;
 use mms_harness::canary;
 use mms_harness::judged::Judged;
@@ -26,7 +26,7 @@ use mms_spec::foreign;
 
 use super::follow::Interrupted;
 use super::format::Printing;
-use super::{Outcome, hold_output, print, say, this_command};
+use super::{Outcome, hold_output, next, print, say, this_command};
 use crate::provenance::{Input, Provenance};
 
 /// Run your own solver on the meshes of several studies, and judge each as `mms judge` does it.
@@ -150,8 +150,9 @@ impl Campaign {
             set: Vec::new(),
             hash: hash(plan, text),
         };
-        let report =
-            Report { plan, studies, canaries, provenance: this_command("campaign", input) };
+        let next = next::after_campaign(&mut studies, &plan.here, &words(std::env::args_os()));
+        let provenance = this_command("campaign", input);
+        let report = Report { plan, studies, canaries, next, provenance };
         self.tell(&report, work)
     }
 
@@ -199,9 +200,9 @@ impl Campaign {
         let [file, store] =
             [&self.file, &self.folder()].map(|it| it.to_string_lossy().into_owned());
         let head = ["campaign".to_owned(), file, format!("--store={store}")];
-        let words = |job: &Job| [head.as_slice(), &[format!("--only={}", job.name)]].concat();
+        let of = |job: &Job| [head.as_slice(), &[format!("--only={}", job.name)]].concat();
         self.each(work, "all runs are done", |_, job, is_done| {
-            let words = words(job);
+            let words = of(job);
             let all = [&["mms".to_owned()], words.as_slice()].concat();
             Ok((!is_done).then(|| (command(&words), listed(job, is_done, &all))))
         })

@@ -18,6 +18,7 @@ use mms_diagnosis::solver::Solver;
 use mms_exact::Exact;
 use mms_exact::{Input, evaluated};
 use mms_files::results::Disk;
+use mms_files::shell::words;
 use mms_judge::diagnose::{Alone, Factors, Reading, falls, find, gradients, left_out, read};
 use mms_judge::results::Results;
 use mms_judge::table::{Order, Orders};
@@ -31,6 +32,7 @@ use mms_spec::quantity::Quantity;
 
 use super::format::Printing;
 use super::naming::Naming;
+use super::next::{self, Meshes};
 use super::{Outcome, hold_output, print, say, this_command};
 
 /// Name the mistake of a solver by the error that it makes.
@@ -255,8 +257,14 @@ impl Diagnose {
         let material = Material { names: factors.names(), times: &times };
         let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material)?;
         let input = exact.input();
-        let report =
-            Diagnosed { field: &input.name, files: &self.files, diagnosis: &diagnosis, provenance };
+        let next = next::after_diagnosis(&diagnosis, &self.meshes(), &words(std::env::args_os()));
+        let report = Diagnosed {
+            field: &input.name,
+            files: &self.files,
+            diagnosis: &diagnosis,
+            next,
+            provenance,
+        };
         self.printing.print(&report)?;
         if let Some(folder) = &self.output {
             let written = report.write(folder)?;
@@ -268,6 +276,21 @@ impl Diagnose {
             Finding::Nothing => Outcome::AsExpected,
             Finding::Named | Finding::Unexplained => Outcome::Refuted,
         })
+    }
+
+    /// The results, and the options that `mms judge` takes as well.
+    fn meshes(&self) -> Meshes {
+        let options = [
+            next::list("quantity", &self.quantity).into_iter().collect(),
+            next::list("h", &self.h).into_iter().collect(),
+            next::list("time", &self.time).into_iter().collect(),
+            self.naming.arguments(),
+            next::each("max-memory", self.max_memory.as_slice()),
+            next::each("set", &self.set),
+            self.variant.arguments(),
+        ];
+        let field = self.field.clone().unwrap_or_default();
+        Meshes { field, files: self.files.clone(), options: options.concat() }
     }
 
     /// The law alone, or the quantities of results that are looked at.

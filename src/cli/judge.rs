@@ -16,7 +16,7 @@ use mms_report::View;
 use mms_spec::foreign;
 
 use super::format::Printing;
-use super::{Outcome, hold_output, print, this_command};
+use super::{Outcome, hold_output, next, print, this_command};
 use crate::provenance::Input;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
@@ -94,6 +94,7 @@ impl Judge {
         let provenance = this_command("judge", input);
         let mut report = Judgements::of(source.clone(), measured, provenance).context(source)?;
         report.notes = notes;
+        report.next = next::after_judgement(&report, None, false);
         self.tell(&report)
     }
 

@@ -4,20 +4,41 @@
 //! all of them share.
 
 use clap::error::ErrorKind;
+use clap::parser::ValueSource;
 use clap::{ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 use mms_options::method::MethodOptions;
 
 /// Every combination of what the options in [`LISTS`] are given, one method at least.
 #[derive(Clone, Debug)]
-pub struct Methods(Vec<MethodOptions>);
+pub struct Methods {
+    all: Vec<MethodOptions>,
+    given: Given,
+}
+
+/// Which of the options that a field chooses were given.
+#[derive(Clone, Copy, Debug)]
+pub struct Given {
+    /// Whether the formulation was.
+    pub formulation: bool,
+    /// Whether the shape function was.
+    pub shape: bool,
+}
 
 /// The options that take a list.
 const LISTS: [&str; 6] = ["formulation", "shape", "integrator", "transfer", "precision", "form"];
 
+/// The options that the field chooses if they are left out.
+const FROM_FIELD: [&str; 2] = ["formulation", "shape"];
+
 impl Methods {
     /// The methods, those of the first word of each list first.
     pub fn each(&self) -> &[MethodOptions] {
-        &self.0
+        &self.all
+    }
+
+    /// Which options were given.
+    pub fn given(&self) -> Given {
+        self.given
     }
 }
 
@@ -26,7 +47,11 @@ impl Args for Methods {
         LISTS.into_iter().fold(MethodOptions::augment_args(command), |command, name| {
             command.mut_arg(name, |arg| {
                 let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
-                arg.help(help + ". A list, as in A,B, compares methods")
+                let is_of_field = FROM_FIELD.contains(&name);
+                let usual =
+                    if is_of_field { ". By default what keeps its order on the body" } else { "" };
+                arg.help(format!("{help}{usual}. A list, as in A,B, compares methods"))
+                    .hide_default_value(is_of_field)
                     .value_delimiter(',')
                     .action(ArgAction::Append)
             })
@@ -48,7 +73,9 @@ impl FromArgMatches for Methods {
         all = vary(all, matches, "transfer", |it, word| it.transfer = word)?;
         all = vary(all, matches, "precision", |it, word| it.arithmetic.precision = word)?;
         all = vary(all, matches, "form", |it, word| it.arithmetic.form = word)?;
-        Ok(Self(all))
+        let is_given = |name| matches.value_source(name) == Some(ValueSource::CommandLine);
+        let [formulation, shape] = FROM_FIELD.map(is_given);
+        Ok(Self { all, given: Given { formulation, shape } })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {

@@ -28,6 +28,7 @@ mod list;
 mod methods;
 mod naming;
 mod new;
+mod next;
 mod report;
 mod run;
 mod saved;

@@ -7,6 +7,8 @@ use mms_judge::results::own_roles;
 use mms_results::names::{Mapping, Names};
 use mms_spec::own::Own;
 
+use super::next;
+
 /// The options of every command that reads files of other programs.
 #[derive(Args)]
 pub struct Naming {
@@ -34,6 +36,12 @@ impl Naming {
         let map = self.map.iter().map(|text| Mapping::read(text, &own));
         let map = map.collect::<Result<_, _>>().map_err(|mistake| anyhow!("`--map`: {mistake}"))?;
         Ok(Names { map, columns: self.columns.clone(), profile, own })
+    }
+
+    /// The arguments that ask for them.
+    pub fn arguments(&self) -> Vec<String> {
+        let columns = next::list("columns", &self.columns).into_iter().collect();
+        [next::each("map", &self.map), columns, next::each("from", self.from.as_slice())].concat()
     }
 
     /// The first option that is given; none if none is.

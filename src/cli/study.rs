@@ -1,5 +1,8 @@
 //! `mms study`: the observed order of a method on a field.
 
+mod cause;
+mod usual;
+
 use std::collections::btree_map::{BTreeMap, Entry};
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -17,8 +20,10 @@ use mms_options::method::{MethodOptions, Precision, finite, positive};
 use mms_report::{Comparison, Phases as InPhase, Refused, Study as Report, method, run};
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
-use mms_runtime::{Division, Method, Real, Run};
+use mms_runtime::{Division, Method, Real, Refusal, Run};
 
+use self::cause::Ended;
+use self::usual::filled;
 use super::format::Printing;
 use super::methods::Methods;
 use super::{Outcome, output_folder, print, say};
@@ -152,8 +157,8 @@ impl Periods {
 }
 
 /// One of the methods, and the field in the form that it takes.
-struct Case<'a> {
-    options: &'a MethodOptions,
+struct Case {
+    options: MethodOptions,
     input: Rc<Input>,
     method: Method,
 }
@@ -171,7 +176,7 @@ impl Study {
         let input = &cases[0].input;
         let folder = output_folder(self.output.as_deref(), input.name.raw())?;
         let provenance = provenance::new("study", words, input.provenance(&self.set));
-        let studies = self.reports(&cases, &provenance)?;
+        let studies = self.reports(&cases, words, &provenance)?;
         let is_started = studies.iter().any(Report::is_started);
         let report = Comparison { studies, provenance };
         if is_started || self.printing.is_json() {
@@ -196,14 +201,16 @@ impl Study {
         let command: Vec<_> = [&["mms".to_owned()], words].concat();
         let input = cases[0].input.provenance(&study.set);
         let provenance = provenance::new("study", &command, input);
-        let studies = study.reports(&cases, &Provenance { machine: None, ..provenance })?;
+        let provenance = Provenance { machine: None, ..provenance };
+        let studies = study.reports(&cases, &command, &provenance)?;
         Ok(studies.into_iter().next().filter(Report::is_started))
     }
 
     /// What is studied, one case at least: what cannot be is said before anything runs.
-    fn cases(&self) -> anyhow::Result<Vec<Case<'_>>> {
+    fn cases(&self) -> anyhow::Result<Vec<Case>> {
         let mut inputs = BTreeMap::new();
         let mut cases = Vec::new();
+        let mut impossible = Vec::new();
         for options in self.methods.each() {
             let input = match inputs.entry(options.arithmetic.form) {
                 Entry::Occupied(known) => Rc::clone(known.get()),
@@ -215,27 +222,81 @@ impl Study {
             for cells in &self.cells {
                 hold_division("--cells", cells, input.compiled.field.dimension)?;
             }
-            let (method, note) = options.method_for(&input, &self.set)?;
+            let options = filled(options, self.methods.given(), &input.compiled.field);
+            let (method, note) = match options.method_for(&input, &self.set) {
+                Ok(found) => found,
+                // One of several, whose words make no sense together.
+                Err(error) if self.methods.each().len() > 1 && error.is::<Refusal>() => {
+                    impossible.push((options, error));
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
             note.iter().for_each(say);
             cases.push(Case { options, input, method });
+        }
+        if cases.is_empty()
+            && let Some((_, error)) = impossible.pop()
+        {
+            return Err(error);
+        }
+        for (MethodOptions { formulation, shape, integrator, .. }, error) in impossible {
+            say(format_args!("left out: {formulation} {shape} {integrator}: {error}"));
         }
         Ok(cases)
     }
 
     /// The study of each case.
-    fn reports(&self, cases: &[Case<'_>], provenance: &Provenance) -> anyhow::Result<Vec<Report>> {
+    fn reports(
+        &self,
+        cases: &[Case],
+        words: &[String],
+        provenance: &Provenance,
+    ) -> anyhow::Result<Vec<Report>> {
         let mut reports = Vec::new();
         for case in cases {
             if cases.len() > 1 {
                 say(method::line(&case.method, case.options.arithmetic));
             }
-            reports.push(self.report(case, provenance.clone())?);
+            let mut report = self.report(case, provenance.clone())?;
+            self.explain(&mut report, case, cases.len() > 1, words)?;
+            reports.push(report);
         }
         Ok(reports)
     }
 
+    /// Says why a study does not pass, and what to type next.
+    fn explain(
+        &self,
+        report: &mut Report,
+        case: &Case,
+        is_one_of_several: bool,
+        words: &[String],
+    ) -> anyhow::Result<()> {
+        if report.verdict.is_good() || !report.is_started() {
+            return Ok(());
+        }
+        let main_job: Vec<_> = ["mms", "study", &self.field].map(str::to_owned).into();
+        let ended = Ended {
+            field: &self.field,
+            input: &case.input,
+            variant: case.options.variant(&self.motion),
+            set: &self.set,
+            method: &report.method,
+            is_one_of_several,
+            refinement: self.refine,
+            levels: &report.levels,
+            expected: report.expected,
+            verdict: report.verdict,
+            words: if words.len() > 1 { words } else { &main_job },
+        };
+        let (causes, next) = ended.explained()?;
+        (report.causes, report.next) = (causes, Some(next));
+        Ok(())
+    }
+
     /// The study of a field with one method.
-    fn report(&self, case: &Case<'_>, provenance: Provenance) -> anyhow::Result<Report> {
+    fn report(&self, case: &Case, provenance: Provenance) -> anyhow::Result<Report> {
         let Case { options, input, method } = case;
         let mut method = method.clone();
         let periods = self.through_periods(input, &mut method)?;
@@ -276,7 +337,7 @@ impl Study {
             verdict => verdict,
         };
         let exclusions = match (self.excluded, verdict) {
-            (true, Verdict::Pass) => self.exclusions(input, &method, &started)?,
+            (true, Verdict::Pass | Verdict::Exact) => self.exclusions(input, &method, &started)?,
             (true, _) => {
                 say("note: `--excluded`: only a pass excludes mistakes");
                 None
@@ -296,6 +357,8 @@ impl Study {
             fit,
             phases,
             exclusions,
+            causes: Vec::new(),
+            next: None,
             differences,
             method,
             levels,
@@ -398,7 +461,7 @@ impl Study {
             let phases = phases.found();
             match run.as_ref().map(|run| &run.level.errors) {
                 Ok(Ok(_)) => {}
-                Ok(Err(failure)) => progress.say(&format!("{cells} cells: {failure}")),
+                Ok(Err(failure)) => progress.say(&format!("{cells} cells: {}", failure.place())),
                 Err(refusal) => progress.say(&format!("{cells} cells: not started: {refusal}")),
             }
             run.map(|run| (run, phases)).map_err(|reason| Refused { cells, reason })

@@ -62,12 +62,43 @@ impl Folder {
         let output = command.output().expect("the program starts");
         let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
         let words = arguments.iter().map(|word| word.as_ref().to_string_lossy());
-        Run {
+        let run = Run {
             command: format!("mms {}", words.collect::<Vec<_>>().join(" ")),
             code: output.status.code().expect("the program ends by itself"),
             stdout: text(output.stdout),
             stderr: text(output.stderr),
-        }
+        };
+        self.follow(&run);
+        run
+    }
+
+    /// Types the command that a run prints as the next one, in a copy of the folder: a shell has to read it, and the program to
+    /// understand it.
+    fn follow(&self, run: &Run) {
+        let document: Option<Value> = serde_json::from_str(&run.stdout).ok();
+        let words = document.as_ref().and_then(|it| it["next_command"].as_array());
+        let of_document = words.map(|words| {
+            let quoted =
+                |it: &Value| format!("'{}'", it.as_str().expect("a word").replace('\'', r"'\''"));
+            words.iter().map(quoted).collect::<Vec<_>>().join(" ")
+        });
+        let lines = run.stdout.lines().filter_map(|line| line.strip_prefix("next: "));
+        let Some(line) = lines.last().map(str::to_owned).or(of_document) else { return };
+        let copy = Folder::new();
+        let copied = Command::new("cp").arg("-R").arg(self.path(".")).arg(copy.0.path()).status();
+        assert!(copied.expect("`cp` starts").success(), "{run}");
+        let program = Path::new(env!("CARGO_BIN_EXE_mms")).parent().expect("a folder");
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let paths = std::iter::once(program.to_owned()).chain(std::env::split_paths(&path));
+        let output = Command::new("bash")
+            .args(["-c", &line])
+            .current_dir(copy.0.path())
+            .env("PATH", std::env::join_paths(paths).expect("paths"))
+            .output()
+            .expect("`bash` starts");
+        let code = output.status.code().expect("the program ends by itself");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(matches!(code, 0 | 1 | 3), "`{line}` exits {code}: {said}\nafter {run}");
     }
 }
 

@@ -79,6 +79,7 @@ impl Series {
             is_noise: point.is_noise(),
             rounding: 0.0,
         }))
+        .exact(!self.points.is_empty() && self.points.iter().all(Point::is_noise))
     }
 
     /// Judges every norm against an expected order; the worst decides.

@@ -26,6 +26,7 @@ use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
 use super::super::naming::Naming;
+use super::super::next::{self, Meshes};
 use super::super::{Outcome, say, this_command};
 use super::{Judge, outcome};
 
@@ -99,6 +100,21 @@ fn starts() -> impl TypedValueParser<Value = Start> {
     names.try_map(|name| Start::of(&name))
 }
 
+impl Options {
+    /// The results of a field, and the options that `mms diagnose` takes as well.
+    fn meshes(&self, field: &str, files: &[String]) -> Meshes {
+        let options = [
+            next::list("h", &self.h).into_iter().collect(),
+            next::list("time", &self.time).into_iter().collect(),
+            self.naming.arguments(),
+            next::each("max-memory", self.max_memory.as_slice()),
+            next::each("set", &self.set),
+            self.variant.arguments(),
+        ];
+        Meshes { field: field.to_owned(), files: files.to_vec(), options: options.concat() }
+    }
+}
+
 impl Judge {
     /// Judges results, or compares two.
     pub(super) fn results(&self, field: &str) -> anyhow::Result<Outcome> {
@@ -120,7 +136,11 @@ impl Judge {
             return self.against(path, &exact.title(), &measurement);
         }
         let provenance = this_command("judge", exact.input().provenance(&options.set));
-        let report = Judgements::of_results(&exact, &self.files, measurement, None, provenance)?;
+        let mut report =
+            Judgements::of_results(&exact, &self.files, measurement, None, provenance)?;
+        let meshes = options.meshes(field, &self.files);
+        let is_chosen = !options.quantity.is_empty();
+        report.next = next::after_judgement(&report, Some(&meshes), is_chosen);
         self.tell(&report)
     }
 

@@ -1,0 +1,300 @@
+//! The likely causes of a study that does not pass, each with the option that avoids it.
+
+use mms_codegen::selection::{Freeze, Selection};
+use mms_convergence::{Expected, Verdict};
+use mms_exact::{Input, settings};
+use mms_mechanics::amplitude::Amplitude;
+use mms_options::field::{Variant, open};
+use mms_report::Refused;
+use mms_runtime::Transfer;
+use mms_runtime::failure::Cause as Stop;
+use mms_runtime::integrator::{Integrator, IntegratorVisitor};
+use mms_runtime::study::Refinement;
+use mms_runtime::{Division, Failure, FormulationName, IntegratorName, Method, Run, ShapeName};
+use mms_stability::judge;
+use mms_stability::warnings::warnings;
+use mms_symbolic::expr::Symbol;
+
+use super::super::next::{Words, changed, command};
+use super::usual::is_box;
+
+/// What is known of a study that has ended.
+pub struct Ended<'a> {
+    /// The field, as it was named.
+    pub field: &'a str,
+    /// The field in the form that the method takes.
+    pub input: &'a Input,
+    /// The variant of the field.
+    pub variant: Variant,
+    /// Parameters that were set.
+    pub set: &'a [String],
+    /// The method.
+    pub method: &'a Method,
+    /// Whether other methods were studied as well.
+    pub is_one_of_several: bool,
+    /// The refined lengths.
+    pub refinement: Refinement,
+    /// The levels, from coarse to fine.
+    pub levels: &'a [Result<Run, Refused>],
+    /// The expected order.
+    pub expected: Expected,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The words of the command.
+    pub words: &'a [String],
+}
+
+/// A likely cause, and the options that avoid it, by their names and values; none, if no option does.
+struct Cause {
+    says: String,
+    options: Vec<(&'static str, String)>,
+}
+
+impl Cause {
+    fn new(says: impl Into<String>, options: &[(&'static str, &str)]) -> Self {
+        let options = options.iter().map(|(name, value)| (*name, (*value).to_owned())).collect();
+        Cause { says: says.into(), options }
+    }
+}
+
+/// The option that a finer study of the same kind changes needs at most this many cells along an edge, in one to three dimensions.
+const MOST_CELLS: [usize; 3] = [1024, 64, 16];
+
+impl Ended<'_> {
+    /// The causes in sentences, and the command to type next.
+    pub fn explained(&self) -> anyhow::Result<(Vec<String>, Words)> {
+        let mut causes = self.of_time_step();
+        causes.extend(self.of_integrator());
+        causes.extend(self.of_transfer());
+        if self.refinement != Refinement::Time {
+            causes.extend(self.of_shape());
+            causes.extend(self.of_field()?);
+            causes.extend(self.of_rest());
+        }
+        causes.extend(self.of_stops());
+        causes.extend(self.of_few_levels().filter(|_| causes.is_empty()));
+        let options = causes.iter().find(|it| !it.options.is_empty()).map(|it| &it.options);
+        let next = match options {
+            Some(options) => changed(self.words, &self.alone(options)),
+            None => {
+                let set = self.set.iter().map(|it| format!("--set={it}"));
+                let head = ["check".to_owned(), self.field.to_owned()];
+                command(head.into_iter().chain(set).chain(self.variant.arguments()))
+            }
+        };
+        Ok((causes.into_iter().map(|it| it.says).collect(), next))
+    }
+
+    /// The options of this method and no other, with some changed.
+    fn alone(&self, options: &[(&'static str, String)]) -> Vec<(&'static str, String)> {
+        let mut own = Vec::new();
+        if self.is_one_of_several {
+            own.extend([
+                ("formulation", self.method.formulation.to_string()),
+                ("shape", self.method.shape.to_string()),
+                ("integrator", self.method.integrator.to_string()),
+                ("transfer", self.method.setup.transfer.to_string()),
+            ]);
+            own.retain(|(name, _)| options.iter().all(|(other, _)| other != name));
+        }
+        own.into_iter().chain(options.iter().cloned()).collect()
+    }
+
+    /// The runs that stopped, from coarse to fine.
+    fn failures(&self) -> impl Iterator<Item = &Failure> {
+        self.levels.iter().flatten().filter_map(|run| run.level.errors.as_ref().err())
+    }
+
+    /// A time step in which a wave may cross a cell.
+    fn of_time_step(&self) -> Vec<Cause> {
+        let courant = self.failures().filter_map(|it| match it.cause {
+            Stop::UnstableStep { courant, .. } => Some(courant),
+            _ => None,
+        });
+        let Some(stable) = courant.reduce(f64::min) else { return Vec::new() };
+        let digits = (2.0 - stable.log10().floor()).max(0.0) as i32;
+        let scale = 10f64.powi(digits);
+        let courant = ((stable * scale).floor() / scale).to_string();
+        let says =
+            format!("the time step is above the stable one: `--courant {courant}` is below it");
+        vec![Cause::new(says, &[("courant", &courant)])]
+    }
+
+    /// An integrator of a lower order.
+    fn of_integrator(&self) -> Option<Cause> {
+        struct Formal;
+        impl IntegratorVisitor for Formal {
+            type Output = i32;
+            fn visit<I: Integrator>(self) -> i32 {
+                I::FORMAL_ORDER
+            }
+        }
+        let order = self.method.integrator.visit(Formal);
+        let best = IntegratorName::Leapfrog;
+        let is_low = f64::from(order) < self.expected.order.min(f64::from(best.visit(Formal)));
+        let has_time = self.refinement != Refinement::Space && !self.method.setup.relax;
+        (is_low && has_time).then(|| {
+            let says = format!(
+                "`{}` is of order {order} in time: `--integrator {best}` is of order {}",
+                self.method.integrator,
+                best.visit(Formal)
+            );
+            Cause::new(says, &[("integrator", best.name())])
+        })
+    }
+
+    /// A transfer that damps.
+    fn of_transfer(&self) -> Option<Cause> {
+        let transfer = self.method.setup.transfer;
+        let damps = match transfer {
+            Transfer::Pic => true,
+            Transfer::Flip { fraction } => fraction < 1.0,
+            Transfer::Apic | Transfer::Xpic { .. } => false,
+        };
+        let has_time = self.refinement != Refinement::Space && !self.method.setup.relax;
+        (damps && has_time && self.expected.order > 1.0).then(|| {
+            let says = "particles lose part of their velocity to the grid in each step, which is an error of order 1 in time: \
+                        `--transfer flip` keeps it";
+            let fraction = matches!(transfer, Transfer::Flip { .. });
+            let flip = Cause::new(says, &[("transfer", "flip")]);
+            let whole = ("flip-fraction", "1".to_owned());
+            Cause { options: flip.options.into_iter().chain(fraction.then_some(whole)).collect(), ..flip }
+        })
+    }
+
+    /// A shape function that loses its order on such a body.
+    fn of_shape(&self) -> Option<Cause> {
+        let Method { shape, formulation, .. } = self.method;
+        let field = &self.input.compiled.field;
+        let linear: &[(&str, &str)] = &[("formulation", "total"), ("shape", "linear")];
+        let cpdi: &[(&str, &str)] = &[("formulation", "updated"), ("shape", "cpdi")];
+        let (best, words) = match is_box(field) {
+            true => (linear, "--formulation total --shape linear"),
+            false => (cpdi, "--shape cpdi"),
+        };
+        let what = match (formulation, shape) {
+            (FormulationName::Updated, ShapeName::Cpdi) => return None,
+            (FormulationName::Updated, ShapeName::Cpgimp) if field.dimension == 1 => {
+                self.failures().next()?;
+                "particles get as wide as cells, or cross them".to_owned()
+            }
+            (FormulationName::Updated, ShapeName::Cpgimp) => {
+                "particles cross cells, and their boxes follow no shear: they gap and overlap"
+                    .into()
+            }
+            (FormulationName::Updated, ShapeName::Ugimp) => {
+                "the domains of particles keep their size: they gap and overlap as the body deforms"
+                    .into()
+            }
+            (FormulationName::Updated, other) => {
+                format!("particles cross cells, where `{other}` loses its order")
+            }
+            (FormulationName::Total, ShapeName::CubicBspline) if is_box(field) => {
+                "lumped mass takes the order of cubic splines at the faces".into()
+            }
+            (FormulationName::Total, _) if is_box(field) => return None,
+            (FormulationName::Total, _) => {
+                "curved faces cut cells, some of which hold few particles".into()
+            }
+        };
+        Some(Cause::new(format!("{what}; `{words}` avoids it"), best))
+    }
+
+    /// The warnings of `mms check` about the motion, with a smaller amplitude.
+    fn of_field(&self) -> anyhow::Result<Vec<Cause>> {
+        let set = settings(self.set)?;
+        let compiled = match set.is_empty() {
+            true => self.input.compiled.clone(),
+            false => {
+                let freeze = Freeze::Only(set.iter().map(|(name, _)| name.clone()).collect());
+                let selection = Selection { set, freeze, ..Selection::default() };
+                let compiled = open(self.field)?.compile(&self.variant.options(selection));
+                let Ok(Ok(compiled)) = compiled.map(Ok::<_, ()>) else { return Ok(Vec::new()) };
+                compiled.into()
+            }
+        };
+        let stability = judge(&compiled);
+        let amplitude = self.half_of_the_amplitude()?;
+        let cause = |message: String| {
+            let says = format!("`mms check` warns: {message}");
+            match &amplitude {
+                None => Cause::new(says, &[]),
+                Some(half) => Cause {
+                    says: format!("{says}; `--set {half}` makes the motion smaller"),
+                    options: vec![("set", half.clone())],
+                },
+            }
+        };
+        let all = warnings(&compiled, &stability, None);
+        Ok(all.into_iter().take(2).map(|it| cause(it.message)).collect())
+    }
+
+    /// Half of the parameter with which the motion vanishes, if its range allows that.
+    fn half_of_the_amplitude(&self) -> anyhow::Result<Option<String>> {
+        let compiled = &self.input.compiled;
+        let Some(amplitude) = Amplitude::find(&compiled.graph, &compiled.model) else {
+            return Ok(None);
+        };
+        let index = amplitude.index();
+        let values = compiled.parameters::<f64>(&self.input.settings(self.set)?);
+        let half = format!("{}={}", compiled.model.parameters[index].name, values[index] / 2.0);
+        let is_allowed = self.input.hold(std::slice::from_ref(&half)).is_ok();
+        Ok(is_allowed.then_some(half))
+    }
+
+    /// A field that does not move, in a study that follows its motion.
+    fn of_rest(&self) -> Option<Cause> {
+        let compiled = &self.input.compiled;
+        let is_timed = |u| compiled.graph.symbols(u).contains(&Symbol::Time);
+        let moves = compiled.model.displacement.iter().any(|u| is_timed(*u));
+        (!moves && !self.input.is_static()).then(|| {
+            let says = "nothing moves in this field, so that the study follows the vibration of its errors; a file without `time` \
+                        under [domain] is taken to its equilibrium by `--relax`";
+            Cause::new(says, &[])
+        })
+    }
+
+    /// Runs that stopped: fewer and larger steps help where finer meshes get further, and not else.
+    fn of_stops(&self) -> Option<Cause> {
+        let is_unstable = |it: &&Failure| matches!(it.cause, Stop::UnstableStep { .. });
+        let stops: Vec<&Failure> = self.failures().filter(|it| !is_unstable(it)).collect();
+        let last = stops.last()?;
+        let is_finest = self.levels.last()?.as_ref().is_ok_and(|run| run.level.errors.is_err());
+        let sooner = stops.windows(2).all(|pair| pair[1].time <= pair[0].time);
+        let times: Vec<_> = stops.iter().map(|it| format!("{:.2e}", it.time)).collect();
+        Some(match (is_finest && sooner, stops.len()) {
+            (true, 2..) => Cause::new(
+                format!(
+                    "finer meshes stop sooner, at t = {}: smaller steps and more cells do not help",
+                    times.join(", ")
+                ),
+                &[],
+            ),
+            _ => Cause::new(format!("a run stopped: {}", last.cause.advice()), &[]),
+        })
+    }
+
+    /// Levels that do not tell: one more, of twice the cells.
+    fn of_few_levels(&self) -> Option<Cause> {
+        if self.verdict != Verdict::NotAsymptotic {
+            return None;
+        }
+        if self.refinement == Refinement::Time {
+            let levels = (self.levels.len() + 1).to_string();
+            let says = "the levels do not tell: a finer time step would";
+            return (self.levels.len() < 8).then(|| Cause::new(says, &[("levels", &levels)]));
+        }
+        let mut cells: Vec<Division> =
+            self.levels.iter().flatten().map(|run| run.level.cells).collect();
+        let finer = match *cells.last()? {
+            Division::Uniform(number) => Division::Uniform(2 * number),
+            Division::PerAxis(each, given) => Division::PerAxis(each.map(|it| 2 * it), given),
+        };
+        let most = MOST_CELLS[self.input.compiled.field.dimension - 1];
+        let is_small = finer.numbers().iter().all(|it| *it <= most);
+        cells.push(finer);
+        let cells: Vec<_> = cells.iter().map(Division::to_string).collect();
+        let says = "the levels do not tell: a finer mesh would";
+        is_small.then(|| Cause::new(says, &[("cells", &cells.join(","))]))
+    }
+}

@@ -1,0 +1,49 @@
+//! The formulation and the shape function of a study whose options leave them open: those that keep their order on the body of
+//! the field, as docs/orders.md shows.
+
+use mms_options::method::MethodOptions;
+use mms_runtime::{FormulationName, ShapeName};
+use mms_spec::{Body, FieldSpec};
+
+use super::super::methods::Given;
+
+/// The formulation and the shape function for a field: on a box of two or three dimensions nothing crosses cells of the
+/// reference body; a bar and a round body have those of the file's first `[[study]]`, if it has one.
+fn usual(field: &FieldSpec) -> (FormulationName, ShapeName) {
+    let is_box = is_box(field);
+    let named = field.studies.first().filter(|_| !is_box || field.dimension == 1);
+    let named = named.and_then(|it| {
+        let formulation = it.formulation.as_deref().unwrap_or("updated");
+        Some((formulation.parse().ok()?, it.shape.parse().ok()?))
+    });
+    named.unwrap_or_else(|| match is_box {
+        true => (FormulationName::Total, ShapeName::Linear),
+        false => (FormulationName::Updated, ShapeName::Cpdi),
+    })
+}
+
+/// Whether the body is a box.
+pub fn is_box(field: &FieldSpec) -> bool {
+    matches!(field.domain.body, Body::Box { .. })
+}
+
+/// Options with the formulation and the shape function that were not given.
+pub fn filled(options: &MethodOptions, given: Given, field: &FieldSpec) -> MethodOptions {
+    let (formulation, shape) = match (given.formulation, given.shape) {
+        (_, true) => return options.clone(),
+        (false, false) => usual(field),
+        (true, false) if usual(field).0 == options.formulation => usual(field),
+        (true, false) => {
+            let shape = match (options.formulation, is_box(field)) {
+                (FormulationName::Total, true) => ShapeName::Linear,
+                (FormulationName::Total, false) => ShapeName::QuadraticBspline,
+                (FormulationName::Updated, true) => ShapeName::Cpgimp,
+                (FormulationName::Updated, false) => ShapeName::Cpdi,
+            };
+            (options.formulation, shape)
+        }
+    };
+    let mut filled = options.clone();
+    (filled.formulation, filled.shape) = (formulation, shape);
+    filled
+}
