@@ -63,6 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         eprintln!("{} {}", row.field, row.method);
         println!("{}", line_in_time(row)?);
     }
+    print!("\n{}", include_str!("usual.md"));
     Ok(())
 }
 

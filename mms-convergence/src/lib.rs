@@ -61,7 +61,7 @@ pub use sequence::{Level, Sample, Sequence, observed_order};
 pub use share::Share;
 pub use term::{Kind, Term};
 pub use verdict::{CONSTANT_TOLERANCE, RULE, TOLERANCE, Verdict, is_near};
-pub use words::Name;
+pub use words::{Name, bound};
 
 /// How likely what is sought lies outside an interval.
 pub(crate) const OUTSIDE: f64 = 0.05;

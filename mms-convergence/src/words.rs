@@ -10,6 +10,18 @@ use crate::verdict::Verdict;
 /// How levels are called: by what is refined, or as who asks likes it.
 pub type Name<'a> = &'a dyn Fn(f64) -> String;
 
+/// A bound of an order, with the digits that tell it from the expected order.
+pub fn bound(value: f64, expected: f64) -> String {
+    let short = format!("{value:.2}");
+    let is_told = |text: &String| text.parse() != Ok(expected);
+    if is_told(&short) || (value - expected).abs() < 1e-6 {
+        return short;
+    }
+    let longer = (3..=6).map(|digits| format!("{value:.digits$}")).find(is_told);
+    let side = if value < expected { "below" } else { "above" };
+    format!("{}, {side} {expected}", longer.unwrap_or(short))
+}
+
 /// Why an order may be above that of theory.
 const ABOVE: &str = "an order above theory comes from an error that changes its sign between the levels, from errors of \
      space and time that cancel, from places where the method is more accurate than elsewhere (nodes, Gauss points), \
@@ -29,10 +41,17 @@ impl Judgement {
         finding.says(norm, *expected, name)
     }
 
-    /// What is behind the verdict, a sentence a line.
+    /// What is behind the verdict, a sentence a line: first where the interval is from.
     pub fn explanations(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
         let Judged { expected, finding, .. } = self.deciding();
-        let mut lines = finding.explanations(*expected, symbol, name);
+        let basis = finding.basis(*expected).into_iter();
+        basis.chain(self.reasons(symbol, name)).collect()
+    }
+
+    /// What is behind the verdict, but for where the interval is from.
+    pub fn reasons(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
+        let Judged { expected, finding, .. } = self.deciding();
+        let mut lines = finding.reasons(*expected, symbol, name);
         lines.extend(self.layer().map(|q| {
             format!(
                 "the orders of l1, l2 and linf are those of a layer at a face where the order is {q:.1}: q + 1, q + 1/2 \
@@ -57,10 +76,10 @@ impl Finding {
             None => format!("no observed order ({norm}; {levels})"),
             Some(it) => match it.interval {
                 None => format!("observed order {:.2} ({norm}; {levels})", it.order),
-                Some([low, high]) => format!(
-                    "observed order {:.2}, between {low:.2} and {high:.2} ({norm}; {levels})",
-                    it.order
-                ),
+                Some(interval) => {
+                    let [low, high] = interval.map(|it| bound(it, expected.order));
+                    format!("observed order {:.2}, between {low} and {high} ({norm}; {levels})", it.order)
+                }
             },
         };
         format!("{observed}, expected {expected}{}", self.because(expected))
@@ -98,10 +117,9 @@ impl Finding {
         ))
     }
 
-    /// What the fits say, in words.
-    fn explanations(&self, expected: Expected, symbol: &str, name: Name<'_>) -> Vec<String> {
-        let mut lines = Vec::new();
-        lines.extend(self.estimate.and_then(|it| match it.basis {
+    /// Where the interval is from.
+    fn basis(&self, expected: Expected) -> Option<String> {
+        match self.estimate?.basis {
             Basis::Scatter => Some(format!(
                 "the interval is that of 95 % by the scatter about a power law, and no less than +-{:.2}",
                 expected.resolution()
@@ -111,7 +129,12 @@ impl Finding {
             ),
             Basis::Digits => Some("the interval is from the digits of the two errors".into()),
             Basis::Nothing => None,
-        }));
+        }
+    }
+
+    /// What the fits say, in words.
+    fn reasons(&self, expected: Expected, symbol: &str, name: Name<'_>) -> Vec<String> {
+        let mut lines = Vec::new();
         let is_asked = matches!(self.reason, Reason::Below | Reason::Open);
         lines.extend(self.share_says(expected.order).filter(|_| is_asked));
         lines.extend(

@@ -66,6 +66,9 @@ pub struct CheckedFile {
     /// True if simplification ended within its budget.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub simplified: Option<bool>,
+    /// The words of the command to type next, `mms` first, if something is refuted or not proved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub next_command: Option<Vec<String>>,
 }
 
 /// A message at its place in a file. A file that cannot be read has no place.

@@ -133,12 +133,22 @@ impl Judgements {
         levels.into_iter().zip(std::iter::once(None).chain(orders)).collect()
     }
 
-    /// The verdict of a quantity in words.
-    pub fn says(&self, quantity: &Quantity, judged: &Judged) -> Vec<String> {
+    /// The verdict of a quantity in words, all of them.
+    fn says(&self, quantity: &Quantity, judged: &Judged) -> Vec<String> {
+        self.sentences(quantity, judged, true)
+    }
+
+    /// The verdict of a quantity in words; `is_full` says where intervals are from as well.
+    pub fn sentences(&self, quantity: &Quantity, judged: &Judged, is_full: bool) -> Vec<String> {
         let fits = quantity.norms.iter().zip(&judged.fits);
         let fits = fits.filter_map(|(norm, fit)| Some(fit.as_ref()?.sentence(&norm.name.shown())));
-        let mut lines =
-            judged.judgement.sentences(self.refined.symbol(), &|length| self.name(length));
+        let Judged { judgement, .. } = judged;
+        let (symbol, name) = (self.refined.symbol(), |length| self.name(length));
+        let mut lines = vec![format!("{}: {}", judgement.verdict(), judgement.headline(&name))];
+        lines.extend(match is_full {
+            true => judgement.explanations(symbol, &name),
+            false => judgement.reasons(symbol, &name),
+        });
         let deciding = judged.judgement.deciding();
         lines.extend(deciding.is_superconvergent().then(|| {
             format!(

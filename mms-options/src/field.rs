@@ -195,6 +195,12 @@ fn entry(field: &str) -> anyhow::Result<&'static Entry> {
     if let Some(entry) = gallery::find(field) {
         return Ok(entry);
     }
+    if Path::new(field).extension().is_some_and(|it| it != "toml") {
+        bail!(
+            "`{}` is in the place of the field, and is no field: name one first, as in bar_1d or ./mine.toml",
+            shown(field)
+        );
+    }
     let names = gallery::FIELDS.iter().map(|entry| entry.name);
     let advice = advice(field, names, |all| {
         format!("it holds {all}; a file of your own is given by its path, ending in .toml")

@@ -25,6 +25,24 @@ use super::text::next;
 pub struct View<'a>(pub &'a Report<'a>);
 
 impl View<'_> {
+    /// The text: what runs and results lack, the judgements that are no pass, or all of them, and a row for each study.
+    fn all(&self, is_full: bool) -> String {
+        let mut parts: Vec<String> =
+            self.0.studies.iter().flat_map(|it| parts(it, is_full)).collect();
+        if self.0.studies.iter().any(|it| it.planned.is_whole()) {
+            parts.push(self.matrix().to_string());
+        }
+        let mut end = vec![self.tally()];
+        end.extend(self.0.excluded().map(|it| match is_full {
+            true => excluded::together(&it),
+            false => excluded::counts_together(&it),
+        }));
+        end.extend(self.canaries());
+        end.extend(next(self.0.next.as_ref()));
+        parts.push(end.join("\n"));
+        parts.join("\n\n")
+    }
+
     /// A row for each study.
     fn matrix(&self) -> Table {
         let header = ["study", "field", "expected", "observed", "of", "verdict"];
@@ -101,15 +119,11 @@ impl Shown for View<'_> {
     type Document = Campaign;
 
     fn text(&self) -> String {
-        let mut parts: Vec<String> = self.0.studies.iter().flat_map(parts).collect();
-        if self.0.studies.iter().any(|it| it.planned.is_whole()) {
-            parts.push(self.matrix().to_string());
-        }
-        parts.extend(self.0.excluded().map(|it| excluded::together(&it)));
-        parts.push(self.tally());
-        parts.extend(self.canaries());
-        parts.extend(next(self.0.next.as_ref()));
-        parts.join("\n\n")
+        self.all(false)
+    }
+
+    fn full_text(&self) -> String {
+        self.all(true)
     }
 
     fn markdown(&self) -> String {
@@ -138,14 +152,16 @@ impl Shown for View<'_> {
 }
 
 /// The parts of the text about a study: runs that failed, processes that they left, and its judgement.
-fn parts(judged: &Judged<'_>) -> Vec<String> {
+fn parts(judged: &Judged<'_>, is_full: bool) -> Vec<String> {
     let mut parts = Vec::new();
     let name = shown(&judged.planned.study.name);
     let runs = judged.planned.jobs.iter().zip(&judged.outcomes);
     parts.extend(runs.clone().filter_map(|(job, outcome)| failure(job, outcome)));
     parts.extend(runs.filter_map(|(job, outcome)| left_behind(job, outcome)));
     parts.extend(judged.mistake.as_ref().map(|it| format!("{name}: {it}")));
-    let tables = judged.judgements.as_ref().map(|it| JudgementView(it).text());
+    let is_told = |it: &&Judgements| is_full || !it.verdict().is_good();
+    let tables = judged.judgements.as_ref().filter(is_told);
+    let tables = tables.map(|it| JudgementView(it).without_next(is_full));
     parts.extend(tables.map(|tables| format!("study {name}\n{tables}")));
     parts
 }

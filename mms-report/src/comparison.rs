@@ -12,7 +12,7 @@ use super::Study;
 use super::page;
 use super::plot::Width;
 use crate::shown::Shown;
-use crate::table::Table;
+use crate::table::{FITTED, Table};
 use crate::text::next;
 
 /// The document of one study, or of several methods.
@@ -75,7 +75,7 @@ impl Comparison {
     /// l2 of each method on each level, or in time its difference to the next.
     fn errors(&self) -> Table {
         let first = &self.studies[0];
-        let ends = ["order", "constant", "verdict"].map(str::to_owned);
+        let ends = [FITTED, "constant", "verdict"].map(str::to_owned);
         let header = ["l2".to_owned()].into_iter().chain(first.names_of_levels()).chain(ends);
         let caption = format!("{}: l2 of {} methods", first.field.shown(), self.studies.len());
         let mut table = Table::new(caption, header).right_from(1);
@@ -127,6 +127,13 @@ impl Shown for Comparison {
         parts.push(format!("{} of {} methods pass", self.passed(), self.studies.len()));
         parts.extend(self.studies.iter().find_map(|it| next(it.next.as_ref())));
         parts.join("\n\n")
+    }
+
+    fn full_text(&self) -> String {
+        match self.studies.as_slice() {
+            [alone] => alone.full_text(),
+            _ => self.text(),
+        }
     }
 
     fn tables(&self) -> Vec<Table> {

@@ -41,6 +41,36 @@ impl Diagnosed<'_> {
         Ok(written.join(", "))
     }
 
+    /// The text.
+    fn all(&self, is_full: bool) -> String {
+        let it = self.diagnosis;
+        let mut parts = vec![
+            format!("{}: {}", self.field.shown(), it.rung.says()),
+            self.finding(),
+            format!("the error is {:.2e} of the solution; {}", it.error, ordinary(it.expected)),
+        ];
+        parts.extend(it.falls.as_ref().map(|falls| order(falls, it.of_order.as_ref())));
+        if it.finding != Finding::Nothing {
+            parts.push(self.table().to_string());
+        }
+        parts.extend(it.pair.as_ref().map(|pair| {
+            let [a, b] = &pair.hypotheses;
+            format!("two at once? {a} and {b} together explain {:.1} %", 100.0 * pair.explained)
+        }));
+        parts.extend(it.like.as_ref().map(alike));
+        if it.finding == Finding::Unexplained {
+            parts.extend(it.place.as_ref().map(|at| place(at, it.falls.is_none())));
+        }
+        let unseen = &it.cannot_be_seen;
+        parts.extend((!unseen.is_empty()).then(|| match is_full {
+            true => format!("these results cannot show: {}", unseen.join(", ")),
+            false => format!("these results cannot show {} other mistakes (--verbose)", unseen.len()),
+        }));
+        parts.push(format!("to do: {}", it.rung.next(it.finding)));
+        parts.extend(next(self.next.as_ref()));
+        parts.join("\n\n")
+    }
+
     fn finding(&self) -> String {
         let it = self.diagnosis;
         match (it.finding, it.ranked.first()) {
@@ -73,33 +103,11 @@ impl Shown for Diagnosed<'_> {
     type Document = documents::Diagnose;
 
     fn text(&self) -> String {
-        let it = self.diagnosis;
-        let mut parts = vec![format!(
-            "{}: {}\nthe error is {:.2e} of the solution; {}",
-            self.field.shown(),
-            it.rung.says(),
-            it.error,
-            ordinary(it.expected)
-        )];
-        parts.extend(it.falls.as_ref().map(|falls| order(falls, it.of_order.as_ref())));
-        parts.push(self.finding());
-        if it.finding != Finding::Nothing {
-            parts.push(self.table().to_string());
-        }
-        parts.extend(it.pair.as_ref().map(|pair| {
-            let [a, b] = &pair.hypotheses;
-            format!("two at once? {a} and {b} together explain {:.1} %", 100.0 * pair.explained)
-        }));
-        parts.extend(it.like.as_ref().map(alike));
-        if it.finding == Finding::Unexplained {
-            parts.extend(it.place.as_ref().map(|at| place(at, it.falls.is_none())));
-        }
-        if !it.cannot_be_seen.is_empty() {
-            parts.push(format!("these results cannot show: {}", it.cannot_be_seen.join(", ")));
-        }
-        parts.push(format!("to do: {}", it.rung.next(it.finding)));
-        parts.extend(next(self.next.as_ref()));
-        parts.join("\n\n")
+        self.all(false)
+    }
+
+    fn full_text(&self) -> String {
+        self.all(true)
     }
 
     fn tables(&self) -> Vec<Table> {

@@ -4,6 +4,36 @@ use mms_diagnosis::excluded::{Excluded, Shown};
 use mms_judge::Together;
 use mms_judge::results::Exclusions;
 
+/// How many names a line shows.
+const SHOWN: usize = 12;
+
+/// How many mistakes of all are excluded, and the first names of those that are still open.
+fn counted(excluded: usize, all: usize, open: &[String]) -> String {
+    let more = open.len().saturating_sub(SHOWN);
+    let names = listed(open.iter().take(SHOWN).cloned());
+    let more = if more > 0 { format!(" and {more} more (--verbose)") } else { String::new() };
+    let open = if open.is_empty() { String::new() } else { format!("; open: {names}{more}") };
+    format!("excluded: {excluded} of {all} mistakes{open}")
+}
+
+/// The line of mistakes that several results exclude together.
+pub fn counts_together(of: &Together) -> String {
+    let open = of.all.iter().filter(|(_, by)| by.is_none());
+    let open: Vec<String> = open.map(|(name, _)| name.clone()).collect();
+    counted(of.all.len() - open.len(), of.all.len(), &open)
+}
+
+/// The line of the mistakes that a pass excludes, from some size on if they have one.
+pub fn counts(exclusions: &Exclusions) -> String {
+    let all = match &exclusions.all {
+        Err(_) => return text(exclusions),
+        Ok(all) => all,
+    };
+    let open = all.iter().filter(|it| !it.is_excluded());
+    let open: Vec<String> = open.map(|it| it.title.clone()).collect();
+    counted(all.len() - open.len(), all.len(), &open)
+}
+
 /// The lines of mistakes that several results exclude together.
 pub fn together(of: &Together) -> String {
     let names = |is_excluded: bool| {

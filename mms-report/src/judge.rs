@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mms_convergence::RULE;
+use mms_convergence::{RULE, bound};
 use mms_documents::judge::Judge;
 use mms_files::write::{pretty, write_files};
 use mms_judge::Judgements;
@@ -13,7 +13,7 @@ use super::excluded;
 use super::page;
 use super::plot::Width;
 use super::shown::Shown;
-use super::table::Table;
+use super::table::{PAIR, Table};
 use super::text::next;
 
 /// The text, the table and the picture of judgements.
@@ -35,13 +35,49 @@ fn order(order: Option<f64>) -> String {
 }
 
 impl View<'_> {
+    /// The text: of several quantities the verdict first.
+    fn all(&self, is_full: bool) -> String {
+        let next = next(self.0.next.as_ref());
+        self.without_next(is_full) + &next.map_or(String::new(), |it| format!("\n{it}"))
+    }
+
+    /// The same without the next command.
+    pub fn without_next(&self, is_full: bool) -> String {
+        let several = self.0.judged.len() > 1;
+        let mut head = vec![format!("{}: {} runs", self.0.source, self.0.measured.runs.len())];
+        if several {
+            let passed = self.0.judged.iter().filter(|it| it.judgement.verdict().is_good());
+            let (count, all) = (passed.count(), self.0.judged.len());
+            head.push(format!("{}: {count} of {all} quantities pass", self.0.verdict()));
+        }
+        head.extend(self.0.notes.iter().cloned());
+        let mut parts = vec![head.join("\n")];
+        for (quantity, judged) in self.0.each() {
+            let mut lines = Vec::new();
+            lines.extend(several.then(|| quantity.name.shown()));
+            lines.push(self.table(quantity).to_string());
+            parts.push(lines.join("\n"));
+            parts.push(self.0.sentences(quantity, judged, is_full).join("\n"));
+        }
+        let mut end = vec![format!("by rule {RULE} of docs/guide/judging.md")];
+        end.extend(self.0.exclusions.as_ref().map(|it| match is_full {
+            true => excluded::text(it),
+            false => excluded::counts(it),
+        }));
+        parts.push(end.join("\n"));
+        parts.join("\n\n")
+    }
+
     /// The norm that decides, with its expected and observed order.
     pub fn deciding(&self) -> Option<Deciding> {
         let (at, _) = self.0.decided();
         let (quantity, judged) = self.0.each().nth(at)?;
         let deciding = judged.judgement.deciding();
         let observed = deciding.finding.estimate.map(|it| match it.interval {
-            Some([low, high]) => format!("{:.2} ({low:.2} to {high:.2})", it.order),
+            Some(interval) => {
+                let [low, high] = interval.map(|it| bound(it, deciding.expected.order));
+                format!("{:.2} ({low} to {high})", it.order)
+            }
             None => order(Some(it.order)),
         });
         let of = format!("{} {}", quantity.name.shown(), shown(&deciding.norm));
@@ -68,7 +104,7 @@ impl View<'_> {
         let length = if self.0.refined == Refined::Time { "dt" } else { "h" };
         let mut header = vec![length.to_owned(), "runs".into()];
         let norms: Vec<_> = quantity.norms.iter().map(|norm| self.0.levels(norm)).collect();
-        header.extend(quantity.norms.iter().flat_map(|it| [it.name.shown(), "order".into()]));
+        header.extend(quantity.norms.iter().flat_map(|it| [it.name.shown(), PAIR.into()]));
         let mut table = Table::new(self.caption(quantity), header).right_from(0);
         for at in 0..norms.first().map_or(0, Vec::len) {
             let (level, _) = &norms[0][at];
@@ -118,25 +154,11 @@ impl Shown for View<'_> {
     type Document = Judge;
 
     fn text(&self) -> String {
-        let head = format!("{}: {} runs", self.0.source, self.0.measured.runs.len());
-        let mut parts = vec![[&[head], self.0.notes.as_slice()].concat().join("\n")];
-        let several = self.0.judged.len() > 1;
-        for (quantity, judged) in self.0.each() {
-            let mut lines = Vec::new();
-            lines.extend(several.then(|| quantity.name.shown()));
-            lines.push(self.table(quantity).to_string());
-            parts.push(lines.join("\n"));
-            parts.push(self.0.says(quantity, judged).join("\n"));
-        }
-        if several {
-            let passed = self.0.judged.iter().filter(|it| it.judgement.verdict().is_good());
-            let (count, all) = (passed.count(), self.0.judged.len());
-            parts.push(format!("{}: {count} of {all} quantities pass", self.0.verdict()));
-        }
-        parts.push(format!("by rule {RULE} of docs/guide/judging.md"));
-        parts.extend(self.0.exclusions.as_ref().map(excluded::text));
-        parts.extend(next(self.0.next.as_ref()));
-        parts.join("\n\n")
+        self.all(false)
+    }
+
+    fn full_text(&self) -> String {
+        self.all(true)
     }
 
     fn tables(&self) -> Vec<Table> {

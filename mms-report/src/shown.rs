@@ -61,6 +61,11 @@ pub trait Shown {
     /// The text for a terminal.
     fn text(&self) -> String;
 
+    /// The text with full lists and all explanations.
+    fn full_text(&self) -> String {
+        self.text()
+    }
+
     /// The tables of the text.
     fn tables(&self) -> Vec<Table>;
 

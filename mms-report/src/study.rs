@@ -18,7 +18,7 @@ use mms_spec::foreign::Foreign;
 use super::plot::Width;
 use super::run::quantities;
 use super::shown::Shown;
-use super::table::Table;
+use super::table::{PAIR, Table};
 use super::text::next;
 use super::{Phases, method, page};
 
@@ -325,7 +325,7 @@ impl Study {
 
     fn levels_table(&self) -> Table {
         let heads =
-            ["cells", "particles", "steps", "l1", "order", "l2", "order", "linf", "order", "time"];
+            ["cells", "particles", "steps", "l1", PAIR, "l2", PAIR, "linf", PAIR, "time"];
         let relaxes = self.method.setup.relax;
         let header = heads.into_iter().chain(relaxes.then_some("residual"));
         let when = if relaxes { "at equilibrium" } else { "the largest over time" };
@@ -376,7 +376,7 @@ impl Study {
     }
 
     fn differences_table(&self, steps: &[(Point, Orders)]) -> Table {
-        let header = ["time step", "to the next: l1", "order", "l2", "order", "linf", "order"];
+        let header = ["time step", "to the next: l1", PAIR, "l2", PAIR, "linf", PAIR];
         let caption = format!("{}: differences to the next level", self.field.shown());
         let mut table = Table::new(caption, header).right_from(0);
         for (point, observed) in steps {
@@ -426,15 +426,18 @@ impl Study {
         if self.refinement == Refinement::Time { "dt" } else { "h" }
     }
 
-    /// The verdict, and all that it rests on.
-    fn conclusions(&self) -> String {
+    /// The verdict, and what it rests on; in full also where the interval is from, and a constant that nobody expects.
+    fn conclusions(&self, is_full: bool) -> String {
         let mut lines = vec![self.conclusion()];
-        lines.extend(
-            self.judgement.explanations(self.symbol(), &|length| self.name_of_level(length)),
-        );
+        let (symbol, name) = (self.symbol(), |length| self.name_of_level(length));
+        lines.extend(match is_full {
+            true => self.judgement.explanations(symbol, &name),
+            false => self.judgement.reasons(symbol, &name),
+        });
         lines.extend(self.causes.iter().map(|it| format!("likely cause: {it}")));
         lines.extend(self.growth());
-        lines.push(self.constant());
+        let has_constant = is_full || self.expected_error_constant.is_some();
+        lines.extend(has_constant.then(|| self.constant()));
         lines.extend(self.fit.map(|fit| fit.sentence("l2")));
         if self.refinement == Refinement::Time {
             lines.push(IN_TIME.into());
@@ -466,6 +469,33 @@ impl Study {
             }
         }
         lines
+    }
+
+    /// The text.
+    pub(super) fn all(&self, is_full: bool) -> String {
+        let mut parts = vec![
+            format!(
+                "{}: {}\n{}",
+                self.field.shown(),
+                self.title.shown(),
+                method::line(&self.method, self.arithmetic)
+            ),
+            self.levels_table().to_string(),
+        ];
+        parts.extend(self.steps().map(|steps| self.differences_table(&steps).to_string()));
+        parts.push(self.conclusions(is_full));
+        if self.differences.is_none() {
+            parts.push(self.quantities_table().to_string());
+        }
+        parts.extend(self.phase_text());
+        let mut end = Vec::new();
+        end.extend(self.exclusions.as_ref().map(|it| match is_full {
+            true => super::excluded::text(it),
+            false => super::excluded::counts(it),
+        }));
+        end.extend(next(self.next.as_ref()));
+        parts.extend((!end.is_empty()).then(|| end.join("\n")));
+        parts.join("\n\n")
     }
 
     /// The error constant, and what it was held to: a defect may leave the order and change it.
@@ -503,24 +533,11 @@ impl Shown for Study {
     type Document = documents::Study;
 
     fn text(&self) -> String {
-        let mut parts = vec![
-            format!(
-                "{}: {}\n{}",
-                self.field.shown(),
-                self.title.shown(),
-                method::line(&self.method, self.arithmetic)
-            ),
-            self.levels_table().to_string(),
-        ];
-        parts.extend(self.steps().map(|steps| self.differences_table(&steps).to_string()));
-        parts.push(self.conclusions());
-        if self.differences.is_none() {
-            parts.push(self.quantities_table().to_string());
-        }
-        parts.extend(self.phase_text());
-        parts.extend(self.exclusions.as_ref().map(super::excluded::text));
-        parts.extend(next(self.next.as_ref()));
-        parts.join("\n\n")
+        self.all(false)
+    }
+
+    fn full_text(&self) -> String {
+        self.all(true)
     }
 
     fn tables(&self) -> Vec<Table> {

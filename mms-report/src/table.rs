@@ -5,6 +5,12 @@ use std::fmt;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table as Columns};
 
+/// The head of a column of orders, each from the mesh in the row above.
+pub const PAIR: &str = "order to prev";
+
+/// The head of a column of orders that are fitted to all meshes.
+pub const FITTED: &str = "fitted order";
+
 /// A table of texts.
 #[derive(Clone)]
 pub struct Table {

@@ -71,9 +71,17 @@ macro_rules! extension_list {
 
 pub(crate) use extension_list;
 
+/// The names that end with one, as `ugimp` and `cpgimp` do with `gimp`: likely one of them is meant.
+fn ending(given: &str, known: &[&str]) -> String {
+    let given = given.to_lowercase().replace('-', "_");
+    let ends = |it: &&&str| !given.is_empty() && (it.ends_with(&given) || it.starts_with(&given));
+    let names: Vec<_> = known.iter().filter(ends).map(|it| format!("`{it}`")).collect();
+    if names.is_empty() { names.concat() } else { format!("did you mean {}? ", names.join(" or ")) }
+}
+
 /// A name that no member of a family has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("unknown {what} `{given}`; known are: {}", known.join(", "))]
+#[error("unknown {what} `{given}`; {}known are: {}", ending(given, known), known.join(", "))]
 pub struct UnknownName {
     /// The family: `shape function` or `time integrator`.
     pub what: &'static str,

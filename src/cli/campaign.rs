@@ -25,7 +25,7 @@ use mms_report::campaign::{View, line};
 use mms_spec::foreign;
 
 use super::follow::Interrupted;
-use super::format::Printing;
+use super::format::{Detail, Printing};
 use super::{Outcome, hold_output, next, print, say, this_command};
 use crate::provenance::{Input, Provenance};
 
@@ -77,6 +77,8 @@ pub struct Campaign {
     /// Write campaign.json there, and convergence.svg and .csv to a folder for each study.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    detail: Detail,
     #[command(flatten)]
     printing: Printing,
 }
@@ -134,7 +136,7 @@ impl Campaign {
         text: &str,
     ) -> anyhow::Result<Outcome> {
         let plan = work.plan;
-        let studies = self.judged(work)?;
+        let mut studies = self.judged(work)?;
         let Work { store, folder, watcher, .. } = *work;
         let canaries = canaries.map(|plan| self.judged(&Work::new(plan, store, folder, watcher)));
         let canaries = canaries.transpose()?;
@@ -157,7 +159,7 @@ impl Campaign {
     }
 
     fn tell(&self, report: &Report<'_>, work: &Work<'_>) -> anyhow::Result<Outcome> {
-        self.printing.print(&View(report))?;
+        self.printing.print_in(self.detail, &View(report))?;
         if let Some(folder) = &self.output {
             let written = View(report).write(folder)?;
             if self.printing.is_text() {

@@ -1,5 +1,6 @@
 //! `mms check`: every mistake of a file, and every claim it makes.
 
+mod meaning;
 mod mistaken;
 mod proof;
 pub mod stability;
@@ -20,6 +21,7 @@ use mms_codegen::selection::{Entry, Freeze, Selection};
 use mms_diagnosis::answer::Ranked;
 use mms_documents::check::{self as documents, CheckedFile, ClosedForm, UndefinedComponent};
 use mms_exact::settings;
+use mms_files::shell::command;
 use mms_options::field::{Variant, open};
 use mms_spec::diagnostic::{Diagnostic, render_styled};
 use mms_spec::foreign::{Foreign, shown};
@@ -28,7 +30,7 @@ use mms_stability::judge;
 use mms_stability::solve::solve;
 use mms_stability::warnings::warnings;
 
-use super::{Outcome, print, print_json, say, say_styled};
+use super::{Outcome, next, print, print_json, say, say_styled};
 
 /// Check field files: mistakes, boundary claims, J > 0, and closed forms.
 ///
@@ -59,6 +61,12 @@ pub struct Check {
     solve: bool,
     #[command(flatten)]
     variant: Variant,
+    /// Say below the lines what each of them means.
+    #[arg(long)]
+    explain: bool,
+    /// Print a line for each face and each corner; --json has them as well.
+    #[arg(long)]
+    verbose: bool,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -160,6 +168,10 @@ impl Check {
         let solved = self.solve.then(|| solve(compiled));
         let is_seen = written::points(compiled) > 0 && comparisons.iter().all(agrees);
         let refuted = !objections.is_empty() || !gaps.is_empty() || !is_seen;
+        let next = (refuted && !self.explain).then(|| {
+            let options = [next::each("set", &self.set), self.variant.arguments()].concat();
+            next::command(["check", path.raw(), "--explain"].map(str::to_owned).into_iter().chain(options))
+        });
         if !self.json {
             let others = rest.warning(compiled).into_iter().chain(warnings.iter().cloned());
             let all: Vec<_> = objections.iter().cloned().chain(others).collect();
@@ -170,9 +182,14 @@ impl Check {
             proofs.extend(rest_line(&rest));
             let is_static = compiled.model.domain.is_static;
             let of = (compiled.field.space, is_static);
-            proofs.extend(stability::text(&stability, &certificate, of));
+            proofs.extend(stability::text(&stability, &certificate, of, self.verbose));
             proofs.extend(solved.map(|solved| format!("  solve  {}", solved.words())));
-            print(&text(path, compiled, proofs, &gaps, (&comparisons, &named)))?;
+            let mut text = text(path, compiled, proofs, &gaps, (&comparisons, &named));
+            if self.explain {
+                text += &meaning::of(&text);
+            }
+            text.extend(next.as_ref().map(|next| format!("\nnext: {}", command(&next[1..]))));
+            print(&text)?;
         }
         let checks = comparisons
             .iter()
@@ -197,6 +214,7 @@ impl Check {
             shortest_wavelength: Some(stability.shortest_wavelength),
             budget_spent: Some(certificate.spent.iter().map(ToString::to_string).collect()),
             simplified: Some(compiled.simplified),
+            next_command: next,
         };
         Ok((outcome, document))
     }

@@ -30,7 +30,7 @@ use mms_runtime::scene::Scene;
 use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 
-use super::format::Printing;
+use super::format::{Detail, Printing};
 use super::naming::Naming;
 use super::next::{self, Meshes};
 use super::{Outcome, hold_output, print, say, this_command};
@@ -120,6 +120,8 @@ pub struct Diagnose {
     #[command(flatten)]
     variant: Variant,
     #[command(flatten)]
+    detail: Detail,
+    #[command(flatten)]
     printing: Printing,
     /// Write the document there, as diagnosis.json, for `mms report`.
     #[arg(long, short, value_name = "FOLDER", conflicts_with = "list")]
@@ -187,7 +189,7 @@ impl Diagnose {
         let scene = input.scene(&self.set, |code| code.double)?;
         if self.list {
             let report = Hypotheses { field: &input.name, all: scene::hypotheses(&scene) };
-            self.printing.print(&report)?;
+            self.printing.print_in(self.detail, &report)?;
             return Ok(Outcome::AsExpected);
         }
         if let Some(steps) = &self.plan {
@@ -265,7 +267,7 @@ impl Diagnose {
             next,
             provenance,
         };
-        self.printing.print(&report)?;
+        self.printing.print_in(self.detail, &report)?;
         if let Some(folder) = &self.output {
             let written = report.write(folder)?;
             if self.printing.is_text() {

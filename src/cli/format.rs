@@ -20,6 +20,14 @@ pub struct Printing {
     format: Option<Format>,
 }
 
+/// How much a text says.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct Detail {
+    /// Print full lists and all explanations; --json has them as well.
+    #[arg(long)]
+    verbose: bool,
+}
+
 fn formats() -> impl TypedValueParser<Value = Format> {
     PossibleValuesParser::new(Format::NAMES).try_map(|name| name.parse::<Format>())
 }
@@ -48,6 +56,14 @@ impl Printing {
             Format::Json => print_json(document),
             Format::Text => print(text),
             format => bail!("`--format {format}`: no table is printed here; expected text or json"),
+        }
+    }
+
+    /// Prints a result; as text in full where that is asked for.
+    pub fn print_in(self, detail: Detail, result: &impl Shown) -> anyhow::Result<()> {
+        match detail.verbose && self.is_text() {
+            true => print(&result.full_text()),
+            false => self.print(result),
         }
     }
 

@@ -15,7 +15,7 @@ use mms_options::method::positive;
 use mms_report::View;
 use mms_spec::foreign;
 
-use super::format::Printing;
+use super::format::{Detail, Printing};
 use super::{Outcome, hold_output, next, print, this_command};
 use crate::provenance::Input;
 
@@ -72,6 +72,8 @@ pub struct Judge {
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
+    detail: Detail,
+    #[command(flatten)]
     printing: Printing,
 }
 
@@ -100,7 +102,7 @@ impl Judge {
 
     /// Prints a report, and writes it where that is asked for.
     fn tell(&self, report: &Judgements) -> anyhow::Result<Outcome> {
-        self.printing.print(&View(report))?;
+        self.printing.print_in(self.detail, &View(report))?;
         if let Some(folder) = &self.output {
             let written = View(report).write(folder)?;
             if self.printing.is_text() {

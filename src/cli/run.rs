@@ -28,7 +28,7 @@ use crate::provenance;
 use crate::session::progress::Progress;
 use crate::vtk::Writer;
 
-/// Run one simulation: errors in u, v, F and P, and what it took.
+/// Run one simulation with this project's own solver: errors in u, v, F and P, and what it took.
 #[derive(Args)]
 pub struct Run {
     /// A gallery name, or a path to a TOML file.

@@ -24,14 +24,16 @@ use mms_runtime::{Division, Method, Real, Refusal, Run};
 
 use self::cause::Ended;
 use self::usual::filled;
-use super::format::Printing;
+use super::format::{Detail, Printing};
 use super::methods::Methods;
 use super::{Outcome, output_folder, print, say};
 use crate::provenance::{self, Provenance};
 use crate::session::effort::announce;
 use crate::session::progress::Progress;
 
-/// Run a method on levels of refinement: errors, observed orders, verdict.
+/// Run a method of this project's own solver on levels of refinement: errors, observed orders, verdict.
+///
+/// `mms judge` and `mms campaign` judge the results of your solver.
 ///
 /// A study in time runs on one grid, 128 cells in one dimension, 32 in two and 8 in three by default. Its
 /// orders are those of the differences between a level and the next, from which the error of space is gone.
@@ -93,6 +95,8 @@ pub struct Study {
     output: Option<PathBuf>,
     #[command(flatten)]
     motion: Motion,
+    #[command(flatten)]
+    detail: Detail,
     #[command(flatten)]
     printing: Printing,
 }
@@ -180,7 +184,7 @@ impl Study {
         let is_started = studies.iter().any(Report::is_started);
         let report = Comparison { studies, provenance };
         if is_started || self.printing.is_json() {
-            self.printing.print(&report)?;
+            self.printing.print_in(self.detail, &report)?;
         }
         if !is_started {
             say(format_args!("error: the study of `{}` cannot be started", input.name.shown()));

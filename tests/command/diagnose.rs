@@ -275,7 +275,7 @@ fn results_of_a_method_are_like_it_and_go_to_the_page() {
     let folder = Folder::new();
     folder.mms("run axis_aligned_2d --cells 16 --vtk right --frames 2").exits(0);
     let like = "diagnose axis_aligned_2d right --h 0.0625 --like shape=cpgimp --output out";
-    folder.mms(like).exits(0).prints("like shape=cpgimp,integrator=leapfrog").prints("next: ");
+    folder.mms(like).exits(0).prints("like shape=cpgimp,integrator=leapfrog").prints("to do: ");
     let document: Value = serde_json::from_str(&folder.read("out/diagnosis.json")).unwrap();
     let number = |key: &str| document["like"][key].as_f64().unwrap();
     // It is that method, on that grid.

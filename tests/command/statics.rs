@@ -127,7 +127,7 @@ fn a_relaxed_study_has_the_order_of_its_method() {
     // Of hat functions P is of first order, and u of second.
     let fine = &study["quantities"]["first_piola_kirchhoff"][3]["order_l2"];
     assert!((fine.as_f64().expect("an order") - 1.0).abs() < 0.1, "{fine}");
-    let excluded = folder.mms(&format!("{command} --excluded")).exits(0);
+    let excluded = folder.mms(&format!("{command} --excluded --verbose")).exits(0);
     excluded.prints("mistakes, by what they add to the finest error").prints("excluded: ");
     // Saved, and of several methods.
     folder.write("s.toml", "field = \"static.toml\"\nrelax = true\ncells = [4, 8]\n");

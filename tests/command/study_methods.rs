@@ -1,9 +1,11 @@
 //! `mms study`: what each method shows on the bar.
 
+use mms_exact::gallery::FIELDS;
 use mms_spec::PRECISIONS;
 use serde_json::{Value, json};
 
 use super::mms::{Folder, assert_close, keys};
+use super::sampled::sampled;
 
 /// The document of a study of the gallery's bar that ends with this exit code.
 fn document(arguments: &str, code: i32) -> Value {
@@ -216,7 +218,7 @@ fn lists_of_methods_that_make_no_sense_exit_2() {
     for (arguments, message) in [
         ("--shape linear,linear", "`--shape`: a word is given twice"),
         ("--shape linear,cpgmp", "known are: linear, ugimp, cpgimp"),
-        ("--formulation updated,total --shape cpgimp", "total"),
+        ("--formulation total --shape cpgimp,cpdi", "in the total formulation no particle's domain moves"),
         ("--form fast,stable,fast", "`--form`: a word is given twice"),
         ("--form stable,quick", "the forms are stable, fast"),
         ("--precision f32,f64 --expected-constant 1", "each method has a constant of its own"),
@@ -224,4 +226,100 @@ fn lists_of_methods_that_make_no_sense_exit_2() {
         let run = Folder::new().mms(&format!("study bar_1d --cells 4,8 {arguments}")).exits(2);
         run.complains(message).prints_nothing();
     }
+}
+
+/// Of the pairs of two lists one makes no sense: the others are studied.
+#[test]
+fn a_pair_that_makes_no_sense_is_left_out_of_a_list() {
+    let lists = "study bar_1d --cells 8,16 --formulation total,updated --shape linear,cpgimp";
+    let run = Folder::new().mms(lists).exits(1);
+    run.complains("left out: total cpgimp leapfrog: shape function `cpgimp` follows");
+    run.prints("total linear").prints("updated linear").prints("updated cpgimp");
+    run.prints("2 of 3 methods pass");
+}
+
+/// The method that is taken without options, by the body; one option leaves the other to the field.
+#[test]
+fn the_method_fits_the_body_unless_it_is_given() {
+    for (study, formulation, shape) in [
+        ("bar_1d", "updated", "cpgimp"),
+        ("bar_1d --formulation total", "total", "linear"),
+        ("uniform_stretch", "total", "linear"),
+        ("axis_aligned_2d", "total", "linear"),
+        ("axis_aligned_2d --formulation updated", "updated", "cpgimp"),
+        ("axis_aligned_2d --shape cpdi", "updated", "cpdi"),
+        ("expanding_ring", "updated", "cpdi"),
+        ("expanding_ring --formulation total", "total", "quadratic_bspline"),
+        ("conformal_sector_2d", "updated", "cpdi"),
+    ] {
+        let command = format!("study {study} --cells 4 --time-step 1e-4 --time 2e-4 --json");
+        let method = &Folder::new().mms(&command).json()["method"];
+        assert_eq!([&method["formulation"], &method["shape"]], [formulation, shape], "{study}");
+    }
+}
+
+/// One field of the gallery in so many is studied.
+const SHARE: usize = 6;
+
+#[test]
+fn fields_pass_without_options_or_a_page_says_why_not() {
+    const PAGE: &str = include_str!("../../docs/orders.md");
+    let (_, table) = PAGE.split_once("| field | why it does not pass |").expect("the table");
+    let failing: Vec<&str> =
+        table.lines().filter_map(|line| Some(line.strip_prefix("| ")?.split_once(' ')?.0)).collect();
+    for field in &failing {
+        assert!(FIELDS.iter().any(|it| it.name == *field), "{field}");
+    }
+    for entry in sampled(FIELDS, SHARE) {
+        let study = |options: &str| Folder::new().mms(&format!("study {}{options}", entry.name));
+        let run = study("");
+        let run = if run.stderr.contains("is static") { study(" --relax") } else { run };
+        assert_eq!(run.code != 0, failing.contains(&entry.name), "{run}");
+    }
+}
+
+/// A verdict that is no pass comes with its likely causes, and with the option that avoids the first of them.
+#[test]
+fn a_study_that_fails_says_why_and_what_to_type() {
+    let folder = Folder::new();
+    for (study, cause, next) in [
+        (
+            "study bar_1d --cells 8,16,32 --integrator usl",
+            "`usl` is of order 1 in time: `--integrator leapfrog` is of order 2",
+            "mms study bar_1d --cells 8,16,32 --integrator=leapfrog",
+        ),
+        (
+            "study bar_1d --cells 8,16,32 --transfer=pic",
+            "an error of order 1 in time: `--transfer flip` keeps it",
+            "mms study bar_1d --cells 8,16,32 --transfer=flip",
+        ),
+        (
+            "study bar_1d --cells 8,16,32 --shape linear",
+            "particles cross cells, where `linear` loses its order; `--formulation total --shape linear` avoids it",
+            "mms study bar_1d --cells 8,16,32 --formulation=total --shape=linear",
+        ),
+        (
+            "study sheared_block_2d --cells 4,8,16",
+            "`mms check` warns: a disturbance of the corner of x_max and y_max grows",
+            "mms study sheared_block_2d --cells 4,8,16 --set=amplitude=0.1",
+        ),
+        (
+            "study bar_1d --cells 8,16 --courant 3",
+            "the time step is above the stable one: `--courant 0.",
+            "mms study bar_1d --cells 8,16 --courant=0.",
+        ),
+    ] {
+        let run = folder.mms(study).exits(1);
+        run.prints(&format!("likely cause: {cause}")).prints(&format!("\nnext: {next}"));
+        let document = folder.mms(&format!("{study} --json")).exits(1).json();
+        assert!(document["causes"][0].as_str().is_some_and(|it| it.starts_with(cause)), "{document:#}");
+        assert_eq!(document["next_command"][1], "study");
+    }
+    // Finer meshes stop sooner: smaller steps do not help.
+    let run = folder.mms("study uniform_stretch --shape cpgimp").exits(1);
+    run.prints("finer meshes stop sooner, at t = ").prints("smaller steps and more cells do not help");
+    assert!(!run.stderr.contains("try a smaller Courant number"), "{run}");
+    // Errors that grow are named.
+    let run = folder.mms("study bar_1d --cells 8,16,32 --shape ugimp").exits(1);
+    run.prints("the error of P grows on finer meshes (l2: ");
 }

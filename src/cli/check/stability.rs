@@ -17,19 +17,40 @@ use mms_stability::solve::Solved;
 use mms_stability::warnings::{list, short};
 use mms_stability::waves::Waves;
 
-/// A line for each property that was sampled.
+/// The values below 0 and the least of the others; all of them where everything is told. `name` is that of a line.
+fn told<T>(
+    all: &[T],
+    is_full: bool,
+    (name, value): (&str, fn(&T) -> f64),
+    line: impl Fn(&T) -> String,
+) -> Vec<String> {
+    let firm = || all.iter().filter(|it| value(it) >= 0.0);
+    let least = firm().map(value).fold(f64::INFINITY, f64::min);
+    let softest = all.iter().position(|it| value(it) == least);
+    let is_told = |at: usize, it: &T| is_full || value(it) < 0.0 || Some(at) == softest;
+    let kept = all.iter().enumerate().filter(|(at, it)| is_told(*at, it));
+    let mut lines: Vec<String> = kept.map(|(_, it)| line(it)).collect();
+    let left = all.len() - lines.len();
+    lines.extend((left > 0).then(|| format!("  {name:<6} {left} more are firmer (--verbose)")));
+    lines
+}
+
+/// A line for each property that was sampled; of faces and corners those that matter, unless everything is told.
 pub fn text(
     stability: &Stability,
     certificate: &Certificate,
     (space, is_static): (Space, bool),
+    is_full: bool,
 ) -> Vec<String> {
     let mut lines: Vec<_> = stability.material.iter().map(at_rest).collect();
     lines.push(extent(&certificate.reach, space, stability.shortest_wavelength));
     let modulus = stability.material.as_ref().map_or("", Material::modulus);
     lines
         .extend(stability.waves.iter().map(|waves| body(waves, &certificate.ellipticity, modulus)));
-    lines.extend(stability.surfaces.iter().map(|surface| face(surface, modulus)));
-    lines.extend(stability.corners.iter().map(|corner| edge(corner, modulus)));
+    let of_face = ("face", (|it| it.least) as fn(&Surface) -> f64);
+    lines.extend(told(&stability.surfaces, is_full, of_face, |it| face(it, modulus)));
+    let of_corner = ("corner", (|it| it.coercivity) as fn(&Corner) -> f64);
+    lines.extend(told(&stability.corners, is_full, of_corner, |it| edge(it, modulus)));
     lines.extend(stability.growth.iter().map(|growth| match is_static {
         true => equilibrium(growth),
         false => long(growth, stability.is_static),

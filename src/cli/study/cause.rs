@@ -225,8 +225,13 @@ impl Ended<'_> {
                 },
             }
         };
-        let all = warnings(&compiled, &stability, None);
-        Ok(all.into_iter().take(2).map(|it| cause(it.message)).collect())
+        let mut all = warnings(&compiled, &stability, None).into_iter();
+        let Some(first) = all.next() else { return Ok(Vec::new()) };
+        let more = match all.count() {
+            0 => String::new(),
+            count => format!(" ({count} more)"),
+        };
+        Ok(vec![cause(first.message + &more)])
     }
 
     /// Half of the parameter with which the motion vanishes, if its range allows that.
@@ -263,6 +268,18 @@ impl Ended<'_> {
         let sooner = stops.windows(2).all(|pair| pair[1].time <= pair[0].time);
         let times: Vec<_> = stops.iter().map(|it| format!("{:.2e}", it.time)).collect();
         Some(match (is_finest && sooner, stops.len()) {
+            _ if matches!(last.cause, Stop::NoReferencePosition { .. }) => Cause::new(
+                "the motion has no inverse beside the body, where the updated formulation has nodes: `--formulation total` needs \
+                 none",
+                match is_box(&self.input.compiled.field) {
+                    true => &[("formulation", "total"), ("shape", "linear")][..],
+                    false => &[
+                        ("formulation", "total"),
+                        ("shape", "quadratic_bspline"),
+                        ("particles-per-cell", "4"),
+                    ],
+                },
+            ),
             (true, 2..) => Cause::new(
                 format!(
                     "finer meshes stop sooner, at t = {}: smaller steps and more cells do not help",
