@@ -78,7 +78,10 @@ impl Finding {
                 None => format!("observed order {:.2} ({norm}; {levels})", it.order),
                 Some(interval) => {
                     let [low, high] = interval.map(|it| bound(it, expected.order));
-                    format!("observed order {:.2}, between {low} and {high} ({norm}; {levels})", it.order)
+                    format!(
+                        "observed order {:.2}, between {low} and {high} ({norm}; {levels})",
+                        it.order
+                    )
                 }
             },
         };

@@ -94,7 +94,7 @@ pub struct TangentOf {
 /// The most points of a mesh that are compared.
 const MOST_POINTS: usize = 5000;
 /// Fewer points say too little.
-const FEWEST_POINTS: usize = 8;
+pub const FEWEST_POINTS: usize = 8;
 /// The Courant number of a solver whose time step is not known.
 const COURANT: f64 = 0.4;
 

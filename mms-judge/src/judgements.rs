@@ -109,6 +109,11 @@ impl Judgements {
         self.results.samplings.as_ref()
     }
 
+    /// The number of points of the mesh that has the fewest.
+    pub fn points(&self) -> usize {
+        self.results.points
+    }
+
     /// The files of results.
     pub fn files(&self) -> &[String] {
         self.results.files.as_deref().unwrap_or_default()
@@ -273,6 +278,8 @@ struct Results {
     samplings: Option<Names<String>>,
     warnings: Option<Vec<String>>,
     iterative_errors: Option<Names<f64>>,
+    /// The number of points of the mesh that has the fewest, which the document does not have.
+    points: usize,
 }
 
 impl Results {
@@ -288,6 +295,7 @@ impl Results {
             samplings: Some(names.zip(samplings).collect()),
             warnings: Some(measurement.warnings.clone()),
             iterative_errors: (!iterative.0.is_empty()).then_some(iterative),
+            points: measurement.points,
         }
     }
 }

@@ -11,7 +11,6 @@ use mms_harness::judged::Judged;
 use mms_harness::plan::Job;
 use mms_harness::report::{Canary, Report};
 use mms_harness::work::{Finished, Outcome, left_behind_too};
-use mms_judge::Judgements;
 use mms_spec::foreign::{self, one_line, shown};
 
 use super::excluded;
@@ -159,10 +158,14 @@ fn parts(judged: &Judged<'_>, is_full: bool) -> Vec<String> {
     parts.extend(runs.clone().filter_map(|(job, outcome)| failure(job, outcome)));
     parts.extend(runs.filter_map(|(job, outcome)| left_behind(job, outcome)));
     parts.extend(judged.mistake.as_ref().map(|it| format!("{name}: {it}")));
-    let is_told = |it: &&Judgements| is_full || !it.verdict().is_good();
-    let tables = judged.judgements.as_ref().filter(is_told);
-    let tables = tables.map(|it| JudgementView(it).without_next(is_full));
-    parts.extend(tables.map(|tables| format!("study {name}\n{tables}")));
+    parts.extend(judged.judgements.as_ref().map(|it| match is_full || !it.verdict().is_good() {
+        true => format!("study {name}\n{}", JudgementView(it).without_next(is_full)),
+        false => {
+            let says =
+                it.each().flat_map(|(quantity, judged)| it.sentences(quantity, judged, false));
+            format!("study {name}\n{}", says.collect::<Vec<_>>().join("\n"))
+        }
+    }));
     parts
 }
 

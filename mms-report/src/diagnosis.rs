@@ -64,7 +64,9 @@ impl Diagnosed<'_> {
         let unseen = &it.cannot_be_seen;
         parts.extend((!unseen.is_empty()).then(|| match is_full {
             true => format!("these results cannot show: {}", unseen.join(", ")),
-            false => format!("these results cannot show {} other mistakes (--verbose)", unseen.len()),
+            false => {
+                format!("these results cannot show {} other mistakes (--verbose)", unseen.len())
+            }
         }));
         parts.push(format!("to do: {}", it.rung.next(it.finding)));
         parts.extend(next(self.next.as_ref()));

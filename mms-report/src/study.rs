@@ -324,8 +324,7 @@ impl Study {
     }
 
     fn levels_table(&self) -> Table {
-        let heads =
-            ["cells", "particles", "steps", "l1", PAIR, "l2", PAIR, "linf", PAIR, "time"];
+        let heads = ["cells", "particles", "steps", "l1", PAIR, "l2", PAIR, "linf", PAIR, "time"];
         let relaxes = self.method.setup.relax;
         let header = heads.into_iter().chain(relaxes.then_some("residual"));
         let when = if relaxes { "at equilibrium" } else { "the largest over time" };

@@ -12,7 +12,7 @@ use clap::Args;
 use mms_campaign::Campaign as File;
 use mms_documents::campaign::{CampaignRuns, ListedRun};
 use mms_files::read::{self, Kind};
-use mms_files::shell::{command, quoted, words};
+use mms_files::shell::{command, quoted};
 use mms_files::store::Store;
 use mms_harness::canary;
 use mms_harness::judged::Judged;
@@ -26,7 +26,7 @@ use mms_spec::foreign;
 
 use super::follow::Interrupted;
 use super::format::{Detail, Printing};
-use super::{Outcome, hold_output, next, print, say, this_command};
+use super::{Outcome, hold_output, next, print, replaced, say, this_command};
 use crate::provenance::{Input, Provenance};
 
 /// Run your own solver on the meshes of several studies, and judge each as `mms judge` does it.
@@ -152,7 +152,7 @@ impl Campaign {
             set: Vec::new(),
             hash: hash(plan, text),
         };
-        let next = next::after_campaign(&mut studies, &plan.here, &words(std::env::args_os()));
+        let next = next::after_campaign(&mut studies, &plan.here, &next::typed());
         let provenance = this_command("campaign", input);
         let report = Report { plan, studies, canaries, next, provenance };
         self.tell(&report, work)
@@ -161,6 +161,7 @@ impl Campaign {
     fn tell(&self, report: &Report<'_>, work: &Work<'_>) -> anyhow::Result<Outcome> {
         self.printing.print_in(self.detail, &View(report))?;
         if let Some(folder) = &self.output {
+            replaced::tell(folder, "campaign", &report.provenance);
             let written = View(report).write(folder)?;
             if self.printing.is_text() {
                 print(&format!("\nwrote {}", written.join(", ")))?;

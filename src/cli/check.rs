@@ -170,7 +170,9 @@ impl Check {
         let refuted = !objections.is_empty() || !gaps.is_empty() || !is_seen;
         let next = (refuted && !self.explain).then(|| {
             let options = [next::each("set", &self.set), self.variant.arguments()].concat();
-            next::command(["check", path.raw(), "--explain"].map(str::to_owned).into_iter().chain(options))
+            next::command(
+                ["check", path.raw(), "--explain"].map(str::to_owned).into_iter().chain(options),
+            )
         });
         if !self.json {
             let others = rest.warning(compiled).into_iter().chain(warnings.iter().cloned());

@@ -18,7 +18,6 @@ use mms_diagnosis::solver::Solver;
 use mms_exact::Exact;
 use mms_exact::{Input, evaluated};
 use mms_files::results::Disk;
-use mms_files::shell::words;
 use mms_judge::diagnose::{Alone, Factors, Reading, falls, find, gradients, left_out, read};
 use mms_judge::results::Results;
 use mms_judge::table::{Order, Orders};
@@ -33,7 +32,7 @@ use mms_spec::quantity::Quantity;
 use super::format::{Detail, Printing};
 use super::naming::Naming;
 use super::next::{self, Meshes};
-use super::{Outcome, hold_output, print, say, this_command};
+use super::{Outcome, hold_output, print, replaced, say, this_command};
 
 /// Name the mistake of a solver by the error that it makes.
 ///
@@ -259,7 +258,8 @@ impl Diagnose {
         let material = Material { names: factors.names(), times: &times };
         let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material)?;
         let input = exact.input();
-        let next = next::after_diagnosis(&diagnosis, &self.meshes(), &words(std::env::args_os()));
+        let meshes = self.meshes(reading.rest);
+        let next = next::after_diagnosis(&diagnosis, &meshes, &next::typed());
         let report = Diagnosed {
             field: &input.name,
             files: &self.files,
@@ -269,6 +269,7 @@ impl Diagnose {
         };
         self.printing.print_in(self.detail, &report)?;
         if let Some(folder) = &self.output {
+            replaced::tell(folder, "diagnosis", &report.provenance);
             let written = report.write(folder)?;
             if self.printing.is_text() {
                 print(&format!("\nwrote {written}"))?;
@@ -280,12 +281,16 @@ impl Diagnose {
         })
     }
 
-    /// The results, and the options that `mms judge` takes as well.
-    fn meshes(&self) -> Meshes {
+    /// The results, and the options that `mms judge` takes as well; of a field at rest a time for results that have none.
+    fn meshes(&self, rest: Option<f64>) -> Meshes {
+        let times = match (self.time.as_slice(), rest) {
+            ([], Some(rest)) => vec![rest],
+            (times, _) => times.to_vec(),
+        };
         let options = [
             next::list("quantity", &self.quantity).into_iter().collect(),
             next::list("h", &self.h).into_iter().collect(),
-            next::list("time", &self.time).into_iter().collect(),
+            next::list("time", &times).into_iter().collect(),
             self.naming.arguments(),
             next::each("max-memory", self.max_memory.as_slice()),
             next::each("set", &self.set),

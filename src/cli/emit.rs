@@ -28,10 +28,6 @@ use super::{Outcome, print, print_json, say};
 /// A check program and its test vectors come with it: the line printed at the end builds and
 /// runs it. With your own compiler and flags in that line it proves your build. The target
 /// rust-mms-math has none: it shares its code with what this program computes.
-///
-/// Examples:
-///   mms emit bar_1d --target c --output src
-///   mms emit my.toml --target fortran --quantity body_force --output src
 #[derive(Args)]
 pub struct Emit {
     /// A gallery name, or a path to a TOML file.

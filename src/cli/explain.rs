@@ -15,10 +15,6 @@ use super::format::Printing;
 const PAGE: &str = include_str!("../../docs/glossary.md");
 
 /// Explain a word of the output or of the guide; without one, list all that are known.
-///
-/// Examples:
-///   mms explain cpgimp
-///   mms explain "dead load"
 #[derive(Args)]
 pub struct Explain {
     /// The words to explain; capital letters do not matter.

@@ -16,7 +16,7 @@ use mms_report::View;
 use mms_spec::foreign;
 
 use super::format::{Detail, Printing};
-use super::{Outcome, hold_output, next, print, this_command};
+use super::{Outcome, hold_output, next, print, replaced, this_command};
 use crate::provenance::Input;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
@@ -104,6 +104,7 @@ impl Judge {
     fn tell(&self, report: &Judgements) -> anyhow::Result<Outcome> {
         self.printing.print_in(self.detail, &View(report))?;
         if let Some(folder) = &self.output {
+            replaced::tell(folder, "convergence", &report.provenance);
             let written = View(report).write(folder)?;
             if self.printing.is_text() {
                 print(&format!("\nwrote {}", written.join(", ")))?;

@@ -19,6 +19,7 @@ mod demo;
 mod diagnose;
 mod emit;
 mod eval;
+mod examples;
 mod explain;
 mod extremes;
 mod follow;
@@ -29,6 +30,7 @@ mod methods;
 mod naming;
 mod new;
 mod next;
+mod replaced;
 mod report;
 mod run;
 mod saved;
@@ -188,7 +190,8 @@ fn groups(command: &clap::Command) -> String {
 
 /// Parses a command line.
 fn parse(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
-    let command = Arguments::command().mut_subcommands(|it| it.mut_args(with_signs));
+    let command =
+        Arguments::command().mut_subcommands(|it| examples::with_examples(it).mut_args(with_signs));
     let template = format!(
         "{{before-help}}{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{}Options:\n{{options}}{{after-help}}",
         groups(&command)
@@ -268,7 +271,24 @@ fn output_folder(given: Option<&Path>, name: &str) -> anyhow::Result<PathBuf> {
 mod tests {
     use std::collections::BTreeSet;
 
+    use super::examples::EXAMPLES;
     use super::*;
+
+    #[test]
+    fn every_command_has_two_examples_that_it_understands() {
+        let command = Arguments::command();
+        let all: BTreeSet<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+        let named: BTreeSet<&str> = EXAMPLES.iter().map(|(name, _)| *name).collect();
+        assert_eq!(named, all);
+        for (name, examples) in EXAMPLES {
+            for example in examples {
+                let words: Vec<OsString> =
+                    example.split(' ').map(|word| word.trim_matches('"').into()).collect();
+                assert_eq!(words[1], name, "{example}");
+                assert!(parse(&words).is_ok(), "{example}");
+            }
+        }
+    }
 
     #[test]
     fn every_command_is_in_one_group_of_the_help() {

@@ -7,6 +7,8 @@ use std::path::Path;
 
 use mms_convergence::Verdict;
 use mms_diagnosis::answer::{Diagnosis, Finding, Rung};
+use mms_diagnosis::scene::FEWEST_POINTS;
+use mms_files::shell;
 use mms_harness::judged::Judged;
 use mms_harness::plan::Planned;
 use mms_harness::work::Outcome;
@@ -24,6 +26,11 @@ pub struct Meshes {
     pub files: Vec<String>,
     /// The options that `mms judge` and `mms diagnose` share.
     pub options: Vec<String>,
+}
+
+/// The words of the command line of this process.
+pub fn typed() -> Words {
+    command(shell::words(std::env::args_os().skip(1)))
 }
 
 /// The option of this name with several values; nothing without a value.
@@ -142,7 +149,7 @@ pub fn after_judgement(
                 })
             };
             let seen: Vec<&str> = DIAGNOSED.into_iter().filter(is_at_points).collect();
-            Some(match seen.is_empty() {
+            Some(match seen.is_empty() || judgements.points() < FEWEST_POINTS {
                 true => meshes.plan(),
                 false => meshes.asks("diagnose", list("quantity", &seen).filter(|_| is_chosen)),
             })

@@ -1,6 +1,7 @@
 //! `mms study`: the observed order of a method on a field.
 
 mod cause;
+mod periods;
 mod usual;
 
 use std::collections::btree_map::{BTreeMap, Entry};
@@ -23,10 +24,11 @@ use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
 use mms_runtime::{Division, Method, Real, Refusal, Run};
 
 use self::cause::Ended;
+use self::periods::Periods;
 use self::usual::filled;
 use super::format::{Detail, Printing};
 use super::methods::Methods;
-use super::{Outcome, output_folder, print, say};
+use super::{Outcome, next, output_folder, print, replaced, say};
 use crate::provenance::{self, Provenance};
 use crate::session::effort::announce;
 use crate::session::progress::Progress;
@@ -134,32 +136,6 @@ struct Alone {
     study: Study,
 }
 
-/// The periods that runs go through.
-struct Periods {
-    start: f64,
-    length: f64,
-    last: usize,
-}
-
-impl Periods {
-    /// What the failure of a run advises may not help one that went well for periods.
-    fn say_where_they_stopped(&self, levels: &[Result<Run, Refused>]) {
-        let failures = levels.iter().flatten().filter_map(|run| run.level.errors.as_ref().err());
-        let numbers =
-            failures.map(|it| ((it.time - self.start) / self.length).floor() as usize + 1);
-        let numbers: Vec<_> = numbers.filter(|&number| number > 1).collect();
-        if numbers.is_empty() {
-            return;
-        }
-        let numbers = numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
-        say(format_args!(
-            "note: stopped in period {numbers} of {}; where finer grids and smaller steps do not get further, errors \
-             that grow from period to period have outgrown the motion: ask for fewer periods, or set a smaller motion",
-            self.last
-        ));
-    }
-}
-
 /// One of the methods, and the field in the form that it takes.
 struct Case {
     options: MethodOptions,
@@ -190,6 +166,7 @@ impl Study {
             say(format_args!("error: the study of `{}` cannot be started", input.name.shown()));
             return Ok(Outcome::RunFailed);
         }
+        replaced::tell(&folder, "convergence", &report.provenance);
         let written = report.write(&folder)?;
         if self.printing.is_text() {
             print(&format!("\nwrote {}", written.join(", ")))?;
@@ -280,7 +257,10 @@ impl Study {
         if report.verdict.is_good() || !report.is_started() {
             return Ok(());
         }
-        let main_job: Vec<_> = ["mms", "study", &self.field].map(str::to_owned).into();
+        let own = match words {
+            [] | [_] => next::command(["study", &self.field]),
+            [_, own @ ..] => next::command(own),
+        };
         let ended = Ended {
             field: &self.field,
             input: &case.input,
@@ -292,7 +272,7 @@ impl Study {
             levels: &report.levels,
             expected: report.expected,
             verdict: report.verdict,
-            words: if words.len() > 1 { words } else { &main_job },
+            words: &own,
         };
         let (causes, next) = ended.explained()?;
         (report.causes, report.next) = (causes, Some(next));

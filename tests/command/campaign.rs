@@ -369,7 +369,7 @@ fn dt_alone_may_be_refined() {
         &format!("[solver]\nrun = \"sh solver.sh {{output}} {{time_step}}\"\noutput = \"{{output}}/u.csv\"\n{study}"),
     );
     let run = folder.mms("campaign c.toml").exits(0);
-    run.prints("dt  runs").prints("pass: observed order 1.00").prints("dt 1.000e-2 to dt 2.500e-3");
+    run.prints("pass: ").prints("pass: observed order 1.00").prints("dt 1.000e-2 to dt 2.500e-3");
 }
 
 /// Three meshes with three time steps each are fitted by A h^p + B dt^q; the particles of a cell are the solver's and the state's.

@@ -87,18 +87,27 @@ impl Folder {
         let copy = Folder::new();
         let copied = Command::new("cp").arg("-R").arg(self.path(".")).arg(copy.0.path()).status();
         assert!(copied.expect("`cp` starts").success(), "{run}");
+        let next = copy.types(&line);
+        assert!(matches!(next.code, 0 | 1 | 3), "{next}\nafter {run}");
+    }
+
+    /// What a shell makes of a line in which `mms` is the program.
+    pub fn types(&self, line: &str) -> Run {
         let program = Path::new(env!("CARGO_BIN_EXE_mms")).parent().expect("a folder");
         let path = std::env::var_os("PATH").unwrap_or_default();
         let paths = std::iter::once(program.to_owned()).chain(std::env::split_paths(&path));
         let output = Command::new("bash")
-            .args(["-c", &line])
-            .current_dir(copy.0.path())
+            .args(["-c", line])
+            .current_dir(self.0.path())
             .env("PATH", std::env::join_paths(paths).expect("paths"))
             .output()
             .expect("`bash` starts");
-        let code = output.status.code().expect("the program ends by itself");
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(matches!(code, 0 | 1 | 3), "`{line}` exits {code}: {said}\nafter {run}");
+        Run {
+            command: line.to_owned(),
+            code: output.status.code().expect("the program ends by itself"),
+            stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
+            stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
+        }
     }
 }
 

@@ -157,3 +157,45 @@ fn fields_of_the_gallery_are_checked_by_name() {
     folder.mms("check bar_1d").exits(0);
     folder.mms("check bar1d").exits(2).complains("did you mean `bar_1d`?");
 }
+
+/// The commands in an order in which the examples of each find the files of those before it. Those of the others take long: a test
+/// beside them shows that they are understood.
+const QUICK: [&str; 15] = [
+    "new", "check", "show", "eval", "list", "schema", "emit", "state", "judge", "diagnose",
+    "campaign", "report", "run", "study", "explain",
+];
+
+#[test]
+fn the_help_of_a_command_begins_with_two_examples_that_work() {
+    let folder = Folder::new();
+    folder.write("errors.csv", "h,l2\n0.1,1e-2\n0.05,2.5e-3\n0.025,6.25e-4\n");
+    folder.write(
+        "campaign.toml",
+        "[solver]\nrun = \"cp {here}/coarse.csv {output}/u.csv\"\noutput = \"{output}/u.csv\"\n\n\
+         [[study]]\nfield = \"bar_1d\"\ncells = [8, 16]\n",
+    );
+    for command in QUICK {
+        let help = folder.mms(&format!("{command} --help")).exits(0);
+        let (head, _) = help.stdout.split_once("Usage:").expect("a usage");
+        let lines: Vec<&str> =
+            head.lines().filter_map(|line| line.strip_prefix("  mms ")).collect();
+        assert_eq!(lines.len(), 2, "{help}");
+        assert_eq!(help.stdout.lines().nth(2), Some("Examples:"), "{help}");
+        for line in lines {
+            let run = folder.types(&format!("mms {line}"));
+            assert_eq!(run.code, 0, "{run}");
+        }
+    }
+}
+
+/// `gimp` is two shape functions, and the first file stands where the field should.
+#[test]
+fn words_that_people_mean_otherwise_get_a_hint() {
+    let folder = Folder::new();
+    let gimp = folder.mms("study bar_1d --shape gimp").exits(2);
+    gimp.complains("did you mean `ugimp` or `cpgimp`?");
+    let forgotten = folder.mms("judge a.csv b.csv").exits(2);
+    forgotten
+        .complains("`a.csv` is in the place of the field")
+        .complains("as in bar_1d or ./mine.toml");
+}

@@ -113,3 +113,18 @@ fn others_may_read_the_files_that_a_folder_lets_them_read() {
         assert_eq!(mode(&name), mode("plain"), "{name}");
     }
 }
+
+/// Results of the same field and command are replaced without a word; others are named.
+#[test]
+fn results_of_another_field_or_command_are_not_replaced_without_a_word() {
+    let folder = Folder::new();
+    let run = |command: &str| folder.mms(&format!("{command} --output out")).exits(0);
+    run("study bar_1d --cells 8,16");
+    let again = run("study bar_1d --cells 16,32");
+    assert!(!again.stderr.contains("is replaced"), "{again}");
+    let other = run("study periodic_bar --cells 16,32,64");
+    other.complains("`out/convergence.json` held results of `mms study` of bar_1d, and is replaced");
+    folder.write("errors.csv", "h,l2\n0.1,1e-2\n0.05,2.5e-3\n0.025,6.25e-4\n");
+    let judged = run("judge --errors errors.csv");
+    judged.complains("held results of `mms study` of periodic_bar, and is replaced");
+}

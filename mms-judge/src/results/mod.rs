@@ -56,6 +56,8 @@ pub struct Measurement {
     pub objection: Option<Objection>,
     /// The part of the body that results cover, if a part is enough.
     pub part: Option<String>,
+    /// The number of points of the mesh that has the fewest.
+    pub points: usize,
     /// What was done, and why.
     pub notes: Vec<String>,
     /// What may be wrong.
@@ -161,8 +163,10 @@ pub fn measure(
         .iter()
         .filter_map(|it| Some((it.quantity.name(), it.iterative?)))
         .collect();
+    let points = levels.iter().map(|level| level.found.covered.points).min().unwrap_or_default();
     Ok(Measurement {
         measured,
+        points,
         samplings: quantities.iter().map(|(_, sampling)| *sampling).collect(),
         times: common.times,
         iterative,

@@ -2,15 +2,33 @@
 
 /// The first word of a line, and what such lines say.
 const MEANINGS: [(&str, &str); 13] = [
-    ("proof", "holds at every point, time and value of the parameters in their ranges: by algebra, or by interval arithmetic"),
-    ("bound", "largest values over the same: stretches, strain rates, waves, the stable time step, digits of angles"),
+    (
+        "proof",
+        "holds at every point, time and value of the parameters in their ranges: by algebra, or by interval arithmetic",
+    ),
+    (
+        "bound",
+        "largest values over the same: stretches, strain rates, waves, the stable time step, digits of angles",
+    ),
     ("claim", "what the file says of a face: its motion or its traction P N is as claimed"),
     ("budget", "a proof that was given up: what it would show may hold all the same"),
-    ("rest", "the material at F = I: its moduli as other codes name them, or a stress where there should be none"),
-    ("extent", "the box that the moving body stays in, for a background grid; a mesh needs cells well below the wavelength"),
-    ("waves", "short waves in the body run as long as the acoustic tensor is positive definite, else they grow and no mesh converges"),
+    (
+        "rest",
+        "the material at F = I: its moduli as other codes name them, or a stress where there should be none",
+    ),
+    (
+        "extent",
+        "the box that the moving body stays in, for a background grid; a mesh needs cells well below the wavelength",
+    ),
+    (
+        "waves",
+        "short waves in the body run as long as the acoustic tensor is positive definite, else they grow and no mesh converges",
+    ),
     ("face", "short waves on the surface: they grow where the surface impedance is negative"),
-    ("corner", "disturbances of a corner: they grow where the coercivity is negative, the faster the finer the mesh"),
+    (
+        "corner",
+        "disturbances of a corner: they grow where the coercivity is negative, the faster the finer the mesh",
+    ),
     ("growth", "long waves: the least squared frequency of a coarse mesh; one below 0 grows"),
     ("solve", "whether Newton's method comes to the exact state from zero"),
     ("u", "where the formula of u has no value as it is written"),
@@ -22,5 +40,7 @@ pub fn of(text: &str) -> String {
     let has = |word: &str| text.lines().any(|line| line.split_whitespace().next() == Some(word));
     let lines = MEANINGS.iter().filter(|(word, _)| has(word));
     let lines: String = lines.map(|(word, says)| format!("\n  {word:<6} {says}")).collect();
-    format!("\n\nthese lines say:{lines}\n  `mms explain TERM` has the words; numbers in mu are parts of the shear modulus at rest")
+    format!(
+        "\n\nthese lines say:{lines}\n  `mms explain TERM` has the words; numbers in mu are parts of the shear modulus at rest"
+    )
 }

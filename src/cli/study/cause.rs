@@ -115,8 +115,10 @@ impl Ended<'_> {
         let digits = (2.0 - stable.log10().floor()).max(0.0) as i32;
         let scale = 10f64.powi(digits);
         let courant = ((stable * scale).floor() / scale).to_string();
-        let says =
-            format!("the time step is above the stable one: `--courant {courant}` is below it");
+        let says = format!(
+            "the time step is above the stable one: `--courant {courant}` is below it; `--allow-unstable` runs it all \
+                            the same"
+        );
         vec![Cause::new(says, &[("courant", &courant)])]
     }
 

@@ -1,0 +1,35 @@
+//! The periods of a study of phase.
+
+use mms_report::Refused;
+use mms_runtime::Run;
+
+use super::super::say;
+
+/// The periods that runs go through.
+pub struct Periods {
+    /// The start of the first.
+    pub start: f64,
+    /// The length of each.
+    pub length: f64,
+    /// The number of the last.
+    pub last: usize,
+}
+
+impl Periods {
+    /// What the failure of a run advises may not help one that went well for periods.
+    pub fn say_where_they_stopped(&self, levels: &[Result<Run, Refused>]) {
+        let failures = levels.iter().flatten().filter_map(|run| run.level.errors.as_ref().err());
+        let numbers =
+            failures.map(|it| ((it.time - self.start) / self.length).floor() as usize + 1);
+        let numbers: Vec<_> = numbers.filter(|&number| number > 1).collect();
+        if numbers.is_empty() {
+            return;
+        }
+        let numbers = numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        say(format_args!(
+            "note: stopped in period {numbers} of {}; where finer grids and smaller steps do not get further, errors \
+             that grow from period to period have outgrown the motion: ask for fewer periods, or set a smaller motion",
+            self.last
+        ));
+    }
+}
