@@ -76,7 +76,10 @@ fn ending(given: &str, known: &[&str]) -> String {
     let given = given.to_lowercase().replace('-', "_");
     let ends = |it: &&&str| !given.is_empty() && (it.ends_with(&given) || it.starts_with(&given));
     let names: Vec<_> = known.iter().filter(ends).map(|it| format!("`{it}`")).collect();
-    if names.is_empty() { names.concat() } else { format!("did you mean {}? ", names.join(" or ")) }
+    match names.as_slice() {
+        [] => String::new(),
+        names => format!("did you mean {}? ", names.join(" or ")),
+    }
 }
 
 /// A name that no member of a family has.

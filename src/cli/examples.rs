@@ -38,7 +38,7 @@ pub const EXAMPLES: [(&str, [&str; 2]); 19] = [
     ),
     ("report", ["mms report verdict", "mms report verdict --output page.html"]),
     ("run", ["mms run bar_1d --cells 64", "mms run wave.toml --cells 16 --vtk states"]),
-    ("study", ["mms study wave.toml", "mms study bar_1d --shape linear,cpgimp --cells 8,16,32"]),
+    ("study", ["mms study wave.toml", "mms study bar_1d --shape cpdi,cpgimp --cells 8,16,32"]),
     ("explain", ["mms explain cpgimp", "mms explain \"dead load\""]),
     ("accuracy", ["mms accuracy bar_1d", "mms accuracy wave.toml --json"]),
     ("verify", ["mms verify --list", "mms verify --row time/leapfrog"]),

@@ -360,6 +360,7 @@ fn documents_have_the_keys_of_the_page() {
             "study bar.toml --cells 8,16 --formulation total --shape linear,ugimp --excluded",
             0,
         ),
+        ("studies", "study bar.toml --cells 8,16,32 --integrator leapfrog,usl", 1),
         ("verify", "verify --quick --row startup/usl", 0),
         ("verify-list", "verify --list", 0),
         ("tradeoff", "tradeoff bar.toml --target-linf 5e-2 --cost memory", 0),

@@ -255,7 +255,7 @@ fn the_method_fits_the_body_unless_it_is_given() {
         ("expanding_ring --formulation total", "total", "quadratic_bspline"),
         ("conformal_sector_2d", "updated", "cpdi"),
     ] {
-        let command = format!("study {study} --cells 4 --time-step 1e-4 --time 2e-4 --json");
+        let command = format!("study {study} --cells 4 --json");
         let method = &Folder::new().mms(&command).json()["method"];
         assert_eq!([&method["formulation"], &method["shape"]], [formulation, shape], "{study}");
     }

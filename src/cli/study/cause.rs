@@ -57,7 +57,7 @@ impl Cause {
     }
 }
 
-/// The option that a finer study of the same kind changes needs at most this many cells along an edge, in one to three dimensions.
+/// The most cells along an edge of a finer mesh that is proposed, in one to three dimensions.
 const MOST_CELLS: [usize; 3] = [1024, 64, 16];
 
 impl Ended<'_> {
@@ -210,8 +210,10 @@ impl Ended<'_> {
             false => {
                 let freeze = Freeze::Only(set.iter().map(|(name, _)| name.clone()).collect());
                 let selection = Selection { set, freeze, ..Selection::default() };
-                let compiled = open(self.field)?.compile(&self.variant.options(selection));
-                let Ok(Ok(compiled)) = compiled.map(Ok::<_, ()>) else { return Ok(Vec::new()) };
+                let options = self.variant.options(selection);
+                let Ok(compiled) = open(self.field)?.compile(&options) else {
+                    return Ok(Vec::new());
+                };
                 compiled.into()
             }
         };
