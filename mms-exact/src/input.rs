@@ -1,5 +1,6 @@
 //! A field that a user named, compiled.
 
+use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -37,11 +38,27 @@ pub struct Input {
     options: Options,
 }
 
+/// A text that does not compile.
+#[derive(Debug)]
+pub struct Mistaken {
+    subject: &'static str,
+    /// Every mistake, at its place.
+    pub failure: Failure,
+}
+
+impl fmt::Display for Mistaken {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n{}", self.subject, self.failure)
+    }
+}
+
+impl std::error::Error for Mistaken {}
+
 impl Input {
     /// Compiles a field, or the part of it that the options select.
     ///
     /// # Errors
-    /// The mistakes of the text, each at its place; a claim that does not hold.
+    /// The mistakes of the text, each at its place; a claim that does not hold: [`Mistaken`].
     pub fn new(source: Source, options: &Options) -> anyhow::Result<Input> {
         Self::compiled_as(compile_with, Arc::new(source), options)
     }
@@ -62,7 +79,7 @@ impl Input {
     ) -> anyhow::Result<Input> {
         let compiled = source
             .compile_as(compile, options)
-            .map_err(|failure| anyhow!("{}\n{failure}", source.subject(options)))?;
+            .map_err(|failure| Mistaken { subject: source.subject(options), failure })?;
         let is_original = options.selection.twin == Twin::Nothing
             && options.selection.window.is_none()
             && options.form == Form::Stable

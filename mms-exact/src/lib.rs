@@ -14,6 +14,6 @@ mod source;
 pub mod wave;
 
 pub use exact::{Exact, SAME, says};
-pub use input::{Input, hold_body, hold_division, settings};
+pub use input::{Input, Mistaken, hold_body, hold_division, settings};
 pub use quantities::{evaluated, quantities};
 pub use source::{Open, Source};

@@ -394,6 +394,19 @@ pub const CRATES: &[Crate] = &[
         layers: &["error evaluator settings", "memory stop", "border", "field", "gallery", "abi"],
     },
     Crate {
+        name: "mms-python",
+        knows: &[
+            "mms-codegen",
+            "mms-exact",
+            "mms-files",
+            "mms-mechanics",
+            "mms-program",
+            "mms-spec",
+            "mms-symbolic",
+        ],
+        layers: &["evaluator mistake", "array open", "opened", "field"],
+    },
+    Crate {
         name: "mms",
         knows: &[
             "mms-analysis",

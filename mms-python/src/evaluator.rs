@@ -1,0 +1,196 @@
+//! One output at many points, by several threads.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::thread;
+
+use mms_mechanics::{Output, Program};
+use mms_program::block::{Blockwise, Inputs, Outputs, Plan, Prepared, Room, Rooms, Way};
+use mms_symbolic::expr::Symbol;
+use numpy::Element;
+
+/// From so many points on threads share them.
+const MANY: usize = 1 << 14;
+
+/// How many points are looked at, evaluated and looked at again while they are in the cache.
+const SHARE: usize = 1 << 10;
+
+/// The precision of an array.
+pub trait Precision: Blockwise + Element {
+    /// The nearest number.
+    fn near(number: f64) -> Self;
+    /// Whether it is one.
+    fn is_finite(self) -> bool;
+}
+
+macro_rules! precisions {
+    ($($float:ident)*) => {
+        $(impl Precision for $float {
+            fn near(number: f64) -> Self {
+                number as $float
+            }
+
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+        })*
+    };
+}
+
+precisions!(f32 f64);
+
+/// An output of a field for one set of parameters.
+pub struct Evaluator<T: Blockwise> {
+    prepared: Prepared<T>,
+    rooms: Rooms<T>,
+    /// The numbers of a result.
+    components: usize,
+}
+
+/// Points, one after the other: coordinates X, and what the output takes beside them.
+#[derive(Clone, Copy)]
+pub struct Places<'a, T> {
+    /// How many there are.
+    pub count: usize,
+    /// The coordinates of a point.
+    pub dimension: usize,
+    /// X; empty where none is taken.
+    pub points: &'a [T],
+    /// Unit normals N; empty where none is taken.
+    pub normals: &'a [T],
+    /// Displacement gradients H, rows first; empty where none is taken.
+    pub gradients: &'a [T],
+    /// The rows of H.
+    pub rows: usize,
+}
+
+impl<'a, T> Places<'a, T> {
+    fn split_at(self, count: usize) -> (Self, Self) {
+        let count = count.min(self.count);
+        let cut = |numbers: &'a [T], each: usize| numbers.split_at(numbers.len().min(count * each));
+        let points = cut(self.points, self.dimension);
+        let normals = cut(self.normals, self.dimension);
+        let gradients = cut(self.gradients, self.rows * self.rows);
+        let of = |count, points, normals, gradients| Places {
+            count,
+            points,
+            normals,
+            gradients,
+            ..self
+        };
+        let first = of(count, points.0, normals.0, gradients.0);
+        (first, of(self.count - count, points.1, normals.1, gradients.1))
+    }
+}
+
+/// A number that is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Odd {
+    /// The position of its point.
+    pub index: usize,
+    /// Whether it was given, and not found.
+    pub is_given: bool,
+}
+
+impl<T: Precision> Evaluator<T> {
+    /// With the stages that parameters decide computed.
+    pub fn new(program: &Program, output: Output, components: usize, parameters: &[T]) -> Self {
+        let plan = Arc::new(Plan::new(program, &[output], Output::is_quantity));
+        let prepared = Prepared::new(plan, Way::portable(), parameters);
+        Evaluator { prepared, rooms: Rooms::default(), components }
+    }
+
+    /// The numbers of a result.
+    pub fn components(&self) -> usize {
+        self.components
+    }
+
+    /// Fills `values`; says where a number is none.
+    pub fn fill(&self, time: T, places: Places<'_, T>, values: &mut [T]) -> Result<(), Odd> {
+        let count = places.count;
+        if count < MANY {
+            return self.rooms.lend(|room| self.share(room, time, places, values));
+        }
+        let threads = thread::available_parallelism().map_or(1, usize::from);
+        let each = count.div_ceil(threads).next_multiple_of(SHARE);
+        thread::scope(|scope| {
+            let (mut places, mut values, mut spawned) = (places, values, Vec::new());
+            while places.count > 0 {
+                let (own, others) = places.split_at(each);
+                let (room, rest) = values.split_at_mut(own.count * self.components);
+                (places, values) = (others, rest);
+                let work = move || self.rooms.lend(|it| self.share(it, time, own, room));
+                spawned.push(scope.spawn(work));
+            }
+            let found = spawned.into_iter().enumerate().try_for_each(|(at, thread)| {
+                match thread.join().expect("a panic is passed on") {
+                    Ok(()) => ControlFlow::Continue(()),
+                    Err(odd) => ControlFlow::Break(Odd { index: at * each + odd.index, ..odd }),
+                }
+            });
+            found.break_value().map_or(Ok(()), Err)
+        })
+    }
+
+    /// The same on this thread.
+    fn share(
+        &self,
+        room: &mut Room<T>,
+        time: T,
+        mut places: Places<'_, T>,
+        mut values: &mut [T],
+    ) -> Result<(), Odd> {
+        let mut start = 0;
+        while places.count > 0 {
+            let (own, others) = places.split_at(SHARE);
+            let count = own.count;
+            let given = [(own.points, own.dimension), (own.gradients, own.rows * own.rows)];
+            for (numbers, each) in given {
+                if let Some(at) = first_odd(numbers) {
+                    return Err(Odd { index: start + at / each, is_given: true });
+                }
+            }
+            let (found, rest) = values.split_at_mut(count * self.components);
+            self.evaluate(room, time, own, found);
+            if let Some(at) = first_odd(found) {
+                return Err(Odd { index: start + at / self.components, is_given: false });
+            }
+            (places, values, start) = (others, rest, start + count);
+        }
+        Ok(())
+    }
+
+    fn evaluate(&self, room: &mut Room<T>, time: T, places: Places<'_, T>, values: &mut [T]) {
+        let Places { count, dimension, points, normals, gradients, rows } = places;
+        if gradients.is_empty() {
+            return self.prepared.at_points(room, time, dimension, [points, normals], values);
+        }
+        let mut bring = |start: usize, inputs: &mut Inputs<'_, T>| {
+            for (symbol, column) in inputs.columns() {
+                let (numbers, each, at) = match symbol {
+                    Symbol::Coordinate(axis) => (points, dimension, axis),
+                    Symbol::Gradient(row, axis) => (gradients, rows * rows, row * rows + axis),
+                    _ => unreachable!("a response takes positions and gradients"),
+                };
+                let numbers = numbers[start * each + at..].iter().step_by(each);
+                column.iter_mut().zip(numbers).for_each(|(to, number)| *to = *number);
+            }
+        };
+        let components = self.components;
+        let mut take = |start: usize, outputs: &Outputs<'_, T>| {
+            let own = &mut values[start * components..][..outputs.count() * components];
+            for (index, component) in outputs.components(0).enumerate() {
+                component.write(own[index..].iter_mut().step_by(components));
+            }
+        };
+        self.prepared.run(room, time, count, &mut bring, &mut take);
+    }
+}
+
+/// The position of the first number that is none; all are looked at without a branch for each.
+fn first_odd<T: Precision>(numbers: &[T]) -> Option<usize> {
+    match numbers.iter().fold(true, |all, number| all & number.is_finite()) {
+        true => None,
+        false => numbers.iter().position(|number| !number.is_finite()),
+    }
+}

@@ -1,0 +1,350 @@
+//! The classes of Python, whose methods for quantities `build.rs` writes.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use mms_exact::Source;
+use mms_exact::gallery::FIELDS;
+use mms_mechanics::extent::halton;
+use mms_mechanics::sample::domain;
+use mms_spec::Face;
+use mms_spec::quantity::Quantity;
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::{PyAttributeError, PyTypeError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyString};
+
+use crate::open;
+use crate::opened::{Opened, Points};
+
+/// A field: a motion, its material, and the loads that make it a solution. `field`, `load` and `loads` open one.
+///
+/// Each quantity is a method of X, (..., D) reference positions, and of the time t. For D = 1, X may be (n,), which gives (n,).
+/// The aliases u, x, v, a, H, F, J, C, B, E, rho, P, S, p, sigma, b and W are methods too.
+#[pyclass(frozen, module = "manufactured")]
+pub struct Field {
+    opened: Arc<Opened>,
+}
+
+/// A field at one time, as `field.at(t)` gives it.
+#[pyclass(frozen, module = "manufactured")]
+pub struct Now {
+    opened: Arc<Opened>,
+    /// The time.
+    #[pyo3(get)]
+    time: f64,
+}
+
+/// The material of a field.
+#[pyclass(frozen, module = "manufactured")]
+pub struct Material {
+    opened: Arc<Opened>,
+}
+
+/// A field at points, as `field.points(X)` gives it: the points are copied and looked at once.
+#[pyclass(frozen, module = "manufactured")]
+pub struct AtPoints {
+    opened: Arc<Opened>,
+    points: Py<PyAny>,
+}
+
+include!(concat!(env!("OUT_DIR"), "/quantities.rs"));
+
+#[pymethods]
+#[allow(non_snake_case)]
+impl Field {
+    /// The name.
+    #[getter]
+    fn name(&self) -> &str {
+        self.opened.input.name.raw()
+    }
+
+    /// The title, a sentence.
+    #[getter]
+    fn title(&self) -> &str {
+        self.opened.compiled().field.title.raw()
+    }
+
+    /// D, the number of coordinates of a point.
+    #[getter]
+    fn dimension(&self) -> usize {
+        self.opened.dimension()
+    }
+
+    /// The value of each parameter.
+    #[getter]
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let values = PyDict::new(py);
+        let names = self.opened.compiled().model.parameters.iter();
+        for (parameter, value) in names.zip(self.opened.parameters()) {
+            values.set_item(&parameter.name, value)?;
+        }
+        Ok(values)
+    }
+
+    /// The names of the faces of the body, for `traction`.
+    #[getter]
+    fn faces(&self) -> Vec<&str> {
+        let field = &self.opened.compiled().field;
+        Face::of(&field.domain.body, field.space).iter().map(|face| face.name()).collect()
+    }
+
+    /// The first and the last time; None of a static field.
+    #[getter]
+    fn window(&self) -> Option<(f64, f64)> {
+        let (_, [first, last]) = domain(&self.opened.compiled().program, self.opened.parameters());
+        (!self.opened.input.is_static()).then_some((first, last))
+    }
+
+    /// So many points spread evenly over the body (a Halton sequence): (count, D).
+    fn sample<'py>(&self, py: Python<'py>, count: usize) -> PyResult<Bound<'py, PyAny>> {
+        let dimension = self.opened.dimension();
+        let points = py.detach(|| {
+            let (body, _) = domain(&self.opened.compiled().program, self.opened.parameters());
+            let points = (1..=count).flat_map(|index| body.point(&halton::<f64>(index)));
+            points.collect::<Vec<_>>()
+        });
+        let points = PyArray1::from_vec(py, points);
+        Ok(points.reshape([count, dimension])?.into_any())
+    }
+
+    /// The names of all quantities, those that the field file defines last.
+    #[getter]
+    fn quantities(&self) -> Vec<&str> {
+        let compiled = self.opened.compiled();
+        let own = compiled.model.own.keys().map(|own| Quantity::Own(*own));
+        let all = Quantity::evaluated().filter(|it| compiled.offers(*it));
+        all.chain(own).map(|it| it.name()).collect()
+    }
+
+    /// The material: `material.P(H)` is the stress at displacement gradients of your own.
+    #[getter]
+    fn material(&self) -> Material {
+        Material { opened: self.opened.clone() }
+    }
+
+    /// The field at a time: `now = field.at(t); now.F(X), now.sigma(X)`.
+    fn at(&self, t: f64) -> Now {
+        Now { opened: self.opened.clone(), time: t }
+    }
+
+    /// The field at points that are looked at once: `cache = field.points(X); cache.b(t)`. X is copied.
+    fn points(&self, X: &Bound<'_, PyAny>) -> PyResult<AtPoints> {
+        let points = Points::given(X, &self.opened)?.copied()?;
+        Ok(AtPoints { opened: self.opened.clone(), points })
+    }
+
+    /// The field with other values of some parameters: `field.set(amplitude=0.2)`. Those that were set before stay set.
+    #[pyo3(signature = (**parameters))]
+    fn set(&self, py: Python<'_>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Field> {
+        let new = settings(parameters)?;
+        let is_new = |name: &String| new.iter().any(|(other, _)| other == name);
+        let mut all = self.opened.settings.clone();
+        all.retain(|(name, _)| !is_new(name));
+        all.extend(new);
+        let opened = Opened::new(py, self.opened.input.clone(), all)?;
+        Ok(Field { opened: Arc::new(opened) })
+    }
+
+    /// A quantity by its name or alias, also one that the field file defines: `field.evaluate("b", X, t=0.01)`. One that takes a
+    /// normal needs the name of a face.
+    #[pyo3(signature = (quantity, X, t=None, *, face=None))]
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        quantity: &str,
+        X: &Bound<'py, PyAny>,
+        t: Option<f64>,
+        face: Option<&str>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.opened.named(py, quantity, &Points::given(X, &self.opened)?, t, face)
+    }
+
+    /// The traction P N on the reference area of a face, at points X of it: (..., D).
+    ///
+    /// Raises MmsError where the body has no such face, and where a number is not finite.
+    #[pyo3(signature = (face, X, t=None))]
+    fn traction<'py>(
+        &self,
+        py: Python<'py>,
+        face: &str,
+        X: &Bound<'py, PyAny>,
+        t: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let points = Points::given(X, &self.opened)?;
+        self.opened.named(py, Quantity::Traction.name(), &points, t, Some(face))
+    }
+
+    /// A quantity that the field file defines, as a method.
+    fn __getattr__<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        match slf.get().opened.compiled().quantity(name) {
+            Ok(quantity) => {
+                let partial = slf.py().import("functools")?.getattr("partial")?;
+                partial.call1((slf.getattr("evaluate")?, quantity.name()))
+            }
+            Err(_) => Err(PyAttributeError::new_err(format!(
+                "a field has no `{name}`, and `{}` defines no such quantity",
+                slf.get().name()
+            ))),
+        }
+    }
+
+    fn __repr__(&self) -> String {
+        let set: Vec<_> =
+            self.opened.settings.iter().map(|(name, value)| format!(", {name}={value}")).collect();
+        format!("<field {}{}>", self.opened.input.name.shown(), set.concat())
+    }
+}
+
+#[pymethods]
+#[allow(non_snake_case)]
+impl Now {
+    /// The traction P N on the reference area of a face, at points X of it: (..., D).
+    fn traction<'py>(
+        &self,
+        py: Python<'py>,
+        face: &str,
+        X: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let points = Points::given(X, &self.opened)?;
+        self.opened.named(py, Quantity::Traction.name(), &points, Some(self.time), Some(face))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<field {} at t = {:?}>", self.opened.input.name.shown(), self.time)
+    }
+}
+
+#[pymethods]
+impl AtPoints {
+    /// The traction P N on the reference area of a face that all points are on: (..., D).
+    #[pyo3(signature = (face, t=None))]
+    fn traction<'py>(
+        &self,
+        py: Python<'py>,
+        face: &str,
+        t: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let points = Points::given(self.points.bind(py), &self.opened)?;
+        self.opened.named(py, Quantity::Traction.name(), &points, t, Some(face))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<field {} at points>", self.opened.input.name.shown())
+    }
+}
+
+#[pymethods]
+#[allow(non_snake_case)]
+impl Material {
+    /// The first Piola-Kirchhoff stress P at displacement gradients H, (..., D, D); for D = 1 also (n,).
+    ///
+    /// X, (..., D), and t are needed where the material depends on them. Returns the shape of H.
+    #[pyo3(signature = (H, X=None, t=None))]
+    fn P<'py>(
+        &self,
+        py: Python<'py>,
+        H: &Bound<'py, PyAny>,
+        X: Option<&Bound<'py, PyAny>>,
+        t: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.opened.stress(py, H, X, t)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<material of {}>", self.opened.input.name.shown())
+    }
+}
+
+/// Parameters as they were given: a number stands for its digits, as on the command line, and a text for a formula.
+fn settings(parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, String)>> {
+    let Some(parameters) = parameters else { return Ok(Vec::new()) };
+    let setting = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let name: String = name.extract()?;
+        if value.is_instance_of::<PyBool>() {
+            return Err(PyTypeError::new_err(format!(
+                "`{name}`: expected a number, found a truth value"
+            )));
+        }
+        let text = match value.cast::<PyString>() {
+            Ok(text) => text.to_string(),
+            // A float of NumPy is one of Python too, and is written in other words.
+            Err(_) if value.is_instance_of::<PyFloat>() => {
+                PyFloat::new(value.py(), value.extract()?).repr()?.to_string()
+            }
+            Err(_) => value.str()?.to_string(),
+        };
+        Ok((name, text))
+    };
+    parameters.iter().map(setting).collect()
+}
+
+/// Opens a field of the gallery: `field("bar_1d", amplitude=0.1)`.
+///
+/// A number is taken by its digits, as on the command line: 0.1 is 1/10. A string is a formula, such as "1/3". Raises FieldError
+/// where the field does not allow a value.
+#[pyfunction]
+#[pyo3(signature = (name, /, **parameters))]
+fn field(py: Python<'_>, name: &str, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Field> {
+    opened(py, open::shipped(name)?, true, parameters)
+}
+
+/// Opens a field file: `load("mine.toml", amplitude=0.1)`. A material file that it names is read beside it.
+///
+/// Raises FieldError where it has mistakes, each with its line and column, and OSError where it cannot be read.
+#[pyfunction]
+#[pyo3(signature = (path, /, **parameters))]
+fn load(py: Python<'_>, path: PathBuf, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Field> {
+    opened(py, open::file(&path)?, false, parameters)
+}
+
+/// Opens the text of a field file: `loads(text, amplitude=0.1)`. A material of its own follows as a second text.
+///
+/// Raises FieldError where it has mistakes, each with its line and column.
+#[pyfunction]
+#[pyo3(signature = (text, material=None, /, **parameters))]
+fn loads(
+    py: Python<'_>,
+    text: &str,
+    material: Option<String>,
+    parameters: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Field> {
+    opened(py, open::text("text", text, material), false, parameters)
+}
+
+fn opened(
+    py: Python<'_>,
+    source: Source,
+    is_shipped: bool,
+    parameters: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Field> {
+    let settings = settings(parameters)?;
+    let input = open::compile(py, source, is_shipped)?;
+    Ok(Field { opened: Arc::new(Opened::new(py, input, settings)?) })
+}
+
+/// The names of the fields that ship with the library.
+#[pyfunction]
+fn gallery() -> Vec<&'static str> {
+    FIELDS.iter().map(|entry| entry.name).collect()
+}
+
+/// Adds the classes and functions to the module.
+pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    for class in [py.get_type::<Field>(), py.get_type::<Now>(), py.get_type::<AtPoints>()] {
+        for quantity in Quantity::evaluated().filter(|it| !it.takes_normal()) {
+            let (name, symbol) = (quantity.name(), quantity.symbol());
+            // `p` may be a given field of the file, which `__getattr__` finds.
+            if name != symbol && Quantity::reserves(symbol) {
+                class.setattr(symbol, class.getattr(name)?)?;
+            }
+        }
+        module.add(class.name()?.extract::<String>()?.as_str(), class)?;
+    }
+    module.add_class::<Material>()?;
+    module.add_function(wrap_pyfunction!(field, module)?)?;
+    module.add_function(wrap_pyfunction!(load, module)?)?;
+    module.add_function(wrap_pyfunction!(loads, module)?)?;
+    module.add_function(wrap_pyfunction!(self::gallery, module)?)
+}

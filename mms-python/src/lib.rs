@@ -1,0 +1,31 @@
+//! The Python library `manufactured`: fields, their quantities over NumPy arrays, verdicts.
+//!
+//! `python/manufactured/` is the package, and this crate its module `_native`. A field is compiled and interpreted, to the bits
+//! of `mms eval`, in blocks of points, without a copy of an array that lies in memory as it is read, and without the lock of
+//! the interpreter.
+//!
+//! | file | does |
+//! |---|---|
+//! | `mistake` | exceptions |
+//! | `array` | the shape and the numbers of an argument, and the array that is returned |
+//! | `evaluator` | one output at many points, by several threads |
+//! | `open` | opens and compiles a field, and stops where Python has an interrupt |
+//! | `opened` | a field with numbers for its parameters: all its outputs |
+//! | `field` | the classes, whose methods for quantities `build.rs` writes |
+
+mod array;
+mod evaluator;
+mod field;
+mod mistake;
+mod open;
+mod opened;
+
+use pyo3::prelude::*;
+
+/// The module.
+#[pymodule(gil_used = false)]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    mistake::add(module)?;
+    field::add(module)?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))
+}

@@ -1,0 +1,189 @@
+"""Opening fields, messages, threads, interrupts and memory."""
+
+import gc
+import pathlib
+import pickle
+import resource
+import signal
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import manufactured as mf
+
+from conftest import opened, time_of
+
+TEXT = """
+[field]
+title     = "A line that is stretched"
+dimension = 1
+
+[parameters]
+amplitude = { value = 0.1 }
+
+[displacement]
+u = ["amplitude*X*t"]
+
+[material]
+model   = "neo_hookean"
+lambda  = 1000
+mu      = 1000
+density = 1
+
+[domain]
+shape = "box"
+lower = [0]
+upper = [1]
+time  = [0, 1]
+"""
+
+
+def test_a_text_and_a_file_are_one(tmp_path):
+    path = tmp_path / "line.toml"
+    path.write_text(TEXT)
+    for field in [mf.loads(TEXT), mf.load(path), mf.load(str(path))]:
+        np.testing.assert_array_equal(field.u([0.5], 1.0), [0.05])
+    assert mf.load(path).name == "line"
+
+
+def test_a_mistake_has_its_place(tmp_path):
+    wrong = TEXT.replace("amplitude*X*t", "amplitud*X*t")
+    with pytest.raises(mf.FieldError, match="amplitud") as caught:
+        mf.loads(wrong)
+    line = next(at for at, it in enumerate(wrong.splitlines(), 1) if "amplitud*X" in it)
+    assert (line, 7) in [place[1:3] for place in caught.value.places]
+    assert f"text.toml:{line}:7" in str(caught.value)
+    path = tmp_path / "line.toml"
+    path.write_text(wrong)
+    with pytest.raises(mf.FieldError, match=f"line.toml:{line}:7"):
+        mf.load(path)
+
+
+def test_exceptions_are_value_errors():
+    assert issubclass(mf.MmsError, ValueError)
+    assert issubclass(mf.FieldError, mf.MmsError)
+    with pytest.raises(OSError, match="cannot read"):
+        mf.load("there_is_none.toml")
+    with pytest.raises(mf.MmsError, match="did you mean `bar_1d`"):
+        mf.field("bar1d")
+    with pytest.raises(mf.MmsError, match="did you mean `amplitude`"):
+        mf.field("bar_1d", amplitud=0.1)
+    with pytest.raises(mf.FieldError, match="young"):
+        mf.field("bar_1d", young=-1)
+    with pytest.raises(mf.MmsError, match="give the time"):
+        opened("bar_1d").b([0.5])
+    with pytest.raises(mf.MmsError, match="expected a finite number"):
+        opened("bar_1d").b([0.5], np.nan)
+    with pytest.raises(mf.MmsError, match="did you mean `x_max`"):
+        opened("bar_1d").traction("y_max", [1.0], 0.0)
+    with pytest.raises(mf.MmsError, match="takes a normal"):
+        opened("bar_1d").evaluate("traction", [1.0], 0.0)
+    with pytest.raises(TypeError, match="truth value"):
+        mf.field("bar_1d", amplitude=True)
+    with pytest.raises(AttributeError, match="has no `stres`"):
+        opened("bar_1d").stres
+
+
+def test_numbers_are_taken_by_their_digits():
+    for given in [0.1, "0.1", "1/10", Fraction(1, 10), np.float64(0.1)]:
+        assert mf.field("bar_1d", amplitude=given).parameters["amplitude"] == 0.1
+    assert mf.field("bar_1d", young=10**7).parameters["young"] == 1e7
+    assert mf.field("bar_1d", young=1e17).parameters["young"] == 1e17
+
+
+def test_set_keeps_what_was_set():
+    one = mf.field("bar_1d", amplitude=0.2)
+    other = one.set(young=2e6).set(young=3e6)
+    assert other.parameters["amplitude"] == 0.2
+    assert other.parameters["young"] == 3e6
+    assert one.parameters["young"] == 1e6
+
+
+def test_a_field_with_quantities_of_its_own():
+    field = opened("given_pressure_2d")
+    own = [it for it in field.quantities if it.startswith("p_")]
+    assert own
+    x, time = field.sample(4), time_of(field)
+    for name in own:
+        if not name.endswith("_normal_flux"):
+            np.testing.assert_array_equal(getattr(field, name)(x, time), field.evaluate(name, x, time))
+
+
+def test_methods_are_documented():
+    for name in ["body_force", "b", "F"]:
+        doc = getattr(mf.Field, name).__doc__
+        assert "The unit is" in doc and "Returns (..., D" in doc
+    assert mf.Field.b is not None and mf.Field.b.__name__ == "body_force"
+
+
+def test_threads_share_a_field():
+    field = mf.field("axis_aligned_3d")
+    x, time = field.sample(5000), time_of(field)
+    times = [time * k / 16 for k in range(16)]
+    expected = [opened("axis_aligned_3d").sigma(x, t).tobytes() for t in times]
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(lambda t: field.sigma(x, t).tobytes(), times * 4))
+    assert found == expected * 4
+
+
+def test_a_field_is_dropped_by_the_thread_that_comes_last():
+    field = mf.field("bar_1d")
+    now = field.at(0.01)
+    del field
+    found = []
+    thread = threading.Thread(target=lambda: found.append(now.u([0.5])))
+    thread.start()
+    thread.join()
+    assert found[0].tobytes() == opened("bar_1d").u([0.5], 0.01).tobytes()
+
+
+def test_an_interrupt_ends_long_work():
+    field = opened("axis_aligned_3d")
+    # Nothing of this is in memory but what has been evaluated.
+    x = np.broadcast_to(np.array([0.25, 0.5, 0.75]), (100_000_000, 3))
+    signal.setitimer(signal.ITIMER_REAL, 0.05)
+    before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            field.b(x, 0.01)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def resident():
+    """Bytes of memory that this process has now."""
+    pages = int(pathlib.Path("/proc/self/statm").read_text().split()[1])
+    return pages * resource.getpagesize()
+
+
+@pytest.mark.skipif(not pathlib.Path("/proc/self/statm").exists(), reason="memory is read from /proc")
+def test_nothing_leaks():
+    field = opened("travelling_wave_2d")
+    x = field.sample(10_000)
+
+    def work(times):
+        for k in range(times):
+            field.b(x, 1e-6 * k)
+            field.at(1e-6 * k).sigma(x[::2])
+            field.traction("x_max", x[:8], 1e-6 * k)
+            with pytest.raises(mf.MmsError):
+                field.b(x[:, 0], 0.0)
+            if k % 20 == 0:
+                mf.field("bar_1d", amplitude=0.1).b([0.5], 0.0)
+
+    work(100)
+    gc.collect()
+    before = resident()
+    work(400)
+    gc.collect()
+    # One array of each call is 160 kB.
+    assert resident() - before < 8 << 20
+
+
+def test_a_field_is_not_pickled():
+    with pytest.raises(TypeError):
+        pickle.dumps(opened("bar_1d"))
