@@ -23,7 +23,8 @@ use crate::opened::{Opened, Points};
 /// The aliases u, x, v, a, H, F, J, C, B, E, rho, P, S, p, sigma, b and W are methods too.
 #[pyclass(frozen, module = "manufactured")]
 pub struct Field {
-    opened: Arc<Opened>,
+    /// The field, with numbers for its parameters.
+    pub opened: Arc<Opened>,
 }
 
 /// A field at one time, as `field.at(t)` gives it.

@@ -11,6 +11,8 @@
 //! | `evaluator` | one output at many points, by several threads |
 //! | `open` | opens and compiles a field, and stops where Python has an interrupt |
 //! | `opened` | a field with numbers for its parameters: all its outputs |
+//! | `results` | results of a solver, from arrays or files |
+//! | `verdict` | verdicts and diagnoses, to documents |
 //! | `field` | the classes, whose methods for quantities `build.rs` writes |
 
 mod array;
@@ -19,6 +21,8 @@ mod field;
 mod mistake;
 mod open;
 mod opened;
+mod results;
+mod verdict;
 
 use pyo3::prelude::*;
 
@@ -27,5 +31,6 @@ use pyo3::prelude::*;
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     mistake::add(module)?;
     field::add(module)?;
+    verdict::add(module)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))
 }

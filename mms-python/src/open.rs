@@ -68,7 +68,7 @@ pub fn compile(py: Python<'_>, source: Source, is_shipped: bool) -> PyResult<Inp
 }
 
 /// Runs work on a thread of its own, until it ends or an interrupt of Python has stopped it.
-fn interruptible<R: Send>(stop: &Stop, work: impl FnOnce() -> R + Send) -> PyResult<R> {
+pub fn interruptible<R: Send>(stop: &Stop, work: impl FnOnce() -> R + Send) -> PyResult<R> {
     let (ended, ends) = channel::<()>();
     thread::scope(|scope| {
         let work = move || {

@@ -149,6 +149,11 @@ impl Opened {
         &self.input.compiled
     }
 
+    /// The parameters that were set, as the command takes them.
+    pub fn arguments(&self) -> Vec<String> {
+        self.settings.iter().map(|(name, value)| format!("{name}={value}")).collect()
+    }
+
     /// All parameters, in the order of the file.
     pub fn parameters(&self) -> &[f64] {
         &self.double.parameters

@@ -4,6 +4,7 @@ import functools
 import os
 import subprocess
 
+import numpy as np
 import pytest
 
 import manufactured as mf
@@ -22,8 +23,6 @@ def time_of(field):
     if field.window is None:
         return None
     first, last = field.window
-    import numpy as np
-
     return float(np.float32(first + PART * (last - first)))
 
 
@@ -34,9 +33,9 @@ def mms():
     if command is None:
         pytest.skip("MMS is not set to the path of the command")
 
-    def run(*arguments):
+    def run(*arguments, code=0):
         ran = subprocess.run([command, *arguments], capture_output=True, text=True)
-        assert ran.returncode == 0, ran.stderr
+        assert ran.returncode == code, ran.stderr
         return ran.stdout
 
     return run

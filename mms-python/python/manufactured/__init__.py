@@ -8,10 +8,15 @@
 (2,)
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from ._native import (
     AtPoints,
     Field,
     FieldError,
+    Level,
     Material,
     MmsError,
     Now,
@@ -22,16 +27,38 @@ from ._native import (
     loads,
 )
 
+if TYPE_CHECKING:
+    from .verdicts import Diagnosis, Judgement, diagnose, judge, judge_law
+
 __all__ = [
     "AtPoints",
+    "Diagnosis",
     "Field",
     "FieldError",
+    "Judgement",
+    "Level",
     "Material",
     "MmsError",
     "Now",
     "__version__",
+    "diagnose",
     "field",
     "gallery",
+    "judge",
+    "judge_law",
     "load",
     "loads",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Verdicts, which are imported where they are asked for: who evaluates fields alone does not wait for them."""
+    if name not in __all__:
+        raise AttributeError(f"module `manufactured` has no `{name}`")
+    from . import verdicts
+
+    return getattr(verdicts, name)
+
+
+def __dir__() -> list[str]:
+    return __all__
