@@ -1,23 +1,26 @@
 //! The classes of Python, whose methods for quantities `build.rs` writes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use mms_exact::Source;
 use mms_exact::gallery::FIELDS;
+use mms_files::write::write_whole;
 use mms_mechanics::extent::halton;
 use mms_mechanics::sample::domain;
 use mms_spec::Face;
 use mms_spec::quantity::Quantity;
 use numpy::{PyArray1, PyArrayMethods};
-use pyo3::exceptions::{PyAttributeError, PyTypeError};
+use pyo3::exceptions::{PyAttributeError, PyOSError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyString};
 
+use crate::mistake::mistake;
 use crate::open;
 use crate::opened::{Opened, Points};
 
-/// A field: a motion, its material, and the loads that make it a solution. `field`, `load` and `loads` open one.
+/// A field: a motion, its material, and the loads that make it a solution. `field`, `load` and `loads` open one, and `Field` makes
+/// one of formulas.
 ///
 /// Each quantity is a method of X, (..., D) reference positions, and of the time t. For D = 1, X may be (n,), which gives (n,).
 /// The aliases u, x, v, a, H, F, J, C, B, E, rho, P, S, p, sigma, b and W are methods too.
@@ -54,6 +57,48 @@ include!(concat!(env!("OUT_DIR"), "/quantities.rs"));
 #[pymethods]
 #[allow(non_snake_case)]
 impl Field {
+    /// A field of this displacement, with a formula for each component; the other tables of a field file are keywords:
+    /// `Field(["A*sin(pi*X)"], parameters={"A": 0.1}, material={...}, domain={...})`.
+    ///
+    /// Formulas are strings, numbers or expressions of SymPy. Raises FieldError where the field has mistakes, in the lines of the
+    /// file that it makes.
+    #[new]
+    #[pyo3(signature = (u, **tables))]
+    fn new(
+        py: Python<'_>,
+        u: &Bound<'_, PyAny>,
+        tables: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Field> {
+        let text = py.import("manufactured._text")?.getattr("text_of")?.call((u,), tables)?;
+        opened(py, open::text("text", &text.extract::<String>()?, None), false, None)
+    }
+
+    /// The text of the field file. Parameters that were set are not in it.
+    #[getter]
+    fn text(&self) -> &str {
+        self.opened.compiled().sources.texts().next().unwrap_or_default()
+    }
+
+    /// Writes the field file, and beside it the file of a material that is none of the library's.
+    ///
+    /// Raises MmsError where parameters are set, since files hold defaults, and OSError where it cannot be written.
+    fn save(&self, path: PathBuf) -> PyResult<()> {
+        if !self.opened.settings.is_empty() {
+            return Err(mistake(format!(
+                "a file holds the defaults of parameters, and {} is set: save the field as it was opened",
+                self.opened.arguments().join(", ")
+            )));
+        }
+        let written = |path: &Path, text: &str| {
+            write_whole(path, text).map_err(|error| PyOSError::new_err(format!("{error:#}")))
+        };
+        written(&path, self.text())?;
+        match self.opened.compiled().own_material() {
+            Some((name, text)) => written(&path.with_file_name(name), text),
+            None => Ok(()),
+        }
+    }
+
     /// The name.
     #[getter]
     fn name(&self) -> &str {

@@ -187,3 +187,54 @@ def test_nothing_leaks():
 def test_a_field_is_not_pickled():
     with pytest.raises(TypeError):
         pickle.dumps(opened("bar_1d"))
+
+
+LINE = {
+    "parameters": {"amplitude": {"value": 0.1}},
+    "material": {"model": "neo_hookean", "lambda": 1000, "mu": 1000, "density": 1},
+    "domain": {"shape": "box", "lower": [0], "upper": [1], "time": [0, 1]},
+}
+
+
+def test_a_field_is_made_of_formulas(tmp_path):
+    made = mf.Field(["amplitude*X*t"], **LINE)
+    x = made.sample(9)
+    assert made.b(x, 0.5).tobytes() == mf.loads(TEXT).b(x, 0.5).tobytes()
+    made.save(tmp_path / "line.toml")
+    assert mf.load(tmp_path / "line.toml").text == made.text
+    with pytest.raises(mf.MmsError, match="amplitude=0.2 is set"):
+        made.set(amplitude=0.2).save(tmp_path / "other.toml")
+    assert not (tmp_path / "other.toml").exists()
+
+
+def test_a_mistake_in_a_formula_is_shown_in_its_line():
+    with pytest.raises(mf.FieldError, match=r"u = \[\"amplitud\*X\*t\"\]") as caught:
+        mf.Field(["amplitud*X*t"], **LINE)
+    [(path, line, column, _)] = caught.value.places
+    text = 'u = ["'
+    assert path == "text.toml" and column == len(text) + 1 and line > 1
+    with pytest.raises(mf.FieldError, match=r"\[domain\]"):
+        mf.Field(["X*t"])
+    with pytest.raises(TypeError, match="expected a list"):
+        mf.Field("X*t", **LINE)
+    with pytest.raises(TypeError, match="`let`: expected a dictionary"):
+        mf.Field(["X*t"], let=3, **LINE)
+
+
+def test_a_field_is_made_of_expressions_of_sympy():
+    sympy = pytest.importorskip("sympy")
+    amplitude, x, t = sympy.symbols("amplitude X t")
+    made = mf.Field([amplitude * sympy.sin(sympy.pi * x) ** 2 * t / 3], **LINE)
+    points = made.sample(5)[:, 0]
+    np.testing.assert_allclose(made.u(points, 0.5), 0.1 * np.sin(np.pi * points) ** 2 / 6, rtol=1e-14)
+
+
+def test_every_field_of_the_gallery_is_saved_and_loaded(tmp_path):
+    for name in mf.gallery():
+        path = tmp_path / f"{name}.toml"
+        opened(name).save(path)
+        assert path.read_text() == opened(name).text
+    for name in ["bar_1d", "plane_strain_gent"]:
+        field = mf.load(tmp_path / f"{name}.toml")
+        x, time = field.sample(9), time_of(field)
+        assert field.P(x, time).tobytes() == opened(name).P(x, time).tobytes()

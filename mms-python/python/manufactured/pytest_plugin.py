@@ -34,11 +34,11 @@ def assert_order(
     The message has the table, the norm that decided, and what the error acts as.
     """
     __tracebackhide__ = True
-    import manufactured as mf
+    from . import _native, verdicts
 
-    of = mf.field(field) if isinstance(field, str) else field
+    of = _native.field(field) if isinstance(field, str) else field
     results = [solver(of, each) for each in cells]
-    judgement = mf.judge(of, results, expected_order=order, **options)
+    judgement = verdicts.judge(of, results, expected_order=order, **options)
     if not judgement.passed:
         pytest.fail(f"{judgement}\n{_acts_as(of, results)}", pytrace=False)
     return judgement
@@ -46,11 +46,11 @@ def assert_order(
 
 def _acts_as(field: Field, results: list[Any]) -> str:
     """The first line of what the error acts as."""
-    import manufactured as mf
+    from . import _native, verdicts
 
     try:
-        diagnosis = mf.diagnose(field, results)
-    except mf.MmsError as error:
+        diagnosis = verdicts.diagnose(field, results)
+    except _native.MmsError as error:
         return f"no diagnosis: {error}"
     if diagnosis.finding == "named":
         best = diagnosis.ranked[0]
