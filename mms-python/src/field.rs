@@ -8,6 +8,7 @@ use mms_exact::gallery::FIELDS;
 use mms_files::write::write_whole;
 use mms_mechanics::extent::halton;
 use mms_mechanics::sample::domain;
+use mms_show::mathml::escape;
 use mms_spec::Face;
 use mms_spec::quantity::Quantity;
 use numpy::{PyArray1, PyArrayMethods};
@@ -18,6 +19,7 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyString};
 use crate::mistake::mistake;
 use crate::open;
 use crate::opened::{Opened, Points};
+use crate::show::show;
 
 /// A field: a motion, its material, and the loads that make it a solution. `field`, `load` and `loads` open one, and `Field` makes
 /// one of formulas.
@@ -219,6 +221,24 @@ impl Field {
     ) -> PyResult<Bound<'py, PyAny>> {
         let points = Points::given(X, &self.opened)?;
         self.opened.named(py, Quantity::Traction.name(), &points, t, Some(face))
+    }
+
+    /// The derivation of some quantities as `mms show` prints it: `print(field.show("b"))`; without names of the displacement and the
+    /// body force. `format` is "text", "latex" or "html".
+    #[pyo3(signature = (*quantities, format="text"))]
+    fn show(&self, py: Python<'_>, quantities: Vec<String>, format: &str) -> PyResult<String> {
+        py.detach(|| show(&self.opened, &quantities, format))
+    }
+
+    /// The title, the parameters and the derivation, for a notebook.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let shown = self.show(py, Vec::new(), "html")?;
+        let names = self.opened.compiled().model.parameters.iter();
+        let values = names.zip(self.opened.parameters());
+        let values: Vec<_> =
+            values.map(|(it, value)| escape(&format!("{} = {value:?}", it.name))).collect();
+        let title = escape(&self.opened.compiled().field.title.shown());
+        Ok(format!("<h3>{title}</h3>\n<p>{}</p>\n{shown}", values.join(", ")))
     }
 
     /// A quantity that the field file defines, as a method.

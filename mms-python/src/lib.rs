@@ -11,6 +11,7 @@
 //! | `evaluator` | one output at many points, by several threads |
 //! | `open` | opens and compiles a field, and stops where Python has an interrupt |
 //! | `opened` | a field with numbers for its parameters: all its outputs |
+//! | `show` | the derivation, for people |
 //! | `results` | results of a solver, from arrays or files |
 //! | `verdict` | verdicts and diagnoses, to documents |
 //! | `field` | the classes, whose methods for quantities `build.rs` writes |
@@ -22,6 +23,7 @@ mod mistake;
 mod open;
 mod opened;
 mod results;
+mod show;
 mod verdict;
 
 use pyo3::prelude::*;

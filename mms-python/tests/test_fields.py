@@ -238,3 +238,28 @@ def test_every_field_of_the_gallery_is_saved_and_loaded(tmp_path):
         field = mf.load(tmp_path / f"{name}.toml")
         x, time = field.sample(9), time_of(field)
         assert field.P(x, time).tobytes() == opened(name).P(x, time).tobytes()
+
+
+def test_the_derivation_is_that_of_the_command(mms):
+    field = opened("travelling_wave_2d")
+    for quantities in [["body_force"], ["u", "P"]]:
+        wanted = ["--quantity", ",".join(quantities)]
+        assert field.show(*quantities).rstrip("\n") == mms("show", field.name, *wanted).rstrip("\n")
+        latex = mms("show", field.name, *wanted, "--format", "latex")
+        assert field.show(*quantities, format="latex").rstrip("\n") == latex.rstrip("\n")
+    with pytest.raises(mf.MmsError, match="text, latex or html"):
+        field.show(format="pdf")
+
+
+@pytest.mark.parametrize("name", ["bar_1d", "static_square", "lame_tube", "given_pressure_2d"])
+def test_a_notebook_shows_the_derivation(name):
+    shown = opened(name)._repr_html_()
+    assert shown.startswith("<h3>") and "<math" in shown
+    for parameter in opened(name).parameters:
+        assert f"{parameter} = " in shown
+
+
+def test_a_notebook_shows_no_markup_of_a_file():
+    title = "<script>alert(1)</script> & more"
+    shown = mf.Field(["amplitude*X*t"], field={"title": title}, **LINE)._repr_html_()
+    assert "<script" not in shown and "&lt;script&gt;alert(1)&lt;/script&gt; &amp; more" in shown

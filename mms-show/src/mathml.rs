@@ -266,7 +266,7 @@ fn stem(name: &Name) -> (String, &str) {
 }
 
 /// A text with what XML would interpret made harmless.
-pub(super) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut escaped = String::new();
     for character in text.chars() {
         match character {

@@ -407,10 +407,11 @@ pub const CRATES: &[Crate] = &[
             "mms-program",
             "mms-report",
             "mms-results",
+            "mms-show",
             "mms-spec",
             "mms-symbolic",
         ],
-        layers: &["evaluator mistake", "array open", "opened", "field results", "verdict"],
+        layers: &["evaluator mistake", "array open", "opened", "results show", "field", "verdict"],
     },
     Crate {
         name: "mms",
