@@ -14,8 +14,8 @@ struct Class {
     signature: &'static str,
     /// The arguments in Rust.
     arguments: &'static str,
-    /// The X and t that are passed on.
-    passed: &'static str,
+    /// What is called, for the quantity `QUANTITY`.
+    call: &'static str,
     /// The sentences about arguments.
     says: &'static str,
 }
@@ -25,21 +25,21 @@ const CLASSES: [Class; 3] = [
         name: "Field",
         signature: "X, t=None",
         arguments: "X: &Bound<'py, PyAny>, t: Option<f64>",
-        passed: "&Points::given(X, &self.opened)?, t",
+        call: "self.opened.quantity(py, QUANTITY, &Points::given(X, &self.opened)?, t)",
         says: "X: (..., D) reference positions; for D = 1 also (n,). t: the time, which a static field needs none of.",
     },
     Class {
         name: "Now",
         signature: "X",
         arguments: "X: &Bound<'py, PyAny>",
-        passed: "&Points::given(X, &self.opened)?, Some(self.time)",
+        call: "self.opened.quantity(py, QUANTITY, &Points::given(X, &self.opened)?, Some(self.time))",
         says: "X: (..., D) reference positions; for D = 1 also (n,).",
     },
     Class {
         name: "AtPoints",
         signature: "t=None",
         arguments: "t: Option<f64>",
-        passed: "&Points::given(self.points.bind(py), &self.opened)?, t",
+        call: "self.stay.quantity(py, &self.opened, QUANTITY, t)",
         says: "t: the time, which a static field needs none of.",
     },
 ];
@@ -55,7 +55,7 @@ fn main() -> io::Result<()> {
 }
 
 fn write(text: &mut String, class: &Class) -> Result<(), std::fmt::Error> {
-    let Class { name, signature, arguments, passed, says } = class;
+    let Class { name, signature, arguments, call, says } = class;
     writeln!(text, "#[pymethods]\n#[allow(non_snake_case)]\nimpl {name} {{")?;
     for quantity in Quantity::evaluated().filter(|it| !it.takes_normal()) {
         let shape = match quantity.shape() {
@@ -71,10 +71,10 @@ fn write(text: &mut String, class: &Class) -> Result<(), std::fmt::Error> {
         );
         writeln!(text, "    #[doc = {doc:?}]")?;
         writeln!(text, "    #[pyo3(signature = ({signature}))]")?;
+        let call = call.replace("QUANTITY", &format!("Quantity::{quantity:?}"));
         writeln!(
             text,
-            "    fn {}<'py>(&self, py: Python<'py>, {arguments}) -> PyResult<Bound<'py, PyAny>> {{\n        \
-             self.opened.quantity(py, Quantity::{quantity:?}, {passed})\n    }}",
+            "    fn {}<'py>(&self, py: Python<'py>, {arguments}) -> PyResult<Bound<'py, PyAny>> {{\n        {call}\n    }}",
             quantity.name(),
         )?;
     }

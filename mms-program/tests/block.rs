@@ -274,6 +274,51 @@ proptest! {
 }
 
 /// The functions that programs have at points, each with what may be proved of its argument.
+/// The same program of positions alone: normals and gradients are coordinates.
+fn of_positions(mut program: Program) -> Program {
+    for instr in &mut program.instrs {
+        if let Op::Input(Symbol::Normal(axis) | Symbol::Gradient(axis, _)) = instr.op {
+            instr.op = Op::Input(Symbol::Coordinate(axis));
+        }
+    }
+    program
+}
+
+/// Holds what is kept of points to a run from the start, at several times.
+fn hold_kept<T: Blockwise>(program: &Program, numbers: &[f64], count: usize) {
+    let points: Vec<T> =
+        given::<T>(count, numbers).iter().flat_map(|point| point.coordinates).collect();
+    for output in [quantity(), Output::Expected(0), Output::Expected(1)] {
+        let plan = Arc::new(plan_of(program, &[output]));
+        let (prepared, components) =
+            (prepared::<T>(&plan, Way::portable()), program.outputs[&output].len());
+        let (mut room, zero) = (Room::default(), T::from_f64(0.0));
+        let kept = prepared.keep(&mut room, DIMENSION, &points);
+        for time in [0.37, -2.0, 0.37] {
+            let time = T::from_f64(time);
+            let mut expected = vec![zero; count * components];
+            prepared.at_points(&mut room, time, DIMENSION, [&points, &[]], &mut expected);
+            let mut found = vec![zero; count * components];
+            prepared.at_kept(&mut room, time, (DIMENSION, &points, &kept), &mut found);
+            agree(&[found], &[expected], format!("{output:?}, {} kept", plan.kept()));
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(sampled_count(256, 3) as u32))]
+
+    #[test]
+    fn what_is_kept_of_points_changes_no_bit(recipe in recipes(), count in 1_usize..300) {
+        let program = of_positions(program(&recipe));
+        for numbers in [&MILD[..], &WILD] {
+            hold_kept::<f64>(&program, numbers, count);
+            hold_kept::<f32>(&program, numbers, count);
+            hold_kept::<Double>(&program, numbers, count / 4 + 1);
+        }
+    }
+}
+
 fn at_points() -> Vec<(Function, Option<Small>)> {
     let all = Function::ALL.iter().copied().filter(|function| !function.takes_turns_off());
     let small = [Function::Sin, Function::Cos].into_iter().flat_map(|function| {

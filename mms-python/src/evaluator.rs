@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::thread;
 
 use mms_mechanics::{Output, Program};
-use mms_program::block::{Blockwise, Inputs, Outputs, Plan, Prepared, Room, Rooms, Way};
+use mms_program::block::{Blockwise, Inputs, Kept, Outputs, Plan, Prepared, Room, Rooms, Way};
 use mms_symbolic::expr::Symbol;
 use numpy::Element;
 
@@ -184,6 +184,65 @@ impl<T: Precision> Evaluator<T> {
             }
         };
         self.prepared.run(room, time, count, &mut bring, &mut take);
+    }
+}
+
+/// What X determines of an output at points, share by share.
+pub struct KeptPoints<T: Blockwise>(Vec<Kept<T>>);
+
+impl<T: Precision> Evaluator<T> {
+    /// Keeps what X determines at points, for [`fill_kept`](Self::fill_kept); says where a coordinate is no number.
+    pub fn keep(&self, dimension: usize, points: &[T]) -> Result<KeptPoints<T>, Odd> {
+        if let Some(at) = first_odd(points) {
+            return Err(Odd { index: at / dimension, is_given: true });
+        }
+        let shares = points.chunks(SHARE * dimension);
+        let keep =
+            |room: &mut Room<T>| shares.map(|it| self.prepared.keep(room, dimension, it)).collect();
+        Ok(KeptPoints(self.rooms.lend(keep)))
+    }
+
+    /// Fills `values` at the points from that one on, which is the first of a share; says where a number is none.
+    pub fn fill_kept(
+        &self,
+        time: T,
+        (dimension, points, kept): (usize, &[T], &KeptPoints<T>),
+        first: usize,
+        values: &mut [T],
+    ) -> Result<(), Odd> {
+        let count = values.len() / self.components.max(1);
+        let threads = match count < MANY {
+            true => 1,
+            false => thread::available_parallelism().map_or(1, usize::from),
+        };
+        let each = count.div_ceil(threads).next_multiple_of(SHARE);
+        let work = |start: usize, values: &mut [T]| {
+            self.rooms.lend(|room| {
+                for (at, values) in values.chunks_mut(SHARE * self.components).enumerate() {
+                    let start = start + at * SHARE;
+                    let end = start + values.len() / self.components;
+                    let points = &points[start * dimension..end * dimension];
+                    let of = (dimension, points, &kept.0[start / SHARE]);
+                    self.prepared.at_kept(room, time, of, values);
+                    if let Some(at) = first_odd(values) {
+                        let index = start + at / self.components;
+                        return Err(Odd { index, is_given: false });
+                    }
+                }
+                Ok(())
+            })
+        };
+        if threads == 1 {
+            return work(first, values);
+        }
+        thread::scope(|scope| {
+            let shares = values.chunks_mut(each * self.components).enumerate();
+            let spawned: Vec<_> = shares
+                .map(|(at, values)| scope.spawn(move || work(first + at * each, values)))
+                .collect();
+            let joined = spawned.into_iter().map(|it| it.join().expect("a panic is passed on"));
+            joined.collect::<Vec<_>>().into_iter().collect()
+        })
     }
 }
 

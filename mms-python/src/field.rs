@@ -16,6 +16,7 @@ use pyo3::exceptions::{PyAttributeError, PyOSError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyString};
 
+use crate::kept::Stay;
 use crate::mistake::mistake;
 use crate::open;
 use crate::opened::{Opened, Points};
@@ -47,11 +48,11 @@ pub struct Material {
     opened: Arc<Opened>,
 }
 
-/// A field at points, as `field.points(X)` gives it: the points are copied and looked at once.
+/// A field at points, as `field.points(X)` gives it: what X alone determines is found at the first time, and kept for others.
 #[pyclass(frozen, module = "manufactured")]
 pub struct AtPoints {
     opened: Arc<Opened>,
-    points: Py<PyAny>,
+    stay: Stay,
 }
 
 include!(concat!(env!("OUT_DIR"), "/quantities.rs"));
@@ -176,10 +177,11 @@ impl Field {
         Now { opened: self.opened.clone(), time: t }
     }
 
-    /// The field at points that are looked at once: `cache = field.points(X); cache.b(t)`. X is copied.
+    /// The field at points that stay: `cache = field.points(X); cache.b(t)`. X is copied, and what it alone determines is kept
+    /// for each quantity that is asked for.
     fn points(&self, X: &Bound<'_, PyAny>) -> PyResult<AtPoints> {
-        let points = Points::given(X, &self.opened)?.copied()?;
-        Ok(AtPoints { opened: self.opened.clone(), points })
+        let stay = Stay::new(&Points::given(X, &self.opened)?)?;
+        Ok(AtPoints { opened: self.opened.clone(), stay })
     }
 
     /// The field with other values of some parameters: `field.set(amplitude=0.2)`. Those that were set before stay set.
@@ -291,7 +293,7 @@ impl AtPoints {
         face: &str,
         t: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let points = Points::given(self.points.bind(py), &self.opened)?;
+        let points = self.stay.points(py, &self.opened)?;
         self.opened.named(py, Quantity::Traction.name(), &points, t, Some(face))
     }
 

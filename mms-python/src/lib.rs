@@ -11,6 +11,7 @@
 //! | `evaluator` | one output at many points, by several threads |
 //! | `open` | opens and compiles a field, and stops where Python has an interrupt |
 //! | `opened` | a field with numbers for its parameters: all its outputs |
+//! | `kept` | what X alone determines, kept for other times |
 //! | `show` | the derivation, for people |
 //! | `results` | results of a solver, from arrays or files |
 //! | `verdict` | verdicts and diagnoses, to documents |
@@ -19,6 +20,7 @@
 mod array;
 mod evaluator;
 mod field;
+mod kept;
 mod mistake;
 mod open;
 mod opened;

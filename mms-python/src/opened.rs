@@ -64,7 +64,8 @@ impl Evaluated for f64 {
 
 /// Points of a field, with how they stand in an array.
 pub struct Points<'py> {
-    numbers: Numbers<'py>,
+    /// Their coordinates.
+    pub numbers: Numbers<'py>,
     /// How they stand there.
     pub layout: Layout,
 }
@@ -88,11 +89,15 @@ impl<'py> Points<'py> {
 }
 
 /// What is asked for: an output, how its result is called and shaped, and when.
-struct Asked<'a> {
-    output: Output,
-    name: &'a str,
-    own: &'a [usize],
-    time: f64,
+pub struct Asked<'a> {
+    /// The output.
+    pub output: Output,
+    /// Its name.
+    pub name: &'a str,
+    /// The axes of a value.
+    pub own: &'a [usize],
+    /// The time.
+    pub time: f64,
 }
 
 /// What it is asked at.
@@ -110,7 +115,7 @@ impl<T: Evaluated + Number> Ready<T> {
     }
 
     /// The evaluator of an output, made when it is asked for first.
-    fn evaluator(&self, input: &Input, output: Output) -> PyResult<Arc<Evaluator<T>>> {
+    pub fn evaluator(&self, input: &Input, output: Output) -> PyResult<Arc<Evaluator<T>>> {
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let find = |all: &[(Output, Arc<Evaluator<T>>)]| {
             all.iter().find(|(it, _)| *it == output).map(|(_, evaluator)| evaluator.clone())
@@ -234,14 +239,23 @@ impl Opened {
         points: &Points<'py>,
         t: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        self.asked(quantity, t, |asked| match &points.numbers {
+            Numbers::Single(x) => self.filled(py, asked, At::points(&points.layout, x, face)),
+            Numbers::Double(x) => self.filled(py, asked, At::points(&points.layout, x, face)),
+        })
+    }
+
+    /// Has `work` do what a quantity at a time is asked for.
+    pub fn asked<R>(
+        &self,
+        quantity: Quantity,
+        t: Option<f64>,
+        work: impl FnOnce(&Asked<'_>) -> PyResult<R>,
+    ) -> PyResult<R> {
         self.compiled().hold_offered(quantity).map_err(mistake)?;
         let own = self.axes(quantity.shape());
         let (output, time) = (Output::Quantity(quantity), self.time(t)?);
-        let asked = Asked { output, name: quantity.name(), own: &own, time };
-        match &points.numbers {
-            Numbers::Single(x) => self.filled(py, &asked, At::points(&points.layout, x, face)),
-            Numbers::Double(x) => self.filled(py, &asked, At::points(&points.layout, x, face)),
-        }
+        work(&Asked { output, name: quantity.name(), own: &own, time })
     }
 
     /// The first Piola-Kirchhoff stress of the material at displacement gradients; of one that depends on X or t, there and
@@ -340,7 +354,7 @@ impl Opened {
     }
 
     /// The exception of a number that is none.
-    fn odd(&self, asked: &Asked<'_>, layout: &Layout, odd: Odd) -> PyErr {
+    pub fn odd(&self, asked: &Asked<'_>, layout: &Layout, odd: Odd) -> PyErr {
         let place = layout.place(odd.index);
         mistake(match odd.is_given {
             true => format!(

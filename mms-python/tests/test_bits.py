@@ -96,3 +96,27 @@ def test_the_material_gives_the_stress_of_the_field():
         points, time = field.sample(100), time_of(field)
         found = field.material.P(field.H(points, time), X=points)
         np.testing.assert_allclose(found, field.P(points, time), rtol=1e-10, atol=1e-3)
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("name", mf.gallery())
+def test_what_is_kept_of_points_changes_no_bit(name, dtype):
+    field = opened(name)
+    points = field.sample(1500).astype(dtype)
+    stay = field.points(points)
+    first, last = field.window or (0.0, 0.0)
+    named = ["displacement", "body_force_density", "cauchy_stress", "jacobian", "von_mises"]
+    for time in [first, (first + last) / 3, last, first]:
+        for quantity in named:
+            same_bits(getattr(stay, quantity)(time), field.evaluate(quantity, points, time))
+
+
+def test_what_is_kept_is_shared_by_threads():
+    field = opened("axis_aligned_3d")
+    points = field.sample(300_001)
+    stay = field.points(points)
+    for time in [0.0, time_of(field)]:
+        same_bits(stay.b(time), field.b(points, time))
+    points[299_000] = np.nan
+    with pytest.raises(mf.MmsError, match=r"the point at \(299000,\)"):
+        field.points(points).b(0.0)

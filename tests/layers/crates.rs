@@ -411,7 +411,14 @@ pub const CRATES: &[Crate] = &[
             "mms-spec",
             "mms-symbolic",
         ],
-        layers: &["evaluator mistake", "array open", "opened", "results show", "field", "verdict"],
+        layers: &[
+            "evaluator mistake",
+            "array open",
+            "opened",
+            "kept results show",
+            "field",
+            "verdict",
+        ],
     },
     Crate {
         name: "mms",

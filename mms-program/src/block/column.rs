@@ -1,6 +1,7 @@
 //! The numbers of a block, and the three precisions that blocks are made of.
 
 use std::fmt::Debug;
+use std::ops::Range;
 
 use mms_math::Double;
 use mms_math::batch::Stand;
@@ -54,6 +55,16 @@ pub trait Blockwise: Number<Wide: Copy + Send + Sync> + Stand<Self> + Send + Syn
 
     /// Runs the steps of a plan over the first `pieces` of a block.
     fn run(plan: &Plan, way: Way, scalars: &[Self], columns: &mut [Self::Column], pieces: usize);
+
+    /// Runs some parts of a plan over the first `pieces` of a block; says whether all results are numbers, if they are the last
+    /// parts.
+    fn run_parts(
+        of: (&Plan, Range<usize>),
+        way: Way,
+        scalars: &[Self],
+        columns: &mut [Self::Column],
+        pieces: usize,
+    ) -> bool;
 }
 
 macro_rules! blockwise {
@@ -74,10 +85,22 @@ macro_rules! blockwise {
                 columns: &mut [Self::Column],
                 pieces: usize,
             ) {
-                steps::quickly(plan, way, scalars, columns, pieces);
-                if !steps::are_numbers(plan, scalars, columns, pieces) {
+                let all = 0..plan.parts.len();
+                if !Self::run_parts((plan, all), way, scalars, columns, pieces) {
                     steps::carefully(plan, scalars, columns, pieces);
                 }
+            }
+
+            fn run_parts(
+                (plan, parts): (&Plan, Range<usize>),
+                way: Way,
+                scalars: &[Self],
+                columns: &mut [Self::Column],
+                pieces: usize,
+            ) -> bool {
+                let is_last = parts.end == plan.parts.len();
+                steps::quickly((plan, parts), way, scalars, columns, pieces);
+                is_last && steps::are_numbers(plan, scalars, columns, pieces)
             }
         }
 
@@ -100,5 +123,16 @@ impl Blockwise for Double {
 
     fn run(plan: &Plan, _: Way, scalars: &[Self], columns: &mut [Self::Column], pieces: usize) {
         steps::carefully(plan, scalars, columns, pieces);
+    }
+
+    // Nothing is quick in twice the digits.
+    fn run_parts(
+        _: (&Plan, Range<usize>),
+        _: Way,
+        _: &[Self],
+        _: &mut [Self::Column],
+        _: usize,
+    ) -> bool {
+        false
     }
 }

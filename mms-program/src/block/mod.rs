@@ -234,6 +234,79 @@ impl<T: Blockwise> Prepared<T> {
     }
 }
 
+/// What X determines at points of the first output, for later times: the numbers of each block, one block after the other.
+#[derive(Clone, Debug)]
+pub struct Kept<T: Blockwise>(Vec<T::Column>);
+
+impl<T: Blockwise> Prepared<T> {
+    /// Keeps what X determines at points, as [`at_points`](Self::at_points) takes them.
+    pub fn keep(&self, room: &mut Room<T>, dimension: usize, points: &[T]) -> Kept<T> {
+        let plan = &*self.plan;
+        // No step of X alone reads what the time determines.
+        room.enter(self, T::from_f64(0.0));
+        let Room { scalars, columns, .. } = room;
+        let mut kept = Vec::with_capacity(plan.kept.len() * points.len().div_ceil(T::BLOCK));
+        for points in points.chunks(T::BLOCK * dimension) {
+            let pieces = self.supply(columns, dimension, points);
+            T::run_parts((plan, 0..plan.of_points), self.way, scalars, columns, pieces);
+            kept.extend(plan.kept.iter().map(|register| columns[*register as usize].clone()));
+        }
+        Kept(kept)
+    }
+
+    /// The components of the first output at points of which something is kept, in `values`: to the bits of
+    /// [`at_points`](Self::at_points).
+    pub fn at_kept(
+        &self,
+        room: &mut Room<T>,
+        time: T,
+        (dimension, points, kept): (usize, &[T], &Kept<T>),
+        values: &mut [T],
+    ) {
+        let plan = &*self.plan;
+        room.enter(self, time);
+        let Room { scalars, columns, .. } = room;
+        let components = plan.outputs.first().map_or(0, |places| places.len());
+        let late = plan.of_points..plan.parts.len();
+        let blocks = points.chunks(T::BLOCK * dimension);
+        let values = values.chunks_mut((T::BLOCK * components).max(1));
+        for (block, (points, values)) in blocks.zip(values).enumerate() {
+            let count = points.len() / dimension;
+            let pieces = count.div_ceil(T::TOGETHER);
+            let kept = &kept.0[block * plan.kept.len()..];
+            for (register, column) in plan.kept.iter().zip(kept) {
+                columns[*register as usize].clone_from(column);
+            }
+            if !T::run_parts((plan, late.clone()), self.way, scalars, columns, pieces) {
+                self.supply(columns, dimension, points);
+                T::run(plan, self.way, scalars, columns, pieces);
+            }
+            let outputs = Outputs { plan, scalars, columns, count };
+            for (index, component) in outputs.components(0).enumerate() {
+                component.write(values[index..].iter_mut().step_by(components));
+            }
+        }
+    }
+
+    /// Writes the coordinates of the points of a block; returns the number of its pieces.
+    fn supply(&self, columns: &mut [T::Column], dimension: usize, points: &[T]) -> usize {
+        let plan = &*self.plan;
+        let count = points.len() / dimension;
+        let pieces = count.div_ceil(T::TOGETHER);
+        for (symbol, column) in plan.inputs.iter().zip(columns) {
+            let Symbol::Coordinate(axis) = symbol else {
+                unreachable!("a quantity that is kept takes positions alone")
+            };
+            let numbers = &mut column.numbers_mut()[..pieces * T::TOGETHER];
+            let own = points[*axis..].iter().step_by(dimension);
+            numbers.iter_mut().zip(own).for_each(|(to, number)| *to = *number);
+            let first = numbers[0];
+            numbers[count..].fill(first);
+        }
+        pieces
+    }
+}
+
 fn signed<T: Blockwise>(scalar: &Scalar, number: T) -> T {
     if scalar.negated { -number } else { number }
 }

@@ -154,6 +154,10 @@ pub struct Plan {
     pub(super) steps: Vec<Step>,
     /// The steps in parts: functions one by one, and what is between them.
     pub(super) parts: Vec<Range<usize>>,
+    /// How many of the parts need X alone.
+    pub(super) of_points: usize,
+    /// The registers that the other parts read of those, and of what a point supplies.
+    pub(super) kept: Vec<u32>,
     pub(super) registers: usize,
     /// The components of all outputs.
     pub(super) components: Vec<Operand>,
@@ -185,6 +189,11 @@ impl Plan {
         &self.inputs
     }
 
+    /// How many numbers of a point are kept for later times.
+    pub fn kept(&self) -> usize {
+        self.kept.len()
+    }
+
     /// Whether the values depend on the time.
     pub fn needs_time(&self) -> bool {
         self.early < self.once.len()
@@ -205,6 +214,8 @@ struct Lowering<'a, K> {
     /// The columns of steps that are there, by kind and operands.
     known: HashMap<(Kind, [u32; 3]), u32>,
     columns: u32,
+    /// How many steps there are before the first that needs the time.
+    border: Option<usize>,
     /// Where the values at points are that have been found for an output.
     found: Vec<Option<Operand>>,
 }
@@ -233,6 +244,7 @@ impl<'a, K: Key> Lowering<'a, K> {
             steps: Vec::new(),
             known: HashMap::new(),
             columns: 0,
+            border: None,
             found: vec![None; program.instrs.len()],
         }
     }
@@ -254,6 +266,7 @@ impl<'a, K: Key> Lowering<'a, K> {
         let columns = Columns::of(self.program, roots);
         let cut = Cut::new(self.program, &columns, WORTH_IN_CACHE);
         self.statements(&cut.columns.values, &[Stage::Point]);
+        self.border.get_or_insert(self.steps.len());
         let mut handed = vec![None; self.found.len()];
         for value in &cut.columns.values {
             handed[value.index()] = self.found[value.index()];
@@ -272,6 +285,9 @@ impl<'a, K: Key> Lowering<'a, K> {
         let fusion = Fusion::new(&program.instrs, roots, &needed, own);
         for (index, instr) in program.instrs.iter().enumerate() {
             let computed = needed[index] && own.contains(&instr.stage) && !fusion.absorbed[index];
+            if computed && instr.stage == Stage::PointTime {
+                self.border.get_or_insert(self.steps.len());
+            }
             match &fusion.fused[index] {
                 _ if !computed => {}
                 Some(fused) => self.found[index] = Some(self.fused(fused)),
@@ -434,9 +450,26 @@ impl<'a, K: Key> Lowering<'a, K> {
         })
     }
 
+    /// The columns that are there at a border and read after it.
+    fn kept(&self, border: usize, components: &[Operand]) -> Vec<u32> {
+        let (before, after) = self.steps.split_at(border);
+        let outputs = components.iter().filter_map(|place| match place {
+            Operand::Column(column) => Some(*column),
+            Operand::Scalar(_) => None,
+        });
+        let mut is_read = vec![false; self.columns as usize];
+        let read = after.iter().flat_map(Step::columns).chain(outputs);
+        read.for_each(|column| is_read[column as usize] = true);
+        let inputs = self.inputs.iter().map(|(_, column)| *column);
+        let there = inputs.chain(before.iter().map(|step| step.result));
+        there.filter(|column| is_read[*column as usize]).collect()
+    }
+
     /// Gives columns their registers. Those of the inputs are kept, since a block may have to be computed again.
     fn finish(mut self, mut components: Vec<Operand>, outputs: Vec<Range<usize>>) -> Plan {
         const KEPT: usize = usize::MAX;
+        let border = self.border.unwrap_or(self.steps.len());
+        let mut kept = self.kept(border, &components);
         let mut last = vec![0; self.columns as usize];
         for (index, step) in self.steps.iter().enumerate() {
             step.columns().for_each(|column| last[column as usize] = index);
@@ -475,12 +508,18 @@ impl<'a, K: Key> Lowering<'a, K> {
                 *column = registers[*column as usize];
             }
         }
+        kept.iter_mut().for_each(|column| *column = registers[*column as usize]);
+        let mut parts = parts(&self.steps[..border], 0);
+        let of_points = parts.len();
+        parts.extend(self::parts(&self.steps[border..], border));
         Plan {
             early: self.once.partition_point(|instr| instr.stage == Stage::Parameter),
             once: self.once,
             scalars: self.scalars,
             inputs: self.inputs.into_iter().map(|(symbol, _)| symbol).collect(),
-            parts: parts(&self.steps),
+            parts,
+            of_points,
+            kept,
             steps: self.steps,
             registers: count as usize,
             components,
@@ -489,10 +528,10 @@ impl<'a, K: Key> Lowering<'a, K> {
     }
 }
 
-/// Functions one by one, and what is between them.
-fn parts(steps: &[Step]) -> Vec<Range<usize>> {
+/// Functions one by one, and what is between them, of steps the first of which has that position.
+fn parts(steps: &[Step], first: usize) -> Vec<Range<usize>> {
     let together = |a: &Step, b: &Step| !a.kind.is_function() && !b.kind.is_function();
-    let mut start = 0;
+    let mut start = first;
     let parts = steps.chunk_by(together).map(|part| {
         start += part.len();
         start - part.len()..start

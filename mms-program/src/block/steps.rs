@@ -6,6 +6,8 @@
 //! instruction set, which goes from step to step; every elementary function is compiled apart, since the compiler
 //! loads all coefficients of a function first.
 
+use std::ops::Range;
+
 use mms_math::Scalar;
 use mms_math::batch::{Float, Stand};
 use mms_math::dispatch::Work;
@@ -308,16 +310,16 @@ macro_rules! functions {
 
 mms_symbolic::for_functions!(functions);
 
-/// Runs a plan with the quick functions, over the first pieces of a block.
+/// Runs some parts of a plan with the quick functions, over the first pieces of a block.
 pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
-    plan: &Plan,
+    (plan, parts): (&Plan, Range<usize>),
     way: Way,
     scalars: &[T],
     columns: &mut [Column<T, C, K>],
     pieces: usize,
 ) {
     let mut registers = Registers { scalars, columns, pieces };
-    for part in &plan.parts {
+    for part in &plan.parts[parts] {
         let steps = &plan.steps[part.clone()];
         let Step { kind, result, operands: [a, b, _] } = steps[0];
         match kind {
@@ -334,7 +336,7 @@ pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
     }
 }
 
-/// The same with the careful functions of the number itself, which know every argument.
+/// Runs all of it with the careful functions of the number itself, which know every argument.
 pub(super) fn carefully<T: Stand<T>, const C: usize, const K: usize>(
     plan: &Plan,
     scalars: &[T],
