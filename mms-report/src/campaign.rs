@@ -11,6 +11,7 @@ use mms_harness::judged::Judged;
 use mms_harness::plan::Job;
 use mms_harness::report::{Canary, Report};
 use mms_harness::work::{Finished, Outcome, left_behind_too};
+use mms_judge::Judgements;
 use mms_spec::foreign::{self, one_line, shown};
 
 use super::excluded;
@@ -90,7 +91,7 @@ impl View<'_> {
         let reason = |(it, judgements): (&Judged<'_>, &Judgements)| {
             let (at, _) = judgements.decided();
             let (quantity, found) = judgements.each().nth(at)?;
-            let says = judgements.says(quantity, found).into_iter().next()?;
+            let says = judgements.sentences(quantity, found, true).into_iter().next()?;
             Some(format!("{}: {says}", shown(&it.planned.study.name)))
         };
         judged.filter(|(_, it)| !it.verdict().is_good()).filter_map(reason).collect()

@@ -70,8 +70,10 @@ fn case(judged: &Judged<'_>) -> Case {
         (Some(judgements), _) if judgements.verdict().is_good() => Case::Passed,
         (Some(judgements), _) => {
             let (at, verdict) = judgements.decided();
-            let says =
-                judgements.each().nth(at).map(|(quantity, it)| judgements.says(quantity, it));
+            let says = judgements
+                .each()
+                .nth(at)
+                .map(|(quantity, it)| judgements.sentences(quantity, it, true));
             let says = says.unwrap_or_default();
             let first = says.first().cloned().unwrap_or_else(|| verdict.to_string());
             let kind = if verdict == Verdict::NoEvidence { Case::Error } else { Case::Failure };

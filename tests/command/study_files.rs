@@ -123,7 +123,8 @@ fn results_of_another_field_or_command_are_not_replaced_without_a_word() {
     let again = run("study bar_1d --cells 16,32");
     assert!(!again.stderr.contains("is replaced"), "{again}");
     let other = run("study periodic_bar --cells 16,32,64");
-    other.complains("`out/convergence.json` held results of `mms study` of bar_1d, and is replaced");
+    other
+        .complains("`out/convergence.json` held results of `mms study` of bar_1d, and is replaced");
     folder.write("errors.csv", "h,l2\n0.1,1e-2\n0.05,2.5e-3\n0.025,6.25e-4\n");
     let judged = run("judge --errors errors.csv");
     judged.complains("held results of `mms study` of periodic_bar, and is replaced");

@@ -160,6 +160,8 @@ mod tests {
                 velocity: Vec::new(),
                 deformation_gradient: Vec::new(),
                 cauchy_stress: Vec::new(),
+                hoop_stretch: Vec::new(),
+                hoop_stress: Vec::new(),
             };
             phases.see(&frame).expect("seen");
         }

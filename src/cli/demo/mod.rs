@@ -226,7 +226,7 @@ fn diagnose(tables: &Tables, exact: &mut Exact) -> anyhow::Result<Diagnosis> {
 fn verdict(judgements: &Judgements) -> anyhow::Result<String> {
     let (at, _) = judgements.decided();
     let (quantity, judged) = judgements.each().nth(at).context("no quantity was judged")?;
-    judgements.says(quantity, judged).into_iter().next().context("no verdict")
+    judgements.sentences(quantity, judged, false).into_iter().next().context("no verdict")
 }
 
 /// The errors of both solvers, mesh by mesh.
