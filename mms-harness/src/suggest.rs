@@ -87,7 +87,11 @@ struct Shown {
 /// A field of the gallery does not compile.
 pub fn suggest(can: &Can, open: Open<'_>) -> anyhow::Result<Suggestion> {
     let mut shown = Vec::new();
-    let is_known = |field: &FieldSpec| can.materials.iter().any(|it| it == material(field));
+    let is_known = |field: &FieldSpec| {
+        // Results of axisymmetric fields are not judged.
+        let is_law = can.materials.iter().any(|it| it == material(field));
+        is_law && !field.space.is_axisymmetric()
+    };
     for field in gallery::fields().iter().filter(|field| is_known(field)) {
         shown.push(Shown::new(field.name.raw(), can, open)?);
     }

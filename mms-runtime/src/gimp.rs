@@ -67,7 +67,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             }
         }
         let mut middle = *position;
-        if lattice.is_meridian {
+        if D == 2 && lattice.is_meridian {
             (middle[0], half_width[0]) = ring(machine, position[0], half_width[0]);
         }
         let position = &middle;
@@ -91,7 +91,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             let cells = lattice.cells_along(machine, a, position[a]);
             let mut weights;
             (first[a], weights) = around_nearest(machine, cells, in_cells[a]);
-            if a == 0 && lattice.is_meridian {
+            if D == 2 && a == 0 && lattice.is_meridian {
                 let radius = machine.times(position[0], machine.splat(lattice.per_length[0]));
                 let moments = moments_around_nearest(machine, cells, in_cells[0]);
                 let flat = weights;
@@ -158,7 +158,7 @@ fn place_wide<T: Real, const D: usize>(
             }
         }
         let mut all = [weights, slopes].map(|all| all.map(|along| machine.eight(&along)));
-        if a == 0 && lattice.is_meridian {
+        if D == 2 && a == 0 && lattice.is_meridian {
             let radius = machine.eight(&position.0[0]);
             stencil.set_around(machine, radius, Some(all[0]));
             let radius = machine.times(radius, machine.splat(lattice.per_length[0]));
@@ -262,23 +262,32 @@ fn moments_around_nearest<T: Real, M: Machine<T>>(
     let inside = machine.least(machine.greatest(offset, before), half_width);
     let (right, left) = (machine.plus(half_width, inside), machine.minus(half_width, inside));
     let per_width = machine.over(half, half_width);
-    // Of the part of the domain on one side of the nearest node, whose middle is `apart` from that of the domain: the
-    // average of x - position, and of that times x.
-    let of_part = |length: M::Eight, apart: M::Eight| {
-        let share = machine.times(length, per_width);
-        let variance = machine.times(machine.splat(T::ratio(1, 12)), machine.times(length, length));
-        let middle = machine.plus(offset, apart);
-        let product = machine.times_plus(middle, apart, variance);
-        [machine.times(share, product), machine.times(share, apart)]
-    };
-    let above = of_part(right, machine.minus(half_width, machine.times(half, right)));
-    let below = of_part(left, machine.minus(machine.times(half, left), half_width));
+    let beyond = machine.minus(half_width, machine.times(half, right));
+    let above = moments_of_part(machine, [right, beyond], offset, per_width);
+    let short = machine.minus(machine.times(half, left), half_width);
+    let below = moments_of_part(machine, [left, short], offset, per_width);
     let mut moments = [[zero; NEAREST]; 2];
     for s in 0..2 {
         let falling = machine.minus(zero, below[s]);
         moments[s] = [falling, machine.minus(below[s], above[s]), above[s]];
     }
     moments
+}
+
+/// The averages of (x - offset) x and of x - offset over a part of a domain: of this length, and so far from the domain's
+/// middle `offset` to that of the part.
+#[inline(always)]
+fn moments_of_part<T: Real, M: Machine<T>>(
+    machine: M,
+    [length, apart]: [M::Eight; 2],
+    offset: M::Eight,
+    per_width: M::Eight,
+) -> [M::Eight; 2] {
+    let share = machine.times(length, per_width);
+    let variance = machine.times(machine.splat(T::ratio(1, 12)), machine.times(length, length));
+    let middle = machine.plus(offset, apart);
+    let product = machine.times_plus(middle, apart, variance);
+    [machine.times(share, product), machine.times(share, apart)]
 }
 
 /// The averages of (x - offset) times the hat 1 - |x|, and times its slope, over the domain of [`average_of_hat`].

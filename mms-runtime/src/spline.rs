@@ -75,7 +75,7 @@ where
         return place_near_ends::<T, D, P, N>(stencil, lattice, &position, &cells);
     }
     stencil.begin::<N>(lattice, Known::Splines);
-    if lattice.is_meridian {
+    if D == 2 && lattice.is_meridian {
         stencil.set_around::<M, N>(machine, position[0], None);
     }
     for a in 0..D {
@@ -103,7 +103,7 @@ fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
     }
     let is_regular = P == 1 || on(Defect::SplineEnds);
     stencil.begin::<N>(lattice, if is_regular { Known::Splines } else { Known::Nothing });
-    if lattice.is_meridian {
+    if D == 2 && lattice.is_meridian {
         stencil.set_around::<_, N>(machine, machine.eight(&position.0[0]), None);
     }
     for a in 0..D {

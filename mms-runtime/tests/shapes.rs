@@ -560,6 +560,6 @@ fn names_round_trip_and_unknown_ones_are_explained() {
         assert!(text.parse::<mms_runtime::Transfer>().is_err(), "{text}");
     }
     let unknown = "cubic".parse::<ShapeName>().unwrap_err();
-    let text = "unknown shape function `cubic`; known are: linear, ugimp, cpgimp";
+    let text = "unknown shape function `cubic`; did you mean `cubic_bspline`? known are: linear, ugimp, cpgimp";
     assert!(unknown.to_string().starts_with(text), "{unknown}");
 }

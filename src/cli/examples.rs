@@ -3,7 +3,8 @@
 use clap::Command;
 
 /// The commands in an order in which each finds the files of those before it.
-pub const EXAMPLES: [(&str, [&str; 2]); 19] = [
+pub const EXAMPLES: [(&str, [&str; 2]); 20] = [
+    ("demo", ["mms demo", "mms demo --keep broken"]),
     ("new", ["mms new wave --dimension 1", "mms new ring --dimension 2 --shape annulus"]),
     ("check", ["mms check wave.toml", "mms check bar_1d --explain"]),
     ("show", ["mms show wave.toml", "mms show bar_1d --format latex"]),

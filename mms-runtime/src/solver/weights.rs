@@ -185,7 +185,7 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
             };
             let reference = &scene.reference_position[bunch];
             let position = positions(machine, reference, displacement, scene.moves);
-            if scene.lattice.is_meridian {
+            if D == 2 && scene.lattice.is_meridian {
                 off_the_axis(machine, position[0])
                     .map_err(|(p, cause)| (BUNCH * bunch + p, cause))?;
             }

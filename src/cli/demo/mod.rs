@@ -47,10 +47,6 @@ use super::{Outcome, hold_output, print, this_command};
 ///
 /// The solver is built in and computes in memory. With --keep its source, its results and the commands to build, run,
 /// judge and diagnose it are written to a folder: break another line there.
-///
-/// Examples:
-///   mms demo
-///   mms demo --keep demo
 #[derive(Args)]
 pub struct Demo {
     /// Write the solver, its results and a file of commands to this folder, which must be new or empty.
