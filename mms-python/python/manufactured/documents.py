@@ -54,6 +54,8 @@ class Judge(Document):
     excluded: list[Excluded] | None = None
     """The mistakes that results of u, v or F exclude if they pass; null if the project's own solver could not
     be run."""
+    next_command: list[str] | None = None
+    """The words of the command to type next, `mms` first; missing after a good verdict."""
     provenance: Provenance
     """How the document was made."""
 
@@ -93,6 +95,8 @@ class Diagnose(Document):
     """The errors of results at points."""
     next: str
     """The next step to take."""
+    next_command: list[str] | None = None
+    """The words of the command to type next, `mms` first; missing if the finding is `nothing`."""
     provenance: Provenance
     """How the document was made."""
 
