@@ -224,8 +224,8 @@ fn off_the_axis<T: Real, M: Machine<T>>(
         return Ok(());
     }
     let radius = machine.numbers(radius);
-    let beyond = |r: &T| !(*r >= least);
-    let p = radius.iter().position(beyond).unwrap_or_default();
+    let is_beyond = |r: &T| *r < least || !r.is_finite();
+    let p = radius.iter().position(is_beyond).unwrap_or_default();
     Err((p, Cause::BeyondAxis { radius: radius[p].to_f64() }))
 }
 
