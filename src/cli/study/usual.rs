@@ -16,7 +16,7 @@ fn usual(field: &FieldSpec) -> (FormulationName, ShapeName) {
         let formulation = it.formulation.as_deref().unwrap_or("updated");
         Some((formulation.parse().ok()?, it.shape.parse().ok()?))
     });
-    named.unwrap_or_else(|| match is_box {
+    named.unwrap_or(match is_box {
         true => (FormulationName::Total, ShapeName::Linear),
         false => (FormulationName::Updated, ShapeName::Cpdi),
     })
