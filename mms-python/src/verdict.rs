@@ -223,7 +223,8 @@ fn diagnose(
         let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material)?;
         let provenance = provenance("diagnose", opened);
         let field = &opened.input.name;
-        let report = Diagnosed { field, files: &files, diagnosis: &diagnosis, provenance };
+        let (diagnosis, next) = (&diagnosis, None);
+        let report = Diagnosed { field, files: &files, diagnosis, next, provenance };
         Ok((Views::of(&report, None)?, notes))
     })
 }

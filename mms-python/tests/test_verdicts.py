@@ -25,7 +25,7 @@ def levels(order=2):
 
 
 def without_origin(document):
-    return {key: value for key, value in document.items() if key not in ("provenance", "files", "notes")}
+    return {key: value for key, value in document.items() if key not in ("provenance", "files", "notes", "next_command")}
 
 
 def table(path, header, columns):

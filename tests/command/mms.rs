@@ -82,8 +82,8 @@ impl Folder {
                 |it: &Value| format!("'{}'", it.as_str().expect("a word").replace('\'', r"'\''"));
             words.iter().map(quoted).collect::<Vec<_>>().join(" ")
         });
-        let lines = run.stdout.lines().filter_map(|line| line.strip_prefix("next: "));
-        let Some(line) = lines.last().map(str::to_owned).or(of_document) else { return };
+        let mut lines = run.stdout.lines().filter_map(|line| line.strip_prefix("next: "));
+        let Some(line) = lines.next_back().map(str::to_owned).or(of_document) else { return };
         let copy = Folder::new();
         let copied = Command::new("cp").arg("-R").arg(self.path(".")).arg(copy.0.path()).status();
         assert!(copied.expect("`cp` starts").success(), "{run}");
