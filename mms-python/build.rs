@@ -14,7 +14,7 @@ struct Class {
     signature: &'static str,
     /// The arguments in Rust.
     arguments: &'static str,
-    /// What is called, for the quantity `QUANTITY`.
+    /// The function that is called for the quantity `QUANTITY`.
     call: &'static str,
     /// The sentences about arguments.
     says: &'static str,

@@ -372,7 +372,7 @@ fn balance_by_finite_differences<K: Kernel>() {
     assert!(fine < 0.02 * scale, "the residual is {fine:e}, the terms are {scale:e}");
 }
 
-/// What a stress of an axisymmetric field adds to its divergence along R and Z, at a distance from the axis.
+/// The terms (P_RR - P_tt)/R and P_ZR/R of a divergence, at the distance R from the axis.
 fn spreading(stress: &[f64], radius: f64) -> [f64; 2] {
     [(stress[0] - stress[8]) / radius, stress[3] / radius]
 }

@@ -41,14 +41,14 @@ impl Judgement {
         finding.says(norm, *expected, name)
     }
 
-    /// What is behind the verdict, a sentence a line: first where the interval is from.
+    /// The reasons of the verdict, a sentence a line: first where the interval is from.
     pub fn explanations(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
         let Judged { expected, finding, .. } = self.deciding();
         let basis = finding.basis(*expected).into_iter();
         basis.chain(self.reasons(symbol, name)).collect()
     }
 
-    /// What is behind the verdict, but for where the interval is from.
+    /// The reasons of the verdict, without where the interval is from.
     pub fn reasons(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
         let Judged { expected, finding, .. } = self.deciding();
         let mut lines = finding.reasons(*expected, symbol, name);
@@ -135,7 +135,7 @@ impl Finding {
         }
     }
 
-    /// What the fits say, in words.
+    /// The findings of the fits, in words.
     fn reasons(&self, expected: Expected, symbol: &str, name: Name<'_>) -> Vec<String> {
         let mut lines = Vec::new();
         let is_asked = matches!(self.reason, Reason::Below | Reason::Open);

@@ -21,7 +21,7 @@ pub enum Finding {
 }
 
 impl Finding {
-    /// Its name in a document.
+    /// The name of the finding in a document.
     pub fn name(self) -> &'static str {
         match self {
             Finding::Nothing => "nothing",

@@ -103,7 +103,7 @@ pub struct Job {
     pub time_step: Option<f64>,
     /// How many there are; none of a static field.
     pub steps: Option<u64>,
-    /// What its result depends on; whether b is wrong, too.
+    /// The settings that the result depends on; whether b is wrong is one.
     pub key: Key,
     /// The files among that.
     pub dependencies: Vec<Dependency>,

@@ -26,16 +26,16 @@ pub struct Report<'a> {
 /// What a study does with a wrong b.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Canary {
-    /// It does not pass: it measures the solver.
+    /// The study does not pass: it measures the solver.
     Fails,
-    /// It passes: it measures nothing.
+    /// The study passes: it measures nothing.
     Passes,
     /// Nobody knows: the study does not pass with the right b either, or runs are missing.
     Open,
 }
 
 impl Canary {
-    /// Its name in a document.
+    /// The name of the finding in a document.
     pub fn name(self) -> &'static str {
         match self {
             Canary::Fails => "fails",

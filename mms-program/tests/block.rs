@@ -274,7 +274,7 @@ proptest! {
 }
 
 /// The functions that programs have at points, each with what may be proved of its argument.
-/// The same program of positions alone: normals and gradients are coordinates.
+/// The random program with normals and gradients as coordinates, so that it takes positions alone.
 fn of_positions(mut program: Program) -> Program {
     for instr in &mut program.instrs {
         if let Op::Input(Symbol::Normal(axis) | Symbol::Gradient(axis, _)) = instr.op {

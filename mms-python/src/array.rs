@@ -24,7 +24,7 @@ pub enum Numbers<'py> {
 }
 
 impl<'py> Numbers<'py> {
-    /// Of an argument. Arrays of other numbers than `float32` and `float64`, and those out of line in memory, are copied.
+    /// Reads an argument. Arrays of other numbers than `float32` and `float64`, and those out of line in memory, are copied.
     pub fn of(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Self> {
         if let Some(numbers) = Self::as_it_is(given)? {
             return Ok(numbers);
@@ -109,7 +109,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// That of an argument whose last axes are `own`; `(n,)` and `()` do for points of one number.
+    /// The array of an argument whose last axes are `own`; `(n,)` and `()` do for points of one number.
     pub fn of(name: &str, shape: &[usize], own: &[usize], of: &str) -> PyResult<Self> {
         if own.iter().all(|length| *length == 1) && shape.len() < 2 {
             return Ok(Layout { leading: shape.to_vec(), is_flat: true });

@@ -132,7 +132,7 @@ impl<T: Precision> Evaluator<T> {
         })
     }
 
-    /// The same on this thread.
+    /// Evaluates on this thread.
     fn share(
         &self,
         room: &mut Room<T>,
@@ -187,7 +187,7 @@ impl<T: Precision> Evaluator<T> {
     }
 }
 
-/// What X determines of an output at points, share by share.
+/// The numbers of an output that X alone determines, share by share.
 pub struct KeptPoints<T: Blockwise>(Vec<Kept<T>>);
 
 impl<T: Precision> Evaluator<T> {

@@ -21,7 +21,7 @@ pub struct Stay {
     double: Known<f64>,
 }
 
-/// What is kept of each output that was asked for.
+/// The numbers kept for each output so far.
 type Known<T> = Mutex<Vec<(Output, Arc<KeptPoints<T>>)>>;
 
 impl Stay {

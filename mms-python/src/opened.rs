@@ -71,7 +71,7 @@ pub struct Points<'py> {
 }
 
 impl<'py> Points<'py> {
-    /// Those of an argument.
+    /// Reads the points of an argument.
     pub fn given(given: &Bound<'py, PyAny>, opened: &Opened) -> PyResult<Self> {
         let numbers = Numbers::of("X", given)?;
         let of = format!("points of `{}`", opened.input.name.shown());
@@ -88,7 +88,7 @@ impl<'py> Points<'py> {
     }
 }
 
-/// What is asked for: an output, how its result is called and shaped, and when.
+/// A request: an output, the name and the shape of its result, and the time.
 pub struct Asked<'a> {
     /// The output.
     pub output: Output,
@@ -100,7 +100,7 @@ pub struct Asked<'a> {
     pub time: f64,
 }
 
-/// What it is asked at.
+/// The arguments of a request.
 struct At<'a, 'py, T: Precision> {
     layout: &'a Layout,
     x: Option<&'a PyReadonlyArrayDyn<'py, T>>,

@@ -159,7 +159,7 @@ impl Given {
         }
     }
 
-    /// What messages call it; `at` is its position.
+    /// The name in messages; `at` is the position of the level.
     pub fn name(&self, at: usize) -> String {
         match self {
             Given::Arrays(_) => format!("level {at}"),

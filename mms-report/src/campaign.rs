@@ -66,7 +66,7 @@ impl View<'_> {
         }
     }
 
-    /// What studies do with a wrong b, a line each for those that pass.
+    /// The findings of the canaries: a line for each study that passes with a wrong b.
     fn canaries(&self) -> Option<String> {
         let all = self.0.canaries.as_ref()?.len();
         let fails = self.0.with_canary(Canary::Fails).len();

@@ -41,7 +41,7 @@ impl View<'_> {
         self.without_next(is_full) + &next.map_or(String::new(), |it| format!("\n{it}"))
     }
 
-    /// The same without the next command.
+    /// The text without the next command.
     pub fn without_next(&self, is_full: bool) -> String {
         let several = self.0.judged.len() > 1;
         let mut head = vec![format!("{}: {} runs", self.0.source, self.0.measured.runs.len())];

@@ -12,7 +12,7 @@ enum Case {
     Passed,
     /// The verdict and its reasons.
     Failure(String, String),
-    /// What went wrong with the runs, and their last words.
+    /// The failures of the runs, with their last words.
     Error(String, String),
     Skipped(&'static str),
 }

@@ -49,7 +49,7 @@ pub enum Refusal {
     /// A field that the solver has no particles for.
     #[error("the field is axisymmetric, and {what}")]
     NotOfRings {
-        /// What there is not for rings, and what to do.
+        /// The reason, and what to do.
         what: &'static str,
     },
     /// An integrator that moves particles and deforms them by different velocities.
@@ -242,7 +242,7 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// What happened, where and when, without advice.
+    /// The failure with its place and time, without advice.
     pub fn place(&self) -> String {
         let Failure { step, time, particle, reference_position: at, cause } = self;
         let particle = particle.map_or(String::new(), |it| format!(", particle {it}"));

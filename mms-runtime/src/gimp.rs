@@ -154,7 +154,9 @@ fn place_wide<T: Real, const D: usize>(
             for k in 0..MOST {
                 let offset = cells[p] - (first[p] + T::of(k as f64));
                 [weights[k][p], slopes[k][p]] = average_of_hat(offset, l);
-                [moments[0][k][p], moments[1][k][p]] = moment_of_hat(offset, l);
+                if lattice.is_meridian {
+                    [moments[0][k][p], moments[1][k][p]] = moment_of_hat(offset, l);
+                }
             }
         }
         let mut all = [weights, slopes].map(|all| all.map(|along| machine.eight(&along)));

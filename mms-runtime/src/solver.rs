@@ -1,7 +1,7 @@
 //! The explicit MPM/GIMP solver, for `const D` of 1 to 3 and for `f32` and `f64`.
 //!
-//! All state is in [`Solver`]: particles (structure of arrays), grid, boundary, clock. A step allocates nothing,
-//! and is two passes over the particles, in an order that the [`Integrator`] says through
+//! All state is in [`Solver`]: particles (structure of arrays), grid, boundary, clock. A step allocates nothing
+//! but for tractions on a body of revolution, and is two passes over the particles, in an order that the [`Integrator`] says through
 //! [`Operations`](crate::integrator::Operations): P2G (`p2g`: stress, weights, mass, momentum, force) and G2P
 //! (`g2p`: weights, v, d, H).
 //!

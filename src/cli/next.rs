@@ -89,7 +89,7 @@ impl Meshes {
         command(["diagnose", &self.field, "--plan"])
     }
 
-    /// Those of a study of a campaign, whose file lies in the folder `here`.
+    /// The words for a study of a campaign whose file lies in the folder `here`.
     fn of_study(judged: &Judged<'_>, files: &[String], here: &Path) -> Self {
         let Planned { study, jobs, .. } = judged.planned;
         let path = |word: &Spanned<String>| match word.value.ends_with(".toml") {

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use super::say;
 use crate::provenance::Provenance;
 
-/// What a document says of where it is from.
+/// The origin that a document names.
 #[derive(Deserialize)]
 struct Found {
     provenance: Provenance,

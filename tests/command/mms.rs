@@ -91,7 +91,7 @@ impl Folder {
         assert!(matches!(next.code, 0 | 1 | 3), "{next}\nafter {run}");
     }
 
-    /// What a shell makes of a line in which `mms` is the program.
+    /// Runs a line in a shell in which `mms` is the program.
     pub fn types(&self, line: &str) -> Run {
         let program = Path::new(env!("CARGO_BIN_EXE_mms")).parent().expect("a folder");
         let path = std::env::var_os("PATH").unwrap_or_default();

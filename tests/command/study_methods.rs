@@ -231,7 +231,7 @@ fn lists_of_methods_that_make_no_sense_exit_2() {
     }
 }
 
-/// Of the pairs of two lists one makes no sense: the others are studied.
+/// A pair of two lists that makes no sense is left out, and the others are studied.
 #[test]
 fn a_pair_that_makes_no_sense_is_left_out_of_a_list() {
     let lists = "study bar_1d --cells 8,16 --formulation total,updated --shape linear,cpgimp";

@@ -190,7 +190,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// Of an axisymmetric field: stress and energy at its own hoop strains, and the contract of a body of revolution, whose
+    /// Writes, for an axisymmetric field, stress and energy at its own hoop strains, and the contract of a body of revolution, whose
     /// stress is `material`.
     fn revolved(&self, material: &TokenStream, energy_owner: &TokenStream) -> [TokenStream; 3] {
         let runtime = Ident::new(RUNTIME, Span::call_site());

@@ -234,7 +234,7 @@ impl<T: Blockwise> Prepared<T> {
     }
 }
 
-/// What X determines at points of the first output, for later times: the numbers of each block, one block after the other.
+/// The numbers of the first output that X alone determines, kept for later times, one block of points after the other.
 #[derive(Clone, Debug)]
 pub struct Kept<T: Blockwise>(Vec<T::Column>);
 

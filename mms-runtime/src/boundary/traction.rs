@@ -3,9 +3,8 @@
 //! f_i += sum over the pieces of a face of w_i(x_s) sigma n a, with sigma the stress that the material has
 //! at the field's H at X_s. In the updated formulation a piece is carried by the particle next to it, to
 //! x_s = x_p + F_p (X_s - X_p), and n a = cof(F_p) N A0 (Nanson): a load that turns with the surface. On a meridian cof(F_p)
-//! is that of the plane times F_tt. Loads
-//! P N A0, whose directions are given, let a body under pressure on all sides turn over. In the total
-//! formulation F_p is the field's, and they are just that.
+//! is that of the plane times F_tt. Loads P N A0, whose directions are given, let a body under pressure on all sides turn
+//! over. In the total formulation F_p is the field's, and they are just that.
 
 use mms_math::machine::Plain;
 
@@ -121,18 +120,13 @@ impl<T: Real, const D: usize> Traction<T, D> {
             let exact = (displacement_gradient[k], hoop_stretch(&hoop_strain, k));
             let Place { position, carrier } = place(particle, &reference[k]);
             let (carrier, hoop) = carrier.unwrap_or(exact);
-            let present_area = cofactor(&carrier)
-                .map(
-                    |cofactor| {
-                        if on(Defect::TractionArea) { area[k] } else { cofactor * area[k] * hoop }
-                    },
-                )
-                .ok_or_else(|| fail(Cause::NotFinite { quantity: "traction" }))?;
-            let ratio = if on(Defect::TractionOfKirchhoff) {
-                T::one()
-            } else {
-                jacobian(&exact.0) * exact.1
+            let present_area = match cofactor(&carrier) {
+                None => return Err(fail(Cause::NotFinite { quantity: "traction" })),
+                Some(_) if on(Defect::TractionArea) => area[k],
+                Some(cofactor) => cofactor * area[k] * hoop,
             };
+            let volume = jacobian(&exact.0) * exact.1;
+            let ratio = if on(Defect::TractionOfKirchhoff) { T::one() } else { volume };
             let traction = kirchhoff_stress[k] * present_area * share / ratio;
             let stencil = (point.stencil)(point.lattice, &position).map_err(fail)?;
             let traction = halves(machine, [&traction; 2], T::zero());

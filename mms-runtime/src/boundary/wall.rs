@@ -59,9 +59,7 @@ impl Wall {
                 images.push((k.abs_diff(plane) - 1, (node, inside)));
             }
         }
-        let is_axis = lattice.is_meridian
-            && face == Face::Min(0)
-            && from * lattice.axes[0].cell_size == -lattice.axes[0].lower;
+        let is_axis = lattice.is_meridian && face == Face::Min(0);
         let fixed = condition == Condition::Fixed
             || on(Defect::StickyRoller)
             || is_axis && on(Defect::AxisFixed);

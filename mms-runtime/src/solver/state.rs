@@ -27,7 +27,7 @@ pub struct State<'a, T: Real, const D: usize> {
     displacement: Vec<Vector<T, D>>,
     velocity: Vec<Vector<T, D>>,
     displacement_gradient: Vec<Matrix<T, D>>,
-    /// Of a body of revolution only.
+    /// The hoop strains; empty unless the body is one of revolution.
     hoop_strain: Cow<'a, [T]>,
     /// C, with APIC only.
     affine: Vec<Matrix<T, D>>,

@@ -31,7 +31,7 @@ impl Errors {
         Self::of_squares(computed.zip(exact).map(square), weights)
     }
 
-    /// The same of tensors, in the norm of Frobenius; each with its component around the axis, if there are such.
+    /// The norms of the errors of tensors, in the norm of Frobenius; each with its component around the axis, if there are such.
     pub fn of_tensors<T: Real, const D: usize>(
         (computed, computed_hoop): (&[Matrix<T, D>], &[T]),
         (exact, exact_hoop): (&[Matrix<T, D>], &[T]),

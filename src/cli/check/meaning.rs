@@ -35,7 +35,7 @@ const MEANINGS: [(&str, &str); 13] = [
     ("check", "a closed form of the file against what is derived, in 77 digits"),
 ];
 
-/// What the lines of a text say, a line for each kind that it has.
+/// The meanings of the lines of a text, one for each kind of line that it has.
 pub fn of(text: &str) -> String {
     let has = |word: &str| text.lines().any(|line| line.split_whitespace().next() == Some(word));
     let lines = MEANINGS.iter().filter(|(word, _)| has(word));

@@ -247,7 +247,7 @@ fn table(judged: &[Judgements; 2]) -> anyhow::Result<String> {
     Ok(table.to_string())
 }
 
-/// What happens, in words.
+/// The event, in words.
 fn story(exact: &Exact, judged: &[Judgements; 2], diagnosis: &Diagnosis) -> anyhow::Result<String> {
     let before = include_str!("solver.rs").split(mistake::RIGHT).next().unwrap_or_default();
     let line = before.split('\n').count();

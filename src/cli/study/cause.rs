@@ -18,7 +18,7 @@ use mms_symbolic::expr::Symbol;
 use super::super::next::{Words, changed, command};
 use super::usual::is_box;
 
-/// What is known of a study that has ended.
+/// A study that has ended.
 pub struct Ended<'a> {
     /// The field, as it was named.
     pub field: &'a str,

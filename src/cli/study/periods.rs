@@ -16,7 +16,7 @@ pub struct Periods {
 }
 
 impl Periods {
-    /// What the failure of a run advises may not help one that went well for periods.
+    /// Advice for a run that went well for some periods and then failed.
     pub fn say_where_they_stopped(&self, levels: &[Result<Run, Refused>]) {
         let failures = levels.iter().flatten().filter_map(|run| run.level.errors.as_ref().err());
         let numbers =
