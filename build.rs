@@ -4,10 +4,7 @@
 //! mistake in one of them breaks the build at its place. What derivatives say of it, `mms-gallery` finds. Cargo
 //! runs this again when the folder or a file in it changes: `fields/` is its own list.
 
-#[path = "src/cli/demo/mistake.rs"]
-mod mistake;
-
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::{env, fs, io, process};
 
 use mms_codegen::Options;
@@ -47,24 +44,7 @@ fn main() -> io::Result<()> {
             process::exit(1);
         }
     }
-    fs::write(out.join("broken_solver.rs"), broken_solver(&root)?)?;
     fs::write(out.join("field_tests.rs"), field_tests(&files))
-}
-
-/// The solver of `mms demo` with its mistake.
-fn broken_solver(root: &Path) -> io::Result<String> {
-    let path = root.join("src/cli/demo/solver.rs");
-    println!("cargo::rerun-if-changed={}", path.display());
-    println!("cargo::rerun-if-changed=src/cli/demo/mistake.rs");
-    let solver = fs::read_to_string(&path)?;
-    assert_eq!(
-        solver.matches(mistake::RIGHT).count(),
-        1,
-        "{} in {}",
-        mistake::RIGHT,
-        path.display()
-    );
-    Ok(solver.replace(mistake::RIGHT, mistake::WRONG))
 }
 
 /// Refuses what cannot be the name of a module in `mms-gallery/src/lib.rs` and `tests/fields.rs`.

@@ -421,7 +421,7 @@ pub const CRATES: &[Crate] = &[
         ],
     },
     Crate {
-        name: "mms",
+        name: "mms-command",
         knows: &[
             "mms-analysis",
             "mms-campaign",
@@ -451,4 +451,5 @@ pub const CRATES: &[Crate] = &[
         ],
         layers: &["provenance schema terminal", "session", "history vtk", "checkpoint", "cli"],
     },
+    Crate { name: "mms", knows: &["mms-command"], layers: &[] },
 ];

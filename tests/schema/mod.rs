@@ -58,7 +58,7 @@ fn the_guide_names_every_key() {
     let (section, _) = section.split_once("\n## ").expect("the next one");
     let is_apart = |letter: char| !(letter.is_alphanumeric() || letter == '_');
     let words: Vec<&str> = section.split(is_apart).collect();
-    let schema = mms::schema::field();
+    let schema = mms_command::schema::field();
     let keys = keys(&schema);
     assert!(keys.len() > 40, "{keys:?}");
     for key in keys {
@@ -132,7 +132,7 @@ fn the_schemas_are_valid_and_use_keywords_of_both_drafts() {
         "if",
         "then",
     ];
-    for schema in [mms::schema::field(), mms::schema::material()] {
+    for schema in [mms_command::schema::field(), mms_command::schema::material()] {
         jsonschema::draft202012::meta::validate(&schema).expect("valid in draft 2020-12");
         let mut older = schema.clone();
         older["$schema"] = "http://json-schema.org/draft-07/schema#".into();
@@ -154,7 +154,7 @@ fn the_schemas_are_valid_and_use_keywords_of_both_drafts() {
 
 #[test]
 fn every_key_is_explained() {
-    for schema in [mms::schema::field(), mms::schema::material()] {
+    for schema in [mms_command::schema::field(), mms_command::schema::material()] {
         let mut schemas = vec![(String::new(), &schema)];
         while let Some((path, schema)) = schemas.pop() {
             if let Some(properties) = schema["properties"].as_object() {

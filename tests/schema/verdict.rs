@@ -15,9 +15,10 @@ use mms_spec::{read_field, read_material};
 use serde_json::{Map, Value};
 
 static FIELD_SCHEMA: LazyLock<Validator> =
-    LazyLock::new(|| jsonschema::validator_for(&mms::schema::field()).expect("a schema"));
-static MATERIAL_SCHEMA: LazyLock<Validator> =
-    LazyLock::new(|| jsonschema::validator_for(&mms::schema::material()).expect("a schema"));
+    LazyLock::new(|| jsonschema::validator_for(&mms_command::schema::field()).expect("a schema"));
+static MATERIAL_SCHEMA: LazyLock<Validator> = LazyLock::new(|| {
+    jsonschema::validator_for(&mms_command::schema::material()).expect("a schema")
+});
 
 /// What a file describes.
 #[derive(Clone, Copy, Debug, PartialEq)]

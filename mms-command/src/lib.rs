@@ -1,3 +1,5 @@
+//! The command `mms`: options, calls, what is printed, exit codes. [`run`] is all of it.
+//!
 //! Manufactured solutions for solid mechanics.
 //!
 //! A manufactured displacement field u(X, t) is one TOML file in `fields/`. Everything that follows
@@ -8,23 +10,25 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 mod checkpoint;
-pub mod cli;
+mod cli;
 mod history;
 mod provenance;
 #[cfg(test)]
-#[path = "../tests/support/sampled.rs"]
+#[path = "../../tests/support/sampled.rs"]
 mod sampled;
 pub mod schema;
 mod session;
 mod terminal;
 mod vtk;
 
+pub use cli::run;
+
 /// The tour's programs.
 #[cfg(doctest)]
-#[doc = include_str!("../docs/guide/tour.md")]
+#[doc = include_str!("../../docs/guide/tour.md")]
 pub struct Tour;
 
 /// The guide's programs.
 #[cfg(doctest)]
-#[doc = include_str!("../docs/guide/embedding.md")]
+#[doc = include_str!("../../docs/guide/embedding.md")]
 pub struct Guide;
