@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::sync::LazyLock;
 
 use dashu_ratio::RBig;
 use mms_analysis::present::{Inverse, Unplaced};
@@ -290,10 +291,13 @@ impl Exact {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => place.insert(prepared(&self.input, &self.parameters, output)?),
         };
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        Ok(prepared.values(components, time, self.dimension, places, threads))
+        Ok(prepared.values(components, time, self.dimension, places, *THREADS))
     }
 }
+
+/// The number of threads that run at the same time here. In a container the system reads it from files, too slowly for each point.
+static THREADS: LazyLock<usize> =
+    LazyLock::new(|| std::thread::available_parallelism().map_or(1, usize::from));
 
 /// Why X of a place is not known.
 pub fn says(why: &Unplaced) -> String {
