@@ -15,10 +15,10 @@ use mms_symbolic::expr::{Function, Rational};
 
 /// A result of a larger exponent of two is treated as not representable, and one of a smaller
 /// exponent than minus this is 0: exponents never leave their own integers.
-const LARGEST_EXPONENT: isize = 1 << 60;
+const LARGEST_EXPONENT: isize = 1 << (isize::BITS - 4);
 
 /// An argument of this exponent of two or less has an exponential within the bounds above.
-const LARGEST_ARGUMENT: isize = 59;
+const LARGEST_ARGUMENT: isize = isize::BITS as isize - 5;
 
 /// The exponent of the largest angle: reducing it takes as many digits of pi.
 const LARGEST_ANGLE: isize = 1 << 12;

@@ -421,10 +421,26 @@ pub const CRATES: &[Crate] = &[
         ],
     },
     Crate {
+        name: "mms-check",
+        knows: &[
+            "mms-codegen",
+            "mms-diagnosis",
+            "mms-documents",
+            "mms-interpreted",
+            "mms-mechanics",
+            "mms-program",
+            "mms-spec",
+            "mms-stability",
+            "mms-symbolic",
+        ],
+        layers: &["meaning mistaken proof stability", "closed_form"],
+    },
+    Crate {
         name: "mms-command",
         knows: &[
             "mms-analysis",
             "mms-campaign",
+            "mms-check",
             "mms-codegen",
             "mms-convergence",
             "mms-diagnosis",

@@ -6,6 +6,7 @@ use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use mms_analysis::operations::Operations;
 use mms_analysis::visibility::{POINTS, Status, Term, Visibility};
+use mms_check::stability;
 use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::reach;
 use mms_codegen::certify::rest;
@@ -24,7 +25,6 @@ use mms_spec::quantity::Quantity;
 use mms_stability::resting::Material;
 use mms_stability::wavelength::shortest_wavelength;
 
-use super::check::stability;
 use super::{Outcome, print, print_json, say};
 
 /// Show what follows from a field: its derivation with every step named, its claims, how many

@@ -17,7 +17,7 @@ const CELLS: [(&str, u8, usize); 5] = [
 ];
 
 /// The most points or cells that a zone may declare: no file in text has more.
-const MOST: usize = 1 << 40;
+const MOST: usize = 1 << if usize::BITS > 40 { 40 } else { 26 };
 
 /// Whether a text begins as a file of Tecplot does: a table may have a column called `zone`.
 pub fn is_tecplot(text: &[u8]) -> bool {

@@ -1,0 +1,230 @@
+//! The report on a field: its claims, proofs, stability and closed forms, as lines and as a document.
+//!
+//! [`check`] makes all of it of a compiled field. Nothing here reads a file or prints.
+
+mod closed_form;
+pub mod meaning;
+mod mistaken;
+mod proof;
+pub mod stability;
+
+use std::sync::Arc;
+
+use mms_codegen::Compiled;
+use mms_codegen::certify::certificate::certify;
+use mms_codegen::certify::closed_form::compare;
+use mms_codegen::certify::ellipticity::Ellipticity;
+use mms_codegen::certify::rest::{self, Rest};
+use mms_codegen::certify::written::{self, Gap, gaps};
+use mms_codegen::compile::Failure;
+use mms_documents::check::{self as documents, CheckedFile, UndefinedComponent};
+use mms_spec::diagnostic::Diagnostic;
+use mms_spec::foreign::{Foreign, shown};
+use mms_spec::source::Sources;
+use mms_stability::judge;
+use mms_stability::solve::solve;
+use mms_stability::warnings::warnings;
+
+use self::closed_form::Compared;
+
+/// The options of a check.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Asked {
+    /// Run Newton's method on a static field.
+    pub solve: bool,
+    /// Write a line for each face and each corner.
+    pub is_verbose: bool,
+}
+
+/// The report on a field that compiles.
+pub struct Report {
+    /// Claims that do not hold, with their places.
+    pub objections: Vec<Diagnostic>,
+    /// Warnings, with their places: a stress at rest, disturbances that grow.
+    pub warnings: Vec<Diagnostic>,
+    /// The lines for people; the first has the title.
+    pub lines: Vec<String>,
+    /// The document, without a next command.
+    pub document: CheckedFile,
+    /// Whether every claim and closed form holds.
+    pub passes: bool,
+}
+
+/// Checks a compiled field. `path` names its file in the report.
+pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: Asked) -> Report {
+    let compared = Compared::of(compiled, compare(compiled));
+    let title = format!("{}: {}", path.shown(), compiled.field.title.shown());
+    if compiled.field.domain.body.is_nothing() {
+        return numbers(path, compiled, title, &compared);
+    }
+    let gaps = gaps(compiled);
+    let mut certificate = certify(compiled);
+    let rest = rest::stress(compiled);
+    certificate.spent.extend(unseen(compiled, &rest));
+    let objections = certificate.objections(compiled);
+    // A check that was made nowhere passes for nothing.
+    let stability = judge(compiled);
+    certificate.spent.extend(stability.is_spent.then(|| "what grows on the motion".to_string()));
+    let lost = match &certificate.ellipticity {
+        Ellipticity::Lost(softening) => Some(softening),
+        Ellipticity::Strong(_) | Ellipticity::Unproved => None,
+    };
+    let growing = warnings(compiled, &stability, lost);
+    let solved = asked.solve.then(|| solve(compiled));
+    let is_seen = written::points(compiled) > 0 && compared.all_agree();
+
+    let mut lines = vec![title];
+    lines.extend(proof::text(compiled, &certificate));
+    lines.extend(rest_line(&rest));
+    let of = (compiled.field.space, compiled.model.domain.is_static);
+    lines.extend(stability::text(&stability, &certificate, of, asked.is_verbose));
+    lines.extend(solved.map(|solved| format!("  solve  {}", solved.words())));
+    lines.extend(gaps.iter().flat_map(|gap| gap_lines(compiled, gap)));
+    lines.extend(compared.lines(compiled));
+
+    let material = stability.material.as_ref();
+    let located_objections = objections.iter().map(|it| located(&compiled.sources, it));
+    let document = CheckedFile {
+        file: path.raw().to_owned(),
+        diagnostics: None,
+        claims: Some(certificate.claims.iter().map(proof::claim).collect()),
+        certificate: Some(Some(proof::document(&certificate))),
+        objections: Some(located_objections.collect()),
+        checks: Some(compared.documents()),
+        undefined: Some(gaps.iter().map(|gap| gap_document(compiled, gap)).collect()),
+        rest_stress: Some(rest.stress().map(<[f64]>::to_vec)),
+        moduli_at_rest: Some(stability::moduli(material)),
+        transverse_moduli_at_rest: Some(stability::transverse(material)),
+        stability: Some(stability::document(&stability, &growing, solved)),
+        extent: Some(certificate.reach.clone()),
+        shortest_wavelength: Some(stability.shortest_wavelength),
+        budget_spent: Some(certificate.spent.iter().map(ToString::to_string).collect()),
+        simplified: Some(compiled.simplified),
+        next_command: None,
+    };
+    let passes = objections.is_empty() && gaps.is_empty() && is_seen;
+    let warnings = rest.warning(compiled).into_iter().chain(growing).collect();
+    Report { objections, warnings, lines, document, passes }
+}
+
+/// The report on a field without a body: its closed forms, at points of the unit cube. There is nothing to prove.
+fn numbers(path: &Foreign, compiled: &Compiled, title: String, compared: &Compared) -> Report {
+    let none =
+        "  proof  NONE: numbers without claims, for [domain] has no body (`shape = \"none\"`)";
+    let mut lines = vec![title, none.into()];
+    lines.extend(compared.lines(compiled));
+    let document = CheckedFile {
+        file: path.raw().to_owned(),
+        claims: Some(Vec::new()),
+        certificate: Some(None),
+        objections: Some(Vec::new()),
+        checks: Some(compared.documents()),
+        simplified: Some(compiled.simplified),
+        ..CheckedFile::default()
+    };
+    let passes = compared.all_agree();
+    Report { objections: Vec::new(), warnings: Vec::new(), lines, document, passes }
+}
+
+/// The document of a file that does not compile.
+pub fn mistaken(path: &Foreign, failure: &Failure) -> CheckedFile {
+    let diagnostics = failure.diagnostics.iter().map(|it| located(&failure.sources, it));
+    with_mistakes(path, diagnostics.collect())
+}
+
+/// The document of a file that cannot be read.
+pub fn unreadable(path: &Foreign, message: String) -> CheckedFile {
+    let diagnostic = documents::Diagnostic {
+        path: path.raw().to_owned(),
+        line: None,
+        column: None,
+        message,
+        label: None,
+        help: None,
+    };
+    with_mistakes(path, vec![diagnostic])
+}
+
+fn with_mistakes(path: &Foreign, diagnostics: Vec<documents::Diagnostic>) -> CheckedFile {
+    CheckedFile {
+        file: path.raw().to_owned(),
+        diagnostics: Some(diagnostics),
+        ..CheckedFile::default()
+    }
+}
+
+/// The other checks that were skipped, or made at fewer points, because they take too long.
+fn unseen(compiled: &Compiled, rest: &Rest) -> Vec<String> {
+    let mut unseen = Vec::new();
+    if written::points(compiled) < written::POINTS {
+        unseen.push("u as it is written".to_string());
+    }
+    if *rest == Rest::Unknown {
+        unseen.push("stress at rest".into());
+    }
+    if !compiled.simplified {
+        unseen.push("the search for short and exact formulas".into());
+    }
+    unseen
+}
+
+/// The line about P at F = I, if P is not 0.
+fn rest_line(rest: &Rest) -> Option<String> {
+    if let Rest::Pressed(stress, names) = rest {
+        let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+        return Some(format!(
+            "  rest   P is {:e} I at F = I, a pressure that the given {} balances",
+            stress[0],
+            names.join(", ")
+        ));
+    }
+    let components: Vec<_> = rest.stress()?.iter().map(|it| format!("{it:e}")).collect();
+    Some(format!("  rest   stress at rest: P is [{}] at F = I, not 0", components.join(", ")))
+}
+
+/// A diagnostic with its place.
+pub fn located(sources: &Sources, diagnostic: &Diagnostic) -> documents::Diagnostic {
+    let (line, column) = sources.location(diagnostic.span);
+    documents::Diagnostic {
+        path: sources.get(diagnostic.span.source).path.raw().to_owned(),
+        line: Some(line),
+        column: Some(column),
+        message: diagnostic.message.to_string(),
+        label: Some(diagnostic.label.to_string()),
+        help: Some(diagnostic.help.iter().map(ToString::to_string).collect()),
+    }
+}
+
+/// The lines about a component of u that has no value as it is written.
+fn gap_lines(compiled: &Compiled, gap: &Gap) -> [String; 2] {
+    let (at, time) = &gap.first;
+    let what = match gap.component {
+        Some(component) => format!("component {}", component + 1),
+        None => "the rigid motion".into(),
+    };
+    [
+        format!(
+            "  u      {what} is UNDEFINED as written at {} of {} points",
+            gap.points,
+            written::POINTS,
+        ),
+        format!(
+            "    {}: `{}` has no value at X = {at:?}, t = {time:e}: shrink [domain], or write it in another form",
+            compiled.sources.place(gap.span),
+            shown(compiled.sources.slice(gap.span)),
+        ),
+    ]
+}
+
+/// Where u has no value, and what is to blame.
+fn gap_document(compiled: &Compiled, gap: &Gap) -> UndefinedComponent {
+    let (line, column) = compiled.sources.location(gap.span);
+    UndefinedComponent {
+        component: gap.component.map(|component| component + 1),
+        line,
+        column,
+        points: gap.points,
+        at: gap.first.0.clone(),
+        time: gap.first.1,
+    }
+}
