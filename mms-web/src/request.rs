@@ -1,0 +1,126 @@
+//! Requests, as the page writes them.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::mistake::Mistake;
+
+/// The text of a field.
+#[derive(Clone, Debug, Deserialize)]
+pub struct FieldText {
+    /// The field's name.
+    #[serde(default = "unnamed")]
+    pub name: String,
+    /// The field file.
+    pub text: String,
+    /// The file of its material, where it brings its own.
+    #[serde(default)]
+    pub material: Option<String>,
+}
+
+fn unnamed() -> String {
+    "mine".into()
+}
+
+/// An attached file.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Attached {
+    /// The name, whose ending tells the format.
+    pub name: String,
+    /// Its bytes, which follow those of the files before it.
+    pub size: usize,
+}
+
+/// The options of a judgement, as of `mms judge`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct JudgeOptions {
+    /// h of each file; found from the files where it is empty.
+    pub mesh_sizes: Vec<f64>,
+    /// The time of each file, or one for all.
+    pub times: Vec<f64>,
+    /// Names of quantities; all that are found where it is empty.
+    pub quantities: Vec<String>,
+    /// The order that is expected; the solver's usual one where it is not given.
+    pub expected_order: Option<f64>,
+}
+
+/// A request.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "do", rename_all = "snake_case")]
+pub enum Request {
+    /// The shipped fields and materials.
+    Gallery,
+    /// The JSON Schema of field files.
+    Schema,
+    /// Everything that `mms check` says.
+    Check(FieldText),
+    /// The derivation of some quantities.
+    Derivation {
+        /// The field.
+        #[serde(flatten)]
+        field: FieldText,
+        /// Their names; displacement and body force where there is none.
+        #[serde(default)]
+        quantities: Vec<String>,
+    },
+    /// All quantities at a point.
+    Values {
+        /// The field.
+        #[serde(flatten)]
+        field: FieldText,
+        /// X.
+        at: Vec<f64>,
+        /// t.
+        time: f64,
+        /// Values of parameters.
+        #[serde(default)]
+        set: BTreeMap<String, f64>,
+    },
+    /// The motion of a mesh, with a quantity as colour.
+    Motion {
+        /// The field.
+        #[serde(flatten)]
+        field: FieldText,
+        /// The name of the quantity.
+        color: String,
+        /// The number of times.
+        frames: usize,
+        /// Cells along each side.
+        cells: usize,
+    },
+    /// The languages that code is written in, and the quantities.
+    Targets,
+    /// The code of a field in a language.
+    Emit {
+        /// The field.
+        #[serde(flatten)]
+        field: FieldText,
+        /// The language.
+        target: String,
+        /// Names of quantities; all where there is none.
+        #[serde(default)]
+        quantities: Vec<String>,
+    },
+    /// The verdict on attached results.
+    Judge {
+        /// The field.
+        #[serde(flatten)]
+        field: FieldText,
+        /// The files.
+        files: Vec<Attached>,
+        /// Options.
+        #[serde(default)]
+        options: JudgeOptions,
+    },
+}
+
+/// The request, and the bytes of attached files.
+pub fn split(bytes: &[u8]) -> Result<(Request, &[u8]), Mistake> {
+    let short = || Mistake::of("a request is four bytes of length, a header and files");
+    let (length, rest) = bytes.split_first_chunk().ok_or_else(short)?;
+    let length = u32::from_le_bytes(*length) as usize;
+    let (header, files) = rest.split_at_checked(length).ok_or_else(short)?;
+    Ok((serde_json::from_slice(header)?, files))
+}

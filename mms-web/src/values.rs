@@ -1,0 +1,221 @@
+//! Numbers at a point, and the motion of a mesh.
+
+use std::collections::BTreeMap;
+
+use mms_exact::Exact;
+use mms_mechanics::extent::Extent;
+use mms_spec::quantity::{Quantity, Shape};
+use serde::Serialize;
+
+use crate::field::named;
+use crate::mistake::Mistake;
+use crate::request::FieldText;
+
+/// The most frames and the most cells along a side that are drawn.
+const MOST: usize = 200;
+
+/// All quantities at a point.
+#[derive(Serialize)]
+pub struct Values {
+    values: Vec<Value>,
+}
+
+#[derive(Serialize)]
+struct Value {
+    quantity: String,
+    symbol: String,
+    unit: String,
+    /// A number that is not finite is null.
+    components: Vec<f64>,
+    /// Rows and columns.
+    shape: [usize; 2],
+}
+
+fn exact(field: &FieldText, set: &BTreeMap<String, f64>) -> Result<Exact, Mistake> {
+    let settings: Vec<_> = set.iter().map(|(name, value)| format!("{name}={value:?}")).collect();
+    Ok(Exact::new(field.compiled()?, &settings)?)
+}
+
+fn hold_finite(numbers: &[f64]) -> Result<(), Mistake> {
+    match numbers.iter().all(|it| it.is_finite()) {
+        true => Ok(()),
+        false => Err(Mistake::of("expected finite coordinates and a finite time")),
+    }
+}
+
+/// All quantities of a field at a point X and a time, to the bits of `mms eval`.
+pub fn values(
+    field: &FieldText,
+    at: &[f64],
+    time: f64,
+    set: &BTreeMap<String, f64>,
+) -> Result<Values, Mistake> {
+    let mut exact = exact(field, set)?;
+    hold_finite(&[at, &[time]].concat())?;
+    if at.len() != exact.dimension {
+        return Err(Mistake::of(format!("expected {} coordinates", exact.dimension)));
+    }
+    let quantities: Vec<_> = exact.input().compiled.quantities().collect();
+    let mut values = Vec::new();
+    for quantity in quantities.into_iter().filter(|it| !it.takes_normal()) {
+        let components = exact.values(quantity, time, at)?;
+        let rows = match quantity.shape() {
+            Shape::Tensor => exact.rows(),
+            _ => components.len(),
+        };
+        values.push(Value {
+            quantity: quantity.name().to_owned(),
+            symbol: quantity.symbol().to_owned(),
+            unit: exact.input().compiled.unit_of(quantity),
+            shape: [rows, components.len() / rows.max(1)],
+            components,
+        });
+    }
+    Ok(Values { values })
+}
+
+/// The motion of a mesh.
+#[derive(Serialize)]
+pub struct Motion {
+    dimension: usize,
+    /// X of each point.
+    reference: Vec<Vec<f64>>,
+    /// Points of each cell: two, or the four corners of a quadrilateral.
+    cells: Vec<Vec<usize>>,
+    times: Vec<f64>,
+    /// x of each point at each time.
+    points: Vec<Vec<Vec<f64>>>,
+    /// The colour of each point at each time.
+    values: Vec<Vec<f64>>,
+    range: [f64; 2],
+    unit: String,
+    /// The names of quantities that can be shown as colour.
+    colors: Vec<String>,
+}
+
+/// Moves a mesh over the body, with a quantity as colour: the Frobenius norm of a vector or tensor.
+pub fn motion(
+    field: &FieldText,
+    color: &str,
+    frames: usize,
+    cells: usize,
+) -> Result<Motion, Mistake> {
+    let mut exact = exact(field, &BTreeMap::new())?;
+    let color = named(exact.input(), &[color.to_owned()])?[0];
+    if color.takes_normal() {
+        return Err(Mistake::of("a traction needs a normal, and is no colour"));
+    }
+    let (frames, sides) = (frames.clamp(1, MOST), cells.clamp(1, MOST));
+    let (reference, cells) = mesh(&exact.body, exact.dimension, sides);
+    let flat = reference.concat();
+    let [first, last] = exact.window;
+    let steps = if exact.input().is_static() { 1 } else { frames };
+    let time = |step: usize| first + (last - first) * step as f64 / (steps - 1).max(1) as f64;
+    let times: Vec<f64> = (0..steps).map(time).collect();
+    let dimension = exact.dimension;
+    let (mut points, mut values) = (Vec::new(), Vec::new());
+    for time in &times {
+        let positions = exact.values(Quantity::Position, *time, &flat)?;
+        let width = positions.len() / reference.len();
+        points.push(positions.chunks(width).map(|it| it[..dimension].to_vec()).collect());
+        let numbers = exact.values(color, *time, &flat)?;
+        let size = |it: &[f64]| match it {
+            [one] => *one,
+            several => several.iter().map(|it| it * it).sum::<f64>().sqrt(),
+        };
+        values.push(numbers.chunks(numbers.len() / reference.len()).map(size).collect());
+    }
+    let all = || values.iter().flat_map(|it: &Vec<f64>| it).filter(|it| it.is_finite());
+    let range = [
+        all().copied().fold(f64::INFINITY, f64::min),
+        all().copied().fold(f64::NEG_INFINITY, f64::max),
+    ];
+    let compiled = &exact.input().compiled;
+    let colors = compiled.quantities().filter(|it| !it.takes_normal());
+    Ok(Motion {
+        dimension,
+        unit: compiled.unit_of(color),
+        colors: colors.map(|it| it.name().to_owned()).collect(),
+        reference,
+        cells,
+        times,
+        points,
+        values,
+        range,
+    })
+}
+
+/// Points X and cells over a body: of a solid, the quadrilaterals of its six sides.
+fn mesh(body: &Extent<f64>, dimension: usize, sides: usize) -> (Vec<Vec<f64>>, Vec<Vec<usize>>) {
+    let fraction = |step: usize| step as f64 / sides as f64;
+    if dimension == 1 {
+        let points = (0..=sides).map(|step| body.point(&[fraction(step)]));
+        return (points.collect(), (0..sides).map(|at| vec![at, at + 1]).collect());
+    }
+    if let (Extent::Polygon(_), 2) = (body, dimension) {
+        return of_polygon(body, sides);
+    }
+    // The two directions of each side, the third, and where it is held.
+    let faces: &[([usize; 3], f64)] = match dimension {
+        2 => &[([0, 1, 2], 0.0)],
+        _ => &[
+            ([0, 1, 2], 0.0),
+            ([0, 1, 2], 1.0),
+            ([1, 2, 0], 0.0),
+            ([1, 2, 0], 1.0),
+            ([2, 0, 1], 0.0),
+            ([2, 0, 1], 1.0),
+        ],
+    };
+    let (mut points, mut cells) = (Vec::new(), Vec::new());
+    for (axes, held) in faces {
+        let start = points.len();
+        for second in 0..=sides {
+            for first in 0..=sides {
+                let mut at = [0.0; 3];
+                at[axes[0]] = fraction(first);
+                at[axes[1]] = fraction(second);
+                at[axes[2]] = *held;
+                points.push(body.point(&at));
+            }
+        }
+        let corner = |first: usize, second: usize| start + second * (sides + 1) + first;
+        for second in 0..sides {
+            cells.extend((0..sides).map(|first| {
+                vec![
+                    corner(first, second),
+                    corner(first + 1, second),
+                    corner(first + 1, second + 1),
+                    corner(first, second + 1),
+                ]
+            }));
+        }
+    }
+    (points, cells)
+}
+
+/// The cells of a lattice whose middles lie in a polygon.
+fn of_polygon(body: &Extent<f64>, sides: usize) -> (Vec<Vec<f64>>, Vec<Vec<usize>>) {
+    let [lower, upper] = body.bounding_box();
+    let along = |axis: usize, at: f64| lower[axis] + (upper[axis] - lower[axis]) * at / sides as f64;
+    let mut points = Vec::new();
+    for second in 0..=sides {
+        points.extend((0..=sides).map(|first| vec![along(0, first as f64), along(1, second as f64)]));
+    }
+    let corner = |first: usize, second: usize| second * (sides + 1) + first;
+    let mut cells = Vec::new();
+    for second in 0..sides {
+        for first in 0..sides {
+            let middle = [along(0, first as f64 + 0.5), along(1, second as f64 + 0.5)];
+            if body.contains(&middle) {
+                cells.push(vec![
+                    corner(first, second),
+                    corner(first + 1, second),
+                    corner(first + 1, second + 1),
+                    corner(first, second + 1),
+                ]);
+            }
+        }
+    }
+    (points, cells)
+}
