@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use anyhow::anyhow;
 use mms_check::Asked;
-use mms_codegen::selection::Selection;
 use mms_codegen::Options;
+use mms_codegen::selection::Selection;
 use mms_documents::check::CheckedFile;
 use mms_emit::{Subject, TARGETS, Target};
 use mms_exact::{Input, Source, evaluated, gallery, quantities};
@@ -168,7 +168,8 @@ struct Text {
 
 /// Writes the code of a field in a language, with its check program.
 pub fn emit(field: &FieldText, target: &str, names: &[String]) -> Result<Emitted, Mistake> {
-    let target = Target::find(target).ok_or_else(|| Mistake::of(format!("no target `{target}`")))?;
+    let target =
+        Target::find(target).ok_or_else(|| Mistake::of(format!("no target `{target}`")))?;
     let source = field.source();
     let wanted = match names {
         [] => None,

@@ -197,10 +197,12 @@ fn mesh(body: &Extent<f64>, dimension: usize, sides: usize) -> (Vec<Vec<f64>>, V
 /// The cells of a lattice whose middles lie in a polygon.
 fn of_polygon(body: &Extent<f64>, sides: usize) -> (Vec<Vec<f64>>, Vec<Vec<usize>>) {
     let [lower, upper] = body.bounding_box();
-    let along = |axis: usize, at: f64| lower[axis] + (upper[axis] - lower[axis]) * at / sides as f64;
+    let along =
+        |axis: usize, at: f64| lower[axis] + (upper[axis] - lower[axis]) * at / sides as f64;
     let mut points = Vec::new();
     for second in 0..=sides {
-        points.extend((0..=sides).map(|first| vec![along(0, first as f64), along(1, second as f64)]));
+        points
+            .extend((0..=sides).map(|first| vec![along(0, first as f64), along(1, second as f64)]));
     }
     let corner = |first: usize, second: usize| second * (sides + 1) + first;
     let mut cells = Vec::new();

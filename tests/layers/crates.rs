@@ -421,6 +421,23 @@ pub const CRATES: &[Crate] = &[
         ],
     },
     Crate {
+        name: "mms-web",
+        knows: &[
+            "mms-check",
+            "mms-codegen",
+            "mms-convergence",
+            "mms-documents",
+            "mms-emit",
+            "mms-exact",
+            "mms-judge",
+            "mms-mechanics",
+            "mms-results",
+            "mms-show",
+            "mms-spec",
+        ],
+        layers: &["exports mistake", "request", "field", "values verdict"],
+    },
+    Crate {
         name: "mms-check",
         knows: &[
             "mms-codegen",
