@@ -258,12 +258,7 @@ impl Compiled {
 
     /// What tells the input texts from others: 16 hexadecimal digits.
     pub fn input_hash(&self) -> String {
-        // FNV-1a (Fowler, Noll & Vo): tells inputs apart, and is the same everywhere.
-        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-        for byte in self.sources.texts().flat_map(str::bytes) {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-        format!("{hash:016x}")
+        self.sources.hash()
     }
 
     /// One sentence on what a quantity is here: at small strain there is one stress and one configuration.

@@ -68,7 +68,8 @@ impl Judgements {
         })
     }
 
-    /// Judges what was measured of results in files.
+    /// Judges what was measured of results in files. If they pass, the solver of this project runs with each mistake, to list those
+    /// that the results exclude.
     ///
     /// # Errors
     /// Runs that cannot be compared.
@@ -79,14 +80,29 @@ impl Judgements {
         time_step: Option<f64>,
         provenance: Provenance,
     ) -> anyhow::Result<Self> {
-        let results = Results::new(&exact.input().name, files, &measurement);
-        let Measurement { measured, times, notes, objection, part, .. } = measurement;
-        let report = Self::objected(exact.title(), measured, objection.as_ref(), provenance)?;
+        let times = measurement.times.clone();
+        let report = Self::without_exclusions(exact, files, measurement, provenance)?;
         let exclusions = match report.verdict().is_good() {
             true => exclusions(exact, &report.measured, times, time_step)?,
             false => None,
         };
-        Ok(Self { notes, exclusions, part, results, ..report })
+        Ok(Self { exclusions, ..report })
+    }
+
+    /// Judges what was measured of results in files, and runs nothing.
+    ///
+    /// # Errors
+    /// Runs that cannot be compared.
+    pub fn without_exclusions(
+        exact: &Exact,
+        files: &[String],
+        measurement: Measurement,
+        provenance: Provenance,
+    ) -> anyhow::Result<Self> {
+        let results = Results::new(&exact.input().name, files, &measurement);
+        let Measurement { measured, notes, objection, part, .. } = measurement;
+        let report = Self::objected(exact.title(), measured, objection.as_ref(), provenance)?;
+        Ok(Self { notes, part, results, ..report })
     }
 
     /// The quantity that decides, its position and the verdict.

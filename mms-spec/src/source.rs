@@ -83,6 +83,13 @@ impl Sources {
         self.0.iter().map(|source| source.text.as_str())
     }
 
+    /// 64 bits of all texts, in hexadecimal: FNV-1a (Fowler, Noll and Vo). They tell inputs apart, and are the same on every machine.
+    pub fn hash(&self) -> String {
+        let of = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        let hash = self.texts().flat_map(str::bytes).fold(0xcbf2_9ce4_8422_2325, of);
+        format!("{hash:016x}")
+    }
+
     /// The text of that id.
     pub fn get(&self, id: SourceId) -> &Source {
         &self.0[id.0 as usize]

@@ -36,6 +36,8 @@ pub struct Attached {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct JudgeOptions {
+    /// Whether the file is a table of errors, and no result of the field.
+    pub errors: bool,
     /// h of each file; found from the files where it is empty.
     pub mesh_sizes: Vec<f64>,
     /// The time of each file, or one for all.

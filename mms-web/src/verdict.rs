@@ -3,16 +3,18 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+use anyhow::{Context as _, bail};
 use mms_convergence::TOLERANCE;
 use mms_documents::judge::Judge;
-use mms_documents::provenance::{Provenance, VERSION};
+use mms_documents::provenance::{Input, Provenance, VERSION};
 use mms_exact::Exact;
 use mms_judge::Judgements;
 use mms_judge::results::{Comparison, Reading, measure, own_roles};
-use mms_judge::table::Orders;
+use mms_judge::table::{self, Orders};
 use mms_results::Files;
 use mms_results::names::Names;
 use mms_spec::foreign::shown;
+use mms_spec::source::Sources;
 use serde::Serialize;
 
 use crate::field::named;
@@ -55,7 +57,7 @@ pub struct Verdict {
     notes: Vec<String>,
 }
 
-/// Judges attached results of a field, one file for each mesh.
+/// Judges attached results of a field, one file for each mesh, or a table of errors.
 pub fn judge(
     field: &FieldText,
     files: &[Attached],
@@ -70,24 +72,51 @@ pub fn judge(
         all.push((file.name.as_str(), bytes));
         rest = after;
     }
-    let (folder, input) = (Folder(all), field.compiled()?);
+    let expected = options.expected_order.iter().map(|it| it.to_string().parse());
+    let orders = Orders::new(&expected.filter_map(Result::ok).collect::<Vec<_>>(), TOLERANCE);
+    let report = match options.errors {
+        true => of_table(&all, &orders)?,
+        false => of_results(field, &Folder(all), options, &orders)?,
+    };
+    Ok(Verdict {
+        passes: report.verdict().is_good(),
+        notes: report.notes.clone(),
+        document: report.document(),
+    })
+}
+
+/// Judges a table of errors.
+fn of_table(files: &[(&str, &[u8])], orders: &Orders) -> anyhow::Result<Judgements> {
+    let [(name, bytes)] = files else { bail!("expected one table of errors") };
+    let text = str::from_utf8(bytes).with_context(|| format!("`{}` is no text", shown(name)))?;
+    let (measured, notes) = table::read(Path::new(name), text, orders)?;
+    let mut sources = Sources::default();
+    sources.add(*name, text);
+    let hash = sources.hash();
+    let input = Input { field: None, rigid: None, window: None, set: Vec::new(), hash };
+    let mut report = Judgements::of(shown(name).to_string(), measured, provenance(input))?;
+    report.notes = notes;
+    Ok(report)
+}
+
+/// Judges results of a field. The mistakes that they exclude are not listed, since the solver would have to run.
+fn of_results(
+    field: &FieldText,
+    folder: &Folder<'_>,
+    options: &JudgeOptions,
+    orders: &Orders,
+) -> Result<Judgements, Mistake> {
+    let input = field.compiled()?;
     let own: Vec<_> = input.compiled.model.own.keys().copied().collect();
     let names = Names { own: own_roles(&own), ..Names::default() };
     let wanted = match options.quantities.as_slice() {
         [] => Vec::new(),
         quantities => named(&input, quantities)?,
     };
-    let provenance = Provenance {
-        kind: "judge".into(),
-        version: env!("CARGO_PKG_VERSION").into(),
-        document_version: VERSION,
-        command: "judge in a browser".into(),
-        input: input.provenance(&[]),
-        machine: None,
-    };
+    let provenance = provenance(input.provenance(&[]));
     let mut exact = Exact::new(input, &[])?;
     let reading = Reading {
-        files: &folder,
+        files: folder,
         names: &names,
         wanted: &wanted,
         weight: None,
@@ -95,25 +124,30 @@ pub fn judge(
         is_part: false,
         over: None,
     };
-    let results = files.iter().map(|it| reading.find(&it.name, &exact));
+    let results = folder.0.iter().map(|(name, _)| reading.find(name, &exact));
     let results = results.collect::<anyhow::Result<Vec<_>>>()?;
-    let expected = options.expected_order.iter().map(|it| it.to_string().parse());
-    let expected: Vec<_> = expected.filter_map(Result::ok).collect();
     let comparison = Comparison {
         sizes: &options.mesh_sizes,
         times: &options.times,
-        orders: &Orders::new(&expected, TOLERANCE),
+        orders,
         has_steps: false,
         tighter: None,
     };
     let measurement = measure(results, &reading, &mut exact, comparison)?;
     let warnings = measurement.warnings.clone();
-    let names: Vec<_> = files.iter().map(|it| it.name.clone()).collect();
-    let report = Judgements::of_results(&exact, &names, measurement, None, provenance)?;
-    let notes = warnings.into_iter().map(|it| it.to_string()).chain(report.notes.iter().cloned());
-    Ok(Verdict {
-        passes: report.verdict().is_good(),
-        notes: notes.collect(),
-        document: report.document(),
-    })
+    let names: Vec<_> = folder.0.iter().map(|(name, _)| name.to_string()).collect();
+    let mut report = Judgements::without_exclusions(&exact, &names, measurement, provenance)?;
+    report.notes.splice(0..0, warnings);
+    Ok(report)
+}
+
+fn provenance(input: Input) -> Provenance {
+    Provenance {
+        kind: "judge".into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        document_version: VERSION,
+        command: "judge in a browser".into(),
+        input,
+        machine: None,
+    }
 }

@@ -76,6 +76,19 @@ fn attached_results_are_judged() {
 }
 
 #[test]
+fn a_table_of_errors_is_judged() {
+    let text = "h,l2\n0.5,0.04\n0.25,0.01\n0.125,0.0025\n";
+    let files = json!([{ "name": "errors.csv", "size": text.len() }]);
+    let options = json!({ "errors": true, "expected_order": 1 });
+    let request =
+        |options| json!({ "do": "judge", "text": BAR, "files": files, "options": options });
+    let judged = answer(&request(json!({ "errors": true })), text.as_bytes());
+    assert_eq!(judged["ok"]["passes"], true, "{judged}");
+    let judged = answer(&request(options), text.as_bytes());
+    assert_eq!(judged["ok"]["document"]["expected_order"], 1.0, "{judged}");
+}
+
+#[test]
 fn a_motion_has_a_colour_at_each_point() {
     let more = json!({ "color": "jacobian", "frames": 3, "cells": 4 });
     let reply = &of_bar("motion", more)["ok"];
