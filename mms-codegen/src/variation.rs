@@ -148,6 +148,7 @@ fn add_parameter(sources: &mut Sources, field: &mut FieldSpec, name: &str, value
         name: Spanned { value: name.into(), span },
         value: Formula::plain(value, span),
         unit: None,
+        symbol: None,
         doc: None,
         range: None,
         frozen: false,

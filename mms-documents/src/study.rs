@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::judge::Excluded;
 use crate::provenance::Provenance;
-use crate::value::Division;
 use crate::value::present;
+use crate::value::{Division, Names};
 
 /// The document of `mms study FIELD`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -34,6 +34,9 @@ pub struct StudyOfMethod {
     pub noise: Vec<bool>,
     /// The quantities.
     pub quantities: StudyErrors,
+    /// The units of h, dt and the quantities, if the field states units.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<Names<String>>,
     /// The differences of successive levels, if only time is refined.
     pub differences: Option<Vec<LevelDifference>>,
     /// The order that is expected.

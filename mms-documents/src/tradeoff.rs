@@ -10,6 +10,9 @@ use crate::provenance::Provenance;
 pub struct Tradeoff {
     /// The name of the field.
     pub field: String,
+    /// The unit of the displacement and of its errors, if the field states units.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<String>,
     /// The cost that is to be small: `seconds`, `particle_steps` or `memory`.
     pub cost: Cost,
     /// The error that the run must reach, with `--target-linf`.

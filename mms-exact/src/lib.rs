@@ -11,9 +11,11 @@ pub mod plane;
 pub mod provenance;
 mod quantities;
 mod source;
+mod units;
 pub mod wave;
 
 pub use exact::{Exact, SAME, says};
 pub use input::{Input, Mistaken, hold_body, hold_division, settings};
 pub use quantities::{evaluated, quantities};
 pub use source::{Open, Source};
+pub use units::units;

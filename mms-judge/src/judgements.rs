@@ -5,8 +5,7 @@ use mms_documents::Names;
 use mms_documents::judge as documents;
 use mms_documents::provenance::Provenance;
 use mms_documents::study::{JudgedLevel, JudgedNorm, LevelErrors, Limit, LowerOrder, SecondTerm};
-use mms_exact::Exact;
-use mms_spec::foreign::Foreign;
+use mms_exact::{Exact, Input, units};
 
 use crate::measured::{Judged, Measured, Norm, Objection, Quantity, Refined, worst};
 use crate::results::{Exclusions, Measurement, exclusions};
@@ -99,7 +98,7 @@ impl Judgements {
         measurement: Measurement,
         provenance: Provenance,
     ) -> anyhow::Result<Self> {
-        let results = Results::new(&exact.input().name, files, &measurement);
+        let results = Results::new(exact.input(), files, &measurement);
         let Measurement { measured, notes, objection, part, .. } = measurement;
         let report = Self::objected(exact.title(), measured, objection.as_ref(), provenance)?;
         Ok(Self { notes, part, results, ..report })
@@ -212,6 +211,7 @@ impl Judgements {
             files: results.files,
             times: results.times,
             samplings: results.samplings,
+            units: results.units,
             warnings: results.warnings,
             iterative_errors: results.iterative_errors,
             excluded: self.exclusions.as_ref().map(Exclusions::document),
@@ -292,6 +292,7 @@ struct Results {
     files: Option<Vec<String>>,
     times: Option<Vec<f64>>,
     samplings: Option<Names<String>>,
+    units: Option<Names<String>>,
     warnings: Option<Vec<String>>,
     iterative_errors: Option<Names<f64>>,
     /// The number of points of the mesh that has the fewest, which the document does not have.
@@ -299,15 +300,16 @@ struct Results {
 }
 
 impl Results {
-    fn new(field: &Foreign, files: &[String], measurement: &Measurement) -> Self {
+    fn new(input: &Input, files: &[String], measurement: &Measurement) -> Self {
         let names = measurement.measured.quantities.iter().map(|quantity| quantity.name.raw());
         let samplings = measurement.samplings.iter().map(|it| it.name().to_owned());
         let iterative: Names<f64> =
             measurement.iterative.iter().map(|(name, error)| (name.to_string(), *error)).collect();
         Results {
-            field: Some(field.raw().to_owned()),
+            field: Some(input.name.raw().to_owned()),
             files: Some(files.to_vec()),
             times: Some(measurement.times.clone()),
+            units: units(&input.compiled, names.clone()),
             samplings: Some(names.zip(samplings).collect()),
             warnings: Some(measurement.warnings.clone()),
             iterative_errors: (!iterative.0.is_empty()).then_some(iterative),

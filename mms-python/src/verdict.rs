@@ -14,8 +14,8 @@ use mms_judge::Judgements;
 use mms_judge::diagnose::{Alone, Factors, Reading as Looking, falls, find, left_out, read};
 use mms_judge::results::{Comparison, Over, Reading, Results, Start, measure, own_roles};
 use mms_judge::table::Orders;
-use mms_report::page::judge::figure;
-use mms_report::plot::Width;
+use mms_report::page::Section as _;
+use mms_report::plot::Figure;
 use mms_report::{Diagnosed, Format, Shown, View};
 use mms_results::names::Names;
 use mms_spec::quantity::Quantity;
@@ -142,7 +142,8 @@ fn judge(
         let measurement = measure(all, &reading, &mut exact, comparison)?;
         let provenance = provenance("judge", opened);
         let report = Judgements::of_results(&exact, &files, measurement, None, provenance)?;
-        let picture = figure(&report.document()).figure(&report.source, Width::Page);
+        let title = report.source.clone();
+        let picture = Figure { title, panels: report.document().plots() }.svg();
         Views::of(&View(&report), Some(picture))
     })
 }

@@ -17,6 +17,8 @@ use mms_spec::foreign::{self, one_line, shown};
 use super::excluded;
 use super::judge::View as JudgementView;
 use super::junit;
+use super::page::Section as _;
+use super::plot::Figure;
 use super::shown::Shown;
 use super::table::Table;
 use super::text::next;
@@ -112,6 +114,14 @@ impl View<'_> {
             }
         }
         Ok(paths)
+    }
+}
+
+impl View<'_> {
+    /// The figure of all studies that were judged.
+    pub fn figure(&self) -> Figure {
+        let document = self.0.document();
+        Figure { title: document.title(), panels: document.plots() }
     }
 }
 

@@ -9,8 +9,8 @@ use mms_files::write::{pretty, write_files};
 use serde::Serialize;
 
 use super::Study;
-use super::page;
-use super::plot::Width;
+use super::page::Section as _;
+use super::plot::Figure;
 use crate::shown::Shown;
 use crate::table::{FITTED, Table};
 use crate::text::next;
@@ -97,12 +97,19 @@ impl Comparison {
         if let [alone] = self.studies.as_slice() {
             return alone.write(folder);
         }
-        let document = self.several();
-        let caption =
-            format!("{}: l2 of {} methods", self.studies[0].field.shown(), self.studies.len());
-        let figure = page::comparison::plot(&document).figure(&caption, Width::Page);
-        let files = [("svg", figure), ("csv", self.csv()?), ("json", pretty(&document)?)];
+        let document = pretty(&self.several())?;
+        let files = [("svg", self.figure().svg()), ("csv", self.csv()?), ("json", document)];
         write_files(folder, "convergence", files)
+    }
+
+    /// The figure of the errors of u.
+    pub fn figure(&self) -> Figure {
+        if let [alone] = self.studies.as_slice() {
+            return alone.figure();
+        }
+        let (field, count) = (self.studies[0].field.shown(), self.studies.len());
+        let title = format!("{field}: l2 of {count} methods");
+        Figure { title, panels: self.several().plots() }
     }
 }
 

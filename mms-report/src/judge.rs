@@ -10,8 +10,8 @@ use mms_judge::measured::{Norm, Quantity, Refined};
 use mms_spec::foreign::shown;
 
 use super::excluded;
-use super::page;
-use super::plot::Width;
+use super::page::Section as _;
+use super::plot::Figure;
 use super::shown::Shown;
 use super::table::{PAIR, Table};
 use super::text::next;
@@ -134,19 +134,22 @@ impl View<'_> {
 
     /// Writes convergence.svg and .csv into a folder, and returns their paths.
     pub fn write_parts(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        write_files(folder, "convergence", [("svg", self.figure()), ("csv", self.csv()?)])
+        write_files(folder, "convergence", [("svg", self.figure().svg()), ("csv", self.csv()?)])
     }
 
     /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        let files =
-            [("svg", self.figure()), ("csv", self.csv()?), ("json", pretty(&self.0.document())?)];
+        let files = [
+            ("svg", self.figure().svg()),
+            ("csv", self.csv()?),
+            ("json", pretty(&self.0.document())?),
+        ];
         write_files(folder, "convergence", files)
     }
 
     /// The figure of the judgement.
-    fn figure(&self) -> String {
-        page::judge::figure(&self.0.document()).figure(&self.0.source, Width::Page)
+    pub fn figure(&self) -> Figure {
+        Figure { title: self.0.source.clone(), panels: self.0.document().plots() }
     }
 }
 

@@ -7,7 +7,6 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod accuracy;
-mod axis;
 pub mod campaign;
 mod comparison;
 #[cfg(feature = "defects")]

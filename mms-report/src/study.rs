@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use mms_convergence::{CONSTANT_TOLERANCE, Expected, Fit, Judgement, RULE, Verdict, is_near};
+use mms_documents::Names;
 use mms_documents::provenance::Provenance;
 use mms_documents::study::{self as documents, LevelErrors, StudyErrors, StudyOfMethod};
 use mms_files::words::duration;
@@ -15,12 +16,13 @@ use mms_runtime::study::{Deviations, Orders, Point, Refinement, Series};
 use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
 use mms_spec::foreign::Foreign;
 
-use super::plot::Width;
+use super::page::Section as _;
+use super::plot::Figure;
 use super::run::quantities;
 use super::shown::Shown;
 use super::table::{PAIR, Table};
 use super::text::next;
-use super::{Phases, method, page};
+use super::{Phases, method};
 
 /// A finished study.
 pub struct Study {
@@ -28,6 +30,8 @@ pub struct Study {
     pub field: Foreign,
     /// The field's title.
     pub title: Foreign,
+    /// The units of h, dt and the quantities, if the field states units.
+    pub units: Option<Names<String>>,
     /// The method.
     pub method: Method,
     /// How numbers were computed.
@@ -283,6 +287,7 @@ impl Study {
             noise: rows.iter().map(is_noise).collect(),
             levels: rows,
             quantities: self.errors_of_quantities(),
+            units: self.units.clone(),
             differences: self.steps().map(|all| all.into_iter().map(difference).collect()),
             expected_order: self.expected.order,
             observed_order: self.judgement.observed_order(),
@@ -519,12 +524,16 @@ impl Study {
 
     /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        let document = self.document();
-        let caption =
-            format!("{}: {}", self.field.shown(), method::line(&self.method, self.arithmetic));
-        let figure = page::study::plot(&document.study).figure(&caption, Width::Page);
-        let files = [("svg", figure), ("csv", self.csv()?), ("json", pretty(&document)?)];
+        let figure = self.figure().svg();
+        let files = [("svg", figure), ("csv", self.csv()?), ("json", pretty(&self.document())?)];
         write_files(folder, "convergence", files)
+    }
+
+    /// The figure of the errors of u.
+    pub(super) fn figure(&self) -> Figure {
+        let title =
+            format!("{}: {}", self.field.shown(), method::line(&self.method, self.arithmetic));
+        Figure { title, panels: self.content().plots() }
     }
 }
 

@@ -77,6 +77,8 @@ pub struct Document {
     pub space: Space,
     /// Whether the field has no time.
     pub is_static: bool,
+    /// The symbols in LaTeX that parameters declare, by their names.
+    pub symbols: SortedMap<String, String>,
     /// The material.
     pub material: Material,
     /// The definitions of the field file, in order.
@@ -128,6 +130,11 @@ impl Document {
             dimension: field.dimension,
             space: field.space,
             is_static: field.is_static(),
+            symbols: field
+                .parameters
+                .iter()
+                .filter_map(|it| Some((it.name.value.clone(), it.symbol.as_ref()?.value.clone())))
+                .collect(),
             material,
             definitions,
             sections,

@@ -1,14 +1,15 @@
-//! LaTeX: a small document of its own, which needs nothing but amsmath.
+//! LaTeX: a small document of its own, which needs nothing but amsmath, or a fragment to be put into one.
 
 use super::document::{Document, Line};
 use super::language::signed;
 use super::name::{Along, Name, greek};
-use super::page::{Block, blocks, left};
+use super::page::{Block, blocks, derivation, left};
 use super::relation::Setting;
 use super::text::{scientific, word};
 use super::walk::{Exponent, Notation};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Function;
+use mms_symbolic::sorted::SortedMap;
 
 const HEAD: &str = "\\documentclass{article}
 \\usepackage[margin=20mm]{geometry}
@@ -20,43 +21,64 @@ const HEAD: &str = "\\documentclass{article}
 
 /// The whole derivation as a document.
 pub fn page(document: &Document) -> String {
-    let mut text = String::from(HEAD);
-    for block in blocks(document) {
+    format!("{HEAD}{}\\end{{document}}\n", set(document, blocks(document)))
+}
+
+/// The derivation from u on, without a preamble, to be put into a document.
+pub fn fragment(document: &Document) -> String {
+    set(document, derivation(document))
+}
+
+fn set(document: &Document, blocks: Vec<Block<'_>>) -> String {
+    let latex = Latex::of(document);
+    let mut text = String::new();
+    for block in blocks {
         match block {
             Block::Title(title) => {
                 text.push_str(&format!("\\section*{{{}}}\n", escape(&title)));
             }
             Block::Note(note) => text.push_str(&format!("\\noindent {}\\par\n", escape(&note))),
             Block::Heading { name, relation, note, .. } => {
-                text.push_str(&format!("\\subsection*{{{}}}\n", escape(name)));
+                if !name.is_empty() {
+                    text.push_str(&format!("\\subsection*{{{}}}\n", escape(name)));
+                }
                 if let Some(note) = note {
                     text.push_str(&format!("\\noindent {}\n", escape(&note)));
                 }
                 if let Some(parts) = relation {
-                    text.push_str(&format!("\\[{}\\]\n", Latex.relation(&parts)));
+                    text.push_str(&format!("\\[{}\\]\n", latex.relation(&parts)));
                 }
             }
             Block::Where => text.push_str("\\noindent where\n"),
-            Block::Lines { lines, .. } => text.push_str(&align(document, &lines)),
+            Block::Lines { lines, .. } => text.push_str(&align(document, &lines, &latex)),
         }
     }
-    text.push_str("\\end{document}\n");
     text
 }
 
-fn align(document: &Document, lines: &[Line]) -> String {
+fn align(document: &Document, lines: &[Line], latex: &Latex<'_>) -> String {
     let lines = lines.iter().map(|line| {
-        let value = document.formula(line.value, &Latex);
-        format!("  {} &= {value}", left(line, &Latex, " = "))
+        let value = document.formula(line.value, latex);
+        format!("  {} &= {value}", left(line, latex, " = "))
     });
     let lines: Vec<_> = lines.collect();
     format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", lines.join(" \\\\\n"))
 }
 
 /// Formulas as LaTeX sets them, with amsmath.
-pub struct Latex;
+pub struct Latex<'a> {
+    /// The symbols that parameters declare, by their names.
+    symbols: &'a SortedMap<String, String>,
+}
 
-impl Notation for Latex {
+impl<'a> Latex<'a> {
+    /// The notation of a document, with the symbols of its parameters.
+    pub fn of(document: &'a Document) -> Self {
+        Latex { symbols: &document.symbols }
+    }
+}
+
+impl Notation for Latex<'_> {
     fn whole(&self, digits: &str) -> String {
         match scientific(digits) {
             Some((mantissa, exponent)) if mantissa == "1" => format!("10^{{{exponent}}}"),
@@ -73,6 +95,9 @@ impl Notation for Latex {
         if name.is_dotted() {
             let dots = if name.along.len() == 1 { "dot" } else { "ddot" };
             return format!("\\{dots}{{{}}}", name.stem);
+        }
+        if let Some(symbol) = self.symbols.get(&name.identifier()) {
+            return symbol.clone();
         }
         let (stem, digits) = stem(name);
         let along: String = name.along.iter().map(|along| label(*along)).collect();
@@ -129,7 +154,7 @@ impl Notation for Latex {
     }
 }
 
-impl Setting for Latex {
+impl Setting for Latex<'_> {
     fn letter(&self, word: &str, is_bold: bool) -> String {
         let letter = self.name(&Name::plain(word));
         if is_bold { format!("\\boldsymbol{{{letter}}}") } else { letter }

@@ -2,11 +2,12 @@
 
 use std::borrow::Cow;
 
-use super::document::{Document, Line};
+use super::document::{Document, Line, Section};
 use super::name::Name;
 use super::relation::{Part, Setting, relation};
 use super::walk::Notation;
 use mms_analysis::visibility::{NEGLIGIBLE, POINTS, Status, Visibility};
+use mms_spec::quantity::Quantity;
 
 /// A part of a page, from top to bottom.
 pub(super) enum Block<'a> {
@@ -51,25 +52,9 @@ pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
     let material = &document.material;
     let note = Some(format!("{}: {}", material.name.shown(), material.title.shown()));
     blocks.push(Block::Heading { name: "material", relation: None, note, operations: None });
-    blocks.push(formulas(&material.energy));
-    blocks.push(formulas(&material.whereby));
-    // That a parameter of the material is the field's of the same name goes without saying.
-    let arguments = material.arguments.iter().chain(&material.density);
-    let arguments: Vec<Line> =
-        arguments.filter(|line| !document.is_identity(line)).cloned().collect();
-    blocks.push(Block::Lines { lines: arguments.into(), is_where: false });
-    for section in &document.sections {
-        blocks.push(Block::Heading {
-            name: section.quantity.name(),
-            relation: Some(relation(section.quantity, &document.material.kind, document.is_static)),
-            note: None,
-            operations: Some(operations(section)),
-        });
-        if !section.whereby.is_empty() {
-            blocks.push(Block::Where);
-            blocks.push(Block::Lines { lines: (&section.whereby).into(), is_where: true });
-        }
-        blocks.push(formulas(&section.lines));
+    blocks.extend(energy(document));
+    for it in &document.sections {
+        blocks.extend(section(document, it, it.quantity.name()));
     }
     if !document.claims.is_empty() {
         blocks.push(heading("boundary claims"));
@@ -78,6 +63,58 @@ pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
     }
     blocks.extend(document.visibility.iter().flat_map(visibility));
     blocks.retain(|block| !matches!(block, Block::Lines { lines, .. } if lines.is_empty()));
+    blocks
+}
+
+/// The derivation from u to b, as a paper shows it: each definition below the formula that uses it first.
+pub(super) fn derivation(document: &Document) -> Vec<Block<'_>> {
+    let is_motion = |it: &&Section| it.quantity == Quantity::Displacement;
+    let mut blocks = Vec::new();
+    for it in document.sections.iter().filter(is_motion) {
+        blocks.extend(section(document, it, ""));
+    }
+    if !document.definitions.is_empty() {
+        blocks.push(Block::Note("with".into()));
+        blocks.push(formulas(&document.definitions));
+    }
+    let others: Vec<&Section> = document.sections.iter().filter(|it| !is_motion(it)).collect();
+    // The first quantity that is made of W.
+    let stress = others.iter().position(|it| it.quantity.unit().contains("Pa"));
+    let (kinematics, kinetics) = others.split_at(stress.unwrap_or(others.len()));
+    kinematics.iter().for_each(|it| blocks.extend(section(document, it, "")));
+    if !kinetics.is_empty() {
+        blocks.push(Block::Note("with the strain-energy density".into()));
+        blocks.extend(energy(document));
+    }
+    kinetics.iter().for_each(|it| blocks.extend(section(document, it, "")));
+    blocks.retain(|block| !matches!(block, Block::Lines { lines, .. } if lines.is_empty()));
+    blocks
+}
+
+/// W, and the values that the field gives to the parameters of the material.
+fn energy(document: &Document) -> [Block<'_>; 3] {
+    let material = &document.material;
+    // That a parameter of the material is the field's of the same name goes without saying.
+    let arguments = material.arguments.iter().chain(&material.density);
+    let arguments: Vec<Line> =
+        arguments.filter(|line| !document.is_identity(line)).cloned().collect();
+    let arguments = Block::Lines { lines: arguments.into(), is_where: false };
+    [formulas(&material.energy), formulas(&material.whereby), arguments]
+}
+
+/// A quantity: what it is, and its formulas below those that they use.
+fn section<'a>(document: &'a Document, section: &'a Section, name: &'a str) -> Vec<Block<'a>> {
+    let mut blocks = vec![Block::Heading {
+        name,
+        relation: Some(relation(section.quantity, &document.material.kind, document.is_static)),
+        note: None,
+        operations: Some(operations(section)),
+    }];
+    if !section.whereby.is_empty() {
+        blocks.push(Block::Where);
+        blocks.push(Block::Lines { lines: (&section.whereby).into(), is_where: true });
+    }
+    blocks.push(formulas(&section.lines));
     blocks
 }
 
@@ -117,7 +154,7 @@ fn formulas(lines: &[Line]) -> Block<'_> {
     Block::Lines { lines: lines.into(), is_where: false }
 }
 
-fn operations(section: &super::Section) -> String {
+fn operations(section: &Section) -> String {
     let stages: Vec<_> = section
         .operations
         .iter()

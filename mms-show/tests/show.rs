@@ -518,7 +518,7 @@ fn mathml_has_the_structure_of_latex() {
     let count = |text: &str, part: &str| text.matches(part).count();
     for document in WHOLE.iter() {
         for (_, line) in lines(document) {
-            let latex = document.formula(line.value, &latex::Latex);
+            let latex = document.formula(line.value, &latex::Latex::of(document));
             let mathml = document.formula(line.value, &mathml::MathMl);
             let page = format!("<math>{mathml}</math>");
             let parsed = roxmltree::Document::parse(&page).expect("XML");

@@ -182,6 +182,7 @@ pub const PARAMETER: &[Key] = &[
         "The value by default: a formula of numbers, pi and the parameters above.",
     ),
     optional("unit", Holds::Text, "The unit, such as kg/m^3."),
+    optional("symbol", Holds::Text, "The symbol in LaTeX, such as E or \\lambda."),
     optional("doc", Holds::Text, "What it is, in a few words."),
     optional(
         "range",

@@ -1,5 +1,6 @@
 //! `[parameters]` and `[let]`: the names that a file defines.
 
+use crate::diagnostic::{Diagnostic, quoted};
 use crate::foreign::Foreign;
 use crate::format::{MATERIAL_PARAMETER, PARAMETER};
 use crate::formula::Formula;
@@ -25,6 +26,8 @@ pub struct ParameterSpec {
     pub value: Formula,
     /// The unit, as written.
     pub unit: Option<Spanned<String>>,
+    /// The symbol in the math of LaTeX.
+    pub symbol: Option<Spanned<String>>,
     /// One line on what it is.
     pub doc: Option<Foreign>,
     /// The least and the greatest value it may take.
@@ -72,8 +75,10 @@ pub(super) fn parameters<'a>(
 ) -> Vec<ParameterSpec> {
     let mut parameters = Vec::new();
     for entry in &table.entries {
-        let parameter = parameter(entry, reader);
+        let mut parameter = parameter(entry, reader);
         if names.define(&entry.key, reader) {
+            parameter.symbol =
+                parameter.symbol.filter(|symbol| is_new(symbol, &parameters, reader));
             parameters.push(parameter);
         } else {
             reader.stray.push(parameter.value);
@@ -89,6 +94,7 @@ fn parameter<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> ParameterSpec {
         value: Formula::reported(name.span),
         name,
         unit: None,
+        symbol: None,
         doc: None,
         range: None,
         frozen: false,
@@ -105,11 +111,63 @@ fn parameter<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> ParameterSpec {
     };
     parameter.value = reader.required_formula(&table, "value");
     parameter.unit = table.get("unit").and_then(|unit| reader.string(&unit));
+    parameter.symbol = table.get("symbol").and_then(|symbol| math(&symbol, reader));
     parameter.doc = reader.optional_foreign(&table, "doc");
     parameter.range = table
         .get("range")
         .map(|range| reader.pair(&range, "expected the least and the greatest value"));
     parameter
+}
+
+/// The symbol of a parameter, if it stands in the math of LaTeX without changing what surrounds it.
+fn math<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spanned<String>> {
+    let symbol = reader.string(entry)?;
+    let fault = if symbol.value.trim().is_empty() {
+        "is empty"
+    } else if symbol.value.contains(|c: char| c.is_control() || "$%&#".contains(c)) {
+        "has a character that ends or hides the formula around it"
+    } else if !has_pairs(&symbol.value) {
+        "has braces without their partners"
+    } else {
+        return Some(symbol);
+    };
+    reader.report(
+        Diagnostic::error(symbol.span, format!("the symbol of a parameter {fault}"))
+            .label("expected math of LaTeX, such as `E`, `\\\\lambda` or `\\\\rho_0`")
+            .help("without `symbol` the formulas show the name of the parameter"),
+    );
+    None
+}
+
+/// Whether each brace of a text has its partner; a backslash at the end would take the one behind it.
+fn has_pairs(text: &str) -> bool {
+    let (mut open, mut characters) = (0_usize, text.chars());
+    while let Some(character) = characters.next() {
+        match character {
+            '\\' if characters.next().is_none() => return false,
+            '{' => open += 1,
+            '}' if open == 0 => return false,
+            '}' => open -= 1,
+            _ => {}
+        }
+    }
+    open == 0
+}
+
+/// Whether no parameter above has the symbol; reports the second one of the same symbol.
+fn is_new(symbol: &Spanned<String>, above: &[ParameterSpec], reader: &mut Reader<'_>) -> bool {
+    let same = |it: &&ParameterSpec| it.symbol.as_ref().is_some_and(|it| it.value == symbol.value);
+    let Some(first) = above.iter().find(same) else { return true };
+    let name = quoted(&first.name.value);
+    reader.report(
+        Diagnostic::error(
+            symbol.span,
+            format!("the symbol {} is declared twice", quoted(&symbol.value)),
+        )
+        .label(format!("also the symbol of {name}"))
+        .help("formulas would show two parameters alike: choose another symbol"),
+    );
+    false
 }
 
 /// The parameters of a material, in the order of the file.

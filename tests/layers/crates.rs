@@ -253,7 +253,7 @@ pub const CRATES: &[Crate] = &[
             "mms-spec",
             "mms-symbolic",
         ],
-        layers: &["gallery plane provenance quantities", "source", "input", "exact wave"],
+        layers: &["gallery plane provenance quantities units", "source", "input", "exact wave"],
     },
     Crate {
         name: "mms-judge",
@@ -383,7 +383,7 @@ pub const CRATES: &[Crate] = &[
             "mms-verify",
         ],
         layers: &[
-            "axis excluded front table text",
+            "excluded front table text",
             "junit method plot shown",
             "accuracy campaign comparison defects diagnosis extremes judge page phase plan results run study tradeoff verify",
         ],

@@ -24,6 +24,7 @@ use mms_options::field::open;
 use mms_report::campaign::{View, line};
 use mms_spec::foreign;
 
+use super::figure::FigureFile;
 use super::follow::Interrupted;
 use super::format::{Detail, Printing};
 use super::{Outcome, hold_output, next, print, replaced, say, this_command};
@@ -61,15 +62,15 @@ pub struct Campaign {
     #[arg(long, conflicts_with_all = ["dry_run", "list", "suggest"])]
     canary: bool,
     /// Show what would be run, and what is done already; run nothing.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "figure")]
     dry_run: bool,
     /// Print a command for each run that is not done yet, which makes it and keeps its result, for whatever runs commands on
     /// other machines; run nothing. They share the folder of --store.
-    #[arg(long, conflicts_with = "dry_run")]
+    #[arg(long, conflicts_with_all = ["dry_run", "figure"])]
     list: bool,
     /// Propose studies from what the solver says that it `can`: the fewest fields of the gallery that show all which any
     /// shows that it can run, and what stays unseen; run nothing.
-    #[arg(long, conflicts_with_all = ["dry_run", "list", "only", "output"])]
+    #[arg(long, conflicts_with_all = ["dry_run", "list", "only", "output", "figure"])]
     suggest: bool,
     /// Where runs and their results are kept; target/mms/campaign/NAME by default, with the name of FILE.
     #[arg(long, value_name = "DIR")]
@@ -77,6 +78,8 @@ pub struct Campaign {
     /// Write campaign.json there, and convergence.svg and .csv to a folder for each study.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    figure: FigureFile,
     #[command(flatten)]
     detail: Detail,
     #[command(flatten)]
@@ -86,6 +89,7 @@ pub struct Campaign {
 impl Campaign {
     pub fn run(self) -> anyhow::Result<Outcome> {
         self.output.as_deref().map_or(Ok(()), hold_output)?;
+        self.figure.hold()?;
         let text = read::text(&self.file, Kind::Campaign)?;
         let file = mms_campaign::read(&self.file.to_string_lossy(), &text)?;
         if self.suggest {
@@ -160,12 +164,14 @@ impl Campaign {
 
     fn tell(&self, report: &Report<'_>, work: &Work<'_>) -> anyhow::Result<Outcome> {
         self.printing.print_in(self.detail, &View(report))?;
+        let mut written = Vec::new();
         if let Some(folder) = &self.output {
             replaced::tell(folder, "campaign", &report.provenance);
-            let written = View(report).write(folder)?;
-            if self.printing.is_text() {
-                print(&format!("\nwrote {}", written.join(", ")))?;
-            }
+            written.extend(View(report).write(folder)?);
+        }
+        written.extend(self.figure.write(|| View(report).figure())?);
+        if !written.is_empty() && self.printing.is_text() {
+            print(&format!("\nwrote {}", written.join(", ")))?;
         }
         if work.watcher.is_interrupted() {
             say("interrupted; what is done is kept, and the same command goes on from there");

@@ -3,11 +3,11 @@
 use clap::Command;
 
 /// The commands in an order in which each finds the files of those before it.
-pub const EXAMPLES: [(&str, [&str; 2]); 20] = [
+pub const EXAMPLES: [(&str, [&str; 2]); 21] = [
     ("demo", ["mms demo", "mms demo --keep broken"]),
     ("new", ["mms new wave --dimension 1", "mms new ring --dimension 2 --shape annulus"]),
     ("check", ["mms check wave.toml", "mms check bar_1d --explain"]),
-    ("show", ["mms show wave.toml", "mms show bar_1d --format latex"]),
+    ("show", ["mms show wave.toml", "mms show bar_1d --format latex --fragment"]),
     (
         "eval",
         [
@@ -38,6 +38,13 @@ pub const EXAMPLES: [(&str, [&str; 2]); 20] = [
         ["mms campaign campaign.toml --dry-run", "mms campaign campaign.toml --output verdict"],
     ),
     ("report", ["mms report verdict", "mms report verdict --output page.html"]),
+    (
+        "plot",
+        [
+            "mms plot verdict/campaign.json -o orders.pdf",
+            "mms plot target/mms/bar_1d/convergence.json -o column.svg --width 85",
+        ],
+    ),
     ("run", ["mms run bar_1d --cells 64", "mms run wave.toml --cells 16 --vtk states"]),
     ("study", ["mms study wave.toml", "mms study bar_1d --shape cpdi,cpgimp --cells 8,16,32"]),
     ("explain", ["mms explain cpgimp", "mms explain \"dead load\""]),

@@ -15,6 +15,7 @@ use mms_options::method::positive;
 use mms_report::View;
 use mms_spec::foreign;
 
+use super::figure::FigureFile;
 use super::format::{Detail, Printing};
 use super::{Outcome, hold_output, next, print, replaced, this_command};
 use crate::provenance::Input;
@@ -72,6 +73,8 @@ pub struct Judge {
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
+    figure: FigureFile,
+    #[command(flatten)]
     detail: Detail,
     #[command(flatten)]
     printing: Printing,
@@ -80,6 +83,7 @@ pub struct Judge {
 impl Judge {
     pub fn run(self) -> anyhow::Result<Outcome> {
         self.output.as_deref().map_or(Ok(()), hold_output)?;
+        self.figure.hold()?;
         match (&self.errors, &self.field) {
             (Some(table), _) => self.errors(table),
             (None, Some(field)) => self.results(field),
@@ -103,12 +107,14 @@ impl Judge {
     /// Prints a report, and writes it where that is asked for.
     fn tell(&self, report: &Judgements) -> anyhow::Result<Outcome> {
         self.printing.print_in(self.detail, &View(report))?;
+        let mut written = Vec::new();
         if let Some(folder) = &self.output {
             replaced::tell(folder, "convergence", &report.provenance);
-            let written = View(report).write(folder)?;
-            if self.printing.is_text() {
-                print(&format!("\nwrote {}", written.join(", ")))?;
-            }
+            written.extend(View(report).write(folder)?);
+        }
+        written.extend(self.figure.write(|| View(report).figure())?);
+        if !written.is_empty() && self.printing.is_text() {
+            print(&format!("\nwrote {}", written.join(", ")))?;
         }
         Ok(outcome(report.verdict()))
     }

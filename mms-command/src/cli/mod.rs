@@ -22,6 +22,7 @@ mod eval;
 mod examples;
 mod explain;
 mod extremes;
+mod figure;
 mod follow;
 mod format;
 mod judge;
@@ -92,6 +93,7 @@ enum Command {
     Campaign(campaign::Campaign),
     Verify(verify::Verify),
     Report(report::Report),
+    Plot(figure::Plot),
     Tradeoff(tradeoff::Tradeoff),
     Extremes(extremes::Extremes),
     New(new::New),
@@ -159,6 +161,7 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Campaign(campaign)) => campaign.run(),
         Some(Command::Verify(verify)) => verify.run(),
         Some(Command::Report(report)) => report.run(),
+        Some(Command::Plot(plot)) => plot.run(),
         Some(Command::Tradeoff(tradeoff)) => tradeoff.run(),
         Some(Command::Extremes(extremes)) => extremes.run(),
         Some(Command::New(new)) => new.run(),
@@ -170,7 +173,7 @@ fn answer() -> anyhow::Result<Outcome> {
 /// The commands, in groups.
 const GROUPS: [(&str, &[&str]); 4] = [
     ("Fields", &["new", "check", "show", "eval", "accuracy", "list", "schema"]),
-    ("Your own solver", &["emit", "state", "judge", "diagnose", "campaign", "report"]),
+    ("Your own solver", &["emit", "state", "judge", "diagnose", "campaign", "report", "plot"]),
     ("The solver of this project", &["run", "study", "verify", "tradeoff", "extremes"]),
     ("First steps", &["demo", "explain", "help"]),
 ];

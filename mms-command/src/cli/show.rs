@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use anyhow::anyhow;
+use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
 use mms_analysis::operations::Operations;
 use mms_analysis::visibility::{POINTS, Status, Term, Visibility};
@@ -46,6 +46,10 @@ pub struct Show {
     /// How to write: text for a terminal, a LaTeX document, or a page of MathML for a browser.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
+    /// Print no whole document, but what belongs into one: u, F, J, P, Div P and b, with the symbols that parameters declare. Takes
+    /// --format latex and, in the document, the package amsmath.
+    #[arg(long, requires = "format", conflicts_with_all = ["json", "script"])]
+    fragment: bool,
     #[command(flatten)]
     variant: Variant,
     /// Print one JSON document; its formulas are in the language of field files.
@@ -76,6 +80,16 @@ enum Format {
     Mathml,
 }
 
+/// The steps of a derivation, as a paper shows them.
+const DERIVATION: [Quantity; 6] = [
+    Quantity::Displacement,
+    Quantity::DeformationGradient,
+    Quantity::Jacobian,
+    Quantity::FirstPiolaKirchhoff,
+    Quantity::DivP,
+    Quantity::BodyForce,
+];
+
 impl Show {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let input = find(&self.field, &self.variant)?;
@@ -94,7 +108,14 @@ impl Show {
             print(&script)?;
             return Ok(Outcome::AsExpected);
         }
+        if self.fragment && self.format != Format::Latex {
+            bail!("`--fragment`: expected `--format latex`; text and MathML are whole pages");
+        }
         let quantities = match self.quantity.as_slice() {
+            [] if self.fragment => {
+                let steps = input.compiled.quantities().filter(|it| DERIVATION.contains(it));
+                steps.filter(|it| input.compiled.offers(*it)).collect()
+            }
             [] => input.compiled.quantities().collect(),
             named => quantities(&input.own_quantities(), named)?,
         };
@@ -107,7 +128,7 @@ impl Show {
         };
         let mut document = Document::new(&input.compiled, &quantities).map_err(too_large)?;
         // The whole page ends with what the field as a whole is good for.
-        if self.quantity.is_empty() {
+        if self.quantity.is_empty() && !self.fragment {
             document.visibility = Some(Visibility::of(&input.compiled).map_err(too_large)?);
         }
         match self.format {
@@ -119,6 +140,7 @@ impl Show {
                 }
                 print(&lines.join("\n"))?;
             }
+            Format::Latex if self.fragment => print(&latex::fragment(&document))?,
             Format::Latex => print(&latex::page(&document))?,
             Format::Mathml => print(&mathml::page(&document))?,
         }

@@ -12,8 +12,7 @@ use anyhow::{Context as _, bail};
 use clap::{Args, Parser};
 use mms_analysis::period::period;
 use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
-use mms_exact::Input;
-use mms_exact::hold_division;
+use mms_exact::{Input, hold_division, units};
 use mms_judge::results::Exclusions;
 use mms_mechanics::sample::domain;
 use mms_options::field::{Motion, find};
@@ -26,6 +25,7 @@ use mms_runtime::{Division, Method, Real, Refusal, Run};
 use self::cause::Ended;
 use self::periods::Periods;
 use self::usual::filled;
+use super::figure::FigureFile;
 use super::format::{Detail, Printing};
 use super::methods::Methods;
 use super::{Outcome, next, output_folder, print, replaced, say};
@@ -98,6 +98,8 @@ pub struct Study {
     #[command(flatten)]
     motion: Motion,
     #[command(flatten)]
+    figure: FigureFile,
+    #[command(flatten)]
     detail: Detail,
     #[command(flatten)]
     printing: Printing,
@@ -108,6 +110,10 @@ const PARTS: usize = 16;
 
 /// At these parts of the time, what mistakes add is held to the largest error of a study.
 const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// The quantities whose errors a study has.
+const COMPARED: [&str; 4] =
+    ["displacement", "velocity", "deformation_gradient", "first_piola_kirchhoff"];
 
 /// A method with half the time step, so many times.
 fn halved(method: &Method, times: u32) -> Method {
@@ -155,6 +161,7 @@ impl Study {
         let cases = self.cases()?;
         let input = &cases[0].input;
         let folder = output_folder(self.output.as_deref(), input.name.raw())?;
+        self.figure.hold()?;
         let provenance = provenance::new("study", words, input.provenance(&self.set));
         let studies = self.reports(&cases, words, &provenance)?;
         let is_started = studies.iter().any(Report::is_started);
@@ -167,7 +174,8 @@ impl Study {
             return Ok(Outcome::RunFailed);
         }
         replaced::tell(&folder, "convergence", &report.provenance);
-        let written = report.write(&folder)?;
+        let mut written = report.write(&folder)?;
+        written.extend(self.figure.write(|| report.figure())?);
         if self.printing.is_text() {
             print(&format!("\nwrote {}", written.join(", ")))?;
         }
@@ -331,6 +339,7 @@ impl Study {
         Ok(Report {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
+            units: units(&input.compiled, COMPARED),
             arithmetic: options.arithmetic,
             refinement: if method.setup.relax { Refinement::Space } else { self.refine },
             judgement,

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
 use mms_codegen::Compiled;
-use mms_exact::Input;
 use mms_exact::wave::sound;
+use mms_exact::{Input, units};
 use mms_files::shell;
 use mms_files::store::Store;
 use mms_lab::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
@@ -23,6 +23,7 @@ use mms_spec::Form;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
+use super::figure::FigureFile;
 use super::format::Printing;
 use super::{Outcome, print, say, this_command};
 use crate::session::progress::Progress;
@@ -69,9 +70,11 @@ pub struct Tradeoff {
     #[arg(long)]
     all: bool,
     #[command(flatten)]
+    figure: FigureFile,
+    #[command(flatten)]
     printing: Printing,
     /// Print the page docs/tradeoff.md.
-    #[arg(long, conflicts_with_all = ["field", "json", "format", "output", "budget_seconds", "target_linf", "set", "rigid"])]
+    #[arg(long, conflicts_with_all = ["field", "json", "format", "output", "figure", "budget_seconds", "target_linf", "set", "rigid"])]
     page: bool,
 }
 
@@ -90,6 +93,7 @@ impl Tradeoff {
         let input = self.input(field)?;
         input.hold(&self.set)?;
         let folder = super::output_folder(self.output.as_deref(), input.name.raw())?;
+        self.figure.hold()?;
         let mut bench = Bench { trials: &mut trials, field, set: &self.set, motion: &self.motion };
         let target = self.target_linf.map(Goal::Error);
         let goal = target.or_else(|| self.budget_seconds.map(Goal::Cost));
@@ -102,7 +106,8 @@ impl Tradeoff {
         trials.finish();
         let command = |setting: &Setting, cells: usize| self.command(field, setting, cells);
         let report = self.report(&input, plan, found, &command)?;
-        let written = report.write(&folder)?;
+        let mut written = report.write(&folder)?;
+        written.extend(self.figure.write(|| report.figure())?);
         self.printing.print(&report)?;
         if self.printing.is_text() {
             print(&format!("\nwrote {}", written.join(", ")))?;
@@ -125,7 +130,9 @@ impl Tradeoff {
     ) -> anyhow::Result<Report<'a>> {
         let [field, title] = [input.name.clone(), input.compiled.field.title.clone()];
         let provenance = this_command("tradeoff", input.provenance(&self.set));
-        Ok(Report { field, title, plan, found, all: self.all, command, provenance })
+        let unit = units(&input.compiled, ["displacement"]);
+        let unit = unit.and_then(|it| it.get("displacement").cloned());
+        Ok(Report { field, title, unit, plan, found, all: self.all, command, provenance })
     }
 
     fn plan(&self, input: &Input, goal: Goal) -> anyhow::Result<Plan> {

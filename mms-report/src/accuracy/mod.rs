@@ -12,8 +12,8 @@ use mms_spec::Form;
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
 
-use super::page;
-use super::plot::Width;
+use super::page::Section as _;
+use super::plot::Figure;
 use crate::shown::Shown;
 use crate::table::Table;
 
@@ -164,8 +164,8 @@ impl Report {
         let mut paths = write_files(folder, "accuracy", [("json", pretty(&self.document())?)])?;
         if !self.times.is_empty() {
             let caption = format!("{}: {} points", self.field.shown(), self.points);
-            let figure = page::accuracy::plot(&self.document()).figure(&caption, Width::Page);
-            paths.extend(write_files(folder, "accuracy", [("svg", figure)])?);
+            let figure = Figure { title: caption, panels: self.document().plots() };
+            paths.extend(write_files(folder, "accuracy", [("svg", figure.svg())])?);
         }
         Ok(paths)
     }

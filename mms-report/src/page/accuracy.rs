@@ -9,7 +9,7 @@ use super::mark::{Column, count, number, numbers, table, verdict, words};
 use super::{Section, Verdicts};
 use crate::accuracy::{eps, is_promised};
 use crate::front::front;
-use crate::plot::{Curve, Line, Plot};
+use crate::plot::{Axis, Curve, Line, Plot};
 
 /// Whether nothing is known of an error that has a bound.
 fn is_unmeasured(row: &AccuracyRow) -> bool {
@@ -30,6 +30,10 @@ impl Section for Accuracy {
             return Verdicts { word: "nothing is promised of it".into(), ..Verdicts::default() };
         }
         Verdicts::several(expected, all, &format!("within {} eps", self.bound_eps))
+    }
+
+    fn plots(&self) -> Vec<Plot> {
+        vec![plot(self)]
     }
 
     fn body(&self, id: &str) -> Markup {
@@ -174,7 +178,10 @@ pub fn plot(accuracy: &Accuracy) -> Plot {
     Plot {
         title: format!("Error over time of {}", accuracy.field),
         description,
-        axes: ["all quantities, ns per point", "largest error over largest value"],
+        axes: [
+            Axis::of("time per point, all quantities", Some(&"ns".to_owned())),
+            Axis::of("largest error over largest value", None),
+        ],
         curves,
         ..Plot::default()
     }

@@ -3,9 +3,12 @@
 use maud::{Markup, html};
 use mms_documents::campaign::{Campaign, CampaignRun, CampaignStudy, ExcludedTogether};
 
+use mms_documents::judge::Judge;
+
 use super::judge::deciding;
 use super::mark::{count, is_good, numbers, seconds, small, table, verdict, words};
 use super::{Section, Verdicts};
+use crate::plot::Plot;
 
 fn word(study: &CampaignStudy) -> &str {
     study.verdict.as_deref().unwrap_or("not judged")
@@ -37,6 +40,14 @@ impl Section for Campaign {
     fn verdicts(&self) -> Verdicts {
         let judged = || self.studies.iter().filter(|study| is_whole(study));
         Verdicts::several(judged().filter(|it| is_passed(it)).count(), judged().count(), "pass")
+    }
+
+    fn plots(&self) -> Vec<Plot> {
+        let judged = |it: &CampaignStudy| Some((it.name.clone(), it.judgement.clone()?));
+        let plots = |(name, judgement): (String, Judge)| {
+            judgement.plots().into_iter().map(move |plot| Plot { head: name.clone(), ..plot })
+        };
+        self.studies.iter().filter_map(judged).flat_map(plots).collect()
     }
 
     fn body(&self, id: &str) -> Markup {

@@ -4,9 +4,10 @@ use maud::{Markup, html};
 use mms_documents::study::Studies;
 
 use super::mark::{Column, numbers, order, small, table, verdict, words};
-use super::study::{judged, l2, names_of_levels, stopped};
+use super::method::written;
+use super::study::{self, judged, l2, names_of_levels, stopped};
 use super::{Section, Verdicts};
-use crate::plot::{Curve, Line, Plot, STYLES};
+use crate::plot::{Axis, Curve, Plot};
 
 impl Section for Studies {
     fn title(&self) -> String {
@@ -23,6 +24,10 @@ impl Section for Studies {
         let (all, expected) =
             (each().map(|it| it.all).sum(), each().map(|it| it.expected).sum::<usize>());
         Verdicts::several(expected, all, "pass")
+    }
+
+    fn plots(&self) -> Vec<Plot> {
+        vec![plot(self)]
     }
 
     fn body(&self, id: &str) -> Markup {
@@ -50,28 +55,29 @@ pub fn plot(studies: &Studies) -> Plot {
         .studies
         .iter()
         .enumerate()
-        .map(|(at, it)| Curve {
-            name: it.name.clone(),
-            points: l2(&it.study).into_iter().filter_map(|(at, l2)| Some([at?, l2?])).collect(),
-            order: it.study.observed_order,
-            style: at % STYLES,
-            is_hollow: at / STYLES % 2 == 1,
-            line: Line::Solid,
+        .map(|(at, it)| {
+            let points = l2(&it.study).into_iter().filter_map(|(at, l2)| Some([at?, l2?]));
+            let (name, points) = (written(&it.name), points.collect());
+            Curve { name, points, order: it.study.observed_order, ..Curve::default() }.styled(at)
         })
         .collect();
     let described = curves.iter().map(|curve| {
         let last = curve.points.last().map_or("no error".into(), |[_, l2]| format!("{l2:.2e}"));
         format!("{}: {last} on the finest level", curve.name)
     });
-    let in_time = studies.refinement == "time";
+    let first = studies.studies.first().map(|it| &it.study);
+    let what = match studies.refinement == "time" {
+        true => "difference to the next level, l2",
+        false => "largest l2 error of u over time",
+    };
     Plot {
         title: format!("Convergence of {}", studies.title()),
         description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
-        axes: match in_time {
-            true => ["time step dt", "difference to the next level, l2"],
-            false => ["cell size h", "largest l2 error of u over time"],
-        },
-        slope: studies.studies.first().map(|it| it.study.expected_order),
+        axes: [
+            first.map(study::axis).unwrap_or_default(),
+            Axis::of(what, first.and_then(|it| study::unit(it, "displacement"))),
+        ],
+        slope: first.map(|it| it.expected_order),
         curves,
         stopped: studies.studies.iter().flat_map(|it| stopped(&judged(&it.study))).collect(),
         marks_points: true,

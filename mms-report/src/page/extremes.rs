@@ -6,7 +6,7 @@ use mms_documents::extremes::Extremes;
 use super::mark::{number, numbers, small, table, verdict, words};
 use super::method::method;
 use super::{Section, Verdicts};
-use crate::plot::{Curve, Line, Plot};
+use crate::plot::{Axis, Curve, Line, Plot};
 
 /// The verdict on a row that was not run.
 const LEFT_OUT: &str = "left out";
@@ -25,6 +25,10 @@ impl Section for Extremes {
         };
         let (all, expected) = (each().count(), each().filter(|it| *it).count());
         Verdicts::several(expected, all, "as theory expects")
+    }
+
+    fn plots(&self) -> Vec<Plot> {
+        vec![errors(self), limits(self)]
     }
 
     fn body(&self, id: &str) -> Markup {
@@ -137,7 +141,7 @@ fn compared(
     Plot {
         title: title.to_owned(),
         description,
-        axes,
+        axes: axes.map(|name| Axis::of(name, None)),
         curves: vec![
             curve(name, Line::None, points.iter().map(|(_, point)| *point).collect()),
             curve("equal", Line::Dashed, line),

@@ -7,8 +7,7 @@ use mms_documents::study::{JudgedLevel, JudgedNorm};
 use super::excluded::exclusions;
 use super::mark::{Column, count, is_good, number, numbers, order, small, table, verdict};
 use super::{Section, Verdicts};
-use crate::axis::short;
-use crate::plot::{Curve, Line, Plot, STYLES};
+use crate::plot::{Axis, Curve, Line, Plot, short};
 
 impl Section for Judge {
     fn title(&self) -> String {
@@ -20,6 +19,28 @@ impl Section for Judge {
 
     fn verdicts(&self) -> Verdicts {
         Verdicts::one(&self.verdict, is_good(&self.verdict))
+    }
+
+    /// A line for each norm, or for the deciding norm of each of several quantities, in a panel for each unit. A grid of h and dt
+    /// has points over h.
+    fn plots(&self) -> Vec<Plot> {
+        if let [quantity] = self.quantities.as_slice() {
+            return match self.refinement.as_str() {
+                "space and time" => panels(self, "", runs(self), &[]),
+                _ => panels_of(self, quantity),
+            };
+        }
+        let deciding = |it: &JudgedQuantity| {
+            let at = it.norms.iter().position(|norm| norm.norm == it.norm)?;
+            let mut own = lines(self, it).swap_remove(at);
+            own.curve.name = format!("{} {}", it.name, own.curve.name).replace('_', " ");
+            Some(own)
+        };
+        let lines = self.quantities.iter().filter_map(deciding).collect();
+        let mut stopped: Vec<f64> = self.quantities.iter().flat_map(stopped).collect();
+        stopped.sort_by(f64::total_cmp);
+        stopped.dedup();
+        panels(self, "", lines, &stopped)
     }
 
     fn body(&self, id: &str) -> Markup {
@@ -91,8 +112,10 @@ fn one(judge: &Judge, quantity: &JudgedQuantity, id: &str) -> Markup {
             p { (verdict(&quantity.verdict, is_good(&quantity.verdict))) }
         }
         @for sentence in &quantity.says { p { (sentence) } }
-        @if let Some(svg) = plot(judge, quantity).svg(&format!("{id}-plot")) {
-            figure { (svg) figcaption { "Both axes are logarithmic; the triangle has the expected slope." } }
+        @for (at, plot) in panels_of(judge, quantity).into_iter().enumerate() {
+            @if let Some(svg) = plot.svg(&format!("{id}-plot-{}", at + 1)) {
+                figure { (svg) figcaption { "Both axes are logarithmic; the triangle has the expected slope." } }
+            }
         }
         @if quantity.norms.iter().any(|norm| !known(norm).is_empty()) { (levels(judge, quantity)) }
     }
@@ -125,77 +148,90 @@ fn stopped(quantity: &JudgedQuantity) -> Vec<f64> {
     places
 }
 
-/// The figure of a judgement: a line for each norm, or for the deciding norm of each of several quantities. A grid of h and dt
-/// has points over h.
-pub fn figure(judge: &Judge) -> Plot {
-    if let [quantity] = judge.quantities.as_slice() {
-        let plot = plot(judge, quantity);
-        return if judge.refinement == "space and time" { of_grid(judge, plot) } else { plot };
-    }
-    let deciding = |it: &JudgedQuantity| it.norms.iter().position(|norm| norm.norm == it.norm);
-    let curve = |(at, quantity): (usize, &JudgedQuantity)| {
-        let mut plot = plot(judge, quantity);
-        let own = plot.curves.swap_remove(deciding(quantity)?);
-        let name = format!("{} {}", quantity.name, own.name);
-        let (style, is_hollow) = (at % STYLES, at / STYLES % 2 == 1);
-        Some(Curve { name, style, is_hollow, ..own })
-    };
-    let curves: Vec<Curve> = judge.quantities.iter().enumerate().filter_map(curve).collect();
-    let mut stopped: Vec<f64> = judge.quantities.iter().flat_map(stopped).collect();
-    stopped.sort_by(f64::total_cmp);
-    stopped.dedup();
-    Plot {
-        title: format!("Convergence of {}", judge.source),
-        description: format!("The deciding norm of {} quantities.", curves.len()),
-        axes: [axis(judge), "error"],
-        curves,
-        slope: judge.expected_order,
-        stopped,
-        marks_points: true,
-        ..Plot::default()
+/// A line of the picture, with the unit of its errors.
+struct Errors {
+    unit: Option<String>,
+    curve: Curve,
+}
+
+/// The unit of the errors of a quantity in a norm: H1 is that of its gradient.
+fn unit(judge: &Judge, quantity: &str, norm: &str) -> Option<String> {
+    let units = judge.units.as_ref()?;
+    let own = units.get(quantity)?;
+    match (norm.eq_ignore_ascii_case("h1"), units.get("h")?) {
+        (false, _) => Some(own.clone()),
+        (true, length) if length == own => Some("1".into()),
+        (true, length) if own == "1" => Some(format!("1/{length}")),
+        (true, length) => Some(format!("{own}/{length}")),
     }
 }
 
-/// The plot of a grid of h and dt: the errors of its runs over h.
-fn of_grid(judge: &Judge, plot: Plot) -> Plot {
-    let norms = ["l1", "l2", "linf"];
-    let curve = |(style, name): (usize, &str)| {
+fn lines(judge: &Judge, quantity: &JudgedQuantity) -> Vec<Errors> {
+    let line = |norm: &JudgedNorm| Errors {
+        unit: unit(judge, &quantity.name, &norm.norm),
+        curve: Curve {
+            name: norm.norm.clone(),
+            order: norm.observed_order,
+            points: known(norm).iter().filter_map(|it| Some([it.length, it.error?])).collect(),
+            ..Curve::default()
+        },
+    };
+    quantity.norms.iter().map(line).collect()
+}
+
+/// The runs of a grid of h and dt: the errors of the first quantity over h.
+fn runs(judge: &Judge) -> Vec<Errors> {
+    let quantity = judge.quantities.first().map_or("", |it| &it.name);
+    let line = |(at, norm): (usize, &str)| {
         let points = judge.levels.iter().filter_map(|it| {
-            Some([it.cell_size?, [it.errors.l1, it.errors.l2, it.errors.linf][style]?])
+            Some([it.cell_size?, [it.errors.l1, it.errors.l2, it.errors.linf][at]?])
         });
-        let points = points.collect();
-        Curve { name: name.to_owned(), points, style, line: Line::None, ..Curve::default() }
+        let (name, points, line) = (norm.to_owned(), points.collect(), Line::None);
+        let curve = Curve { name, points, line, ..Curve::default() };
+        Errors { unit: unit(judge, quantity, norm), curve }
     };
-    let curves = norms.into_iter().enumerate().map(curve).collect();
-    Plot { curves, slope: None, ..plot }
+    ["l1", "l2", "linf"].into_iter().enumerate().map(line).collect()
 }
 
-fn axis(judge: &Judge) -> &'static str {
-    if judge.refinement == "time" { "time step dt" } else { "cell size h" }
-}
-
-fn plot(judge: &Judge, quantity: &JudgedQuantity) -> Plot {
-    let curve = |(at, norm): (usize, &JudgedNorm)| Curve {
-        name: norm.norm.clone(),
-        order: norm.observed_order,
-        points: known(norm).iter().filter_map(|it| Some([it.length, it.error?])).collect(),
-        style: at % STYLES,
-        is_hollow: at / STYLES % 2 == 1,
-        line: Line::Solid,
-    };
-    let curves: Vec<Curve> = quantity.norms.iter().enumerate().map(curve).collect();
-    let described = curves.iter().flat_map(|curve| {
-        let of = |[at, error]: &[f64; 2]| format!("{} {} {error:.2e}", curve.name, short(*at));
-        curve.points.iter().map(of)
-    });
-    Plot {
-        title: format!("Convergence of {} of {}", quantity.name, judge.source),
-        description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
-        axes: [axis(judge), "error"],
-        curves,
-        slope: judge.expected_order,
-        stopped: stopped(quantity),
-        marks_points: true,
-        ..Plot::default()
+/// The panels of lines, one for each unit, all with the same title.
+fn panels(judge: &Judge, of: &str, lines: Vec<Errors>, stopped: &[f64]) -> Vec<Plot> {
+    let mut units: Vec<Option<String>> = Vec::new();
+    for line in &lines {
+        if !units.contains(&line.unit) {
+            units.push(line.unit.clone());
+        }
     }
+    let panel = |unit: Option<String>| {
+        let own = lines.iter().filter(|it| it.unit == unit).enumerate();
+        let curves: Vec<Curve> = own.map(|(at, it)| it.curve.clone().styled(at)).collect();
+        let described = curves.iter().flat_map(|curve| {
+            let of = |[at, error]: &[f64; 2]| format!("{} {} {error:.2e}", curve.name, short(*at));
+            curve.points.iter().map(of)
+        });
+        Plot {
+            title: format!("Convergence of {of}{}", judge.source),
+            description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
+            axes: [axis(judge), Axis::of("error", unit.as_ref())],
+            slope: judge.expected_order.filter(|_| curves.iter().any(|it| it.line != Line::None)),
+            curves,
+            stopped: stopped.to_vec(),
+            marks_points: true,
+            ..Plot::default()
+        }
+    };
+    units.into_iter().map(panel).collect()
+}
+
+fn axis(judge: &Judge) -> Axis {
+    let (name, symbol) = match judge.refinement.as_str() {
+        "time" => ("time step dt", "dt"),
+        _ => ("cell size h", "h"),
+    };
+    Axis::of(name, judge.units.as_ref().and_then(|it| it.get(symbol)))
+}
+
+/// The panels of one quantity: a line for each norm.
+fn panels_of(judge: &Judge, quantity: &JudgedQuantity) -> Vec<Plot> {
+    let lines = lines(judge, quantity);
+    panels(judge, &format!("{} of ", quantity.name), lines, &stopped(quantity))
 }

@@ -32,6 +32,39 @@ pub fn name(method: &Method) -> String {
     name
 }
 
+/// Words of methods, each with what a paper prints.
+const WRITTEN: [(&str, &str); 20] = [
+    ("cpgimp", "cpGIMP"),
+    ("ugimp", "uGIMP"),
+    ("cpdi", "CPDI"),
+    ("quadratic_bspline", "quadratic B-splines"),
+    ("cubic_bspline", "cubic B-splines"),
+    ("linear", "linear"),
+    ("usf", "USF"),
+    ("usl", "USL"),
+    ("musl", "MUSL"),
+    ("flip", "FLIP"),
+    ("pic", "PIC"),
+    ("apic", "APIC"),
+    ("total", "total Lagrangian"),
+    ("updated", "updated Lagrangian"),
+    ("f32", "single precision"),
+    ("f64", "double precision"),
+    ("wide", "extended precision"),
+    ("stable", "stable form"),
+    ("fast", "fast form"),
+    ("leapfrog", "leapfrog"),
+];
+
+/// A method as people write it: `cpgimp leapfrog` becomes cpGIMP, leapfrog.
+pub fn written(name: &str) -> String {
+    let word = |word: &str| {
+        let known = WRITTEN.iter().find(|(own, _)| *own == word);
+        known.map_or_else(|| word.to_owned(), |(_, written)| (*written).to_owned())
+    };
+    name.split_whitespace().map(word).collect::<Vec<_>>().join(", ")
+}
+
 /// All keys of a method, to be opened.
 pub fn method(method: &Method) -> Markup {
     let keys = serde_json::to_value(method).unwrap_or_default();

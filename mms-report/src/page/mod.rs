@@ -17,6 +17,7 @@ mod diagnosis;
 mod excluded;
 mod extremes;
 mod field;
+pub mod figure;
 mod folder;
 mod frame;
 pub mod gallery;
@@ -41,6 +42,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
+use crate::plot::Plot;
 use crate::tally;
 
 /// A result, ready to be shown.
@@ -50,6 +52,11 @@ pub trait Section {
 
     /// The verdicts on the result.
     fn verdicts(&self) -> Verdicts;
+
+    /// The pictures of a figure in print; none, if the result has no curves.
+    fn plots(&self) -> Vec<Plot> {
+        Vec::new()
+    }
 
     /// The content below the heading, which is an `h3`. Names of places in it begin with `id`.
     fn body(&self, id: &str) -> Markup;
@@ -93,6 +100,8 @@ struct Kind {
     /// The heading above all documents of the kind.
     heading: &'static str,
     read: fn(&Value) -> serde_json::Result<Box<dyn Section>>,
+    /// Whether its documents may have [`plots`](Section::plots).
+    has_curves: bool,
 }
 
 impl Kind {
@@ -103,21 +112,25 @@ impl Kind {
         let read = |document: &Value| -> serde_json::Result<Box<dyn Section>> {
             Ok(Box::new(T::deserialize(document)?))
         };
-        Self { name, heading, read }
+        Self { name, heading, read, has_curves: false }
+    }
+
+    const fn with_curves(self) -> Self {
+        Self { has_curves: true, ..self }
     }
 }
 
 /// The kinds of documents, in their order on a page.
 const KINDS: &[Kind] = &[
-    Kind { name: "study", heading: "Convergence studies", read: study::read },
-    Kind::of::<mms_documents::judge::Judge>("judge", "Judged results"),
+    Kind { name: "study", heading: "Convergence studies", read: study::read, has_curves: true },
+    Kind::of::<mms_documents::judge::Judge>("judge", "Judged results").with_curves(),
     Kind::of::<mms_documents::diagnose::Diagnose>("diagnose", "Diagnoses"),
-    Kind::of::<mms_documents::campaign::Campaign>("campaign", "Campaigns"),
+    Kind::of::<mms_documents::campaign::Campaign>("campaign", "Campaigns").with_curves(),
     Kind::of::<mms_documents::verify::Verify>("verify", "Verification matrix"),
-    Kind::of::<mms_documents::tradeoff::Tradeoff>("tradeoff", "Error against cost"),
-    Kind::of::<mms_documents::extremes::Extremes>("extremes", "At the limits"),
+    Kind::of::<mms_documents::tradeoff::Tradeoff>("tradeoff", "Error against cost").with_curves(),
+    Kind::of::<mms_documents::extremes::Extremes>("extremes", "At the limits").with_curves(),
     Kind::of::<mms_documents::verify::VerifyDefects>("defects", "Deliberate mistakes"),
-    Kind::of::<mms_documents::accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
+    Kind::of::<mms_documents::accuracy::Accuracy>("accuracy", "Accuracy of formulas").with_curves(),
     Kind::of::<mms_documents::run::Run>("run", "Single runs"),
 ];
 

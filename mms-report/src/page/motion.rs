@@ -16,7 +16,7 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::sorted::SortedMap;
 
 use super::picture::{Moment, Scale, Shape, pictures, project};
-use crate::axis::short;
+use crate::plot::short;
 
 /// Times of a picture, from the first to the last of the window.
 const MOMENTS: usize = 6;

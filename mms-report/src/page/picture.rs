@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use maud::{Markup, html};
 
-use crate::axis::short;
+use crate::plot::short;
 
 /// Steps of the colour scale.
 pub const STEPS: usize = 8;

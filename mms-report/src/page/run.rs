@@ -6,7 +6,7 @@ use mms_documents::run::{Diagnostics, OverTime, Run, RunErrors};
 use super::mark::{count, number, numbers, seconds, small, table, words};
 use super::method::{method, name};
 use super::{Section, Verdicts};
-use crate::axis::short;
+use crate::plot::short;
 
 impl Section for Run {
     fn title(&self) -> String {

@@ -9,11 +9,10 @@ use serde_json::Value;
 
 use super::excluded::exclusions;
 use super::mark::{Column, count, number, numbers, order, seconds, small, table, words};
-use super::method::{method, name};
+use super::method::{method, name, written};
 use super::phase::phase;
 use super::{Section, Verdicts};
-use crate::axis::short;
-use crate::plot::{Curve, Plot};
+use crate::plot::{Axis, Curve, Plot, short};
 
 /// Each error and its order.
 fn norms(errors: &LevelErrors) -> [Markup; 6] {
@@ -49,6 +48,10 @@ impl Section for StudyOfMethod {
 
     fn verdicts(&self) -> Verdicts {
         Verdicts::one(&self.verdict, self.verdict == "pass")
+    }
+
+    fn plots(&self) -> Vec<Plot> {
+        vec![plot(self)]
     }
 
     fn body(&self, id: &str) -> Markup {
@@ -111,6 +114,19 @@ pub fn names_of_levels(study: &StudyOfMethod) -> Vec<String> {
     }
 }
 
+/// The unit of h, dt or a quantity.
+pub fn unit<'a>(study: &'a StudyOfMethod, name: &str) -> Option<&'a String> {
+    study.units.as_ref()?.get(name)
+}
+
+/// The refined length with its unit.
+pub fn axis(study: &StudyOfMethod) -> Axis {
+    match length(study) {
+        "dt" => Axis::of("time step dt", unit(study, "dt")),
+        h => Axis::of(format!("cell size {h}"), unit(study, h)),
+    }
+}
+
 fn length(study: &StudyOfMethod) -> &'static str {
     if study.refinement == "time" { "dt" } else { "h" }
 }
@@ -162,7 +178,8 @@ pub fn plot(study: &StudyOfMethod) -> Plot {
     Plot {
         title: format!("Convergence of {}", study.title()),
         description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
-        axes: [if study.refinement == "time" { "time step dt" } else { "cell size h" }, what],
+        head: written(&name(&study.method)),
+        axes: [axis(study), Axis::of(what, unit(study, "displacement"))],
         curves,
         slope: Some(study.expected_order),
         floor,

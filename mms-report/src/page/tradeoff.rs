@@ -6,7 +6,7 @@ use mms_files::words::{bytes, duration};
 
 use super::mark::{count, number, numbers, seconds, small, table, words};
 use super::{Section, Verdicts};
-use crate::plot::{Curve, Line, Plot};
+use crate::plot::{Axis, Curve, Line, Plot};
 
 /// The cost of a run; nothing if the run stopped.
 fn cost_of(tradeoff: &Tradeoff, run: &Trial) -> Option<f64> {
@@ -26,13 +26,14 @@ fn cost_shown(tradeoff: &Tradeoff, value: f64) -> String {
     }
 }
 
-/// The name of the axis of costs.
-fn axis(cost: Cost) -> &'static str {
-    match cost {
-        Cost::Seconds => "seconds",
-        Cost::ParticleSteps => "particle-steps",
-        Cost::Memory => "bytes of memory",
-    }
+/// The axis of costs.
+fn axis(cost: Cost) -> Axis {
+    let (name, unit) = match cost {
+        Cost::Seconds => ("time of the run", Some("s".into())),
+        Cost::ParticleSteps => ("particle-steps", None),
+        Cost::Memory => ("memory", Some("bytes".into())),
+    };
+    Axis::of(name, unit.as_ref())
 }
 
 fn method(run: &Trial) -> String {
@@ -47,6 +48,10 @@ impl Section for Tradeoff {
     fn verdicts(&self) -> Verdicts {
         let word = if self.choice.is_some() { "reached" } else { "not reached" };
         Verdicts::one(word, self.choice.is_some())
+    }
+
+    fn plots(&self) -> Vec<Plot> {
+        vec![plot(self)]
     }
 
     fn body(&self, id: &str) -> Markup {
@@ -159,7 +164,7 @@ pub fn plot(tradeoff: &Tradeoff) -> Plot {
     Plot {
         title: format!("Error against cost of {}", tradeoff.field),
         description: format!("The Pareto front: {}.", described.collect::<Vec<_>>().join("; ")),
-        axes: [axis(tradeoff.cost), "largest error of u"],
+        axes: [axis(tradeoff.cost), Axis::of("largest error of u", tradeoff.unit.as_ref())],
         curves: vec![
             curve("other runs", 1, true, Line::None, points(false)),
             curve("Pareto front", 0, false, Line::Solid, front),

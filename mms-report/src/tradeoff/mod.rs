@@ -13,7 +13,8 @@ use mms_lab::tradeoff::setting::{Axis, Setting};
 use mms_spec::foreign::Foreign;
 
 use super::front::front;
-use super::plot::Width;
+use super::page::Section as _;
+use super::plot::Figure;
 use crate::shown::Shown;
 use crate::table::Table;
 
@@ -23,6 +24,8 @@ pub struct Report<'a> {
     pub field: Foreign,
     /// The field's title.
     pub title: Foreign,
+    /// The unit of the displacement, if the field states units.
+    pub unit: Option<String>,
     /// The plan of the search.
     pub plan: Plan,
     /// The runs and predictions of the search.
@@ -302,11 +305,14 @@ impl Report<'_> {
 
     /// Writes tradeoff.json and tradeoff.svg, and says where.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        let document = self.document();
-        let caption = format!("{}: error against cost", self.field.shown());
-        let figure = crate::page::tradeoff::plot(&document).figure(&caption, Width::Page);
-        let files = [("json", pretty(&document)?), ("svg", figure)];
+        let files = [("json", pretty(&self.document())?), ("svg", self.figure().svg())];
         write_files(folder, "tradeoff", files)
+    }
+
+    /// The figure of the runs.
+    pub fn figure(&self) -> Figure {
+        let title = format!("{}: error against cost", self.field.shown());
+        Figure { title, panels: self.document().plots() }
     }
 }
 
@@ -348,6 +354,7 @@ impl Shown for Report<'_> {
         };
         documents::Tradeoff {
             field: self.field.raw().to_owned(),
+            unit: self.unit.clone(),
             cost: match cost {
                 Cost::Seconds => documents::Cost::Seconds,
                 Cost::ParticleSteps => documents::Cost::ParticleSteps,

@@ -53,7 +53,7 @@ pub struct Options {
     over: Option<Over>,
     /// Print how each FILE is read and why, and judge nothing: its format, times, points and cells, the array of each quantity,
     /// the order of components, and what is left out.
-    #[arg(long, requires = "field")]
+    #[arg(long, requires = "field", conflicts_with = "figure")]
     explain: bool,
     /// The times to judge at, also in place of those that files print with fewer digits; or those of the results, where files
     /// have none.
@@ -80,12 +80,12 @@ pub struct Options {
     variant: Variant,
     /// Compare the errors with those of the same meshes in a judgement that --output wrote: they may change by 1 %. One coarse
     /// mesh takes seconds, and shows that nothing has changed.
-    #[arg(long, value_name = "JSON")]
+    #[arg(long, value_name = "JSON", conflicts_with = "figure")]
     baseline: Option<PathBuf>,
     /// Compare two results of one run, as of other ranks, precision or after a restart: the largest differences, and where
     /// they are. Points are paired by the numbers that both files give them (`id`, `GlobalNodeIds`, ..), or by X, else in their
     /// order; several in one place may stand for one. Takes no FIELD.
-    #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with_all = ["field", "files", "errors"])]
+    #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with_all = ["field", "files", "errors", "figure"])]
     same: Vec<String>,
 }
 

@@ -1,0 +1,208 @@
+//! A figure for print: panels of curves with their legends, in the width of a column or of a page.
+
+use std::fmt;
+use std::path::Path;
+use std::str::FromStr;
+
+use super::drawing::{Anchor, Item, Text, Words};
+use super::{Area, Plot, pdf, svg};
+
+/// Pixels in a millimetre, as CSS defines them.
+pub const PER_MM: f64 = 96.0 / 25.4;
+
+/// The height of a line of a legend.
+const LEGEND_LINE: f64 = 16.0;
+
+/// The room between a legend and the curves, and around a panel.
+const GAP: f64 = 14.0;
+
+/// The least width of curves beside a legend.
+const LEAST: f64 = 280.0;
+
+/// The height of the curves over their width.
+const SHAPE: f64 = 0.66;
+
+/// The width of a figure in print.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Width {
+    /// One column, 85 mm, with the legend below the curves.
+    Column,
+    /// The page, 170 mm: one panel with its legend beside the curves, or two columns of panels.
+    #[default]
+    Page,
+}
+
+impl Width {
+    fn millimetres(self) -> f64 {
+        match self {
+            Width::Column => 85.0,
+            Width::Page => 170.0,
+        }
+    }
+}
+
+impl FromStr for Width {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "85" => Ok(Width::Column),
+            "170" => Ok(Width::Page),
+            _ => Err("expected 85, a column, or 170, a page, in millimetres"),
+        }
+    }
+}
+
+impl fmt::Display for Width {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.millimetres())
+    }
+}
+
+/// The format of the file of a figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileFormat {
+    /// SVG.
+    Svg,
+    /// PDF.
+    Pdf,
+}
+
+impl FileFormat {
+    /// The format that the ending of a name says.
+    ///
+    /// # Errors
+    /// Another ending.
+    pub fn of(path: &Path) -> Result<Self, &'static str> {
+        let ending = path.extension().map(|it| it.to_string_lossy().to_lowercase());
+        match ending.as_deref() {
+            Some("svg") => Ok(FileFormat::Svg),
+            Some("pdf") => Ok(FileFormat::Pdf),
+            _ => Err("expected the name of a file that ends in .svg or .pdf"),
+        }
+    }
+}
+
+/// Panels of curves.
+pub struct Figure {
+    /// The title, which readers of the file see where the picture is not shown.
+    pub title: String,
+    /// The panels.
+    pub panels: Vec<Plot>,
+}
+
+/// A picture of a size in pixels, with its title and its numbers in words.
+pub struct Drawing {
+    /// The width and the height.
+    pub size: [f64; 2],
+    /// The title.
+    pub title: String,
+    /// The numbers in words.
+    pub description: String,
+    /// What is drawn, one over the other.
+    pub items: Vec<Item>,
+}
+
+impl Figure {
+    /// Whether nothing has a place on its axes.
+    pub fn is_empty(&self) -> bool {
+        self.panels.iter().all(Plot::is_empty)
+    }
+
+    /// The bytes of its file.
+    pub fn file(&self, format: FileFormat, width: Width) -> Vec<u8> {
+        let drawing = self.drawn(width);
+        match format {
+            FileFormat::Svg => svg::file(&drawing).into_bytes(),
+            FileFormat::Pdf => pdf::file(&drawing),
+        }
+    }
+
+    /// The text of its SVG file, as wide as a page.
+    pub fn svg(&self) -> String {
+        svg::file(&self.drawn(Width::Page))
+    }
+
+    fn drawn(&self, width: Width) -> Drawing {
+        let whole = width.millimetres() * PER_MM;
+        let mut items = Vec::new();
+        let height = match (width, self.panels.as_slice()) {
+            (Width::Page, [alone]) => panel(alone, None, whole, true, &mut items),
+            (_, [alone]) => panel(alone, None, whole, false, &mut items),
+            (_, panels) => {
+                let columns = if width == Width::Page { 2 } else { 1 };
+                let wide = whole / columns as f64;
+                let mut top = 0.0;
+                for (row, panels) in panels.chunks(columns).enumerate() {
+                    let mut height = 0.0_f64;
+                    for (column, plot) in panels.iter().enumerate() {
+                        let mut own = Vec::new();
+                        let number = row * columns + column;
+                        height = height.max(panel(plot, Some(number), wide, false, &mut own));
+                        let at = [column as f64 * wide, top];
+                        items.extend(own.into_iter().map(|it| it.moved(at)));
+                    }
+                    top += height;
+                }
+                top
+            }
+        };
+        let described = self.panels.iter().map(|it| it.description.as_str());
+        Drawing {
+            size: [whole, height.ceil()],
+            title: self.title.clone(),
+            description: described.collect::<Vec<_>>().join(" "),
+            items,
+        }
+    }
+}
+
+/// The letter of a panel among several.
+fn letter(number: usize) -> String {
+    match u8::try_from(number) {
+        Ok(it @ 0..=25) => format!("({}) ", char::from(b'a' + it)),
+        _ => format!("({}) ", number + 1),
+    }
+}
+
+/// Draws a panel in this width, with its legend beside the curves where there is room; returns its height.
+fn panel(
+    plot: &Plot,
+    number: Option<usize>,
+    width: f64,
+    is_beside: bool,
+    items: &mut Vec<Item>,
+) -> f64 {
+    let legend = plot.legend(true);
+    let head = number.map_or(String::new(), letter) + &plot.head;
+    let longest = legend.iter().map(|it| it.words.width() + 34.0);
+    let longest = longest.chain([Words::plain(&head).width()]).fold(0.0, f64::max);
+    // Bold letters, and those of a font in the place of Helvetica, are wider.
+    let longest = 1.08 * longest;
+    let left = 26.0 + plot.widest_number();
+    let beside = width - GAP - longest - GAP - left;
+    let is_beside = is_beside && beside >= LEAST;
+    let right = if is_beside { left + beside } else { width - GAP };
+    let bold = |at: [f64; 2]| {
+        let words = Words::plain(&head);
+        Item::Text(Text { at, anchor: Anchor::Start, is_turned: false, is_bold: true, words })
+    };
+    let head_above = !is_beside && !head.is_empty();
+    let top = if head_above { 26.0 } else { 12.0 };
+    let area = Area { left, right, top, bottom: top + SHAPE * (right - left).min(420.0) };
+    items.extend(plot.drawn(&plot.frame(area)));
+    let below = area.bottom + 42.0;
+    let [x, mut y] = if is_beside { [right + GAP, top + 4.0] } else { [left, below + 4.0] };
+    if head_above {
+        items.push(bold([left, 15.0]));
+    } else if !head.is_empty() {
+        items.push(bold([x, y + 8.0]));
+        y += LEGEND_LINE + 4.0;
+    }
+    for entry in legend {
+        items.extend(entry.sign.into_iter().map(|it| it.moved([x, y])));
+        items.push(Item::text([x + 34.0, y + 12.0], Anchor::Start, entry.words));
+        y += LEGEND_LINE;
+    }
+    if is_beside { below.max(y + 8.0) } else { y + GAP }
+}
