@@ -143,7 +143,7 @@ fn judge(
         let provenance = provenance("judge", opened);
         let report = Judgements::of_results(&exact, &files, measurement, None, provenance)?;
         let title = report.source.clone();
-        let picture = Figure { title, panels: report.document().plots() }.svg();
+        let picture = Figure::new(title, report.document().plots()).svg();
         Views::of(&View(&report), Some(picture))
     })
 }

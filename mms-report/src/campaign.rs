@@ -121,7 +121,7 @@ impl View<'_> {
     /// The figure of all studies that were judged.
     pub fn figure(&self) -> Figure {
         let document = self.0.document();
-        Figure { title: document.title(), panels: document.plots() }
+        Figure::new(document.title(), document.plots())
     }
 }
 

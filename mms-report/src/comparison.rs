@@ -109,7 +109,7 @@ impl Comparison {
         }
         let (field, count) = (self.studies[0].field.shown(), self.studies.len());
         let title = format!("{field}: l2 of {count} methods");
-        Figure { title, panels: self.several().plots() }
+        Figure::new(title, self.several().plots())
     }
 }
 

@@ -149,7 +149,7 @@ impl View<'_> {
 
     /// The figure of the judgement.
     pub fn figure(&self) -> Figure {
-        Figure { title: self.0.source.clone(), panels: self.0.document().plots() }
+        Figure::new(self.0.source.clone(), self.0.document().plots())
     }
 }
 

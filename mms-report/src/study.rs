@@ -533,7 +533,7 @@ impl Study {
     pub(super) fn figure(&self) -> Figure {
         let title =
             format!("{}: {}", self.field.shown(), method::line(&self.method, self.arithmetic));
-        Figure { title, panels: self.content().plots() }
+        Figure::new(title, self.content().plots())
     }
 }
 

@@ -136,7 +136,7 @@ fn markdown(text: &str) -> String {
 /// A text in a cell of LaTeX. Numbers in scientific notation become powers of ten.
 fn latex(text: &str) -> String {
     if let Some((digits, exponent)) = scientific(text) {
-        return format!("${digits} \\cdot 10^{{{exponent}}}$");
+        return format!("${digits}\\times10^{{{exponent}}}$");
     }
     let mut cell = String::new();
     for c in text.chars() {
@@ -187,7 +187,8 @@ mod tests {
             latex.contains("\\caption{errors of bar\\_1d}\n  \\begin{tabular}{lrl}"),
             "{latex}"
         );
-        let row = "u\\_x & $1.25 \\cdot 10^{-3}$ & a | b, 5 \\% \\\\\n    \\textasciitilde{}F & - &  \\\\";
+        let row =
+            "u\\_x & $1.25\\times10^{-3}$ & a | b, 5 \\% \\\\\n    \\textasciitilde{}F & - &  \\\\";
         assert!(latex.contains(row), "{latex}");
         assert_eq!(table.to_string().lines().count(), 3);
     }
@@ -197,6 +198,6 @@ mod tests {
         for text in ["exact", "1e", "e5", "2e3x", "infe3x"] {
             assert_eq!(latex(text), text);
         }
-        assert_eq!(latex("-2e-16"), "$-2 \\cdot 10^{-16}$");
+        assert_eq!(latex("-2e-16"), "$-2\\times10^{-16}$");
     }
 }

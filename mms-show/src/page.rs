@@ -81,6 +81,19 @@ pub(super) fn derivation(document: &Document) -> Vec<Block<'_>> {
     // The first quantity that is made of W.
     let stress = others.iter().position(|it| it.quantity.unit().contains("Pa"));
     let (kinematics, kinetics) = others.split_at(stress.unwrap_or(others.len()));
+    let has = |of| document.sections.iter().any(|it| it.quantity == of);
+    if has(Quantity::DeformationGradient) && !has(Quantity::DisplacementGradient) {
+        blocks.push(Block::Heading {
+            name: "",
+            relation: Some(relation(
+                Quantity::DisplacementGradient,
+                &document.material.kind,
+                document.is_static,
+            )),
+            note: None,
+            operations: None,
+        });
+    }
     kinematics.iter().for_each(|it| blocks.extend(section(document, it, "")));
     if !kinetics.is_empty() {
         blocks.push(Block::Note("with the strain-energy density".into()));

@@ -164,7 +164,7 @@ impl Report {
         let mut paths = write_files(folder, "accuracy", [("json", pretty(&self.document())?)])?;
         if !self.times.is_empty() {
             let caption = format!("{}: {} points", self.field.shown(), self.points);
-            let figure = Figure { title: caption, panels: self.document().plots() };
+            let figure = Figure::new(caption, self.document().plots());
             paths.extend(write_files(folder, "accuracy", [("svg", figure.svg())])?);
         }
         Ok(paths)

@@ -36,7 +36,7 @@ pub fn read(paths: &[PathBuf]) -> anyhow::Result<Figure> {
         }
     }
     let panels = panels.into_iter().map(|it| together(it, paths)).collect();
-    Ok(Figure { title: titles.join("; "), panels })
+    Ok(Figure::new(titles.join("; "), panels))
 }
 
 /// Plots over the same axes as one: each curve has the name of its method or, without one, of its file.

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 use mms_documents::judge::{Judge, JudgedQuantity};
 use mms_documents::study::{JudgedLevel, JudgedNorm};
+use mms_spec::quantity::Quantity;
 
 use super::excluded::exclusions;
 use super::mark::{Column, count, is_good, number, numbers, order, small, table, verdict};
@@ -33,7 +34,7 @@ impl Section for Judge {
         let deciding = |it: &JudgedQuantity| {
             let at = it.norms.iter().position(|norm| norm.norm == it.norm)?;
             let mut own = lines(self, it).swap_remove(at);
-            own.curve.name = format!("{} {}", it.name, own.curve.name).replace('_', " ");
+            own.curve.name = format!("{}, {}", symbol(&it.name), own.curve.name);
             Some(own)
         };
         let lines = self.quantities.iter().filter_map(deciding).collect();
@@ -152,6 +153,12 @@ fn stopped(quantity: &JudgedQuantity) -> Vec<f64> {
 struct Errors {
     unit: Option<String>,
     curve: Curve,
+}
+
+/// The symbol of a quantity; a name that has none stays, in words.
+fn symbol(name: &str) -> String {
+    let known = Quantity::evaluated().find(|it| it.name() == name);
+    known.map_or_else(|| name.replace('_', " "), |it| it.symbol().to_owned())
 }
 
 /// The unit of the errors of a quantity in a norm: H1 is that of its gradient.

@@ -86,9 +86,9 @@ impl FileFormat {
 /// Panels of curves.
 pub struct Figure {
     /// The title, which readers of the file see where the picture is not shown.
-    pub title: String,
+    title: String,
     /// The panels.
-    pub panels: Vec<Plot>,
+    panels: Vec<Plot>,
 }
 
 /// A picture of a size in pixels, with its title and its numbers in words.
@@ -104,6 +104,14 @@ pub struct Drawing {
 }
 
 impl Figure {
+    /// A figure of these panels, without those that have nothing to draw if others have.
+    pub fn new(title: String, mut panels: Vec<Plot>) -> Self {
+        if panels.iter().any(|it| !it.is_empty()) {
+            panels.retain(|it| !it.is_empty());
+        }
+        Figure { title, panels }
+    }
+
     /// Whether nothing has a place on its axes.
     pub fn is_empty(&self) -> bool {
         self.panels.iter().all(Plot::is_empty)

@@ -90,6 +90,6 @@ mod tests {
                 letters(b'?')
             ]
         );
-        assert!((width("cell size h") - 4.724).abs() < 1e-9, "{}", width("cell size h"));
+        assert!((width("cell size h") - 4.39).abs() < 1e-9, "{}", width("cell size h"));
     }
 }

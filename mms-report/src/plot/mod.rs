@@ -435,7 +435,7 @@ mod tests {
     fn a_logarithmic_axis_leaves_out_zero_and_infinity() {
         let texts = |plot: Plot| {
             let page = plot.svg("p").map_or(String::new(), |it| it.into_string());
-            let figure = Figure { title: "caption".into(), panels: vec![plot] };
+            let figure = Figure::new("caption".into(), vec![plot]);
             let file =
                 |width| String::from_utf8_lossy(&figure.file(FileFormat::Svg, width)).into_owned();
             [page, file(Width::Page), file(Width::Column)]
@@ -480,7 +480,7 @@ mod tests {
             let mut plot = plot([1e-2, 2.5e-3, 6.25e-4], 1e-16);
             plot.stopped = vec![0.5];
             let title = "bar <1d> & more".to_owned();
-            let figure = Figure { title, panels: vec![plot; panels] };
+            let figure = Figure::new(title, vec![plot; panels]);
             let svg = String::from_utf8(figure.file(FileFormat::Svg, width)).expect("text");
             let document = roxmltree::Document::parse(&svg).expect("XML");
             let root = document.root_element();
@@ -521,7 +521,7 @@ mod tests {
     #[test]
     fn a_pdf_file_has_lines_and_letters() {
         let plot = plot([1e-2, 2.5e-3, 6.25e-4], 1e-16);
-        let figure = Figure { title: "errors of \u{3c3}".into(), panels: vec![plot] };
+        let figure = Figure::new("errors of \u{3c3}".into(), vec![plot]);
         let bytes = figure.file(FileFormat::Pdf, Width::Column);
         let text: String = bytes.iter().map(|it| char::from(*it)).collect();
         assert!(text.starts_with("%PDF-1.") && text.trim_end().ends_with("%%EOF"));
@@ -538,6 +538,6 @@ mod tests {
         // An entry of the table of places leads to its object.
         let table = text.split("startxref\n").nth(1).expect("a place");
         let table: usize = table.split_whitespace().next().unwrap().parse().expect("a number");
-        assert!(text[table..].starts_with("xref"));
+        assert!(bytes[table..].starts_with(b"xref"));
     }
 }

@@ -312,7 +312,7 @@ impl Report<'_> {
     /// The figure of the runs.
     pub fn figure(&self) -> Figure {
         let title = format!("{}: error against cost", self.field.shown());
-        Figure { title, panels: self.document().plots() }
+        Figure::new(title, self.document().plots())
     }
 }
 
