@@ -20,6 +20,7 @@ use mms_codegen::compile::Failure;
 use mms_documents::check::{self as documents, CheckedFile, UndefinedComponent};
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::foreign::{Foreign, shown};
+use mms_spec::quantity::Quantity;
 use mms_spec::source::Sources;
 use mms_stability::judge;
 use mms_stability::solve::solve;
@@ -73,8 +74,10 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: Asked) -> Report {
     let solved = asked.solve.then(|| solve(compiled));
     let is_seen = written::points(compiled) > 0 && compared.all_agree();
 
+    let notes = doubly_named(compiled);
     let mut lines = vec![title];
     lines.extend(proof::text(compiled, &certificate));
+    lines.extend(name_lines(&notes));
     lines.extend(rest_line(&rest));
     let of = (compiled.field.space, compiled.model.domain.is_static);
     lines.extend(stability::text(&stability, &certificate, of, asked.is_verbose));
@@ -87,6 +90,7 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: Asked) -> Report {
     let document = CheckedFile {
         file: path.raw().to_owned(),
         diagnostics: None,
+        notes,
         claims: Some(certificate.claims.iter().map(proof::claim).collect()),
         certificate: Some(Some(proof::document(&certificate))),
         objections: Some(located_objections.collect()),
@@ -111,10 +115,13 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: Asked) -> Report {
 fn numbers(path: &Foreign, compiled: &Compiled, title: String, compared: &Compared) -> Report {
     let none =
         "  proof  NONE: numbers without claims, for [domain] has no body (`shape = \"none\"`)";
+    let notes = doubly_named(compiled);
     let mut lines = vec![title, none.into()];
+    lines.extend(name_lines(&notes));
     lines.extend(compared.lines(compiled));
     let document = CheckedFile {
         file: path.raw().to_owned(),
+        notes,
         claims: Some(Vec::new()),
         certificate: Some(None),
         objections: Some(Vec::new()),
@@ -151,6 +158,25 @@ fn with_mistakes(path: &Foreign, diagnostics: Vec<documents::Diagnostic>) -> Che
         diagnostics: Some(diagnostics),
         ..CheckedFile::default()
     }
+}
+
+/// The parameters whose names mean quantities as well, each in a sentence.
+fn doubly_named(compiled: &Compiled) -> Vec<String> {
+    let parameters = compiled.model.parameters.iter();
+    let note = |name: &str| {
+        let is_it = |it: &Quantity| it.symbol() == name || Some(*it) == Quantity::from_name(name);
+        let quantity = Quantity::evaluated().find(is_it)?.name();
+        Some(format!(
+            "`{name}` is a parameter for `--set`, and the {} for `--quantity`: a longer name, with symbol = \"{name}\" \
+             for formulas, tells them apart",
+            quantity.replace('_', " ")
+        ))
+    };
+    parameters.filter_map(|it| note(&it.name)).collect()
+}
+
+fn name_lines(notes: &[String]) -> impl Iterator<Item = String> {
+    notes.iter().map(|note| format!("  name   {note}"))
 }
 
 /// The other checks that were skipped, or made at fewer points, because they take too long.

@@ -1,7 +1,7 @@
 //! The lines of `mms check`, explained.
 
 /// The first word of a line, and what such lines say.
-const MEANINGS: [(&str, &str); 13] = [
+const MEANINGS: [(&str, &str); 14] = [
     (
         "proof",
         "holds at every point, time and value of the parameters in their ranges: by algebra, or by interval arithmetic",
@@ -11,6 +11,7 @@ const MEANINGS: [(&str, &str); 13] = [
         "largest values over the same: stretches, strain rates, waves, the stable time step, digits of angles",
     ),
     ("claim", "what the file says of a face: its motion or its traction P N is as claimed"),
+    ("name", "a parameter that has the name of a quantity"),
     ("budget", "a proof that was given up: what it would show may hold all the same"),
     (
         "rest",

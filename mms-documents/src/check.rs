@@ -22,6 +22,9 @@ pub struct CheckedFile {
     /// The mistakes in the text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diagnostics: Option<Vec<Diagnostic>>,
+    /// The parameters whose names are also those of quantities, each in a sentence; missing if there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// The claims on the faces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub claims: Option<Vec<Claim>>,

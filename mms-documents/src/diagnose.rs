@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::provenance::Provenance;
+use crate::value::Names;
 
 /// The document of `mms diagnose FIELD FILE...`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -35,6 +36,9 @@ pub struct Diagnose {
     pub like: Option<Like>,
     /// The place of the error of results.
     pub place: Option<Place>,
+    /// The units of h, dt and the quantity of `fields`, if the field states units.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<Names<String>>,
     /// The errors of results at points.
     pub fields: Option<ErrorFields>,
     /// The next step to take.

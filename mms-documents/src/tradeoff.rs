@@ -33,6 +33,9 @@ pub struct Tradeoff {
     pub exponent: Option<f64>,
     /// The options that are never worth their cost.
     pub dominated: Vec<String>,
+    /// The words of the command to type next, `mms` first; missing if no run came to its end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub next_command: Option<Vec<String>>,
     /// How the document was made.
     pub provenance: Provenance,
 }

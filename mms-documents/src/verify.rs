@@ -16,6 +16,9 @@ pub struct Verify {
     pub rows: Vec<VerifiedRow>,
     /// The names of rows with an unexpected verdict.
     pub unexpected: Vec<String>,
+    /// The words of the command to type next, `mms` first; missing if all rows are as expected.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub next_command: Option<Vec<String>>,
     /// How the document was made.
     pub provenance: Provenance,
 }

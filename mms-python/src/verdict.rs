@@ -223,9 +223,9 @@ fn diagnose(
         let material = Material { names: factors.names(), times: &times };
         let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material)?;
         let provenance = provenance("diagnose", opened);
-        let field = &opened.input.name;
+        let input = &opened.input;
         let (diagnosis, next) = (&diagnosis, None);
-        let report = Diagnosed { field, files: &files, diagnosis, next, provenance };
+        let report = Diagnosed { input, files: &files, diagnosis, next, provenance };
         Ok((Views::of(&report, None)?, notes))
     })
 }

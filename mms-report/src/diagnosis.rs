@@ -7,6 +7,7 @@ use mms_diagnosis::falls::{Falls, OfOrder};
 use mms_diagnosis::list::Listed;
 use mms_documents::diagnose as documents;
 use mms_documents::provenance::Provenance;
+use mms_exact::{Input, units};
 use mms_files::write::{pretty, write_files};
 use mms_spec::foreign::Foreign;
 
@@ -20,7 +21,7 @@ const SHOWN: usize = 5;
 /// A diagnosis of results of a field.
 pub struct Diagnosed<'a> {
     /// The field.
-    pub field: &'a Foreign,
+    pub input: &'a Input,
     /// The files.
     pub files: &'a [String],
     /// The diagnosis.
@@ -45,7 +46,7 @@ impl Diagnosed<'_> {
     fn all(&self, is_full: bool) -> String {
         let it = self.diagnosis;
         let mut parts = vec![
-            format!("{}: {}", self.field.shown(), it.rung.says()),
+            format!("{}: {}", self.input.name.shown(), it.rung.says()),
             self.finding(),
             format!("the error is {:.2e} of the solution; {}", it.error, ordinary(it.expected)),
         ];
@@ -89,7 +90,7 @@ impl Diagnosed<'_> {
 
     fn table(&self) -> Table {
         let header = ["hypothesis", "factor", "explains", ""];
-        let mut table = Table::new(format!("diagnosis of {}", self.field.shown()), header);
+        let mut table = Table::new(format!("diagnosis of {}", self.input.name.shown()), header);
         for it in self.diagnosis.ranked.iter().take(SHOWN) {
             let factor: Vec<String> =
                 it.factor.iter().map(|factor| format!("{factor:.4}")).collect();
@@ -119,7 +120,7 @@ impl Shown for Diagnosed<'_> {
     fn document(&self) -> documents::Diagnose {
         let it = self.diagnosis;
         documents::Diagnose {
-            field: self.field.raw().to_owned(),
+            field: self.input.name.raw().to_owned(),
             files: self.files.to_vec(),
             evidence: it.rung.says().to_owned(),
             finding: it.finding.name().to_owned(),
@@ -139,6 +140,7 @@ impl Shown for Diagnosed<'_> {
                 apart: it.apart,
             }),
             place: it.place.as_ref().map(place_document),
+            units: it.fields.as_ref().and_then(|it| units(&self.input.compiled, [it.quantity])),
             fields: it.fields.as_ref().map(fields),
             next: it.rung.next(it.finding).to_string(),
             next_command: self.next.clone(),

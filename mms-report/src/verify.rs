@@ -14,6 +14,7 @@ use crate::method::division;
 use crate::shown::Shown;
 use crate::table::Table;
 use crate::tally;
+use crate::text::next;
 
 /// Rows, with what came of them.
 pub struct Report<'a> {
@@ -135,6 +136,20 @@ impl Report<'_> {
     }
 }
 
+impl Report<'_> {
+    /// The words of the study of the first row that is not as expected.
+    fn next(&self) -> Option<Vec<String>> {
+        let study = &self.unexpected().next()?.row.study;
+        Some(
+            ["mms", "study"]
+                .into_iter()
+                .chain(study.split_whitespace())
+                .map(str::to_owned)
+                .collect(),
+        )
+    }
+}
+
 impl Shown for Report<'_> {
     type Document = Verify;
 
@@ -148,7 +163,12 @@ impl Shown for Report<'_> {
                 "\n{name}: {verdict}, expected {expected}: {reason}\n  theory: {theory}\n  mms study {study}\n"
             );
         }
-        text + "\n" + &tally(self.unexpected().count(), self.rows.len(), "as theory expects")
+        text += &format!(
+            "\n{}",
+            tally(self.unexpected().count(), self.rows.len(), "as theory expects")
+        );
+        text.extend(next(self.next().as_ref()).map(|line| format!("\n{line}")));
+        text
     }
 
     fn tables(&self) -> Vec<Table> {
@@ -160,6 +180,7 @@ impl Shown for Report<'_> {
             matrix: if self.quick { "quick" } else { "full" }.to_owned(),
             rows: self.rows.iter().map(Judged::document).collect(),
             unexpected: self.unexpected().map(|judged| judged.row.name.clone()).collect(),
+            next_command: self.next(),
             provenance: self.provenance.clone(),
         }
     }

@@ -63,6 +63,16 @@ pub struct Material {
     pub density: Vec<Line>,
 }
 
+/// The quantities that lead from u to b.
+pub const DERIVATION: [Quantity; 6] = [
+    Quantity::Displacement,
+    Quantity::DeformationGradient,
+    Quantity::Jacobian,
+    Quantity::FirstPiolaKirchhoff,
+    Quantity::DivP,
+    Quantity::BodyForce,
+];
+
 /// The derivation of a field.
 pub struct Document {
     /// The name of the field.

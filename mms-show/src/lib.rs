@@ -35,4 +35,4 @@ pub mod sympy;
 pub mod text;
 pub mod walk;
 
-pub use document::{Document, Line, Material, Section};
+pub use document::{DERIVATION, Document, Line, Material, Section};

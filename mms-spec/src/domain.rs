@@ -5,11 +5,13 @@ use crate::diagnostic::{Diagnostic, quoted};
 use crate::format::DOMAIN;
 use crate::formula::Formula;
 use crate::interned::interned;
+use crate::language::SCOPE;
 use crate::names::MAX_NAME;
-use crate::source::Span;
+use crate::source::{Span, Spanned};
 use crate::space::Space;
+use crate::suggest::did_you_mean;
 use crate::table::{Entry, Reader, Table};
-use crate::value::plural;
+use crate::value::{plural, unknown_word};
 
 /// The shape of the reference body.
 #[derive(Clone, Debug)]
@@ -253,7 +255,7 @@ pub(super) fn domain<'a>(entry: &Entry<'a>, space: Space, reader: &mut Reader<'a
         return reported(dimension, reader.span(entry.value));
     };
     let shape = reader.required(&table, "shape");
-    let named = shape.as_ref().and_then(|shape| reader.word(shape, "shape", &Shape::words()));
+    let named = shape.as_ref().and_then(|shape| word_of_shape(shape, reader));
     let shape = named.as_ref().and_then(|named| Shape::named(&named.value));
     let shape = shape.unwrap_or_else(|| meant(&table, dimension));
     if let (Some(named), Some(needed)) = (&named, shape.dimension)
@@ -285,6 +287,19 @@ pub(super) fn domain<'a>(entry: &Entry<'a>, space: Space, reader: &mut Reader<'a
         None => None,
     };
     DomainSpec { body, time, is_moved: false }
+}
+
+/// The word for a shape. One that is far from all words may mean a body that the scope leaves out.
+fn word_of_shape<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spanned<String>> {
+    let (found, words) = (reader.string(entry)?, Shape::words());
+    if Shape::named(&found.value).is_some() {
+        return Some(found);
+    }
+    let unknown = unknown_word(&found, "shape", &words);
+    let is_near = did_you_mean(&found.value, words).is_some();
+    let hint = format!("what to take in place of another body: {SCOPE}");
+    reader.report(if is_near { unknown } else { unknown.help(hint) });
+    None
 }
 
 /// The shape that the keys tell where no valid word does.

@@ -260,13 +260,8 @@ impl Diagnose {
         let input = exact.input();
         let meshes = self.meshes(reading.rest);
         let next = next::after_diagnosis(&diagnosis, &meshes, &next::typed());
-        let report = Diagnosed {
-            field: &input.name,
-            files: &self.files,
-            diagnosis: &diagnosis,
-            next,
-            provenance,
-        };
+        let report =
+            Diagnosed { input, files: &self.files, diagnosis: &diagnosis, next, provenance };
         self.printing.print_in(self.detail, &report)?;
         if let Some(folder) = &self.output {
             replaced::tell(folder, "diagnosis", &report.provenance);

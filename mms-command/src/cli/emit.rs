@@ -43,7 +43,7 @@ pub struct Emit {
     /// through.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Quantities, separated by commas; without it all of them, the domain and the material.
+    /// Quantities, separated by commas, beside the body, the time window and the claims; without it all of them, and the material.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
     /// Change the default of a parameter, to a number or a formula in the parameters above it; may

@@ -13,6 +13,8 @@ use mms_harness::judged::Judged;
 use mms_harness::plan::Planned;
 use mms_harness::work::Outcome;
 use mms_judge::Judgements;
+use mms_lab::tradeoff::search::{Goal, Trial};
+use mms_report::tradeoff::Report as Tradeoff;
 use mms_spec::source::Spanned;
 
 /// The words of a command.
@@ -173,6 +175,30 @@ pub fn after_diagnosis(diagnosis: &Diagnosis, meshes: &Meshes, words: &[String])
         }
         (Finding::Unexplained, Rung::Results) => Some(meshes.plan()),
     }
+}
+
+/// After a search by a command of these words: the run of the choice, or the search with room for a run that is predicted to meet
+/// the goal, or one for the least error or cost that a run has.
+pub fn after_search(
+    report: &Tradeoff<'_>,
+    run: impl Fn(&Trial) -> Words,
+    words: &[String],
+) -> Option<Words> {
+    if let Some(choice) = report.choice() {
+        return Some(run(choice));
+    }
+    let option = match (report.plan.goal, &report.found.predicted) {
+        (Goal::Error(_), Some((_, predicted))) => ("most-work", predicted.work),
+        (Goal::Error(_), None) => ("target-linf", report.front().last()?.error.clone().ok()?),
+        (Goal::Cost(_), _) => {
+            ("budget-seconds", report.cost(report.front().first()?, report.plan.cost))
+        }
+    };
+    let (name, value) = option;
+    // Two digits, rounded up.
+    let unit = 10f64.powf(value.log10().floor() - 1.0);
+    let value = format!("{:.1e}", (value / unit).ceil() * unit);
+    Some(changed(words, &[(name, value)]))
 }
 
 /// Gives each judgement of a campaign its own, and returns that of the campaign, whose command so far has these words: a

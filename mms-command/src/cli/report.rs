@@ -7,6 +7,7 @@ use clap::Args;
 use mms_exact::gallery::{self, FIELDS};
 use mms_files::write::write_files;
 use mms_files::write::{write_own, write_whole};
+use mms_report::page::gallery::Listed;
 use mms_report::page::{self, Page, Verdicts};
 use mms_spec::foreign;
 
@@ -71,10 +72,10 @@ fn gallery(folder: &Path) -> anyhow::Result<Verdicts> {
         say(entry.name);
         let page = page::gallery::page(entry, &super::study::Study::anywhere)?;
         write(entry.name, page.html())?;
-        fields.push((field, page.verdicts()));
+        fields.push(Listed { field, verdicts: page.verdicts(), thumbnail: page.thumbnail() });
     }
     write("index", page::gallery::index(&fields))?;
-    let (expected, all) = fields.iter().fold((0, 0), |(expected, all), (_, verdicts)| {
+    let (expected, all) = fields.iter().fold((0, 0), |(expected, all), Listed { verdicts, .. }| {
         (expected + verdicts.expected, all + verdicts.all)
     });
     let verdicts = Verdicts::several(expected, all, "studies pass");

@@ -19,7 +19,7 @@ use mms_mechanics::TooLarge;
 use mms_options::field::{Variant, find};
 use mms_program::Stage;
 use mms_show::language::Language;
-use mms_show::{Document, Line, Section, latex, mathml, sympy, text};
+use mms_show::{DERIVATION, Document, Line, Section, latex, mathml, sympy, text};
 use mms_spec::diagnostic::render_styled;
 use mms_spec::quantity::Quantity;
 use mms_stability::resting::Material;
@@ -79,16 +79,6 @@ enum Format {
     /// A page of MathML.
     Mathml,
 }
-
-/// The steps of a derivation, as a paper shows them.
-const DERIVATION: [Quantity; 6] = [
-    Quantity::Displacement,
-    Quantity::DeformationGradient,
-    Quantity::Jacobian,
-    Quantity::FirstPiolaKirchhoff,
-    Quantity::DivP,
-    Quantity::BodyForce,
-];
 
 impl Show {
     pub fn run(self) -> anyhow::Result<Outcome> {

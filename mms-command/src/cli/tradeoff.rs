@@ -25,7 +25,7 @@ use mms_symbolic::sorted::SortedMap;
 
 use super::figure::FigureFile;
 use super::format::Printing;
-use super::{Outcome, print, say, this_command};
+use super::{Outcome, next, print, say, this_command};
 use crate::session::progress::Progress;
 
 /// Find the cheapest method, numbers and grid for an error, or the least error for a time.
@@ -105,7 +105,12 @@ impl Tradeoff {
         let found = Search::run(&mut bench, plan)?;
         trials.finish();
         let command = |setting: &Setting, cells: usize| self.command(field, setting, cells);
-        let report = self.report(&input, plan, found, &command)?;
+        let mut report = self.report(&input, plan, found, &command)?;
+        let run = |it: &Trial| {
+            let words = arguments(field, &self.set, &self.motion, &it.setting, it.cells);
+            next::command(std::iter::once("run".to_owned()).chain(words))
+        };
+        report.next = next::after_search(&report, run, &next::typed());
         let mut written = report.write(&folder)?;
         written.extend(self.figure.write(|| report.figure())?);
         self.printing.print(&report)?;
@@ -132,7 +137,17 @@ impl Tradeoff {
         let provenance = this_command("tradeoff", input.provenance(&self.set));
         let unit = units(&input.compiled, ["displacement"]);
         let unit = unit.and_then(|it| it.get("displacement").cloned());
-        Ok(Report { field, title, unit, plan, found, all: self.all, command, provenance })
+        Ok(Report {
+            field,
+            title,
+            unit,
+            plan,
+            found,
+            all: self.all,
+            command,
+            next: None,
+            provenance,
+        })
     }
 
     fn plan(&self, input: &Input, goal: Goal) -> anyhow::Result<Plan> {

@@ -141,11 +141,10 @@ pub fn input(space: Space, symbol: Symbol) -> String {
     }
 }
 
-/// The functions of a field: its domain and its material unless only quantities were asked for,
-/// quantities in the order of derivation, and what is given on faces.
+/// The functions of a field: its domain, its material unless only quantities were asked for, quantities
+/// in the order of derivation, and what is given on faces.
 pub fn callables(compiled: &Compiled) -> Vec<Callable> {
     let wanted = |callable: &Callable| match callable.output {
-        Output::Bound(_) if !compiled.selection.is_for_a_solver() => false,
         Output::Bound(Bound::Space) => false,
         Output::Bound(Bound::Time) if compiled.field.is_static() => false,
         Output::Quantity(quantity) if !compiled.offers(quantity) => false,

@@ -18,11 +18,8 @@ pub fn claims(field: &FieldSpec) -> Vec<(Face, Claim)> {
 pub const DOC: &str = "What is claimed on each face of the body.";
 
 impl Port<'_> {
-    /// The names of faces, each with the word for its claim; none where only quantities were asked for.
+    /// The names of faces, each with the word for its claim.
     pub fn faces(&self) -> Vec<[&'static str; 2]> {
-        if !self.compiled.selection.is_for_a_solver() {
-            return Vec::new();
-        }
         let claims = claims(&self.compiled.field).into_iter();
         claims.map(|(face, claim)| [face.name(), claim.name()]).collect()
     }

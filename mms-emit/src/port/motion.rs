@@ -9,12 +9,9 @@ parameters, in the unit of lengths: proved by interval arithmetic, and so a litt
 parameters it may go farther.";
 
 impl Port<'_> {
-    /// A line for the lower end and one for the upper, each of its name and of a number for each axis. Empty where only
-    /// quantities were asked for, or nothing bounds the motion.
+    /// A line for the lower end and one for the upper, each of its name and of a number for each axis. Empty where
+    /// nothing bounds the motion.
     pub fn motion(&self, line: impl Fn(&str, &[String]) -> String) -> String {
-        if !self.compiled.selection.is_for_a_solver() {
-            return String::new();
-        }
         let reach = self.subject.reach();
         if !reach.iter().flatten().all(|end| end.is_finite()) {
             return String::new();

@@ -46,7 +46,7 @@ impl Section for Diagnose {
                     " on such a grid, " (format!("{:.0}", 100.0 * like.apart)) " % apart."
                 }
             }
-            @if let Some(fields) = &self.fields { (error_fields(fields, id)) }
+            @if let Some(fields) = &self.fields { (error_fields(self, fields, id)) }
             @if !self.cannot_be_seen.is_empty() {
                 p { "These results cannot show: " (self.cannot_be_seen.join(", ")) "." }
             }
@@ -75,12 +75,28 @@ fn title(it: &Hypothesis) -> String {
     format!("{}{which}{face}", it.hypothesis)
 }
 
+/// A name with the unit of a length or a quantity, where the field states units.
+fn with_unit(diagnosis: &Diagnose, name: &str, of: &str) -> String {
+    match diagnosis.units.as_ref().and_then(|it| it.get(of)) {
+        Some(unit) if unit != "1" => format!("{name} ({unit})"),
+        _ => name.to_owned(),
+    }
+}
+
 /// The errors side by side, in one scale.
-fn error_fields(fields: &ErrorFields, id: &str) -> Markup {
+fn error_fields(diagnosis: &Diagnose, fields: &ErrorFields, id: &str) -> Markup {
     let size = |error: &Vec<f64>| error.iter().map(|it| it * it).sum::<f64>().sqrt();
     let all = fields.error.iter().chain(fields.named.iter().flatten()).map(size);
     let largest = all.fold(f64::MIN_POSITIVE, f64::max);
-    let scale = Scale { name: "error", range: [0.0, largest], is_logarithmic: false };
+    let scale = Scale {
+        name: with_unit(diagnosis, "error", &fields.quantity),
+        range: [0.0, largest],
+        is_logarithmic: false,
+    };
+    // A body in space is seen along a diagonal, on which no axis lies.
+    let dimension = fields.points.first().map_or(0, Vec::len);
+    let names = if dimension < 3 { &["X", "Y"][..dimension] } else { &[] };
+    let axes: Vec<String> = names.iter().map(|name| with_unit(diagnosis, name, "h")).collect();
     let moment = |errors: &[Vec<f64>]| Moment {
         time: fields.time,
         shapes: fields
@@ -99,7 +115,7 @@ fn error_fields(fields: &ErrorFields, id: &str) -> Markup {
         @for (at, (of, errors)) in shown.into_iter().enumerate() {
             @if let Some(errors) = errors {
                 figure {
-                    (pictures(&format!("{id}-error-{at}"), of, &[moment(errors)], &scale, spacing(fields)))
+                    (pictures(&format!("{id}-error-{at}"), of, &[moment(errors)], &scale, spacing(fields), &axes))
                     figcaption { (of) " of " (fields.quantity.replace('_', " ")) ": what is smooth of it, by its length." }
                 }
             }

@@ -8,20 +8,9 @@ use mms_documents::provenance::{Input, Provenance};
 use mms_exact::gallery::Entry;
 use mms_exact::provenance::twin;
 use mms_options::field::open;
-use mms_show::{Document, mathml};
-use mms_spec::quantity::Quantity;
+use mms_show::{DERIVATION, Document, mathml};
 
 use super::motion::Motion;
-
-/// The quantities that lead from u to b.
-const QUANTITIES: [Quantity; 6] = [
-    Quantity::Displacement,
-    Quantity::DeformationGradient,
-    Quantity::Jacobian,
-    Quantity::FirstPiolaKirchhoff,
-    Quantity::DivP,
-    Quantity::BodyForce,
-];
 
 /// A field on a page.
 pub struct Shown {
@@ -64,7 +53,7 @@ fn content(input: &Input) -> Result<Content, String> {
         return Err("its text is another one now".to_owned());
     }
     let set = found.settings(&input.set).map_err(|error| error.to_string())?;
-    let document = Document::new(&found.compiled, &QUANTITIES)
+    let document = Document::new(&found.compiled, &DERIVATION)
         .map_err(|_| "its formulas are too large".to_owned())?;
     Ok(Content {
         name: found.name.shown(),
@@ -92,6 +81,12 @@ impl Shown {
     #[cfg(test)]
     pub fn formulas(&self) -> Option<&str> {
         self.content.as_ref().ok().map(|content| content.formulas.as_str())
+    }
+
+    /// Its body, small and deformed.
+    pub fn thumbnail(&self) -> Option<Markup> {
+        let content = self.content.as_ref().ok()?;
+        Some(content.motion.as_ref()?.thumbnail(&content.name))
     }
 
     /// Its section.

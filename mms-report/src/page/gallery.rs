@@ -1,7 +1,7 @@
 //! A page for each field of the gallery, with the studies that its file names; and one that lists them. Nothing on
 //! them depends on the machine.
 
-use maud::html;
+use maud::{Markup, html};
 use mms_exact::gallery::Entry;
 use mms_spec::{FieldSpec, StudySpec};
 
@@ -58,12 +58,24 @@ fn command(field: &FieldSpec, study: &StudySpec) -> Vec<String> {
     head.into_iter().chain(given.flatten()).chain(relaxes).collect()
 }
 
+/// A field of the gallery, with what its page says.
+pub struct Listed {
+    /// The field.
+    pub field: FieldSpec,
+    /// The verdicts on its studies.
+    pub verdicts: Verdicts,
+    /// Its body, small and deformed.
+    pub thumbnail: Option<Markup>,
+}
+
 /// The page that lists all pages, each with what is said on it.
-pub fn index(fields: &[(FieldSpec, Verdicts)]) -> String {
-    let columns = [words("field"), words("dimension"), words("title"), words("studies")];
-    let rows = fields.iter().map(|(field, verdicts)| {
+pub fn index(fields: &[Listed]) -> String {
+    let columns =
+        [words("field"), words("body"), words("dimension"), words("title"), words("studies")];
+    let rows = fields.iter().map(|Listed { field, verdicts, thumbnail }| {
         vec![
             html! { a href=(format!("{}.html", field.name.shown())) { (field.name.shown()) } },
+            html! { @if let Some(body) = thumbnail { (body) } },
             html! { (field.dimension) },
             html! { (field.title.shown()) },
             frame::said(verdicts),

@@ -193,6 +193,11 @@ impl Page {
         Verdicts { expected, all, word }
     }
 
+    /// The body of its first field, small and deformed.
+    pub fn thumbnail(&self) -> Option<Markup> {
+        self.fields.first()?.thumbnail()
+    }
+
     /// The page.
     pub fn html(&self) -> String {
         frame::page(self)

@@ -15,7 +15,7 @@ use mms_runtime::math::polygon;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::sorted::SortedMap;
 
-use super::picture::{Moment, Scale, Shape, pictures, project};
+use super::picture::{Moment, Scale, Shape, pictures, project, thumbnail};
 use crate::plot::short;
 
 /// Times of a picture, from the first to the last of the window.
@@ -67,7 +67,7 @@ impl Motion {
         }
         let largest = all().map(|u| length(u)).fold(0.0, f64::max);
         let factor = magnification(largest / size(&cells));
-        let scale = Scale { name: "|u|", range: [0.0, largest], is_logarithmic: false };
+        let scale = Scale { name: "|u|".into(), range: [0.0, largest], is_logarithmic: false };
         let mut moments: Vec<_> = moved
             .iter()
             .map(|(time, moved)| Moment {
@@ -83,11 +83,18 @@ impl Motion {
         Some(Self { moments, scale, factor, is_static })
     }
 
+    /// The body where it has moved most.
+    pub fn thumbnail(&self, name: &str) -> Markup {
+        let moved = |it: &&Moment| it.shapes.iter().map(|shape| shape.step).sum::<usize>();
+        let farthest = self.moments.iter().max_by_key(moved);
+        html! { @if let Some(it) = farthest { (thumbnail(&format!("The body of {name}, deformed"), it)) } }
+    }
+
     /// The pictures, with what they are.
     pub fn html(&self, id: &str, name: &str) -> Markup {
         html! {
             figure {
-                (pictures(id, &format!("The body of {name}"), &self.moments, &self.scale, 0.0))
+                (pictures(id, &format!("The body of {name}"), &self.moments, &self.scale, 0.0, &[]))
                 figcaption {
                     "The motion that the field prescribes, exact and not of a run: a grid on the body, "
                     @if self.is_static { "which is at rest," } @else { "at six times of its window," }
@@ -316,7 +323,7 @@ mod tests {
         let unit = |axis: usize| faces(axis, [0.0, 1.0], |_| parts(0.0, 1.0, 2));
         let cells: Vec<_> = (0..3).flat_map(unit).collect();
         let rest: Vec<_> = cells.iter().map(|cell| vec![vec![0.0; 3]; cell.len()]).collect();
-        let scale = Scale { name: "", range: [0.0, 1.0], is_logarithmic: false };
+        let scale = Scale { name: String::new(), range: [0.0, 1.0], is_logarithmic: false };
         assert_eq!(cells.len(), 24);
         assert_eq!(shapes(&cells, &rest, 1.0, &scale).len(), 12);
     }

@@ -4,13 +4,16 @@ use std::fmt::Write as _;
 
 use maud::{Markup, html};
 
-use crate::plot::short;
+use crate::plot::{short, steps};
 
 /// Steps of the colour scale.
 pub const STEPS: usize = 8;
 
 /// The width of a picture in its own units, which are whole numbers.
 const WIDTH: f64 = 1000.0;
+
+/// The width of a thumbnail.
+const SMALL_WIDTH: f64 = 200.0;
 
 /// A body is drawn as large as that, at least: a point has no size.
 const SMALLEST: f64 = 1e-150;
@@ -37,8 +40,8 @@ pub struct Shape {
 
 /// What the colours mean.
 pub struct Scale {
-    /// The quantity.
-    pub name: &'static str,
+    /// The quantity, with its unit where one is known.
+    pub name: String,
     /// Where the first colour begins and the last one ends.
     pub range: [f64; 2],
     /// Whether equal steps are equal factors.
@@ -82,8 +85,15 @@ pub fn project(point: &[f64]) -> [f64; 2] {
     }
 }
 
+/// The room for the numbers of axes, beside a picture and below it.
+const MARGIN: [i64; 2] = [170, 110];
+
 /// From the bounds of all moments to those of a picture.
 struct Window {
+    /// The width of the picture in its own units.
+    width: f64,
+    /// The least and the greatest place to the right and upwards.
+    bounds: [[f64; 2]; 2],
     left: f64,
     top: f64,
     scale: f64,
@@ -91,7 +101,7 @@ struct Window {
 }
 
 impl Window {
-    fn around(moments: &[Moment]) -> Self {
+    fn around(moments: &[Moment], width: f64) -> Self {
         let shapes = moments.iter().flat_map(|it| it.shapes.iter().map(|shape| &shape.corners));
         let points = shapes.chain(moments.iter().flat_map(|it| &it.outline)).flatten();
         let (mut least, mut greatest) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -104,8 +114,10 @@ impl Window {
         let size = [greatest[0] - least[0], greatest[1] - least[1]];
         let longest = size[0].max(size[1]).max(SMALLEST);
         let margin = 0.03 * longest;
-        let scale = WIDTH / (size[0].max(0.2 * longest) + 2.0 * margin);
+        let scale = width / (size[0].max(0.2 * longest) + 2.0 * margin);
         Self {
+            width,
+            bounds: [0, 1].map(|axis| [least[axis], greatest[axis]]),
             left: least[0] - margin,
             top: greatest[1] + margin,
             scale,
@@ -118,6 +130,35 @@ impl Window {
             ((x - self.left) * self.scale).round() as i64,
             ((self.top - y) * self.scale).round() as i64,
         ]
+    }
+
+    /// Axes with numbers, below the picture and, if there are two, beside it.
+    fn axes(&self, names: &[String]) -> Markup {
+        let height = self.height as i64;
+        let [[left, right], [bottom, top]] = self.bounds;
+        let across = |x: f64| self.place([x, bottom])[0];
+        let up = |y: f64| self.place([left, y])[1];
+        html! {
+            @if let Some(name) = names.first() {
+                path.axis d=(format!("M0 {height}H{}", self.width)) {}
+                @for value in steps([left, right]) {
+                    @let x = across(value);
+                    path.axis d=(format!("M{x} {height}v14")) {}
+                    text x=(x) y=(height + 50) text-anchor="middle" { (short(value)) }
+                }
+                text x=(self.width / 2.0) y=(height + 96) text-anchor="middle" { (name) }
+            }
+            @if let Some(name) = names.get(1) {
+                path.axis d=(format!("M0 0V{height}")) {}
+                @for value in steps([bottom, top]) {
+                    @let y = up(value);
+                    path.axis d=(format!("M0 {y}h-14")) {}
+                    text x="-22" y=(y + 12) text-anchor="end" { (short(value)) }
+                }
+                @let middle = height / 2;
+                text x="-136" y=(middle) text-anchor="middle" transform=(format!("rotate(-90 -136 {middle})")) { (name) }
+            }
+        }
     }
 
     /// A line through points, its steps relative to the point before.
@@ -134,20 +175,30 @@ impl Window {
     }
 }
 
-/// The pictures of some moments side by side, and what their colours mean. `dot` is the size of dots, in the units
-/// of the points.
-pub fn pictures(id: &str, of: &str, moments: &[Moment], scale: &Scale, dot: f64) -> Markup {
-    let window = Window::around(moments);
+/// The pictures of some moments side by side, and what their colours mean. `dot` is the size of dots, in the units of the
+/// points; `axes` are the names to the right and upwards, or none.
+pub fn pictures(
+    id: &str,
+    of: &str,
+    moments: &[Moment],
+    scale: &Scale,
+    dot: f64,
+    axes: &[String],
+) -> Markup {
+    let window = Window::around(moments, WIDTH);
     let is_flat = window.height < 0.25 * WIDTH;
     let dot = (dot * window.scale).round().max(4.0) as i64;
+    let [beside, below] = [1, 0].map(|axis| if axes.len() > axis { MARGIN[1 - axis] } else { 0 });
+    let [wide, high] = [WIDTH as i64 + beside, window.height as i64 + below];
     html! {
         div class=(if is_flat { "moments flat" } else { "moments" }) {
             @for (number, moment) in moments.iter().enumerate() {
                 @let label = format!("{id}-{number}");
                 div {
-                    svg viewBox=(format!("0 0 {WIDTH} {}", window.height)) role="img" aria-labelledby=(label) xmlns="http://www.w3.org/2000/svg" {
+                    svg viewBox=(format!("{} 0 {wide} {high}", -beside)) role="img" aria-labelledby=(label) xmlns="http://www.w3.org/2000/svg" {
                         title id=(label) { (of) " at t = " (short(moment.time)) }
                         (shapes(moment, &window, dot))
+                        (window.axes(axes))
                         @if !moment.outline.is_empty() {
                             @let mut path = String::new();
                             @for line in &moment.outline { @let () = window.line(line, &mut path); }
@@ -159,6 +210,16 @@ pub fn pictures(id: &str, of: &str, moments: &[Moment], scale: &Scale, dot: f64)
             }
         }
         (scale.html())
+    }
+}
+
+/// A moment without axes and scale, as small as a word.
+pub fn thumbnail(of: &str, moment: &Moment) -> Markup {
+    let window = Window::around(std::slice::from_ref(moment), SMALL_WIDTH);
+    html! {
+        svg.thumbnail viewBox=(format!("0 0 {} {}", window.width, window.height)) role="img" aria-label=(of) xmlns="http://www.w3.org/2000/svg" {
+            (shapes(moment, &window, 1))
+        }
     }
 }
 
@@ -191,8 +252,8 @@ mod tests {
     #[test]
     fn colours_part_their_range_evenly() {
         let range = [1e-8, 1.0];
-        let linear = Scale { name: "", range: [0.0, 8.0], is_logarithmic: false };
-        let logarithmic = Scale { name: "", range, is_logarithmic: true };
+        let linear = Scale { name: String::new(), range: [0.0, 8.0], is_logarithmic: false };
+        let logarithmic = Scale { name: String::new(), range, is_logarithmic: true };
         for step in 0..STEPS {
             assert_eq!(linear.step(step as f64 + 0.5), step);
             assert_eq!(logarithmic.step(3.0 * 10f64.powi(step as i32 - 8)), step);
@@ -217,7 +278,7 @@ mod tests {
             }],
             outline: Vec::new(),
         };
-        let window = Window::around(&[square(1.0), square(2.0)]);
+        let window = Window::around(&[square(1.0), square(2.0)], WIDTH);
         let corners = [window.place([0.0, 0.0]), window.place([2.0, 2.0])];
         assert!(corners.iter().flatten().all(|it| (0..=1000).contains(it)), "{corners:?}");
         assert!(corners[0][1] > corners[1][1], "upwards is upwards");

@@ -145,7 +145,7 @@ impl Section for States {
         // Without errors, or with one alone, there are no steps between them.
         let range =
             if least < largest { [least, largest] } else { [0.0, largest.max(f64::MIN_POSITIVE)] };
-        let scale = Scale { name: "error of u", range, is_logarithmic: least < largest };
+        let scale = Scale { name: "error of u".into(), range, is_logarithmic: least < largest };
         let dimension = self.dimension();
         let count = self.drawn.iter().map(|it| it.particles.len()).max().unwrap_or(0);
         let step = count.div_ceil(PARTICLES).max(1);
@@ -153,7 +153,7 @@ impl Section for States {
             self.drawn.iter().map(|state| moment(state, dimension, step, &scale)).collect();
         html! {
             figure {
-                (pictures(id, &format!("Particles of {}", self.name), &moments, &scale, self.spacing(step)))
+                (pictures(id, &format!("Particles of {}", self.name), &moments, &scale, self.spacing(step), &[]))
                 figcaption {
                     "Particles of a run where they are, coloured by how far they are from where the field says."
                     @if step > 1 { " One of " (step) " is drawn." }

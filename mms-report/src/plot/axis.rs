@@ -60,6 +60,20 @@ pub fn ticks(range: (f64, f64)) -> Ticks {
     Ticks { numbers: shown.into_iter().step_by(step).collect(), strokes }
 }
 
+/// About four numbers of few digits along a linear axis.
+pub fn steps([from, to]: [f64; 2]) -> Vec<f64> {
+    let wanted = (to - from) / 4.0;
+    if !wanted.is_normal() || wanted < 0.0 {
+        return vec![from];
+    }
+    let decade = 10f64.powf(wanted.log10().floor());
+    let step = [1.0, 2.0, 5.0].map(|it| it * decade).into_iter().find(|it| *it >= wanted);
+    let step = step.unwrap_or(10.0 * decade);
+    let [first, last] = [(from / step - 1e-9).ceil(), (to / step + 1e-9).floor()];
+    // Adding 0 makes -0 a 0.
+    (0..=(last - first) as usize).map(|it| (first + it as f64) * step + 0.0).collect()
+}
+
 /// A number at an axis: a power of ten, or three digits.
 pub fn label(value: f64) -> Words {
     let exponent = value.log10().round();
@@ -147,6 +161,15 @@ mod tests {
         assert_eq!(ticks((2.0, 20.0)).strokes.len(), 9);
         let many = ticks((1e-150, 1e150)).numbers;
         assert!(many.len() <= MOST + 1 && many.len() > 2, "{many:?}");
+    }
+
+    #[test]
+    fn a_linear_axis_has_round_numbers() {
+        let found = |range| steps(range).into_iter().map(short).collect::<Vec<_>>();
+        assert_eq!(found([0.0, 1.0]), ["0", "0.5", "1"]);
+        assert_eq!(found([0.03, 1.9]), ["0.5", "1", "1.5"]);
+        assert_eq!(found([-7e5, 2e6]), ["0", "1e6", "2e6"]);
+        assert_eq!(found([1.0, 1.0]), ["1"]);
     }
 
     #[test]

@@ -13,7 +13,7 @@ mod svg;
 
 use maud::{Markup, html};
 
-pub use axis::short;
+pub use axis::{short, steps};
 pub use figure::{Figure, FileFormat, Width};
 
 use axis::{Ticks, apart, labels, span, ticks, unit};

@@ -17,6 +17,7 @@ use super::page::Section as _;
 use super::plot::Figure;
 use crate::shown::Shown;
 use crate::table::Table;
+use crate::text::next;
 
 /// The result of a search for a field.
 pub struct Report<'a> {
@@ -34,6 +35,8 @@ pub struct Report<'a> {
     pub all: bool,
     /// The command that runs a setting on a grid.
     pub command: &'a dyn Fn(&Setting, usize) -> String,
+    /// The words of the command to type next.
+    pub next: Option<Vec<String>>,
     /// Where it is from.
     pub provenance: Provenance,
 }
@@ -207,10 +210,8 @@ impl Report<'_> {
                 };
                 let took = measure.show(self.cost(trial, measure));
                 sentences.push(format!(
-                    "{asked} choose {}, on {} cells: {error:.2e} in {took}.\n  {}",
-                    trial.setting,
-                    trial.cells,
-                    (self.command)(&trial.setting, trial.cells)
+                    "{asked} choose {}, on {} cells: {error:.2e} in {took}.",
+                    trial.setting, trial.cells
                 ));
             }
             (None, Goal::Error(target)) => sentences.push(self.unreached(target)),
@@ -320,8 +321,9 @@ impl Shown for Report<'_> {
     type Document = documents::Tradeoff;
 
     fn text(&self) -> String {
+        let next = next(self.next.as_ref()).map_or(String::new(), |line| format!("\n{line}"));
         format!(
-            "{}: {}\n\n{}\n\n{}",
+            "{}: {}\n\n{}\n\n{}{next}",
             self.field.shown(),
             self.title.shown(),
             self.table(),
@@ -369,6 +371,7 @@ impl Shown for Report<'_> {
             gain: self.gain(),
             exponent: self.exponent(),
             dominated: self.dominated(),
+            next_command: self.next.clone(),
             provenance: self.provenance.clone(),
         }
     }
