@@ -167,9 +167,8 @@ fn doubly_named(compiled: &Compiled) -> Vec<String> {
         let is_it = |it: &Quantity| it.symbol() == name || Some(*it) == Quantity::from_name(name);
         let quantity = Quantity::evaluated().find(is_it)?.name();
         Some(format!(
-            "`{name}` is a parameter for `--set`, and the {} for `--quantity`: a longer name, with symbol = \"{name}\" \
-             for formulas, tells them apart",
-            quantity.replace('_', " ")
+            "`{name}` is the parameter for `--set`, and `{quantity}` for `--quantity`: a longer name, with symbol = \"{name}\", \
+             tells them apart"
         ))
     };
     parameters.filter_map(|it| note(&it.name)).collect()

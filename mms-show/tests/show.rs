@@ -14,7 +14,7 @@ use mms_program::interpret::{Interpreter, Point};
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule;
 use mms_show::language::Language;
-use mms_show::{Document, Line, latex, mathml, text};
+use mms_show::{DERIVATION, Document, Line, latex, mathml, text};
 use mms_spec::Formula;
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Sources;
@@ -480,6 +480,35 @@ fn latex_is_balanced_and_escaped() {
     for document in WHOLE.iter().chain([&odd]) {
         assert_balanced(&latex::page(document));
     }
+}
+
+/// A fragment goes from u to b, in the symbols that parameters declare, and has nothing of a document around it.
+#[test]
+fn fragments_of_latex_show_the_symbols_of_parameters() {
+    let field = compiled("every_key_2d", &pass("every_key_2d"));
+    let document = Document::new(&field, &DERIVATION).expect("a derivation of usual size");
+    let fragment = latex::fragment(&document);
+    assert_balanced(&fragment);
+    assert!(fragment.starts_with("\\[\\boldsymbol{u}"), "{fragment}");
+    for part in ["documentclass", "section", "young", "rho0"] {
+        assert!(!fragment.contains(part), "{part}: {fragment}");
+    }
+    let steps = [
+        "  u_{1} &=",
+        "  F_{11} &=",
+        "  J &=",
+        "strain-energy density",
+        "  \\mu &= \\frac{E}{2}",
+        "  P_{11} &=",
+        "  (\\operatorname{Div} P)_{1} &=",
+        "  b_{1} &=",
+    ];
+    let places = steps.map(|it| fragment.find(it).unwrap_or_else(|| panic!("{it}: {fragment}")));
+    assert!(places.is_sorted(), "{places:?}");
+    let force = &fragment[places[7]..];
+    assert!(force.contains("\\rho_{\\mathrm{ref}}"), "{force}");
+    // The names of other parameters stand as they are.
+    assert!(latex::page(&document).contains("\\frac{E}{2}"));
 }
 
 #[test]

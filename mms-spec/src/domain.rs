@@ -297,7 +297,7 @@ fn word_of_shape<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spann
     }
     let unknown = unknown_word(&found, "shape", &words);
     let is_near = did_you_mean(&found.value, words).is_some();
-    let hint = format!("what to take in place of another body: {SCOPE}");
+    let hint = format!("other bodies, and what stands for them: {SCOPE}");
     reader.report(if is_near { unknown } else { unknown.help(hint) });
     None
 }

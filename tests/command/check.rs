@@ -28,6 +28,12 @@ fn a_right_file_exits_0_and_its_closed_form_is_named() {
     run.prints("bar.toml: Body force on a 1D bar").prints("body_force");
     run.prints("slide 'Return to the 1D Bar', with the sign corrected");
     assert_eq!(run.stderr, "");
+    assert!(!run.stdout.contains("  name "), "{run}");
+    // A parameter may have the name of a quantity, which is said.
+    let folder = Folder::new();
+    folder.write("bar.toml", &BAR.replace("young", "E"));
+    let run = folder.mms("check bar.toml").exits(0);
+    run.prints("  name   `E` is the parameter for `--set`, and `green_lagrange` for `--quantity`");
 }
 
 #[test]

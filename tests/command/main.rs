@@ -34,6 +34,7 @@ mod material;
 mod mms;
 mod new;
 mod overview;
+mod plot;
 mod reading;
 mod report;
 mod report_page;

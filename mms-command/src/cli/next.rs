@@ -177,8 +177,8 @@ pub fn after_diagnosis(diagnosis: &Diagnosis, meshes: &Meshes, words: &[String])
     }
 }
 
-/// After a search by a command of these words: the run of the choice, or the search with room for a run that is predicted to meet
-/// the goal, or one for the least error or cost that a run has.
+/// After a search by a command of these words: the run of the choice, or the same search for the least error, or the least cost, that
+/// a run has.
 pub fn after_search(
     report: &Tradeoff<'_>,
     run: impl Fn(&Trial) -> Words,
@@ -187,18 +187,14 @@ pub fn after_search(
     if let Some(choice) = report.choice() {
         return Some(run(choice));
     }
-    let option = match (report.plan.goal, &report.found.predicted) {
-        (Goal::Error(_), Some((_, predicted))) => ("most-work", predicted.work),
-        (Goal::Error(_), None) => ("target-linf", report.front().last()?.error.clone().ok()?),
-        (Goal::Cost(_), _) => {
-            ("budget-seconds", report.cost(report.front().first()?, report.plan.cost))
-        }
+    let front = report.front();
+    let (name, value) = match report.plan.goal {
+        Goal::Error(_) => ("target-linf", front.last()?.error.clone().ok()?),
+        Goal::Cost(_) => ("budget-seconds", report.cost(front.first()?, report.plan.cost)),
     };
-    let (name, value) = option;
     // Two digits, rounded up.
     let unit = 10f64.powf(value.log10().floor() - 1.0);
-    let value = format!("{:.1e}", (value / unit).ceil() * unit);
-    Some(changed(words, &[(name, value)]))
+    Some(changed(words, &[(name, format!("{:.1e}", (value / unit).ceil() * unit))]))
 }
 
 /// Gives each judgement of a campaign its own, and returns that of the campaign, whose command so far has these words: a

@@ -5,8 +5,9 @@ use std::fs;
 use std::path::Path;
 use std::sync::{LazyLock, Mutex};
 
-use mms_codegen::{Compiled, Options, compile_with};
+use mms_codegen::{Compiled, Options, Selection, compile_with};
 use mms_emit::{Subject, Target};
+use mms_spec::quantity::Quantity;
 
 use super::build::{can_prove, in_pairs, ports, prove, quick};
 use super::sampled::sampled;
@@ -27,13 +28,25 @@ pub fn field(name: &str) -> Compiled {
     compiled(&folder.join(format!("{name}.toml")))
 }
 
+/// The body force alone of a field of the gallery.
+pub fn body_force(name: &str) -> Compiled {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
+    let quantities = Some(vec![Quantity::BodyForce].into());
+    let selection = Selection { quantities, ..Selection::default() };
+    with_options(&folder.join(format!("{name}.toml")), &Options { selection, ..Options::default() })
+}
+
 fn compiled(path: &Path) -> Compiled {
+    with_options(path, &Options::default())
+}
+
+fn with_options(path: &Path, options: &Options) -> Compiled {
     let text = fs::read_to_string(path).expect("a field file");
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let load = |material: &str| {
         fs::read_to_string(path.with_file_name(material)).map_err(|error| error.to_string())
     };
-    compile_with(&stem, &path.to_string_lossy(), &text, &load, &Options::default())
+    compile_with(&stem, &path.to_string_lossy(), &text, &load, options)
         .unwrap_or_else(|failure| panic!("{failure}"))
 }
 

@@ -8,7 +8,7 @@ use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::sorted::SortedMap;
 
-use super::gallery::{GALLERY, field};
+use super::gallery::{GALLERY, body_force, field};
 
 /// How many samples the body has along each edge, in one to three dimensions, and how many times are looked at.
 const ALONG: [usize; 3] = [65, 25, 7];
@@ -74,6 +74,7 @@ fn every_field_stays_within_what_its_modules_tell_and_nearly_fills_it() {
 fn modules_tell_how_far_the_motion_goes() {
     let compiled = field("sheared_block_2d");
     let subject = Subject::new(&compiled);
+    let alone = body_force("sheared_block_2d");
     let [x, y] = [0, 1].map(|axis| subject.reach()[axis].map(|end| format!("{:?}", end + 0.0)));
     let [[left, right], [bottom, top]] = [x, y];
     for (language, line) in [
@@ -92,8 +93,12 @@ fn modules_tell_how_far_the_motion_goes() {
         ("rust", format!("pub const MOTION_LOWER: [f64; DIMENSION] = [{left}, {bottom}];\n")),
     ] {
         let target = Target::find(language).expect("a target");
-        let bundle = (target.emit)(&subject);
-        let text = &bundle.files[0].text;
-        assert!(text.contains(&line), "{language} has no `{line}`");
+        for (subject, of) in [(&subject, "the field"), (&Subject::new(&alone), "b alone")] {
+            let bundle = (target.emit)(subject);
+            let text = &bundle.files[0].text;
+            assert!(text.contains(&line), "{language}, of {of}, has no `{line}`");
+            let lower = text.to_lowercase();
+            assert!(lower.contains("x_max") && lower.contains("traction"), "{language}, of {of}");
+        }
     }
 }

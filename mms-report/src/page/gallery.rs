@@ -111,6 +111,9 @@ mod tests {
             })
             .unwrap_or_default();
         assert!(pages.remove("index.html"), "{WRITE}");
+        let index = std::fs::read_to_string(folder.join("index.html")).unwrap();
+        let bodies = index.matches("<svg class=\"thumbnail\"").count();
+        assert_eq!(bodies, FIELDS.len(), "{WRITE}");
         let expected: BTreeSet<_> = FIELDS.iter().map(|it| format!("{}.html", it.name)).collect();
         assert_eq!(pages, expected, "{WRITE}");
         for entry in sampled(FIELDS, 7) {

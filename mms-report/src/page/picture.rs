@@ -269,6 +269,39 @@ mod tests {
     }
 
     #[test]
+    fn axes_have_round_numbers_at_their_places() {
+        let corners = vec![[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]];
+        let shapes = vec![Shape { corners, step: 0 }];
+        let moment = Moment { time: 0.0, shapes, outline: Vec::new() };
+        let scale = Scale { name: "error (mm)".into(), range: [0.0, 1.0], is_logarithmic: false };
+        let names = ["X (mm)".to_owned(), "Y (mm)".to_owned()];
+        let drawn = |axes: &[String]| {
+            pictures("id", "it", std::slice::from_ref(&moment), &scale, 0.0, axes).into_string()
+        };
+        let page = format!("<div>{}</div>", drawn(&names));
+        let document = roxmltree::Document::parse(&page).expect("XML");
+        let texts = document.descendants().filter(|it| it.has_tag_name("text"));
+        let found: Vec<(&str, f64)> = texts
+            .map(|it| {
+                let place = if it.attribute("text-anchor") == Some("end") { "y" } else { "x" };
+                let at = it.attribute(place).and_then(|at| at.parse().ok()).expect("a place");
+                (it.text().expect("a text"), at)
+            })
+            .collect();
+        let names: Vec<&str> = found.iter().map(|it| it.0).collect();
+        assert_eq!(
+            names,
+            ["0", "0.05", "0.1", "0.15", "0.2", "X (mm)", "0", "0.05", "0.1", "Y (mm)"]
+        );
+        // Equal lengths are equally long along both.
+        assert!(
+            (found[4].1 - found[0].1 - 2.0 * (found[6].1 - found[8].1)).abs() <= 2.0,
+            "{found:?}"
+        );
+        assert!(!drawn(&[]).contains("<text"));
+    }
+
+    #[test]
     fn all_moments_have_one_scale_and_stay_inside() {
         let square = |size: f64| Moment {
             time: size,
