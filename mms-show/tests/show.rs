@@ -485,7 +485,14 @@ fn latex_is_balanced_and_escaped() {
 /// A fragment goes from u to b, in the symbols that parameters declare, and has nothing of a document around it.
 #[test]
 fn fragments_of_latex_show_the_symbols_of_parameters() {
-    let field = compiled("every_key_2d", &pass("every_key_2d"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields/sheared_block_2d.toml");
+    let mut text = fs::read_to_string(path).expect("a field of the gallery");
+    for (name, symbol) in [("young", "E"), ("rho0", r"\\rho_{\\mathrm{ref}}")] {
+        let unit =
+            text.find(&format!("\n{name} ")).and_then(|at| Some(at + text[at..].find("unit")?));
+        text.insert_str(unit.expect("a unit"), &format!("symbol = \"{symbol}\", "));
+    }
+    let field = compiled("sheared_block_2d", &text);
     let document = Document::new(&field, &DERIVATION).expect("a derivation of usual size");
     let fragment = latex::fragment(&document);
     assert_balanced(&fragment);
@@ -498,17 +505,16 @@ fn fragments_of_latex_show_the_symbols_of_parameters() {
         "  F_{11} &=",
         "  J &=",
         "strain-energy density",
-        "  \\mu &= \\frac{E}{2}",
         "  P_{11} &=",
         "  (\\operatorname{Div} P)_{1} &=",
         "  b_{1} &=",
     ];
     let places = steps.map(|it| fragment.find(it).unwrap_or_else(|| panic!("{it}: {fragment}")));
     assert!(places.is_sorted(), "{places:?}");
-    let force = &fragment[places[7]..];
+    let force = &fragment[places[6]..];
     assert!(force.contains("\\rho_{\\mathrm{ref}}"), "{force}");
-    // The names of other parameters stand as they are.
-    assert!(latex::page(&document).contains("\\frac{E}{2}"));
+    // The whole document has them, too, and the names of other parameters as they are.
+    assert!(latex::page(&document).contains("\\mu &= \\frac{E}{2 \\,"));
 }
 
 #[test]

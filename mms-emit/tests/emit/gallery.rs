@@ -31,7 +31,7 @@ pub fn field(name: &str) -> Compiled {
 /// The body force alone of a field of the gallery.
 pub fn body_force(name: &str) -> Compiled {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
-    let quantities = Some(vec![Quantity::BodyForce].into());
+    let quantities = Some([Quantity::BodyForce].into());
     let selection = Selection { quantities, ..Selection::default() };
     with_options(&folder.join(format!("{name}.toml")), &Options { selection, ..Options::default() })
 }
