@@ -47,6 +47,9 @@ class Judge(Document):
     samplings: dict[str, str] | None = None
     """The sampling of each quantity: `points`, `weighted points`, `cells`, `middles of cells` or `points of
     faces`."""
+    units: dict[str, str] | None = None
+    """The units of h, dt and the quantities, if the field states units; those of the quantities are of their
+    errors in l1, l2 and linf."""
     warnings: list[str] | None = None
     """The warnings."""
     iterative_errors: dict[str, float] | None = None
@@ -91,6 +94,8 @@ class Diagnose(Document):
     """A right method of the project's own solver with such an error, or the method of `--like`."""
     place: Place | None
     """The place of the error of results."""
+    units: dict[str, str] | None = None
+    """The units of h, dt and the quantity of `fields`, if the field states units."""
     fields: ErrorFields | None
     """The errors of results at points."""
     next: str
