@@ -291,11 +291,14 @@ mod tests {
         let names: Vec<&str> = found.iter().map(|it| it.0).collect();
         assert_eq!(
             names,
-            ["0", "0.05", "0.1", "0.15", "0.2", "X (mm)", "0", "0.05", "0.1", "Y (mm)"]
+            [
+                "0", "0.05", "0.1", "0.15", "0.2", "X (mm)", "0", "0.02", "0.04", "0.06", "0.08",
+                "0.1", "Y (mm)"
+            ]
         );
         // Equal lengths are equally long along both.
         assert!(
-            (found[4].1 - found[0].1 - 2.0 * (found[6].1 - found[8].1)).abs() <= 2.0,
+            (found[4].1 - found[0].1 - 2.0 * (found[6].1 - found[11].1)).abs() <= 2.0,
             "{found:?}"
         );
         assert!(!drawn(&[]).contains("<text"));

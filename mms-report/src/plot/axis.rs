@@ -60,9 +60,9 @@ pub fn ticks(range: (f64, f64)) -> Ticks {
     Ticks { numbers: shown.into_iter().step_by(step).collect(), strokes }
 }
 
-/// About four numbers of few digits along a linear axis.
+/// About five numbers of few digits along a linear axis.
 pub fn steps([from, to]: [f64; 2]) -> Vec<f64> {
-    let wanted = (to - from) / 4.0;
+    let wanted = (to - from) / 5.0;
     if !wanted.is_normal() || wanted < 0.0 {
         return vec![from];
     }
@@ -166,7 +166,7 @@ mod tests {
     #[test]
     fn a_linear_axis_has_round_numbers() {
         let found = |range| steps(range).into_iter().map(short).collect::<Vec<_>>();
-        assert_eq!(found([0.0, 1.0]), ["0", "0.5", "1"]);
+        assert_eq!(found([0.0, 1.0]), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
         assert_eq!(found([0.03, 1.9]), ["0.5", "1", "1.5"]);
         assert_eq!(found([-7e5, 2e6]), ["0", "1e6", "2e6"]);
         assert_eq!(found([1.0, 1.0]), ["1"]);

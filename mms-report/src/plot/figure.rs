@@ -133,31 +133,29 @@ impl Figure {
 
     fn drawn(&self, width: Width) -> Drawing {
         let whole = width.millimetres() * PER_MM;
+        let are_several = self.panels.len() > 1;
+        let columns = if are_several && width == Width::Page { 2 } else { 1 };
+        let wide = whole / columns as f64;
+        // The curves of all panels are of one size, and below each other.
+        let left = 26.0 + self.panels.iter().map(Plot::widest_number).fold(0.0, f64::max);
         let mut items = Vec::new();
-        let height = match (width, self.panels.as_slice()) {
-            (Width::Page, [alone]) => panel(alone, None, whole, true, &mut items),
-            (_, [alone]) => panel(alone, None, whole, false, &mut items),
-            (_, panels) => {
-                let columns = if width == Width::Page { 2 } else { 1 };
-                let wide = whole / columns as f64;
-                let mut top = 0.0;
-                for (row, panels) in panels.chunks(columns).enumerate() {
-                    let mut height = 0.0_f64;
-                    for (column, plot) in panels.iter().enumerate() {
-                        let mut own = Vec::new();
-                        let number = row * columns + column;
-                        height = height.max(panel(plot, Some(number), wide, false, &mut own));
-                        let at = [column as f64 * wide, top];
-                        items.extend(own.into_iter().map(|it| it.moved(at)));
-                    }
-                    top += height;
-                }
-                top
+        let mut top = 0.0;
+        for (row, panels) in self.panels.chunks(columns).enumerate() {
+            let mut height = 0.0_f64;
+            for (column, plot) in panels.iter().enumerate() {
+                let letter = are_several.then(|| letter(row * columns + column));
+                let head = letter.unwrap_or_default() + &plot.head;
+                let is_beside = !are_several && width == Width::Page;
+                let (own, high) = panel(plot, &head, [left, wide], is_beside);
+                let at = [column as f64 * wide, top];
+                items.extend(own.into_iter().map(|it| it.moved(at)));
+                height = height.max(high);
             }
-        };
+            top += height;
+        }
         let described = self.panels.iter().map(|it| it.description.as_str());
         Drawing {
-            size: [whole, height.ceil()],
+            size: [whole, top.ceil()],
             title: self.title.clone(),
             description: described.collect::<Vec<_>>().join(" "),
             items,
@@ -173,32 +171,24 @@ fn letter(number: usize) -> String {
     }
 }
 
-/// Draws a panel in this width, with its legend beside the curves where there is room; returns its height.
-fn panel(
-    plot: &Plot,
-    number: Option<usize>,
-    width: f64,
-    is_beside: bool,
-    items: &mut Vec<Item>,
-) -> f64 {
+/// A panel between its left axis and its width, with its legend beside the curves if there is room; and its height.
+fn panel(plot: &Plot, head: &str, [left, width]: [f64; 2], is_beside: bool) -> (Vec<Item>, f64) {
     let legend = plot.legend(true);
-    let head = number.map_or(String::new(), letter) + &plot.head;
     let longest = legend.iter().map(|it| it.words.width() + 34.0);
-    let longest = longest.chain([Words::plain(&head).width()]).fold(0.0, f64::max);
+    let longest = longest.chain([Words::plain(head).width()]).fold(0.0, f64::max);
     // Bold letters, and those of a font in the place of Helvetica, are wider.
     let longest = 1.08 * longest;
-    let left = 26.0 + plot.widest_number();
     let beside = width - GAP - longest - GAP - left;
     let is_beside = is_beside && beside >= LEAST;
     let right = if is_beside { left + beside } else { width - GAP };
     let bold = |at: [f64; 2]| {
-        let words = Words::plain(&head);
+        let words = Words::plain(head);
         Item::Text(Text { at, anchor: Anchor::Start, is_turned: false, is_bold: true, words })
     };
     let head_above = !is_beside && !head.is_empty();
     let top = if head_above { 26.0 } else { 12.0 };
     let area = Area { left, right, top, bottom: top + SHAPE * (right - left).min(420.0) };
-    items.extend(plot.drawn(&plot.frame(area)));
+    let mut items = plot.drawn(&plot.frame(area));
     let below = area.bottom + 42.0;
     let [x, mut y] = if is_beside { [right + GAP, top + 4.0] } else { [left, below + 4.0] };
     if head_above {
@@ -212,5 +202,6 @@ fn panel(
         items.push(Item::text([x + 34.0, y + 12.0], Anchor::Start, entry.words));
         y += LEGEND_LINE;
     }
-    if is_beside { below.max(y + 8.0) } else { y + GAP }
+    let height = if is_beside { below.max(y + 8.0) } else { y + GAP };
+    (items, height)
 }

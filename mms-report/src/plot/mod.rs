@@ -342,9 +342,8 @@ impl Plot {
         items.push(Item::line(Role::Axes, [[left, top], [left, bottom], [right, bottom]]));
         let middle = (left + right) / 2.0;
         items.push(Item::text([middle, bottom + 36.0], Anchor::Middle, self.axes[0].words()));
-        let widest = labels(&y.numbers).iter().map(Words::width).fold(0.0, f64::max);
         items.push(Item::Text(Text {
-            at: [left - 14.0 - widest, (top + bottom) / 2.0],
+            at: [12.0, (top + bottom) / 2.0],
             anchor: Anchor::Middle,
             is_turned: true,
             is_bold: false,
