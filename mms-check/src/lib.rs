@@ -167,7 +167,7 @@ fn doubly_named(compiled: &Compiled) -> Vec<String> {
         let is_it = |it: &Quantity| it.symbol() == name || Some(*it) == Quantity::from_name(name);
         let quantity = Quantity::evaluated().find(is_it)?.name();
         Some(format!(
-            "`{name}` is the parameter for `--set`, and `{quantity}` for `--quantity`: a longer name, with symbol = \"{name}\", \
+            "`{name}` is the parameter for `--set`, and the quantity `{quantity}` for `--quantity`: a longer name, with symbol = \"{name}\", \
              tells them apart"
         ))
     };

@@ -33,7 +33,7 @@ fn a_right_file_exits_0_and_its_closed_form_is_named() {
     let folder = Folder::new();
     folder.write("bar.toml", &BAR.replace("young", "E"));
     let run = folder.mms("check bar.toml").exits(0);
-    run.prints("  name   `E` is the parameter for `--set`, and `green_lagrange` for `--quantity`");
+    run.prints("  name   `E` is the parameter for `--set`, and the quantity `green_lagrange` for `--quantity`");
 }
 
 #[test]

@@ -16,6 +16,9 @@ const PAGE: &str = include_str!("../../docs/reference/json.md");
 /// Tables of what only some errors have.
 const OF_RARE_ERRORS: [&str; 2] = ["pair", "plane"];
 
+/// Keys that stand only where a row of the matrix fails, which a right solver does not show.
+const OF_FAILURES: [(&str, &str); 1] = [("verify", "next_command")];
+
 /// Tables that only a program with the feature `defects` fills.
 const OF_DEFECTS: [&str; 3] = ["verify-defects", "shown-defect", "shown-row"];
 
@@ -293,7 +296,8 @@ fn documents_have_the_keys_of_the_page() {
         &BAR.replace("+ young/rho0*(1 + F^-2)*A)", "- young/rho0*(1 + F^-2)*A)"),
     );
     folder.write("loaded.toml", LOADED);
-    folder.write("soft.toml", SOFT);
+    // A parameter with the name of a quantity.
+    folder.write("soft.toml", &SOFT.replace("young", "E"));
     folder.write("errors.csv", "h,l1,l2,linf\n8,1,1352,3\n4,2,352,\n2,3,96,4\n1,4,28,5\n");
     folder.write("steps.csv", "h,dt,l2\n1,0.4,16\n1,0.2,4\n1,0.1,1\n");
     for name in ["a.csv", "b.csv", "c.csv"] {
@@ -381,7 +385,8 @@ fn documents_have_the_keys_of_the_page() {
         let is_possible = (cfg!(feature = "defects") || !OF_DEFECTS.contains(heading))
             && !OF_RARE_ERRORS.contains(heading);
         for key in keys.iter().filter(|_| is_possible) {
-            if !reader.met.contains(&(heading.to_string(), key.name)) {
+            let is_met = reader.met.contains(&(heading.to_string(), key.name));
+            if !is_met && !OF_FAILURES.contains(&(*heading, key.name)) {
                 missing.push(format!("`{}` of the table `{heading}`", key.name));
             }
         }

@@ -41,6 +41,7 @@ fn the_front_is_one_and_holds_the_choice() {
     let found = document(&folder, "--target-linf 1e-3");
     let own = [
         "field",
+        "unit",
         "cost",
         "target_linf",
         "budget_seconds",
@@ -51,6 +52,7 @@ fn the_front_is_one_and_holds_the_choice() {
         "gain",
         "exponent",
         "dominated",
+        "next_command",
         "provenance",
     ];
     assert_eq!(keys(&found), own);
