@@ -18,7 +18,7 @@ PACKAGE = HERE / "python" / "manufactured"
 SCHEMA = HERE.parent / "docs" / "documents.schema.json"
 
 # The documents that functions of the library return; the others follow.
-RETURNED = ["judge", "diagnose"]
+RETURNED = ["judge", "diagnose", "study"]
 
 HEAD = '"""The documents that the library returns. generate.py wrote this; change the types in mms-documents."""\n'
 
@@ -95,7 +95,7 @@ def documents():
 
 NATIVE = '''"""The extension module. generate.py wrote this."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import Any, final
 
@@ -108,6 +108,7 @@ _Numbers = npt.ArrayLike
 _Parameter = float | str | Any
 
 __version__: str
+__file__: str
 
 class MmsError(ValueError): ...
 
@@ -132,6 +133,13 @@ CLASSES = {
     def parameters(self) -> dict[str, float]: ...
     @property
     def faces(self) -> list[str]: ...
+    @property
+    def boundary(self) -> list[tuple[str, str]]: ...
+    @property
+    def bounds(self) -> tuple[list[float], list[float]]: ...
+    def grid(
+        self, cells: str, per_cell: str = "2"
+    ) -> tuple[float, npt.NDArray[np.float64], npt.NDArray[np.float64]]: ...
     @property
     def window(self) -> tuple[float, float] | None: ...
     @property
@@ -209,6 +217,10 @@ def diagnose(
     residual_sign: float,
     nodal: bool,
 ) -> tuple[dict[str, str | None], list[str]]: ...
+def study(
+    field: Field, options: Sequence[str], progress: Callable[[str], object] | None
+) -> dict[str, str | None]: ...
+def command(file: str, words: Sequence[str], arguments: Sequence[str]) -> int: ...
 '''
 
 

@@ -9,5 +9,5 @@ use peak_alloc::PeakAlloc;
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 fn main() -> ExitCode {
-    mms_command::run()
+    mms_command::run().into()
 }

@@ -3,6 +3,7 @@
 //! The run has a [`supervisor`](crate::supervisor), which ends it when the campaign ends, however that does. A folder whose
 //! supervisor was killed itself is never used again: something may still write there.
 
+use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -15,8 +16,8 @@ use crate::supervisor::{PAUSES, RUNNING, Report, STDERR, STDOUT, WORD, alone};
 
 /// A program to run, its surroundings and its limit.
 pub struct Order<'a> {
-    /// The program that supervises if its first argument is [`WORD`].
-    pub supervisor: &'a Path,
+    /// The words of the program that supervises if the next one is [`WORD`].
+    pub supervisor: &'a [OsString],
     /// The program, and its arguments.
     pub words: &'a [String],
     /// Where.
@@ -59,8 +60,11 @@ impl Folder {
     /// # Errors
     /// Nothing can be said of the supervisor.
     pub fn run(&self, order: &Order<'_>, stop: &dyn Fn() -> bool) -> io::Result<Report> {
-        let mut command = Command::new(order.supervisor);
-        command.arg(WORD).arg(&self.path).arg(order.directory);
+        let [program, words @ ..] = order.supervisor else {
+            return Ok(Report::badly("no supervisor"));
+        };
+        let mut command = Command::new(program);
+        command.args(words).arg(WORD).arg(&self.path).arg(order.directory);
         command.arg(order.limit.as_secs_f64().to_string()).args(order.words);
         command.envs(order.variables.iter().map(|(name, value)| (name, value)));
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(self.running.try_clone()?);

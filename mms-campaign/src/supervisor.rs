@@ -10,7 +10,7 @@ use std::ffi::OsString;
 use std::fs::File;
 use std::io::{self, Read, Write as _};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitCode, ExitStatus, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
@@ -88,17 +88,17 @@ pub fn asked(arguments: impl IntoIterator<Item = OsString>) -> Option<Vec<OsStri
     (arguments.next()? == WORD).then(|| arguments.collect())
 }
 
-/// Supervises a run: the arguments are its folder, its working directory, its limit in seconds, its program and the
+/// Supervises a run, and returns an exit code: the arguments are its folder, its working directory, its limit in seconds, its program and the
 /// arguments of that.
-pub fn run(arguments: &[OsString]) -> ExitCode {
-    let [folder, directory, limit, words @ ..] = arguments else { return ExitCode::from(2) };
+pub fn run(arguments: &[OsString]) -> u8 {
+    let [folder, directory, limit, words @ ..] = arguments else { return 2 };
     let seconds = limit.to_str().and_then(|it| it.parse::<f64>().ok()).unwrap_or(f64::INFINITY);
     let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
     let run = Run { folder: Path::new(folder), directory: Path::new(directory), words, limit };
     let told = run.supervised().map(|report| report.lines());
     match told.and_then(|lines| io::stdout().write_all(lines.as_bytes())) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(_) => ExitCode::FAILURE,
+        Ok(()) => 0,
+        Err(_) => 1,
     }
 }
 

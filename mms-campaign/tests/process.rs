@@ -15,7 +15,7 @@ use mms_campaign::supervisor::{Ended, RUNNING, Report, STDERR, STDOUT};
 /// Runs a command in its folder.
 fn run_words(folder: &Folder, words: &[String], limit: f64, stop: &dyn Fn() -> bool) -> Report {
     let order = Order {
-        supervisor: Path::new(env!("CARGO_BIN_EXE_supervise")),
+        supervisor: &[env!("CARGO_BIN_EXE_supervise").into()],
         words,
         directory: &folder.path,
         variables: &[("OMP_NUM_THREADS", "3".to_owned())],

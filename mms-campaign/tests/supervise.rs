@@ -6,5 +6,5 @@ use mms_campaign::supervisor;
 
 fn main() -> ExitCode {
     let arguments = supervisor::asked(std::env::args_os()).unwrap_or_default();
-    supervisor::run(&arguments)
+    supervisor::run(&arguments).into()
 }

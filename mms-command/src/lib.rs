@@ -22,6 +22,7 @@ mod terminal;
 mod vtk;
 
 pub use cli::run;
+pub use cli::study::studies;
 
 /// The tour's programs.
 #[cfg(doctest)]

@@ -115,6 +115,11 @@ impl Input {
         self.source.compile(options)
     }
 
+    /// Its text, to be compiled in another way.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
     /// How it was compiled.
     pub fn options(&self) -> &Options {
         &self.options

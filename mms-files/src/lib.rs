@@ -3,12 +3,13 @@
 //! [`read`] reads plain files within a bound for each kind; [`write`](mod@write) writes files whole or not at all; [`results`]
 //! finds files of results; [`store`]
 //! keeps results that several processes share; [`shell`] quotes command lines; [`machine`] counts processors and memory;
-//! [`words`] has durations and sizes in words.
+//! [`program`] knows the program that the code is in; [`words`] has durations and sizes in words.
 
 #![warn(clippy::disallowed_methods)]
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod machine;
+pub mod program;
 pub mod read;
 pub mod results;
 pub mod shell;

@@ -15,7 +15,6 @@ use std::io;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::SystemTime;
 
 use anyhow::Context as _;
 use mms_spec::foreign;
@@ -269,22 +268,6 @@ pub fn side_by_side<J: Sync, R: Send>(
     }
     // With waiting, nothing is left out.
     Ok(results.into_iter().flatten().collect())
-}
-
-/// What tells this program from any other: no result outlives the code that computed it.
-///
-/// # Errors
-/// This program cannot be found or looked at.
-pub fn program() -> anyhow::Result<String> {
-    let path = std::env::current_exe().context("cannot find this program")?;
-    let built = || {
-        let file = path.metadata()?;
-        let modified = file.modified()?.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
-        io::Result::Ok((file.len(), modified.as_nanos()))
-    };
-    let (length, modified) = built()
-        .with_context(|| format!("cannot look at this program, `{}`", foreign::path(&path)))?;
-    Ok(format!("{}, {length} bytes, {modified}", env!("CARGO_PKG_VERSION")))
 }
 
 /// 128 bits of texts one after the other, in hexadecimal.

@@ -13,6 +13,7 @@ use mms_campaign::supervisor::{Ended, Report};
 use mms_codegen::rust::File;
 use mms_emit::{Subject, Target};
 use mms_exact::Exact;
+use mms_files::program;
 use mms_files::read::{self, Unread};
 use mms_files::results::{Disk, existing};
 use mms_files::shell::quoted;
@@ -288,7 +289,7 @@ impl<'a> Work<'a> {
         let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
         write_own(&folder.path.join("command.txt"), &(line + "\n"))?;
         let order = Order {
-            supervisor: &this_program()?,
+            supervisor: &program::words()?,
             words: &words,
             directory: &self.directory(planned, job, paths),
             variables: &[("OMP_NUM_THREADS", solver.threads.to_string())],
@@ -445,15 +446,6 @@ enum Fault {
     Missing,
     /// A file is not what the run wrote, or not from the run.
     Changed(PathBuf),
-}
-
-/// This program, which supervises runs; also where its file has been replaced.
-fn this_program() -> anyhow::Result<PathBuf> {
-    let own = Path::new("/proc/self/exe");
-    match own.exists() {
-        true => Ok(own.to_owned()),
-        false => std::env::current_exe().context("cannot find this program"),
-    }
 }
 
 /// The end of a sentence that names the processes a run left behind; empty, if there are none.

@@ -62,7 +62,7 @@ impl Trials {
     pub fn new(store: Store, progress: Box<dyn Progress>) -> anyhow::Result<Self> {
         Ok(Self {
             store,
-            program: mms_files::store::program()?,
+            program: mms_files::program::identity()?,
             progress,
             inputs: BTreeMap::new(),
             waves: BTreeMap::new(),

@@ -3,11 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use mms_exact::Source;
+use mms_emit::port::faces::claims;
 use mms_exact::gallery::FIELDS;
+use mms_exact::{Source, hold_division};
 use mms_files::write::write_whole;
 use mms_mechanics::extent::halton;
 use mms_mechanics::sample::domain;
+use mms_runtime::{Division, Setup};
 use mms_show::mathml::escape;
 use mms_spec::Face;
 use mms_spec::quantity::Quantity;
@@ -20,6 +22,7 @@ use crate::kept::Stay;
 use crate::mistake::mistake;
 use crate::open;
 use crate::opened::{Opened, Points};
+use crate::results::exact;
 use crate::show::show;
 
 /// A field: a motion, its material, and the loads that make it a solution. `field`, `load` and `loads` open one, and `Field` makes
@@ -32,6 +35,9 @@ pub struct Field {
     /// The field, with numbers for its parameters.
     pub opened: Arc<Opened>,
 }
+
+/// The points of a grid: h, X and reference volumes.
+type Grid<'py> = (f64, Bound<'py, PyAny>, Bound<'py, PyArray1<f64>>);
 
 /// A field at one time, as `field.at(t)` gives it.
 #[pyclass(frozen, module = "manufactured")]
@@ -136,6 +142,43 @@ impl Field {
     fn faces(&self) -> Vec<&str> {
         let field = &self.opened.compiled().field;
         Face::of(&field.domain.body, field.space).iter().map(|face| face.name()).collect()
+    }
+
+    /// The claim on each face, by names of faces: fixed, free, traction and their like, as the field file has them.
+    #[getter]
+    fn boundary(&self) -> Vec<(&str, &str)> {
+        let claims = claims(&self.opened.compiled().field);
+        claims.into_iter().map(|(face, claim)| (face.name(), claim.name())).collect()
+    }
+
+    /// The box around the body in the reference configuration: its lower and its upper corner.
+    #[getter]
+    fn bounds(&self) -> (Vec<f64>, Vec<f64>) {
+        let (body, _) = domain(&self.opened.compiled().program, self.opened.parameters());
+        body.bounding_box().into()
+    }
+
+    /// The points that fill a grid of so many cells along the longest edge of the body, or of "16x8" along its axes: h, X and the
+    /// reference volume of each point. `per_cell` is the number of points in each direction of a cell.
+    ///
+    /// Raises MmsError where the body cannot be filled so.
+    #[pyo3(signature = (cells, per_cell="2"))]
+    fn grid<'py>(&self, py: Python<'py>, cells: &str, per_cell: &str) -> PyResult<Grid<'py>> {
+        let (opened, division) = (&self.opened, |name: &str, text: &str| {
+            let division = text.parse::<Division>();
+            division.map_err(|error| mistake(format!("`{name}`: {error}")))
+        });
+        let (cells, per_cell) = (division("cells", cells)?, division("per_cell", per_cell)?);
+        let setup = Setup { particles_per_cell: per_cell, ..Setup::default() };
+        let made = py.detach(|| {
+            hold_division("cells", &cells, opened.dimension())?;
+            let scene = exact(opened)?.scene()?;
+            Ok((scene.cell_size(&cells), scene.layout(&setup, &cells)?))
+        });
+        let (h, layout) = made.map_err(|error: anyhow::Error| mistake(format!("{error:#}")))?;
+        let points = PyArray1::from_vec(py, layout.reference);
+        let points = points.reshape([layout.volume.len(), opened.dimension()])?;
+        Ok((h, points.into_any(), PyArray1::from_vec(py, layout.volume)))
     }
 
     /// The first and the last time; None of a static field.

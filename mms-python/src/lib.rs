@@ -15,9 +15,12 @@
 //! | `show` | the derivation, for people |
 //! | `results` | results of a solver, from arrays or files |
 //! | `verdict` | verdicts and diagnoses, to documents |
+//! | `study` | studies with the solver of this project |
+//! | `command` | the command `mms` |
 //! | `field` | the classes, whose methods for quantities `build.rs` writes |
 
 mod array;
+mod command;
 mod evaluator;
 mod field;
 mod kept;
@@ -26,6 +29,7 @@ mod open;
 mod opened;
 mod results;
 mod show;
+mod study;
 mod verdict;
 
 use pyo3::prelude::*;
@@ -36,5 +40,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     mistake::add(module)?;
     field::add(module)?;
     verdict::add(module)?;
+    study::add(module)?;
+    command::add(module)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))
 }

@@ -16,8 +16,8 @@ use pyo3::prelude::*;
 
 use crate::mistake::{failure, mistake};
 
-/// The stack for a compilation: a thread of Python may have a small one.
-const STACK: usize = 2 << 20;
+/// The stack of such work: that of a main thread, for a thread of Python may have a small one.
+const STACK: usize = 8 << 20;
 
 /// How often Python is asked whether to go on.
 const PAUSE: Duration = Duration::from_millis(50);

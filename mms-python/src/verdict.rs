@@ -40,7 +40,8 @@ pub struct Views {
 }
 
 impl Views {
-    fn of(shown: &impl Shown, svg: Option<String>) -> anyhow::Result<Self> {
+    /// Makes all forms, with a picture.
+    pub fn of(shown: &impl Shown, svg: Option<String>) -> anyhow::Result<Self> {
         let form = |format| shown.in_format(format);
         Ok(Views {
             json: serde_json::to_string(&shown.document())?,

@@ -530,7 +530,7 @@ impl Study {
     }
 
     /// The figure of the errors of u.
-    pub(super) fn figure(&self) -> Figure {
+    pub fn figure(&self) -> Figure {
         let title =
             format!("{}: {}", self.field.shown(), method::line(&self.method, self.arithmetic));
         Figure::new(title, self.content().plots())

@@ -14,6 +14,7 @@ use mms_documents::emit::{self as documents, EmitAll, EmittedFile};
 use mms_emit::{Bundle, Subject, TARGETS, Target};
 use mms_exact::gallery::FIELDS;
 use mms_exact::{Input, quantities, settings};
+use mms_files::program::arguments;
 use mms_files::shell::{command, quoted, words};
 use mms_files::write::refuse_link;
 use mms_options::field::{Variant, open};
@@ -306,5 +307,5 @@ impl Delivered {
 
 /// The command line of this process, such that it writes what it has compared.
 fn command_without_check() -> String {
-    command(words(std::env::args_os().skip(1)).into_iter().filter(|word| word != "--check"))
+    command(words(arguments().into_iter().skip(1)).into_iter().filter(|word| word != "--check"))
 }

@@ -45,11 +45,11 @@ mod verify;
 use std::ffi::OsString;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use anyhow::Context as _;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use mms_campaign::supervisor;
+use mms_files::program::arguments;
 use mms_files::shell::words;
 use mms_files::write::{is_same, try_to_write};
 use mms_runtime::math::dispatch::{Instructions, LIMIT};
@@ -114,9 +114,9 @@ enum Outcome {
     RunFailed,
 }
 
-/// Runs the command line of this process, or supervises a run of a campaign.
-pub fn run() -> ExitCode {
-    if let Some(arguments) = supervisor::asked(std::env::args_os()) {
+/// Runs the command line of this program, or supervises a run of a campaign; returns the exit code.
+pub fn run() -> u8 {
+    if let Some(arguments) = supervisor::asked(arguments()) {
         return supervisor::run(&arguments);
     }
     let outcome = answer().unwrap_or_else(|error| {
@@ -125,17 +125,17 @@ pub fn run() -> ExitCode {
         say_styled(&format!("{style}error{style:#}: {error}"));
         Outcome::BadInput
     });
-    ExitCode::from(match outcome {
+    match outcome {
         Outcome::AsExpected => 0,
         Outcome::Refuted => 1,
         Outcome::BadInput => 2,
         Outcome::RunFailed => 3,
-    })
+    }
 }
 
 /// Does what the command line asks for.
 fn answer() -> anyhow::Result<Outcome> {
-    let arguments = saved::expand(std::env::args_os())?;
+    let arguments = saved::expand(arguments().into_iter())?;
     let parsed = match parse(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => return refused(&arguments, &error),
@@ -229,7 +229,7 @@ fn with_signs(argument: Arg) -> Arg {
 
 /// What this command line makes of an input.
 fn this_command(kind: &str, input: Input) -> Provenance {
-    provenance::new(kind, &words(std::env::args_os()), input)
+    provenance::new(kind, &words(arguments()), input)
 }
 
 /// Asks whether the folder of `--output` can be made and written to: what is wrong with it is said before any work is

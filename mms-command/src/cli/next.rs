@@ -8,6 +8,7 @@ use std::path::Path;
 use mms_convergence::Verdict;
 use mms_diagnosis::answer::{Diagnosis, Finding, Rung};
 use mms_diagnosis::scene::FEWEST_POINTS;
+use mms_files::program::arguments;
 use mms_files::shell;
 use mms_harness::judged::Judged;
 use mms_harness::plan::Planned;
@@ -32,7 +33,7 @@ pub struct Meshes {
 
 /// The words of the command line of this process.
 pub fn typed() -> Words {
-    command(shell::words(std::env::args_os().skip(1)))
+    command(shell::words(arguments().into_iter().skip(1)))
 }
 
 /// The option of this name with several values; nothing without a value.

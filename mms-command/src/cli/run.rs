@@ -7,8 +7,9 @@ use clap::Args;
 use mms_exact::Input;
 use mms_exact::hold_division;
 use mms_files::machine::memory;
+use mms_files::program::{arguments, identity};
 use mms_files::shell::words;
-use mms_files::store::{digest, program};
+use mms_files::store::digest;
 use mms_files::write::is_same;
 use mms_files::write::{pretty, write_files};
 use mms_options::field::{Motion, find};
@@ -219,13 +220,13 @@ impl Run {
         (method.setup.threads, method.setup.memory) = (1, None);
         let scene = format!("{method:?}, {cells} cells, {:?}", self.method.arithmetic);
         let field = format!("{:?}, {:?}", self.set, self.motion);
-        Ok(digest([program()?, input.compiled.provenance(), scene, field]))
+        Ok(digest([identity()?, input.compiled.provenance(), scene, field]))
     }
 }
 
 /// The command line without `--resume`: what makes the run again.
 fn from_the_start() -> Vec<String> {
-    let mut all = words(std::env::args_os()).into_iter();
+    let mut all = words(arguments()).into_iter();
     let mut kept = Vec::new();
     while let Some(word) = all.next() {
         match word.as_str() {

@@ -11,11 +11,13 @@ use std::rc::Rc;
 use anyhow::{Context as _, bail};
 use clap::{Args, Parser};
 use mms_analysis::period::period;
+use mms_codegen::selection::Selection;
 use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
-use mms_exact::{Input, hold_division, units};
+use mms_exact::{Input, Open, hold_division, units};
 use mms_judge::results::Exclusions;
+use mms_lab::trial::Progress as Follow;
 use mms_mechanics::sample::domain;
-use mms_options::field::{Motion, find};
+use mms_options::field::{Motion, open};
 use mms_options::method::{MethodOptions, Precision, finite, positive};
 use mms_report::{Comparison, Phases as InPhase, Refused, Study as Report, method, run};
 use mms_runtime::scene::{Scene, Solvable};
@@ -30,7 +32,7 @@ use super::format::{Detail, Printing};
 use super::methods::Methods;
 use super::{Outcome, next, output_folder, print, replaced, say};
 use crate::provenance::{self, Provenance};
-use crate::session::effort::announce;
+use crate::session::effort::estimate;
 use crate::session::progress::Progress;
 
 /// Run a method of this project's own solver on levels of refinement: errors, observed orders, verdict.
@@ -154,16 +156,36 @@ pub(super) fn main_job() -> anyhow::Result<Outcome> {
     Alone::parse_from(["mms", "bar_1d"]).study.run(&["mms".to_owned()])
 }
 
+/// The studies of a command line, `study` first, of a field that `open` opens; nothing is printed or written.
+///
+/// # Errors
+/// Options or a field that cannot be studied.
+pub fn studies(
+    words: &[String],
+    open: Open<'_>,
+    progress: &dyn Follow,
+) -> anyhow::Result<Comparison> {
+    let study = Alone::try_parse_from(words)?.study;
+    study.validate()?;
+    let cases = study.cases(open, progress)?;
+    let command: Vec<_> = [&["mms".to_owned()], words].concat();
+    let input = cases[0].input.provenance(&study.set);
+    let provenance = provenance::new("study", &command, input);
+    let studies = study.reports(&cases, &command, &provenance, progress)?;
+    Ok(Comparison { studies, provenance })
+}
+
 impl Study {
     /// Runs it, by these words of a command line; those of a study file among them.
     pub(super) fn run(self, words: &[String]) -> anyhow::Result<Outcome> {
         self.validate()?;
-        let cases = self.cases()?;
+        let progress = Progress::new();
+        let cases = self.cases(&open, &progress)?;
         let input = &cases[0].input;
         let folder = output_folder(self.output.as_deref(), input.name.raw())?;
         self.figure.hold()?;
         let provenance = provenance::new("study", words, input.provenance(&self.set));
-        let studies = self.reports(&cases, words, &provenance)?;
+        let studies = self.reports(&cases, words, &provenance, &progress)?;
         let is_started = studies.iter().any(Report::is_started);
         let report = Comparison { studies, provenance };
         if is_started || self.printing.is_json() {
@@ -184,19 +206,13 @@ impl Study {
 
     /// The study of a command line, `study` first, as any machine makes it; nothing, if no level could be started.
     pub fn anywhere(words: &[String]) -> anyhow::Result<Option<Report>> {
-        let study = Alone::try_parse_from(words)?.study;
-        study.validate()?;
-        let cases = study.cases()?;
-        let command: Vec<_> = [&["mms".to_owned()], words].concat();
-        let input = cases[0].input.provenance(&study.set);
-        let provenance = provenance::new("study", &command, input);
-        let provenance = Provenance { machine: None, ..provenance };
-        let studies = study.reports(&cases, &command, &provenance)?;
-        Ok(studies.into_iter().next().filter(Report::is_started))
+        let mut report = studies(words, &open, &Progress::new())?;
+        report.studies.iter_mut().for_each(|it| it.provenance.machine = None);
+        Ok(report.studies.into_iter().next().filter(Report::is_started))
     }
 
     /// What is studied, one case at least: what cannot be is said before anything runs.
-    fn cases(&self) -> anyhow::Result<Vec<Case>> {
+    fn cases(&self, open: Open<'_>, progress: &dyn Follow) -> anyhow::Result<Vec<Case>> {
         let mut inputs = BTreeMap::new();
         let mut cases = Vec::new();
         let mut impossible = Vec::new();
@@ -204,7 +220,9 @@ impl Study {
             let input = match inputs.entry(options.arithmetic.form) {
                 Entry::Occupied(known) => Rc::clone(known.get()),
                 Entry::Vacant(new) => {
-                    let input = find(&self.field, &options.variant(&self.motion))?;
+                    let variant = options.variant(&self.motion);
+                    let input =
+                        Input::new(open(&self.field)?, &variant.options(Selection::default()))?;
                     Rc::clone(new.insert(Rc::new(input)))
                 }
             };
@@ -221,7 +239,7 @@ impl Study {
                 }
                 Err(error) => return Err(error),
             };
-            note.iter().for_each(say);
+            note.iter().for_each(|it| progress.say(it));
             cases.push(Case { options, input, method });
         }
         if cases.is_empty()
@@ -230,7 +248,7 @@ impl Study {
             return Err(error);
         }
         for (MethodOptions { formulation, shape, integrator, .. }, error) in impossible {
-            say(format_args!("left out: {formulation} {shape} {integrator}: {error}"));
+            progress.say(&format!("left out: {formulation} {shape} {integrator}: {error}"));
         }
         Ok(cases)
     }
@@ -241,13 +259,14 @@ impl Study {
         cases: &[Case],
         words: &[String],
         provenance: &Provenance,
+        progress: &dyn Follow,
     ) -> anyhow::Result<Vec<Report>> {
         let mut reports = Vec::new();
         for case in cases {
             if cases.len() > 1 {
-                say(method::line(&case.method, case.options.arithmetic));
+                progress.say(&method::line(&case.method, case.options.arithmetic));
             }
-            let mut report = self.report(case, provenance.clone())?;
+            let mut report = self.report(case, provenance.clone(), progress)?;
             self.explain(&mut report, case, cases.len() > 1, words)?;
             reports.push(report);
         }
@@ -288,13 +307,22 @@ impl Study {
     }
 
     /// The study of a field with one method.
-    fn report(&self, case: &Case, provenance: Provenance) -> anyhow::Result<Report> {
+    fn report(
+        &self,
+        case: &Case,
+        provenance: Provenance,
+        progress: &dyn Follow,
+    ) -> anyhow::Result<Report> {
         let Case { options, input, method } = case;
         let mut method = method.clone();
         let periods = self.through_periods(input, &mut method)?;
         let (levels, fit) = match options.arithmetic.precision {
-            Precision::F32 => self.solve(&input.scene(&self.set, |code| code.single)?, &method),
-            Precision::F64 => self.solve(&input.scene(&self.set, |code| code.double)?, &method),
+            Precision::F32 => {
+                self.solve(&input.scene(&self.set, |code| code.single)?, &method, progress)
+            }
+            Precision::F64 => {
+                self.solve(&input.scene(&self.set, |code| code.double)?, &method, progress)
+            }
         };
         let (levels, phases): (Vec<_>, Vec<_>) = levels
             .into_iter()
@@ -304,7 +332,7 @@ impl Study {
             })
             .unzip();
         if let Some(periods) = &periods {
-            periods.say_where_they_stopped(&levels);
+            periods.where_they_stopped(&levels).iter().for_each(|it| progress.say(it));
         }
         let phases = periods.map(|periods| InPhase {
             period: periods.length,
@@ -331,7 +359,7 @@ impl Study {
         let exclusions = match (self.excluded, verdict) {
             (true, Verdict::Pass | Verdict::Exact) => self.exclusions(input, &method, &started)?,
             (true, _) => {
-                say("note: `--excluded`: only a pass excludes mistakes");
+                progress.say("note: `--excluded`: only a pass excludes mistakes");
                 None
             }
             (false, _) => None,
@@ -445,11 +473,16 @@ impl Study {
     }
 
     /// The levels, and the fit of space and time if it is asked for.
-    fn solve<T: Solvable>(&self, scene: &Scene<T>, method: &Method) -> (Vec<Solved>, Option<Fit>) {
-        let (progress, wanted) = (Progress::new(), self.wanted());
+    fn solve<T: Solvable>(
+        &self,
+        scene: &Scene<T>,
+        method: &Method,
+        progress: &dyn Follow,
+    ) -> (Vec<Solved>, Option<Fit>) {
+        let wanted = self.wanted();
         let run = |method: &Method, cells: Division, watch: Watch| {
             let mut progress_of_run = progress.of(cells);
-            let mut phases = Phases::new(&wanted, &mut progress_of_run);
+            let mut phases = Phases::new(&wanted, &mut *progress_of_run);
             let run = scene.run(method, &cells, watch, &mut phases);
             let phases = phases.found();
             match run.as_ref().map(|run| &run.level.errors) {
@@ -462,11 +495,13 @@ impl Study {
         let planned = self.planned(scene, method);
         // How many steps lead to an equilibrium is not known before.
         if !method.setup.relax {
-            announce(planned.len(), self.refine == Refinement::Space, |run, trial| {
-                let (method, cells, watch) = &planned[run];
-                // It ends before the run does, or is not started, which the run says.
-                let _ = scene.run(method, cells, *watch, trial);
-            });
+            let estimated =
+                estimate(planned.len(), self.refine == Refinement::Space, |run, trial| {
+                    let (method, cells, watch) = &planned[run];
+                    // It ends before the run does, or is not started, which the run says.
+                    let _ = scene.run(method, cells, *watch, trial);
+                });
+            estimated.iter().for_each(|it| progress.say(it));
         }
         let levels = self.levels(scene, method, &run);
         let mut all: Vec<_> = levels.iter().flatten().map(|(run, _)| run.level.clone()).collect();
@@ -484,7 +519,7 @@ impl Study {
         });
         let found = self.fit.then(|| fit(&errors.collect::<Vec<_>>())).flatten();
         if self.fit && found.is_none() {
-            say("note: nothing fits the errors of these runs; give three grids or more");
+            progress.say("note: nothing fits the errors of these runs; give three grids or more");
         }
         (levels, found)
     }

@@ -12,7 +12,8 @@ use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_exact::gallery::FIELDS;
-use mms_files::store::{Store, digest, program};
+use mms_files::program::identity;
+use mms_files::store::{Store, digest};
 use mms_files::write::{pretty, write_files};
 use mms_lab::rows::Named as _;
 use mms_options::field::find;
@@ -82,7 +83,7 @@ impl Verify {
         if let Some(names) = &self.defects {
             return self.show_defects(names, &all, &rows, threads);
         }
-        let plan = Plan::new(&rows, self.quick, &program()?)?;
+        let plan = Plan::new(&rows, self.quick, &identity()?)?;
         let (store, set_aside) = Store::open(&self.store)?;
         let progress = Progress::new(&plan.jobs);
         set_aside.iter().for_each(|what| progress.set_aside(what));

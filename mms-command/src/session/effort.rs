@@ -4,8 +4,6 @@ use std::time::{Duration, Instant};
 
 use mms_runtime::study::{Frame, Observer};
 
-use crate::terminal::say;
-
 /// Runs of fewer particles and steps, all of them together, are done before a trial of them would be.
 const WORTH_A_TRIAL: f64 = 5e6;
 
@@ -62,9 +60,9 @@ impl Observer for Trial {
     }
 }
 
-/// Says what runs will take, coarse to fine or fine to coarse, of which each begins as `begin` begins it. With `in_step` all
-/// take the time step of the finest.
-pub fn announce(count: usize, in_step: bool, begin: impl Fn(usize, &mut Trial)) {
+/// The effort of runs in a sentence, coarse to fine or fine to coarse, of which each begins as `begin` begins it. With `in_step`
+/// all take the time step of the finest. Nothing where one cannot be started, which is said where it is.
+pub fn estimate(count: usize, in_step: bool, begin: impl Fn(usize, &mut Trial)) -> Option<String> {
     let sizes: Option<Vec<_>> = (0..count)
         .map(|run| {
             let mut trial = Trial::default();
@@ -72,14 +70,13 @@ pub fn announce(count: usize, in_step: bool, begin: impl Fn(usize, &mut Trial)) 
             trial.size
         })
         .collect();
-    // What cannot be started is said where it is started.
-    let Some(mut sizes) = sizes else { return };
+    let mut sizes = sizes?;
     if in_step {
         let steps = sizes.iter().map(|size| size.steps).max().unwrap_or_default();
         sizes.iter_mut().for_each(|size| size.steps = steps);
     }
     let took = duration(&sizes, begin);
-    say(sentence(&sizes, took));
+    Some(sentence(&sizes, took))
 }
 
 /// How long runs of these sizes will take together; not known of what takes no time.

@@ -28,6 +28,7 @@ from ._native import (
 )
 
 if TYPE_CHECKING:
+    from .studies import Problem, Study, campaign, study
     from .verdicts import Diagnosis, Judgement, diagnose, judge, judge_law
 
 __all__ = [
@@ -40,7 +41,10 @@ __all__ = [
     "Material",
     "MmsError",
     "Now",
+    "Problem",
+    "Study",
     "__version__",
+    "campaign",
     "diagnose",
     "field",
     "gallery",
@@ -48,16 +52,17 @@ __all__ = [
     "judge_law",
     "load",
     "loads",
+    "study",
 ]
 
 
 def __getattr__(name: str) -> Any:
-    """Verdicts, which are imported where they are asked for: who evaluates fields alone does not wait for them."""
+    """Studies and verdicts, which are imported where they are asked for: who evaluates fields alone does not wait for them."""
     if name not in __all__:
         raise AttributeError(f"module `manufactured` has no `{name}`")
-    from . import verdicts
+    from . import studies, verdicts
 
-    return getattr(verdicts, name)
+    return getattr(verdicts if hasattr(verdicts, name) else studies, name)
 
 
 def __dir__() -> list[str]:

@@ -48,7 +48,8 @@ class Document:
         hints = _hints(cls)
         values: dict[str, Any] = {}
         for field in fields(cls):
-            key = field.name[:-1] if keyword.iskeyword(field.name[:-1]) else field.name
+            name = field.name.removesuffix("_")
+            key = name if keyword.iskeyword(name) else field.name
             if key in document:
                 values[field.name] = _made(hints[field.name], document[key])
         made = cls(**values)

@@ -1,6 +1,6 @@
 """The extension module. generate.py wrote this."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import Any, final
 
@@ -13,6 +13,7 @@ _Numbers = npt.ArrayLike
 _Parameter = float | str | Any
 
 __version__: str
+__file__: str
 
 class MmsError(ValueError): ...
 
@@ -117,6 +118,13 @@ class Field:
     def parameters(self) -> dict[str, float]: ...
     @property
     def faces(self) -> list[str]: ...
+    @property
+    def boundary(self) -> list[tuple[str, str]]: ...
+    @property
+    def bounds(self) -> tuple[list[float], list[float]]: ...
+    def grid(
+        self, cells: str, per_cell: str = "2"
+    ) -> tuple[float, npt.NDArray[np.float64], npt.NDArray[np.float64]]: ...
     @property
     def window(self) -> tuple[float, float] | None: ...
     @property
@@ -357,3 +365,7 @@ def diagnose(
     residual_sign: float,
     nodal: bool,
 ) -> tuple[dict[str, str | None], list[str]]: ...
+def study(
+    field: Field, options: Sequence[str], progress: Callable[[str], object] | None
+) -> dict[str, str | None]: ...
+def command(file: str, words: Sequence[str], arguments: Sequence[str]) -> int: ...

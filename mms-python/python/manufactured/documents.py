@@ -107,6 +107,58 @@ class Diagnose(Document):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Study(Document):
+    """The document of `mms study FIELD`."""
+
+    field: str
+    """The name of the field."""
+    method: Method
+    """The method of the solver."""
+    refinement: str
+    """The refined lengths: `both`, `space` or `time`."""
+    levels: list[Level]
+    """The levels, from coarse to fine."""
+    noise: list[bool]
+    """True for each level whose error may be round-off alone."""
+    quantities: StudyErrors
+    """The quantities."""
+    differences: list[LevelDifference] | None
+    """The differences of successive levels, if only time is refined."""
+    expected_order: float
+    """The order that is expected."""
+    observed_order: float | None
+    """The observed order of `l2`."""
+    order_uncertainty: float | None
+    """The change that Richardson's extrapolation makes to the order of the finest pair."""
+    order_interval: list[float] | None
+    """The interval of the observed order."""
+    norm: str | None
+    """The norm that decided."""
+    norms: list[JudgedNorm]
+    """The finding of each norm."""
+    rule: int
+    """The version of the rule that decided."""
+    error_constant: float | None
+    """The constant C of `l2` = C h^p."""
+    expected_error_constant: float | None
+    """The value of `error_constant` that is expected."""
+    fit: Fit | None
+    """The fit in h and dt, with `--fit`."""
+    phase: Phase | None
+    """The errors of amplitude and phase, with `--periods`."""
+    verdict: str
+    """`pass`, `fail` or `not asymptotic`."""
+    excluded: list[Excluded] | None = None
+    """The mistakes that a pass excludes, with `--excluded`; null if the mistakes could not be run."""
+    causes: list[str] | None = None
+    """The likely causes of a verdict that is no pass, and errors of F or P that grow on finer meshes."""
+    next_command: list[str] | None = None
+    """The words of the command to type next, `mms` first; missing after a good verdict."""
+    provenance: Provenance
+    """How the document was made."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class JudgeLevel(Document):
     """A level of the first quantity."""
 
@@ -298,6 +350,118 @@ class ErrorFields(Document):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Method(Document):
+    """A method of the solver of this project."""
+
+    shape: str
+    """The shape function."""
+    integrator: str
+    """The time integrator."""
+    formulation: str
+    """The formulation: `updated` or `total`."""
+    transfer: str
+    """The transfer between particles and grid."""
+    flip_fraction: float | None
+    """The fraction of FLIP; null for other transfers."""
+    precision: str
+    """The precision: `f32` or `f64`."""
+    form: str
+    """The form of the code: `stable` or `fast`."""
+    particles_per_cell: int | str
+    """The number of particles along an edge of a cell, or a text such as `2x3`."""
+    fill: str | None
+    """The arrangement of the particles."""
+    jitter: float
+    """The random shift of the particles, in their spacing."""
+    seed: int
+    """The seed of the random shifts."""
+    offset: list[float]
+    """The offset of the grid, in cells."""
+    periodic: list[str]
+    """The periodic axes."""
+    courant: float
+    """The Courant number."""
+    time_step: float | None
+    """The time step, with `--time-step`."""
+    end_time: float | None
+    """The end of the run, with `--time`."""
+    relax: bool
+    """True if the run goes to an equilibrium, with `--relax`. Older documents do not have it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Level(Document):
+    """A level of a study."""
+
+    cells: int | str
+    """The number of cells along the longest edge, or a text such as `32x16`."""
+    cell_size: float | None
+    """The edge h of a cell."""
+    time_step: float | None
+    """The time step dt."""
+    steps: int | None
+    """The number of time steps."""
+    particles: int | None
+    """The number of particles."""
+    l1: float | None
+    """The mean of the error."""
+    l2: float | None
+    """The root mean square of the error."""
+    linf: float | None
+    """The maximum of the error."""
+    order_l1: float | None
+    """The order of `l1` against the level before."""
+    order_l2: float | None
+    """The order of `l2` against the level before."""
+    order_linf: float | None
+    """The order of `linf` against the level before."""
+    seconds: float | None
+    """The seconds on the clock."""
+    failure: str | None
+    """The reason why the run stopped; null if it reached its end."""
+    round_off: float | None = None
+    """The part of `l2` that round-off may cause, and with `--relax` the forces out of balance. Absent in a row
+    of the matrix."""
+    residual_ratio: float | None = None
+    """With `--relax`: the forces out of balance at the end, over the forces of the stress. Absent in a row of
+    the matrix."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class StudyErrors(Document):
+    """The errors of a study by quantity, level by level."""
+
+    displacement: list[LevelErrors]
+    """The error of u."""
+    velocity: list[LevelErrors]
+    """The error of v."""
+    deformation_gradient: list[LevelErrors]
+    """The error of F."""
+    first_piola_kirchhoff: list[LevelErrors]
+    """The error of P."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LevelDifference(Document):
+    """The difference of two successive levels."""
+
+    time_step: float
+    """The longer time step of both."""
+    l1: float | None
+    """The mean of the error."""
+    l2: float | None
+    """The root mean square of the error."""
+    linf: float | None
+    """The maximum of the error."""
+    order_l1: float | None
+    """The order of `l1` against the level before."""
+    order_l2: float | None
+    """The order of `l2` against the level before."""
+    order_linf: float | None
+    """The order of `linf` against the level before."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class JudgedNorm(Document):
     """The orders of a norm: see the verdict."""
 
@@ -325,6 +489,32 @@ class JudgedNorm(Document):
     """The limit e0 of e0 + C h^p, from four levels or more."""
     levels: list[JudgedLevel] | None = None
     """The errors on each level, from `mms judge`; null for a grid of h and dt."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fit(Document):
+    """The fit C_h h^p + C_t dt^q of the errors."""
+
+    space_constant: float
+    """The constant C_h."""
+    space_order: float
+    """The order p."""
+    time_constant: float
+    """The constant C_t."""
+    time_order: float
+    """The order q."""
+    residual: float
+    """The relative residual of the fit."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Phase(Document):
+    """The errors of amplitude and phase."""
+
+    period: float
+    """The period of the motion."""
+    measured: list[Period]
+    """The measured periods."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -371,6 +561,24 @@ class Plane(Document):
     """`X`, `Y` or `Z`."""
     at: float
     """The coordinate of the plane."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LevelErrors(Document):
+    """The errors on a level, and their orders."""
+
+    l1: float | None
+    """The mean of the error."""
+    l2: float | None
+    """The root mean square of the error."""
+    linf: float | None
+    """The maximum of the error."""
+    order_l1: float | None
+    """The order of `l1` against the level before."""
+    order_l2: float | None
+    """The order of `l2` against the level before."""
+    order_linf: float | None
+    """The order of `linf` against the level before."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -425,3 +633,27 @@ class JudgedLevel(Document):
     """The mean error; null if all runs stopped."""
     order: float | None
     """The order against the level before."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Period(Document):
+    """The errors of a period."""
+
+    number: int
+    """The number of the period, from 1 on."""
+    levels: list[PhaseLevel]
+    """The levels, from coarse to fine."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhaseLevel(Document):
+    """The errors of amplitude and phase on a level."""
+
+    amplitude_error: float | None
+    """The computed amplitude over the exact one, minus 1."""
+    order_amplitude: float | None
+    """The order of `amplitude_error`."""
+    phase_lag: float | None
+    """The phase lag in radians; negative if the run is ahead."""
+    order_phase: float | None
+    """The order of `phase_lag`."""

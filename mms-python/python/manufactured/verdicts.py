@@ -114,7 +114,8 @@ class Diagnosis(Shown, Diagnose):
         return self.finding == "nothing"
 
 
-def _field(field: Field | str) -> Field:
+def opened(field: Field | str) -> Field:
+    """A field, or that of the gallery with this name."""
     return _native.field(field) if isinstance(field, str) else field
 
 
@@ -154,7 +155,7 @@ def judge(
     Raises MmsError where results are none of the field.
     """
     views = _native.judge(
-        _field(field),
+        opened(field),
         _levels(results),
         list(quantities),
         [float(it) for it in times],
@@ -197,7 +198,7 @@ def diagnose(
     given = [Level(h, results, t=t, **named)] if named else _levels(results)  # type: ignore[arg-type]
     steps = [float(time_step)] if isinstance(time_step, (int, float)) else [float(it) for it in time_step]
     views, notes = _native.diagnose(
-        _field(field),
+        opened(field),
         given,
         None,
         list(quantities),
@@ -232,5 +233,5 @@ def judge_law(
     stresses = {"P": P, "S": S, "sigma": sigma, "tau": tau}
     given: dict[str, Any] = {name: it for name, it in stresses.items() if it is not None}
     level = Level(None, X, F=F, **given)
-    views, _ = _native.diagnose(_field(field), [level], "stress", [], [], [], [], [], 1.0, False)
+    views, _ = _native.diagnose(opened(field), [level], "stress", [], [], [], [], [], 1.0, False)
     return Diagnosis._of(views)

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Frame, Observer};
+use super::{Checkpoint, Frame, Observer};
 
 /// How the computed motion differs from the exact one over a period, at the frequency of the period.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,6 +125,14 @@ impl Observer for Phases<'_> {
             self.found.push(std::mem::take(&mut self.now).phase());
         }
         Ok(())
+    }
+
+    fn keeps(&self, step: usize, steps: usize) -> bool {
+        self.progress.keeps(step, steps)
+    }
+
+    fn keep(&mut self, checkpoint: &dyn Checkpoint) -> Result<(), String> {
+        self.progress.keep(checkpoint)
     }
 }
 

@@ -4,7 +4,7 @@ use mms_codegen::selection::{Freeze, Selection};
 use mms_convergence::{Expected, Verdict};
 use mms_exact::{Input, settings};
 use mms_mechanics::amplitude::Amplitude;
-use mms_options::field::{Variant, open};
+use mms_options::field::Variant;
 use mms_report::Refused;
 use mms_runtime::Transfer;
 use mms_runtime::failure::Cause as Stop;
@@ -211,7 +211,7 @@ impl Ended<'_> {
                 let freeze = Freeze::Only(set.iter().map(|(name, _)| name.clone()).collect());
                 let selection = Selection { set, freeze, ..Selection::default() };
                 let options = self.variant.options(selection);
-                let Ok(compiled) = open(self.field)?.compile(&options) else {
+                let Ok(compiled) = self.input.varied(&options) else {
                     return Ok(Vec::new());
                 };
                 compiled.into()

@@ -3,8 +3,6 @@
 use mms_report::Refused;
 use mms_runtime::Run;
 
-use super::super::say;
-
 /// The periods that runs go through.
 pub struct Periods {
     /// The start of the first.
@@ -17,19 +15,19 @@ pub struct Periods {
 
 impl Periods {
     /// Advice for a run that went well for some periods and then failed.
-    pub fn say_where_they_stopped(&self, levels: &[Result<Run, Refused>]) {
+    pub fn where_they_stopped(&self, levels: &[Result<Run, Refused>]) -> Option<String> {
         let failures = levels.iter().flatten().filter_map(|run| run.level.errors.as_ref().err());
         let numbers =
             failures.map(|it| ((it.time - self.start) / self.length).floor() as usize + 1);
         let numbers: Vec<_> = numbers.filter(|&number| number > 1).collect();
         if numbers.is_empty() {
-            return;
+            return None;
         }
         let numbers = numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
-        say(format_args!(
+        Some(format!(
             "note: stopped in period {numbers} of {}; where finer grids and smaller steps do not get further, errors \
              that grow from period to period have outgrown the motion: ask for fewer periods, or set a smaller motion",
             self.last
-        ));
+        ))
     }
 }

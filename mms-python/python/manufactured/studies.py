@@ -1,0 +1,230 @@
+"""Studies: of the solver of this project, and of one that is a Python function."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Union
+
+from . import _native, documents
+from ._native import Field, Level
+from .verdicts import Judgement, Results, Shown, judge, opened
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+#: Cells along the longest edge of the body, or along each of its axes.
+Cells = Union[int, str, Sequence[int]]
+
+#: Takes each line that says how far runs are.
+Progress = Union[bool, Callable[[str], object], None]
+
+#: The options of `mms study` that say where files go and how results are printed.
+_NO_OPTIONS = ("format", "full", "help", "json", "output", "set", "study", "verbose")
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Study(Shown, documents.Study):
+    """The observed order of a method of this project's own solver: `study` returns one."""
+
+    __str__ = Shown.__str__
+
+    def __repr__(self) -> str:
+        order = "" if self.observed_order is None else f", order {self.observed_order:.2f}"
+        return f"<study of {self.field}: {self.verdict}{order}>"
+
+    @property
+    def passed(self) -> bool:
+        """Whether the order is the expected one, or the results are exact to round-off."""
+        return self.verdict in ("pass", "exact to round-off")
+
+    def to_svg(self) -> str:
+        """A picture of the errors against h."""
+        return self._view("svg")
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the norms of the error against h, or against dt, with Matplotlib, and returns the axes."""
+        if ax is None:
+            import matplotlib.pyplot as plt  # type: ignore[import-not-found, unused-ignore]
+
+            ax = plt.subplots()[1]
+        length = "time_step" if self.refinement == "time" else "cell_size"
+        for norm in ("l1", "l2", "linf"):
+            levels = [it for it in self.levels if getattr(it, norm) is not None]
+            ax.loglog([getattr(it, length) for it in levels], [getattr(it, norm) for it in levels], "o-", label=norm)
+        ax.set_xlabel("dt" if self.refinement == "time" else "h")
+        ax.set_ylabel("error")
+        ax.legend()
+        return ax
+
+
+class _Printed:
+    """Prints how far work is on one line of stderr, once it has taken a second."""
+
+    def __init__(self) -> None:
+        self.start, self.width = time.monotonic(), 0
+
+    def __call__(self, line: str) -> None:
+        if time.monotonic() - self.start > 1:
+            sys.stderr.write("\r" + line.ljust(self.width))
+            sys.stderr.flush()
+            self.width = len(line)
+
+    def end(self) -> None:
+        """Clears the line."""
+        if self.width:
+            sys.stderr.write("\r" + " " * self.width + "\r")
+
+
+def _followed(progress: Progress) -> Callable[[str], object] | None:
+    if callable(progress):
+        return progress
+    is_seen = progress is None and (sys.stderr.isatty() or "ipykernel" in sys.modules)
+    return _Printed() if progress or is_seen else None
+
+
+def _end(told: Callable[[str], object] | None) -> None:
+    if isinstance(told, _Printed):
+        told.end()
+
+
+def _division(cells: Cells) -> str:
+    return "x".join(map(str, cells)) if isinstance(cells, Sequence) and not isinstance(cells, str) else str(cells)
+
+
+def _options(options: Mapping[str, Any]) -> list[str]:
+    words = []
+    for name, value in options.items():
+        if name in _NO_OPTIONS:
+            raise TypeError(f"study() takes no `{name}`: it writes no file, and its result has every form")
+        option = "--" + name.replace("_", "-")
+        if value is True:
+            words.append(option)
+        elif value is not None and value is not False:
+            many = isinstance(value, Iterable) and not isinstance(value, str)
+            words.append(f"{option}={','.join(map(str, value)) if many else value}")
+    return words
+
+
+def study(
+    field: Field | str,
+    *,
+    cells: Iterable[Cells] = (),
+    progress: Progress = None,
+    **options: Any,
+) -> Study:
+    """Runs a method of this project's own solver on levels of refinement: errors, orders, verdict. No file is written.
+
+    `study("bar_1d", shape="cpgimp", cells=[8, 16, 32])`. The options are those of `mms study`, with an underscore for a hyphen;
+    True stands for an option without a value. A study has one method.
+
+    `progress` is a function that takes each line about how far runs are; True prints them to stderr, and None does where
+    somebody watches: on a terminal and in a notebook.
+
+    Raises MmsError where an option makes no sense, or no level can be started. An interrupt ends the runs.
+    """
+    grids = [_division(it) for it in cells]
+    told = _followed(progress)
+    try:
+        return Study._of(_native.study(opened(field), _options({"cells": grids or None, **options}), told))
+    finally:
+        _end(told)
+
+
+class Problem:
+    """The problem that a solver solves on one mesh: a level of a `campaign`."""
+
+    def __init__(self, field: Field, cells: Cells, level: int) -> None:
+        #: The field: `problem.field.b(X, t)` and every other quantity.
+        self.field = field
+        #: Cells along the longest edge of the body, or along each axis, as they were given.
+        self.cells = cells
+        #: The number of the level, from 1.
+        self.level = level
+
+    @cached_property
+    def _grid(self) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
+        return self.field.grid(_division(self.cells))
+
+    @property
+    def h(self) -> float:
+        """The longest edge of a cell."""
+        return self._grid[0]
+
+    @property
+    def X(self) -> NDArray[np.float64]:
+        """The reference positions of two particles in each direction of each cell: (n, D)."""
+        return self._grid[1]
+
+    @property
+    def V0(self) -> NDArray[np.float64]:
+        """The reference volumes of these particles: (n,)."""
+        return self._grid[2]
+
+    @property
+    def lower(self) -> list[float]:
+        """The lower corner of the box around the body."""
+        return self.field.bounds[0]
+
+    @property
+    def upper(self) -> list[float]:
+        """The upper corner of the box around the body."""
+        return self.field.bounds[1]
+
+    @property
+    def window(self) -> tuple[float, float] | None:
+        """The first and the last time; None of a static field."""
+        return self.field.window
+
+    @property
+    def boundary(self) -> dict[str, str]:
+        """What the field claims on each face: fixed, free, traction and their like. `traction` gives the numbers."""
+        return dict(self.field.boundary)
+
+    def b(self, X: Any, t: float | None = None) -> NDArray[Any]:
+        """The body force per unit mass at reference positions: (..., D)."""
+        return self.field.body_force(X, t)
+
+    def traction(self, face: str, X: Any, t: float | None = None) -> NDArray[Any]:
+        """The traction P N on the reference area of a face: (..., D)."""
+        return self.field.traction(face, X, t)
+
+    def results(self, u: Any, X: Any = None, *, t: float | None = None, **quantities: Any) -> Level:
+        """Results on this mesh: u at the points X, or at the particles of the problem, at t, or at the end of the window."""
+        at = self.window[1] if t is None and self.window else t
+        return Level(self.h, self.X if X is None else X, u, t=at, **quantities)
+
+    def __repr__(self) -> str:
+        return f"<{self.field.name} on {_division(self.cells)} cells>"
+
+
+def campaign(
+    field: Field | str,
+    solver: Callable[[Problem], Results],
+    *,
+    cells: Iterable[Cells],
+    progress: Progress = None,
+    **options: Any,
+) -> Judgement:
+    """Runs a solver that is a Python function on meshes, from coarse to fine, and judges its results.
+
+    `solver(problem)` gets a `Problem`, and returns `problem.results(u)`, or results as `judge` takes them. The options are those
+    of `judge`, as in `expected_order=2`; `progress` is that of `study`.
+
+    Raises what the solver raises, and MmsError where its results are none of the field.
+    """
+    of, grids = opened(field), list(cells)
+    told = _followed(progress)
+    results = []
+    try:
+        for level, each in enumerate(grids, 1):
+            if told:
+                told(f"{_division(each)} cells: level {level} of {len(grids)}")
+            results.append(solver(Problem(of, each, level)))
+    finally:
+        _end(told)
+    return judge(of, results, **options)
