@@ -97,18 +97,21 @@ NATIVE = '''"""The extension module. generate.py wrote this."""
 
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any, final
+from typing import Any, TypeVar, final, overload
 
 import numpy as np
 import numpy.typing as npt
 
-# Of the precision of X: float32 or float64.
+# An array has the precision of X: float32 or float64.
+_Real = TypeVar("_Real", np.float32, np.float64)
+_Shape = TypeVar("_Shape", bound=tuple[int, ...])
+_Of = np.ndarray[_Shape, np.dtype[_Real]]
 _Array = npt.NDArray[Any]
+_Doubles = npt.NDArray[np.float64]
 _Numbers = npt.ArrayLike
 _Parameter = float | str | Any
 
 __version__: str
-__file__: str
 
 class MmsError(ValueError): ...
 
@@ -134,7 +137,7 @@ CLASSES = {
     @property
     def faces(self) -> list[str]: ...
     @property
-    def boundary(self) -> list[tuple[str, str]]: ...
+    def boundary(self) -> dict[str, str]: ...
     @property
     def bounds(self) -> tuple[list[float], list[float]]: ...
     def grid(
@@ -224,19 +227,36 @@ def command(file: str, words: Sequence[str], arguments: Sequence[str]) -> int: .
 '''
 
 
+def signatures(name, arguments, is_vector):
+    """The signatures of a quantity: a vector has the shape of X, and all have its precision; other numbers are doubles."""
+    if "X" not in arguments:
+        return f"    def {name}(self, {arguments}) -> _Array:\n"
+    kind = "_Of[_Shape, _Real]" if is_vector else "npt.NDArray[_Real]"
+    first = arguments.replace("_Numbers", kind)
+    return (f"    @overload\n    def {name}(self, {first}) -> {kind}: ...\n"
+            f"    @overload\n    def {name}(self, {arguments}) -> _Doubles:\n")
+
+
 def native():
     import manufactured as mf
 
-    text = NATIVE
+    text, field = NATIVE, mf.field("travelling_wave_2d")
     for name, (arguments, rest) in CLASSES.items():
         text += f"@final\nclass {name}:\n"
-        known = vars(getattr(mf, name))
-        # Each quantity under its name, and then its alias; both are one object.
-        for attribute, value in known.items():
+        written = {}
+        for attribute, value in vars(getattr(mf, name)).items():
             doc = getattr(value, "__doc__", None) or ""
-            if "The unit is" in doc:
-                text += f"    def {attribute}(self, {arguments}) -> _Array:\n"
-                text += sentence(doc.split("The unit is")[0] + "Unit: " + doc.split("The unit is ")[1].split("\n")[0], "        ")
+            if "The unit is" not in doc:
+                continue
+            # Each quantity under its name, and then its alias.
+            if doc in written:
+                text += f"    {attribute} = {written[doc]}\n"
+                continue
+            written[doc] = attribute
+            summary, unit = doc.split("The unit is ")
+            is_vector = field.evaluate(attribute, [[0.5, 0.5]], 0.0).ndim == 2
+            text += signatures(attribute, arguments, is_vector)
+            text += sentence(f"{summary}Unit: " + unit.split("\n")[0], "        ")
         text += rest + "\n"
     return text.rstrip("\n") + "\n" + REST
 

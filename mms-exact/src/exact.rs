@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::sync::LazyLock;
 
+use anyhow::ensure;
 use dashu_ratio::RBig;
 use mms_analysis::present::{Inverse, Unplaced};
 use mms_interpreted::AtPoints;
@@ -287,6 +288,7 @@ impl Exact {
         time: f64,
         places: [&[f64]; 2],
     ) -> anyhow::Result<Vec<f64>> {
+        ensure!(!self.input.options().stop.is_asked(), "stopped, as somebody asked for");
         let prepared = match self.prepared.entry(output) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => place.insert(prepared(&self.input, &self.parameters, output)?),

@@ -21,6 +21,7 @@ use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
 use mms_spec::{Form, Space};
 use mms_symbolic::sorted::SortedMap;
+use mms_symbolic::work::Stop;
 
 use crate::provenance::input as provenance_of;
 use crate::source::{Compile, Source};
@@ -118,6 +119,11 @@ impl Input {
     /// Its text, to be compiled in another way.
     pub fn source(&self) -> &Source {
         &self.source
+    }
+
+    /// The same field, whose evaluation another thread can stop.
+    pub fn stopped_by(&self, stop: Stop) -> Input {
+        Input { options: Options { stop, ..self.options.clone() }, ..self.clone() }
     }
 
     /// How it was compiled.

@@ -22,7 +22,6 @@ use crate::kept::Stay;
 use crate::mistake::mistake;
 use crate::open;
 use crate::opened::{Opened, Points};
-use crate::results::exact;
 use crate::show::show;
 
 /// A field: a motion, its material, and the loads that make it a solution. `field`, `load` and `loads` open one, and `Field` makes
@@ -146,9 +145,12 @@ impl Field {
 
     /// The claim on each face, by names of faces: fixed, free, traction and their like, as the field file has them.
     #[getter]
-    fn boundary(&self) -> Vec<(&str, &str)> {
-        let claims = claims(&self.opened.compiled().field);
-        claims.into_iter().map(|(face, claim)| (face.name(), claim.name())).collect()
+    fn boundary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let boundary = PyDict::new(py);
+        for (face, claim) in claims(&self.opened.compiled().field) {
+            boundary.set_item(face.name(), claim.name())?;
+        }
+        Ok(boundary)
     }
 
     /// The box around the body in the reference configuration: its lower and its upper corner.
@@ -172,7 +174,7 @@ impl Field {
         let setup = Setup { particles_per_cell: per_cell, ..Setup::default() };
         let made = py.detach(|| {
             hold_division("cells", &cells, opened.dimension())?;
-            let scene = exact(opened)?.scene()?;
+            let scene = opened.input.scene(&opened.arguments(), |code| code.double)?;
             Ok((scene.cell_size(&cells), scene.layout(&setup, &cells)?))
         });
         let (h, layout) = made.map_err(|error: anyhow::Error| mistake(format!("{error:#}")))?;

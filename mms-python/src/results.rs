@@ -3,6 +3,7 @@
 use mms_exact::Exact;
 use mms_judge::results::Results;
 use mms_results::{Array, Cells, Snapshot, Stored, Time};
+use mms_symbolic::work::Stop;
 use numpy::PyReadonlyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -198,6 +199,6 @@ pub fn sizes(all: &[Given]) -> PyResult<Vec<f64>> {
 }
 
 /// The exact solution of a field, for its results.
-pub fn exact(opened: &crate::opened::Opened) -> anyhow::Result<Exact> {
-    Exact::new(opened.input.clone(), &opened.arguments())
+pub fn exact(opened: &crate::opened::Opened, stop: Stop) -> anyhow::Result<Exact> {
+    Exact::new(opened.input.stopped_by(stop), &opened.arguments())
 }

@@ -19,6 +19,7 @@ use mms_report::plot::Figure;
 use mms_report::{Diagnosed, Format, Shown, View};
 use mms_results::names::Names;
 use mms_spec::quantity::Quantity;
+use mms_symbolic::work::Stop;
 use pyo3::prelude::*;
 
 use crate::field::Field;
@@ -87,12 +88,13 @@ fn provenance(kind: &str, opened: &Opened) -> Provenance {
     }
 }
 
-/// Works without the lock of the interpreter, and turns an error into an exception.
+/// Works without the lock of the interpreter until an interrupt asks for a stop, and turns an error into an exception.
 fn detached<R: Send>(
     py: Python<'_>,
-    work: impl FnOnce() -> anyhow::Result<R> + Send,
+    work: impl FnOnce(Stop) -> anyhow::Result<R> + Send,
 ) -> PyResult<R> {
-    let made = py.detach(|| interruptible(&Default::default(), work));
+    let stop = Stop::default();
+    let made = py.detach(|| interruptible(&stop, || work(stop.clone())));
     made?.map_err(|error| mistake(format!("{error:#}")))
 }
 
@@ -117,8 +119,8 @@ fn judge(
     let over = over.map(Over::of).transpose().map_err(|it| mistake(format!("`over`: {it}")))?;
     let (opened, sizes) = (&*field.opened, sizes(&results)?);
     let orders = self::orders(&orders, tolerance, start);
-    detached(py, move || {
-        let mut exact = exact(opened)?.in_space_if(all_components);
+    detached(py, move |stop| {
+        let mut exact = exact(opened, stop)?.in_space_if(all_components);
         let (names, wanted) = (names(opened.compiled()), wanted(opened, &quantities)?);
         let reading = Reading {
             files: &Disk,
@@ -178,8 +180,8 @@ fn diagnose(
     };
     let (opened, sizes) = (&*field.opened, sizes(&results)?);
     let orders = self::orders(&orders, None, None);
-    detached(py, move || {
-        let mut exact = exact(opened)?;
+    detached(py, move |stop| {
+        let mut exact = exact(opened, stop)?;
         let scene = exact.scene()?;
         let (names, wanted) = (names(opened.compiled()), wanted(opened, &quantities)?);
         let find = |name: &str| find(name, &names, None, &Disk);

@@ -1,6 +1,7 @@
 """Verdicts and diagnoses: to the documents of the command."""
 
 import json
+import signal
 from types import SimpleNamespace
 
 import numpy as np
@@ -183,3 +184,18 @@ def test_accelerations_at_an_exact_state():
     assert right.is_right, str(right)
     wrong = mf.diagnose(field, X, a=field.a(X, 0.01) - 2 * field.b(X, 0.01), t=0.01)
     assert wrong.ranked[0].hypothesis == "force_reversed", str(wrong)
+
+
+def test_an_interrupt_ends_a_judgement_and_the_field_stays():
+    field = mf.field("axis_aligned_3d")
+    u = np.zeros((3_000_000, 3))
+    signal.setitimer(signal.ITIMER_REAL, 0.05)
+    before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            mf.judge(field, [mf.Level(h, u, u, t=0.01) for h in (1, 1 / 2, 1 / 4)])
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+    few = field.sample(20)
+    assert mf.judge(field, [mf.Level(h, few, field.u(few, 0.01) * (1 + h**2), t=0.01) for h in (1, 1 / 2, 1 / 4)]).passed

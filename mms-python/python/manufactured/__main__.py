@@ -9,7 +9,7 @@ from . import _native
 def main() -> int:
     """Runs `mms` with the arguments of this process, and returns its exit code. Signals end it as they end any program."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    return _native.command(_native.__file__, [sys.executable, "-m", __package__], sys.argv[1:])
+    return _native.command(_native.__file__, [sys.executable, "-m", "manufactured"], sys.argv[1:])
 
 
 if __name__ == "__main__":

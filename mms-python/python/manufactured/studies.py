@@ -183,7 +183,7 @@ class Problem:
     @property
     def boundary(self) -> dict[str, str]:
         """What the field claims on each face: fixed, free, traction and their like. `traction` gives the numbers."""
-        return dict(self.field.boundary)
+        return self.field.boundary
 
     def b(self, X: Any, t: float | None = None) -> NDArray[Any]:
         """The body force per unit mass at reference positions: (..., D)."""
