@@ -105,12 +105,12 @@ def test_a_campaign_judges_a_function():
 
 def test_a_campaign_in_two_dimensions_raises_what_the_solver_raises():
     def solve(problem):
-        assert problem.X.shape == (4 * 16, 2)
+        assert problem.X.shape == (6 * 16, 2)
         raise ZeroDivisionError
 
     lines = []
     with pytest.raises(ZeroDivisionError):
-        mf.campaign("travelling_wave_2d", solve, cells=["4x4"], progress=lines.append)
+        mf.campaign("travelling_wave_2d", solve, cells=["4x4"], particles_per_cell=(3, 2), progress=lines.append)
     assert lines == ["4x4 cells: level 1 of 1"]
     with pytest.raises(mf.MmsError, match="cells"):
         mf.campaign("bar_1d", lambda problem: problem.X, cells=[(4, 4)])

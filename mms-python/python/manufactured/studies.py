@@ -138,17 +138,19 @@ def study(
 class Problem:
     """The problem that a solver solves on one mesh: a level of a `campaign`."""
 
-    def __init__(self, field: Field, cells: Cells, level: int) -> None:
+    def __init__(self, field: Field, cells: Cells, level: int, particles_per_cell: Cells) -> None:
         #: The field: `problem.field.b(X, t)` and every other quantity.
         self.field = field
         #: Cells along the longest edge of the body, or along each axis, as they were given.
         self.cells = cells
         #: The number of the level, from 1.
         self.level = level
+        #: Particles in each direction of a cell.
+        self.particles_per_cell = particles_per_cell
 
     @cached_property
     def _grid(self) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
-        return self.field.grid(_division(self.cells))
+        return self.field.grid(_division(self.cells), _division(self.particles_per_cell))
 
     @property
     def h(self) -> float:
@@ -157,7 +159,7 @@ class Problem:
 
     @property
     def X(self) -> NDArray[np.float64]:
-        """The reference positions of two particles in each direction of each cell: (n, D)."""
+        """The reference positions of particles that fill the cells: (n, D)."""
         return self._grid[1]
 
     @property
@@ -207,13 +209,14 @@ def campaign(
     solver: Callable[[Problem], Results],
     *,
     cells: Iterable[Cells],
+    particles_per_cell: Cells = 2,
     progress: Progress = None,
     **options: Any,
 ) -> Judgement:
     """Runs a solver that is a Python function on meshes, from coarse to fine, and judges its results.
 
-    `solver(problem)` gets a `Problem`, and returns `problem.results(u)`, or results as `judge` takes them. The options are those
-    of `judge`, as in `expected_order=2`; `progress` is that of `study`.
+    `solver(problem)` gets a `Problem`, with so many particles in each direction of a cell, and returns `problem.results(u)`, or
+    results as `judge` takes them. The options are those of `judge`, as in `expected_order=2`; `progress` is that of `study`.
 
     Raises what the solver raises, and MmsError where its results are none of the field.
     """
@@ -224,7 +227,7 @@ def campaign(
         for level, each in enumerate(grids, 1):
             if told:
                 told(f"{_division(each)} cells: level {level} of {len(grids)}")
-            results.append(solver(Problem(of, each, level)))
+            results.append(solver(Problem(of, each, level, particles_per_cell)))
     finally:
         _end(told)
     return judge(of, results, **options)
