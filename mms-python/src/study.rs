@@ -97,7 +97,7 @@ fn study(
             Some(Err(refused)) if !alone.is_started() => {
                 bail!("{} cells: {refused}", refused.cells)
             }
-            _ => Views::of(&report, Some(Study::figure(alone))),
+            _ => Views::of(&report, Some(alone.figure().svg())),
         }
     };
     let made = py.detach(|| interruptible(&follower.stop, work))?;

@@ -2,6 +2,7 @@
 
 mod cause;
 mod periods;
+mod refined;
 mod usual;
 
 use std::collections::btree_map::{BTreeMap, Entry};
@@ -26,6 +27,7 @@ use mms_runtime::{Division, Method, Real, Refusal, Run};
 
 use self::cause::Ended;
 use self::periods::Periods;
+use self::refined::{PARTS, halved, quartered};
 use self::usual::filled;
 use super::figure::FigureFile;
 use super::format::{Detail, Printing};
@@ -107,32 +109,12 @@ pub struct Study {
     printing: Printing,
 }
 
-/// At the ends of so many equal parts of the time window, runs of a study in time are compared.
-const PARTS: usize = 16;
-
 /// At these parts of the time, what mistakes add is held to the largest error of a study.
 const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// The quantities whose errors a study has.
 const COMPARED: [&str; 4] =
     ["displacement", "velocity", "deformation_gradient", "first_piola_kirchhoff"];
-
-/// A method with half the time step, so many times.
-fn halved(method: &Method, times: u32) -> Method {
-    let mut method = method.clone();
-    let factor = 2f64.powi(times as i32);
-    method.setup.courant /= factor;
-    method.setup.time_step = method.setup.time_step.map(|step| step / factor);
-    method.setup.parts *= PARTS << times;
-    method
-}
-
-/// A method with a quarter of the time step, unless that is given.
-fn quartered(method: &Method) -> Method {
-    let mut method = method.clone();
-    method.setup.courant /= 4.0;
-    method
-}
 
 /// A run, and its phase in the periods that are wanted; or why it was not started.
 type Solved = Result<(Run, Vec<Option<Phase>>), Refused>;
