@@ -33,7 +33,12 @@ fuzz_target!(|bytes: &[u8]| {
                 };
                 let _ = hold_distinct(snapshot, &motion.reference);
                 let places = &motion.reference.numbers;
-                let mesh = Mesh { cells: &snapshot.cells, points: places, dimension: 2 };
+                let mesh = Mesh {
+                    cells: &snapshot.cells,
+                    points: places,
+                    dimension: 2,
+                    is_meridian: false,
+                };
                 let _ = (mesh.sizes(), mesh.middles(), mesh.volumes());
                 let _ = (mesh.free_edges(&|_| true), mesh.imbalance(&|_| true));
             }

@@ -172,14 +172,23 @@ impl<'a> Instant<'a> {
     /// x and F over a box.
     fn over(&mut self, place: &[Interval]) -> [Vec<Interval>; 2] {
         self.bounds.set_point(&self.plan, Point::at(place));
-        [POSITION, GRADIENT].map(|output| self.bounds.output(output))
+        [POSITION, GRADIENT].map(|output| within(self.bounds.output(output), place.len()))
     }
 
     /// x and F at a point.
     fn at(&mut self, place: &[f64]) -> [Vec<f64>; 2] {
         self.values.set_point(&self.plan, Point::at(place));
-        [POSITION, GRADIENT].map(|output| self.values.output(output))
+        [POSITION, GRADIENT].map(|output| within(self.values.output(output), place.len()))
     }
+}
+
+/// The entries of x or F in the coordinates of points: F of an axisymmetric field also has a row and a column around the axis.
+fn within<T>(entries: Vec<T>, dimension: usize) -> Vec<T> {
+    let rows = entries.len().isqrt();
+    let is_around = |at: usize| at / rows >= dimension || at % rows >= dimension;
+    let is_tensor = entries.len() > 3;
+    let kept = entries.into_iter().enumerate().filter(|(at, _)| !is_tensor || !is_around(*at));
+    kept.map(|(_, entry)| entry).collect()
 }
 
 /// Cuts the body until the motion is one to one on each part, or there are too many.

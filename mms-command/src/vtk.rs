@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use mms_files::write::{write_own, write_own_with};
 use mms_results::Cells;
+use mms_results::names::Axes;
 use mms_results::write::{Column, Mesh, Shape, State, vtu};
 use mms_runtime::study::Frame;
 use mms_spec::foreign;
@@ -127,6 +128,7 @@ fn state(frame: &Frame) -> State {
     State {
         time: frame.time,
         dimension: frame.dimension,
+        axes: Axes::Cartesian,
         facts: Vec::new(),
         columns: vec![
             column("particle", Shape::Whole, &particles),

@@ -14,7 +14,7 @@ use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Response};
 use mms_runtime::scene::Scene;
 use mms_spec::quantity::{Quantity, Shape};
-use mms_spec::{Claim, Face};
+use mms_spec::{Claim, Face, Space};
 use mms_symbolic::sorted::SortedMap;
 
 use crate::Input;
@@ -32,13 +32,13 @@ pub struct Exact {
     /// Parameters that were set, by position.
     set: SortedMap<usize, RBig>,
     parameters: Vec<f64>,
-    /// Its dimension.
+    /// The coordinates of a point.
     pub dimension: usize,
     /// Its time window.
     pub window: [f64; 2],
     /// Its body.
     pub body: Extent<f64>,
-    /// Rows of tensors: its dimension, or three.
+    /// Rows of tensors: those of the field's coordinates, or three.
     tensors: usize,
     prepared: BTreeMap<Output, AtPoints>,
 }
@@ -49,14 +49,13 @@ impl Exact {
     /// # Errors
     /// Settings that it does not have.
     pub fn new(input: Input, settings: &[String]) -> anyhow::Result<Exact> {
-        input.hold_cartesian()?;
         input.hold(settings)?;
         input.hold_body("there is nothing that states and results could fill")?;
         let set = input.settings(settings)?;
         let parameters = input.compiled.parameters::<f64>(&set);
         let (body, window) = domain(&input.compiled.program, &parameters);
         let dimension = input.compiled.field.dimension;
-        let (tensors, prepared) = (dimension, BTreeMap::new());
+        let (tensors, prepared) = (input.compiled.field.space.rows(), BTreeMap::new());
         Ok(Exact { input, set, parameters, dimension, window, body, tensors, prepared })
     }
 
@@ -84,6 +83,23 @@ impl Exact {
         self.tensors
     }
 
+    /// The coordinates that the field is written in.
+    pub fn space(&self) -> Space {
+        self.input.compiled.field.space
+    }
+
+    /// Whether points also move along the hoop, and leave their meridian.
+    pub fn turns(&self) -> bool {
+        self.space() == Space::Axisymmetric { swirl: true }
+    }
+
+    /// The factor by which each of these places counts in a mean over the body: its radius, where each stands for a ring. None
+    /// if all count alike.
+    pub fn radii(&self, points: &[f64]) -> Option<Vec<f64>> {
+        let is_ring = self.space().is_axisymmetric();
+        is_ring.then(|| points.chunks(self.dimension).map(|point| point[0]).collect())
+    }
+
     /// The field.
     pub fn input(&self) -> &Input {
         &self.input
@@ -104,6 +120,9 @@ impl Exact {
         let near = self.spacing(points.max(1)) * BEYOND;
         let mut inverse = None;
         move |x, rounding| {
+            if self.turns() {
+                return Err(TURNS.into());
+            }
             let inverse: &mut Inverse<'_> =
                 inverse.get_or_insert_with(|| Inverse::new(&self.input.compiled, &self.set, time));
             match inverse.reference(x, rounding.max(near)) {
@@ -144,15 +163,23 @@ impl Exact {
     ) -> anyhow::Result<Vec<f64>> {
         let own = self.own(quantity, time, points)?;
         match Beyond::of(quantity, &self.input.compiled.model.kind)
-            .filter(|_| self.tensors > self.dimension)
+            .filter(|_| self.tensors > self.space().rows())
         {
             Some(beyond) => self.with_all_components(&own, beyond, time, points),
             None => Ok(own),
         }
     }
 
-    /// A quantity with the components that a field of its dimension has.
-    fn own(&mut self, quantity: Quantity, time: f64, points: &[f64]) -> anyhow::Result<Vec<f64>> {
+    /// A quantity with the components that the field has, at points X.
+    ///
+    /// # Errors
+    /// As of [`values`](Self::values).
+    pub fn own(
+        &mut self,
+        quantity: Quantity,
+        time: f64,
+        points: &[f64],
+    ) -> anyhow::Result<Vec<f64>> {
         let components = self.input.compiled.field.space.components(quantity.shape());
         self.output(Output::Quantity(quantity), components, time, [points, &[]])
     }
@@ -313,6 +340,10 @@ pub fn says(why: &Unplaced) -> String {
         ),
     }
 }
+
+/// Why x of a field with a swirl tells no X.
+pub const TURNS: &str =
+    "points of the body move along the hoop, and R and Z of x do not tell which of them is there";
 
 /// How far points may be from a face that are on it.
 fn near(points: &[f64], rounding: f64) -> f64 {

@@ -326,7 +326,7 @@ impl Input {
         ensure!(
             self.compiled.field.space != (Space::Axisymmetric { swirl: true }),
             "`{}` has a swirl, and the solver of this project moves rings along R and Z alone; `mms check`, `mms eval`, `mms \
-             show`, `mms accuracy` and `mms emit` take this field",
+             show`, `mms accuracy`, `mms emit`, `mms judge` and `mms state --points` take this field",
             self.name.shown()
         );
         Ok(())

@@ -14,7 +14,7 @@ mod source;
 mod units;
 pub mod wave;
 
-pub use exact::{Exact, SAME, says};
+pub use exact::{Exact, SAME, TURNS, says};
 pub use input::{Input, Mistaken, hold_body, hold_division, settings};
 pub use quantities::{evaluated, quantities};
 pub use source::{Open, Source};

@@ -12,13 +12,12 @@ use mms_emit::{TARGETS, Target};
 use mms_exact::hold_division;
 use mms_exact::wave::sound;
 use mms_exact::{Input, Open, quantities};
-use mms_judge::results::{Over, Start as How, own_roles, weight};
+use mms_judge::results::{Over, Start as How, axes, own_roles, weight};
 use mms_judge::table::{Order, Orders};
 use mms_mechanics::sample::domain;
 use mms_results::names::{Mapping, Names, Role};
 use mms_runtime::Division;
 use mms_spec::foreign;
-use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Spanned;
 use mms_spec::suggest::advice;
@@ -293,7 +292,6 @@ impl Setting<'_> {
         let settings = input.settings(&study.set)?;
         let parameters = input.compiled.parameters::<f64>(&settings);
         let (_, [first, last]) = domain(&input.compiled.program, &parameters);
-        self.hold_cartesian(study, &input)?;
         self.hold_static(study, &input)?;
         self.hold_parameters(study, &input)?;
         let end = study.end.unwrap_or(last);
@@ -305,16 +303,8 @@ impl Setting<'_> {
         let (window, per_cell) = ([first, end], self.per_cell(study, &input)?);
         let place = Place { setting: self, study, input: &input, window, per_cell, speed };
         let jobs = levels.iter().map(|&level| place.job(level)).collect::<Result<_, _>>()?;
-        let options = self.judging(study, &input.own_quantities())?;
+        let options = self.judging(study, &input)?;
         Ok(Planned { study: study.clone(), window, options, per_cell, jobs, input, wrong })
-    }
-
-    /// Refuses an axisymmetric field, whose results nothing judges.
-    fn hold_cartesian(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
-        input.hold_cartesian().map_err(|error| {
-            let message = error.to_string();
-            self.campaign.mistake(study.field.span, message, "expected a Cartesian field").into()
-        })
     }
 
     /// Refuses times of a field that has none.
@@ -370,11 +360,12 @@ impl Setting<'_> {
         self.option(word, "particles_per_cell", held)
     }
 
-    fn judging(&self, study: &Study, own: &[Own]) -> anyhow::Result<Judging> {
+    fn judging(&self, study: &Study, input: &Input) -> anyhow::Result<Judging> {
+        let own = input.own_quantities();
         let text =
-            |word: &str| quantities(own, &[word.to_owned()]).map_err(|error| error.to_string());
+            |word: &str| quantities(&own, &[word.to_owned()]).map_err(|error| error.to_string());
         let quantities = self.options(&study.quantity, "quantity", text)?.concat();
-        let own = own_roles(own);
+        let own = own_roles(&own);
         let map = self.options(&study.map, "map", |word| Mapping::read(word, &own))?;
         let columns = study.columns.iter().map(|word| word.value.clone()).collect();
         let profile = |word: &Spanned<String>| {
@@ -385,7 +376,7 @@ impl Setting<'_> {
         let profile = study.from.as_ref().map(profile).transpose()?;
         let over = |word: &Spanned<String>| self.option(word, "over", Over::of(&word.value));
         let over = study.over.as_ref().map(over).transpose()?;
-        let names = Names { map, columns, profile, own };
+        let names = Names { map, columns, profile, own, axes: axes(&input.compiled.field) };
         let order = |word: &str| word.parse::<Order>().map_err(str::to_owned);
         let orders = Orders::new(&self.options(&study.order, "order", order)?, study.tolerance);
         let of = |word: &Spanned<String>| {

@@ -12,7 +12,7 @@ use mms_files::machine::{processor, processors};
 use mms_files::results::Disk;
 use mms_judge::Judgements;
 use mms_judge::diagnose::{Alone, Factors, Reading as Looking, falls, find, left_out, read};
-use mms_judge::results::{Comparison, Over, Reading, Results, Start, measure, own_roles};
+use mms_judge::results::{Comparison, Over, Reading, Results, Start, axes, measure, own_roles};
 use mms_judge::table::Orders;
 use mms_report::page::Section as _;
 use mms_report::plot::Figure;
@@ -67,7 +67,7 @@ fn orders(given: &[(Option<String>, f64)], tolerance: Option<f64>, start: Option
 
 fn names(compiled: &Compiled) -> Names {
     let own: Vec<_> = compiled.model.own.keys().copied().collect();
-    Names { own: own_roles(&own), ..Names::default() }
+    Names { own: own_roles(&own), axes: axes(&compiled.field), ..Names::default() }
 }
 
 fn wanted(opened: &Opened, quantities: &[String]) -> anyhow::Result<Vec<Quantity>> {

@@ -1,39 +1,39 @@
 //! The parts of a quantity that the components of an array are, by their names in the file.
 
+use crate::axes::Axes;
 use crate::meaning::{Column, Part, Place, array};
-use crate::parts::axis;
 use crate::{Array, Snapshot};
 
 /// The part that each component is: by their names if these tell axes, as XX, YY, XY or x, y, z, else by their order.
-pub(crate) fn parts(array: &Array) -> Vec<Part> {
+pub(crate) fn parts(array: &Array, axes: Axes) -> Vec<Part> {
     let by_order = || (0..array.components).map(Part::Nth).collect();
-    by_name(&array.component_names)
+    by_name(&array.component_names, axes)
         .filter(|it| it.len() == array.components)
         .unwrap_or_else(by_order)
 }
 
 /// Whether the file names the components of an array by axes.
-pub(crate) fn has_names(array: &Array) -> bool {
-    by_name(&array.component_names).is_some_and(|it| it.len() == array.components)
+pub(crate) fn has_names(array: &Array, axes: Axes) -> bool {
+    by_name(&array.component_names, axes).is_some_and(|it| it.len() == array.components)
 }
 
 /// The parts that columns are by their names, where these are all components of one array and tell it.
-pub(crate) fn of_columns(snapshot: &Snapshot, columns: &[Column]) -> Option<Vec<Part>> {
+pub(crate) fn of_columns(snapshot: &Snapshot, columns: &[Column], axes: Axes) -> Option<Vec<Part>> {
     let array: &Array = array(snapshot, columns.first()?.place);
     let place: Place = columns[0].place;
     let is_next = |(at, it): (usize, &Column)| it.place == place && it.component == at;
     let is_whole = columns.len() == array.components && columns.iter().enumerate().all(is_next);
-    by_name(&array.component_names).filter(|it| is_whole && it.len() == columns.len())
+    by_name(&array.component_names, axes).filter(|it| is_whole && it.len() == columns.len())
 }
 
 /// Parts by names that differ in what tells axes alone, each another one; entries of a matrix have two on its diagonal.
-fn by_name(names: &[String]) -> Option<Vec<Part>> {
+fn by_name(names: &[String], letters: Axes) -> Option<Vec<Part>> {
     let first = names.first()?;
     [2, 1].into_iter().find_map(|count| {
         let stem = first.get(..first.len().checked_sub(count)?)?;
         let axes = |name: &String| -> Option<Vec<usize>> {
             let (base, axes) = name.split_at_checked(name.len().checked_sub(count)?)?;
-            let of_space = |byte| axis(byte).filter(|it| *it <= 3);
+            let of_space = |byte| letters.of(byte).filter(|it| *it <= 3);
             (base == stem).then(|| axes.bytes().map(of_space).collect())?
         };
         let all = names.iter().map(axes).collect::<Option<Vec<_>>>()?;
@@ -60,7 +60,7 @@ mod tests {
     fn names_that_tell_axes_are_known() {
         let parts = |names: &[&str]| {
             let names: Vec<String> = names.iter().map(|it| (*it).to_owned()).collect();
-            by_name(&names)
+            by_name(&names, Axes::Cartesian)
         };
         let entries =
             |of: &[[usize; 2]]| Some(of.iter().map(|it| Part::Entry(it[0], it[1])).collect());

@@ -12,6 +12,7 @@
 //!
 //! Nothing here opens a file, knows a field, or decides whether an error is small.
 
+mod axes;
 pub mod cell;
 pub mod comparison;
 mod components;

@@ -1,5 +1,6 @@
 //! The columns that a user, or the profile of a code, names for a quantity.
 
+use crate::axes::Axes;
 use crate::components::of_columns;
 use crate::meaning::{Column, Meaning, Part, Place, Why};
 use crate::parts::{all_names, arrays, part_of};
@@ -48,32 +49,41 @@ impl Mapping {
 }
 
 /// The meaning that a user gives to columns.
-pub(crate) fn mapped(snapshot: &Snapshot, mapping: &Mapping) -> Result<Meaning, Mistake> {
+pub(crate) fn mapped(
+    snapshot: &Snapshot,
+    mapping: &Mapping,
+    axes: Axes,
+) -> Result<Meaning, Mistake> {
     let Mapping { role, columns: names } = mapping;
-    let columns = match components(snapshot, names) {
+    let columns = match components(snapshot, names, axes) {
         Some(columns) => columns,
         None => {
             let columns = names.iter().map(|name| columns(snapshot, name));
             let columns = columns.collect::<Result<Vec<_>, _>>();
             let columns = columns.map_err(|mistake| mistake.of(&snapshot.path))?;
             let columns: Vec<Column> = columns.into_iter().flatten().collect();
-            let parts = of_columns(snapshot, &columns).filter(|_| names.len() == 1);
+            let parts = of_columns(snapshot, &columns, axes).filter(|_| names.len() == 1);
             let parts = parts.unwrap_or_else(|| (0..columns.len()).map(Part::Nth).collect());
             parts.into_iter().zip(columns).collect()
         }
     };
     let why = Why::Map(names.len());
-    Ok(Meaning { role: *role, source: names.join(","), face: None, columns, why, reading: None })
+    let (role, source) = (*role, names.join(","));
+    Ok(Meaning { role, source, face: None, columns, why, reading: None, axes })
 }
 
 /// The arrays whose names are one name and a component, as `stress_xx` is of `stress`, if no array has that name itself.
-pub(crate) fn components(snapshot: &Snapshot, names: &[String]) -> Option<Vec<(Part, Column)>> {
+pub(crate) fn components(
+    snapshot: &Snapshot,
+    names: &[String],
+    axes: Axes,
+) -> Option<Vec<(Part, Column)>> {
     let [name] = names else { return None };
     if arrays(snapshot).any(|(_, array)| array.name == *name) {
         return None;
     }
     let part = |(place, array): (Place, &Array)| {
-        let part = part_of(&array.name, name).filter(|_| array.components == 1)?;
+        let part = part_of(&array.name, name, axes).filter(|_| array.components == 1)?;
         Some((part, Column { place, component: 0 }))
     };
     let found: Vec<_> = arrays(snapshot).filter_map(part).collect();

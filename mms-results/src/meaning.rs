@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::axes::Axes;
 use crate::cell::Shape;
 use crate::norm::largest_if_finite;
 use crate::role::{Form, Role};
@@ -58,6 +59,8 @@ pub struct Meaning {
     pub why: Why,
     /// The position that points have where both readings lie in the body, and the profile that says so.
     pub(crate) reading: Option<(Role, String)>,
+    /// The letters of its components.
+    pub(crate) axes: Axes,
 }
 
 /// The reason why an array is a quantity.
@@ -173,15 +176,20 @@ impl Meaning {
         let columns =
             self.wanted(snapshot, dimension).map_err(|mistake| mistake.of(&snapshot.path))?;
         let of = |column: &Column| array(snapshot, column.place);
-        let rows = of(&columns[0]).rows();
-        if let Some(other) = columns.iter().map(of).find(|other| other.rows() != rows) {
+        let first = columns
+            .iter()
+            .flatten()
+            .next()
+            .ok_or_else(|| self.misfit(snapshot, dimension).of(&snapshot.path))?;
+        let rows = of(first).rows();
+        if let Some(other) = columns.iter().flatten().map(of).find(|other| other.rows() != rows) {
             let what =
                 format!("`{}` has {rows} rows, and `{}` {}", self.source, other.name, other.rows());
             return Err(Mistake::new(what).of(&snapshot.path));
         }
         self.hold_flat(snapshot, dimension)?;
         let numbers = gathered(snapshot, &columns, rows);
-        let is_of_cells = matches!(columns[0].place, Place::Cells(_));
+        let is_of_cells = matches!(first.place, Place::Cells(_));
         let largest = match is_of_cells {
             true => largest_of_cells(snapshot, &numbers, columns.len()),
             false => largest_if_finite(&numbers),
@@ -196,7 +204,7 @@ impl Meaning {
         })?;
         self.hold_rows(snapshot, &numbers, dimension)
             .map_err(|mistake| mistake.of(&snapshot.path))?;
-        let stored = columns.iter().map(|it| of(it).stored).reduce(Stored::coarser);
+        let stored = columns.iter().flatten().map(|it| of(it).stored).reduce(Stored::coarser);
         let stored = stored.unwrap_or(Stored::Double).at_first(&numbers);
         Ok(Values {
             components: columns.len(),
@@ -207,8 +215,12 @@ impl Meaning {
         })
     }
 
-    /// The columns that a field of that dimension has.
-    fn wanted(&self, snapshot: &Snapshot, dimension: usize) -> Result<Vec<Column>, Mistake> {
+    /// The columns that a field of that dimension has; none for a component that is 0 throughout, which a file may leave out.
+    fn wanted(
+        &self,
+        snapshot: &Snapshot,
+        dimension: usize,
+    ) -> Result<Vec<Option<Column>>, Mistake> {
         let pairs = || pairs_of((0..dimension).collect());
         let found = match self.role.form() {
             Form::Scalar => vec![self.columns.first().filter(|_| self.columns.len() == 1)],
@@ -221,7 +233,16 @@ impl Meaning {
                 pairs_of(self.in_dimension(dimension)).map(|(i, j)| self.entry(i, j)).collect()
             }
         };
-        let found: Option<Vec<Column>> = found.into_iter().map(|it| it.map(|it| it.1)).collect();
+        let is_zero = |at: usize| {
+            let (row, column) = (at / dimension, at % dimension);
+            let is_tensor = matches!(self.role.form(), Form::Tensor | Form::Symmetric);
+            is_tensor && self.has_names() && self.axes.has_no_swirl() && (row == 2) != (column == 2)
+        };
+        let found = found.into_iter().enumerate().map(|(at, it)| match it {
+            None if is_zero(at) => Some(None),
+            it => it.map(|it| Some(it.1)),
+        });
+        let found: Option<Vec<_>> = found.collect();
         found.ok_or_else(|| self.misfit(snapshot, dimension))
     }
 
@@ -491,18 +512,22 @@ fn pairs_of(rows: Vec<usize>) -> impl Iterator<Item = (usize, usize)> {
     rows.into_iter().flat_map(move |i| columns.clone().into_iter().map(move |j| (i, j)))
 }
 
-/// The numbers of some columns, those of a row together.
-fn gathered<'a>(snapshot: &'a Snapshot, columns: &[Column], rows: usize) -> Cow<'a, [f64]> {
-    let first = array(snapshot, columns[0].place);
-    let is_next = |(at, column): (usize, &Column)| {
-        column.place == columns[0].place && column.component == columns[0].component + at
-    };
+/// The numbers of some columns, those of a row together; 0 where there is no column.
+fn gathered<'a>(snapshot: &'a Snapshot, columns: &[Option<Column>], rows: usize) -> Cow<'a, [f64]> {
     // Most often they stand side by side, with no others or with a third coordinate behind them.
-    if columns.iter().enumerate().all(is_next) {
+    let start = columns[0].filter(|start| {
+        let is_next = |(at, column): (usize, &Option<Column>)| {
+            let (place, component) = (start.place, start.component + at);
+            *column == Some(Column { place, component })
+        };
+        columns.iter().enumerate().all(is_next)
+    });
+    if let Some(start) = start {
+        let first = array(snapshot, start.place);
         if columns.len() == first.components {
             return Cow::Borrowed(&first.values);
         }
-        let (start, count) = (columns[0].component, columns.len());
+        let (start, count) = (start.component, columns.len());
         let mut numbers = Vec::with_capacity(rows * count);
         let each = first.values.chunks_exact(first.components);
         each.for_each(|row| numbers.extend_from_slice(&row[start..start + count]));
@@ -510,6 +535,7 @@ fn gathered<'a>(snapshot: &'a Snapshot, columns: &[Column], rows: usize) -> Cow<
     }
     let mut numbers = vec![0.0; rows * columns.len()];
     for (at, column) in columns.iter().enumerate() {
+        let Some(column) = column else { continue };
         let array = array(snapshot, column.place);
         let own = array.values.chunks_exact(array.components).map(|row| row[column.component]);
         let to = numbers.chunks_exact_mut(columns.len());

@@ -13,6 +13,8 @@ pub struct Mesh<'a> {
     pub points: &'a [f64],
     /// Its dimension.
     pub dimension: usize,
+    /// Whether it is the meridian of a body of revolution: each place stands for a ring, and integrals are per radian.
+    pub is_meridian: bool,
 }
 
 impl<'a> Mesh<'a> {
@@ -188,7 +190,7 @@ mod tests {
             points: cells.concat(),
             ends: (1..=cells.len()).map(|it| it * count).collect(),
         };
-        let mesh = Mesh { cells: &cells, points: &points, dimension: 2 };
+        let mesh = Mesh { cells: &cells, points: &points, dimension: 2, is_meridian: false };
         mesh.imbalance(&|x| x.iter().all(|it| *it > 0.0 && *it < 2.0))
     }
 
@@ -246,7 +248,7 @@ mod tests {
         let points = [0.0, 0.0, 2.0, 0.0, 3.0, 1.0, 2.0, 2.0, 0.0, 2.0];
         for own in [vec![0, 1, 2, 3, 4], vec![3, 2, 1, 0, 4]] {
             let cells = Cells { types: vec![7], points: own, ends: vec![5] };
-            let mesh = Mesh { cells: &cells, points: &points, dimension: 2 };
+            let mesh = Mesh { cells: &cells, points: &points, dimension: 2, is_meridian: false };
             let centre = mesh.middles();
             assert!((centre[0] - (4.0 + 7.0 / 3.0) / 5.0).abs() < 1e-15, "{centre:?}");
             assert!((centre[1] - 1.0).abs() < 1e-15, "{centre:?}");

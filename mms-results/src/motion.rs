@@ -55,18 +55,28 @@ pub fn resolve<'a>(
     back: Option<Back<'_>>,
 ) -> Result<Motion<'a>, Mistake> {
     let of = |role: Role| meanings.iter().find(|meaning| meaning.role == role);
-    let values =
-        |role: Role| of(role).map(|meaning| meaning.values(snapshot, dimension)).transpose();
+    let of_size = |role: Role, size: usize| {
+        of(role).map(|meaning| meaning.values(snapshot, size)).transpose()
+    };
+    let values = |role: Role| of_size(role, dimension);
+    let vector = meanings.first().map_or(dimension, |it| it.axes.of_vectors(dimension));
+    // What turns is on another meridian at x: X alone tells the points.
+    let turns = vector > dimension;
+    let reference = values(Role::Reference)?;
+    let is_read = !turns || reference.is_none();
     let mut known = Known {
         snapshot,
         place_name: of(Role::Place).map(|it| it.mapping(snapshot, dimension)).unwrap_or_default(),
         is_called_x: of(Role::Place).is_some_and(|it| it.source == "x"),
         reading: of(Role::Place).and_then(|it| it.reading.clone()),
-        reference: values(Role::Reference)?,
-        position: values(Role::Position)?,
-        place: values(Role::Place)?,
-        displacement: values(Role::Displacement)?.filter(|it| !it.is_of_cells),
+        reference,
+        position: if turns { None } else { values(Role::Position)? },
+        place: if is_read { values(Role::Place)? } else { None },
+        displacement: of_size(Role::Displacement, vector)?.filter(|it| !it.is_of_cells),
     };
+    if turns {
+        return known.turning(outside);
+    }
     known.hold_rows().map_err(|mistake| mistake.of(&snapshot.path))?;
     known.is_called_x &= known.reference.is_some();
     let given = (known.reference.take(), known.displacement.take());
@@ -125,6 +135,23 @@ impl<'a> Known<'a> {
                 all_names(self.snapshot)
             ))),
         }
+    }
+
+    /// X and u of a body that turns, whose points are X if nothing else is.
+    fn turning(self, outside: &dyn Body) -> Result<Motion<'a>, Mistake> {
+        let (snapshot, path) = (self.snapshot, &self.snapshot.path);
+        let found = match (self.reference, self.place) {
+            (Some(x), _) => Some((x, "X as given")),
+            (None, Some(place)) => {
+                Some((place, "points taken as X, for points of the body move along the hoop"))
+            }
+            (None, None) => None,
+        };
+        let what = "X is not known: give R and Z, for points of the body move along the hoop";
+        let (x, how) = found.ok_or_else(|| Mistake::new(what).of(path))?;
+        let motion = motion(x, self.displacement, how);
+        hold_inside(snapshot, &motion, outside)?;
+        Ok(motion)
     }
 
     /// X and u, of X and u as they are given.

@@ -10,6 +10,7 @@ use crate::{Array, Mistake, Snapshot};
 
 pub use crate::mapping::Mapping;
 pub use crate::meaning::{Meaning, Values, Why};
+pub use crate::axes::Axes;
 pub use crate::parts::all_names;
 pub use crate::profile::Profile;
 pub use crate::role::{Form, OwnRole, Role};
@@ -18,7 +19,7 @@ pub use crate::role::{Form, OwnRole, Role};
 const GIVEN_PRESSURE: &str = "p";
 
 /// Faces that the name of a traction may end with.
-const FACES: [&str; 10] = [
+const FACES: [&str; 12] = [
     "x_min",
     "x_max",
     "y_min",
@@ -29,6 +30,8 @@ const FACES: [&str; 10] = [
     "outer",
     "theta_min",
     "theta_max",
+    "r_min",
+    "r_max",
 ];
 
 /// What the name of an array says.
@@ -56,11 +59,18 @@ pub struct Names {
     pub profile: Option<Profile>,
     /// The quantities of the field's own, whose names win over those that codes use.
     pub own: Vec<OwnRole>,
+    /// The letters of components.
+    pub axes: Axes,
 }
 
 /// The names that codes use, without anything that a user says.
-pub static KNOWN: Names =
-    Names { map: Vec::new(), columns: Vec::new(), profile: None, own: Vec::new() };
+pub static KNOWN: Names = Names {
+    map: Vec::new(),
+    columns: Vec::new(),
+    profile: None,
+    own: Vec::new(),
+    axes: Axes::Cartesian,
+};
 
 impl Names {
     /// Whether a user maps an array of this name, or a component of it.
@@ -70,7 +80,8 @@ impl Names {
             let whole = bare.rsplit_once(':').map_or(bare, |(whole, _)| whole);
             // A path in HDF5 may begin with a slash.
             let from_root = |it: &str| it.trim_start_matches('/') == name.trim_start_matches('/');
-            column == name || from_root(bare) || from_root(whole) || part_of(name, bare).is_some()
+            let is_part = part_of(name, bare, self.axes).is_some();
+            column == name || from_root(bare) || from_root(whole) || is_part
         };
         self.map.iter().flat_map(|mapping| &mapping.columns).any(is_it)
     }
@@ -86,23 +97,32 @@ impl Names {
         let given = self.own.iter().find(|own| own.name == GIVEN_PRESSURE);
         match given.filter(|_| plain(name) == "pressure") {
             Some(given) => Some([Role::Pressure, Role::Own(*given)]),
-            None => two_meanings(name).filter(|_| self.own.iter().all(|own| own.name != name)),
+            None => two_meanings(name, self.axes)
+                .filter(|_| self.own.iter().all(|own| own.name != name)),
         }
+    }
+
+    /// The position that an array of one letter is a coordinate of, and which.
+    fn coordinate(&self, name: &str) -> Option<(Role, Part)> {
+        let ([letter], None) = (name.as_bytes(), name.parse::<u8>().ok()) else { return None };
+        let axis = self.axes.of(*letter).filter(|it| *it < 2 || self.axes == Axes::Cartesian)?;
+        let role = if letter.is_ascii_uppercase() { Role::Reference } else { Role::Place };
+        Some((role, Part::Nth(axis)))
     }
 
     /// The roles that an array of this name may have.
     fn roles(&self, name: &str) -> Vec<Role> {
-        let stem = stem(name);
+        let stem = stem(name, self.axes);
         let mut roles: Vec<Role> = self.two_meanings(name).into_iter().flatten().collect();
         let of_profile = self.profile.iter().flat_map(|it| &it.quantities);
-        let is_called =
-            |names: &[String]| names.iter().any(|it| it == name || part_of(name, it).is_some());
+        let is_called = |names: &[String]| {
+            names.iter().any(|it| it == name || part_of(name, it, self.axes).is_some())
+        };
         roles.extend(of_profile.filter(|(_, names)| is_called(names)).map(|(role, _)| *role));
         roles.extend(self.called(name));
         roles.extend(self.called(stem).filter(|role| role.form() != Form::Scalar));
         match name {
-            "X" | "Y" | "Z" => roles.push(Role::Reference),
-            "x" | "y" | "z" => roles.push(Role::Place),
+            _ if let Some((role, _)) = self.coordinate(name) => roles.push(role),
             _ if name.starts_with("traction_") => roles.push(Role::Traction),
             _ => {}
         }
@@ -145,11 +165,11 @@ pub fn recognise(
 ) -> Result<Vec<Meaning>, Mistake> {
     let mut found = Vec::new();
     for mapping in &names.map {
-        found.push(mapped(snapshot, mapping)?);
+        found.push(mapped(snapshot, mapping, names.axes)?);
     }
     if let Some(profile) = &names.profile {
         let is_left = |role: Role| wants(role) && names.map.iter().all(|it| it.role != role);
-        found.extend(profile.meanings(snapshot, &is_left));
+        found.extend(profile.meanings(snapshot, names.axes, &is_left));
     }
     let named: Vec<Role> = found.iter().map(|it: &Meaning| it.role).collect();
     let taken: Vec<Place> =
@@ -167,14 +187,15 @@ pub fn recognise(
         let Some(understood) = understood else { continue };
         let column = |component| Column { place, component };
         let all = || match &names.profile {
-            Some(profile) => profile.parts(understood.role, array),
-            None => parts(array),
+            Some(profile) => profile.parts(understood.role, array, names.axes),
+            None => parts(array, names.axes),
         };
         let columns: Vec<_> = match understood.part {
             Some(part) => vec![(part, column(0))],
             None => all().into_iter().enumerate().map(|(at, it)| (it, column(at))).collect(),
         };
-        add(&mut found, understood, columns, array).map_err(|it| it.of(&snapshot.path))?;
+        add(&mut found, understood, columns, (array, names.axes))
+            .map_err(|it| it.of(&snapshot.path))?;
     }
     if let Some(profile) = &names.profile {
         let places = found.iter_mut().filter(|it| it.role == Role::Place);
@@ -187,7 +208,9 @@ pub fn recognise(
 fn group(names: &Names, place: Place, array: &Array) -> Option<String> {
     match understand(names, place, array) {
         Some(Understood { part, source, .. }) => part.map(|_| source),
-        None => split(&array.name).filter(|_| array.components == 1).map(|(base, _)| base.into()),
+        None => split(&array.name, names.axes)
+            .filter(|_| array.components == 1)
+            .map(|(base, _)| base.into()),
     }
 }
 
@@ -204,11 +227,12 @@ fn add(
     found: &mut Vec<Meaning>,
     understood: Understood,
     columns: Vec<(Part, Column)>,
-    array: &Array,
+    (array, axes): (&Array, Axes),
 ) -> Result<(), Mistake> {
     let Understood { role, part, source, face } = understood;
     let Some(known) = found.iter_mut().find(|it| it.role == role && it.face == face) else {
-        found.push(Meaning { role, source, face, columns, why: Why::Name, reading: None });
+        let why = Why::Name;
+        found.push(Meaning { role, source, face, columns, why, reading: None, axes });
         return Ok(());
     };
     let is_component = part.is_some() && known.source == source;
@@ -238,13 +262,14 @@ fn hold_clear(
     wants: &dyn Fn(Role) -> bool,
 ) -> Result<(), Mistake> {
     let Some([a, b]) = names.two_meanings(&array.name) else { return Ok(()) };
-    let stem = stem(&array.name);
+    let stem = stem(&array.name, names.axes);
     if stem == S {
         // A file with another name for a stress means the textbook's S.
         let is_stress = |role: &Role| {
             matches!(role, Role::CauchyStress | Role::FirstPiolaKirchhoff | Role::KirchhoffStress)
         };
-        let called = arrays(snapshot).filter_map(|(_, it)| Role::called(self::stem(&it.name)));
+        let called =
+            arrays(snapshot).filter_map(|(_, it)| Role::called(self::stem(&it.name, names.axes)));
         if called.chain(named.iter().copied()).any(|it| is_stress(&it)) {
             return Ok(());
         }
@@ -282,21 +307,21 @@ fn understand(names: &Names, place: Place, array: &Array) -> Option<Understood> 
         }
         (Place::Grid, _) => return Some(Understood::new(Role::Place, None, "points")),
         // Coordinates in columns of their own.
-        (_, "X" | "Y" | "Z") if array.components == 1 => {
-            return Some(Understood::new(Role::Reference, Some(Part::Nth(letter(name)?)), "X"));
-        }
-        (_, "x" | "y" | "z") if array.components == 1 => {
-            return Some(Understood::new(Role::Place, Some(Part::Nth(letter(name)?)), "x"));
+        _ if array.components == 1
+            && let Some((role, part)) = names.coordinate(name) =>
+        {
+            let source = if role == Role::Reference { "X" } else { "x" };
+            return Some(Understood::new(role, Some(part), source));
         }
         _ => {}
     }
     if let Some(role) = names.called(name) {
         return Some(Understood::new(role, None, name));
     }
-    if let Some(found) = on_face(array) {
+    if let Some(found) = on_face(array, names.axes) {
         return Some(found);
     }
-    let (base, part) = split(name).filter(|_| array.components == 1)?;
+    let (base, part) = split(name, names.axes).filter(|_| array.components == 1)?;
     let role = names.called(base).filter(|role| role.form() != Form::Scalar)?;
     // x0 may be the first coordinate, or where x was.
     let is_coordinate = base.len() == 1 && matches!(role, Role::Place | Role::Reference);
@@ -304,20 +329,19 @@ fn understand(names: &Names, place: Place, array: &Array) -> Option<Understood> 
 }
 
 /// The traction of a face, as `traction_x_max`, or a component of it, as `traction_x_max_y`.
-fn on_face(array: &Array) -> Option<Understood> {
+fn on_face(array: &Array, axes: Axes) -> Option<Understood> {
     let rest = array.name.strip_prefix("traction_")?;
     let found = FACES.into_iter().find_map(|face| Some((face, rest.strip_prefix(face)?)));
     let (face, end) = found?;
     let part = match end {
         "" => None,
-        _ => Some(Part::Nth(letter(end.strip_prefix('_').filter(|_| array.components == 1)?)?)),
+        _ => {
+            let one = end.strip_prefix('_').filter(|_| array.components == 1)?;
+            Some(part_of(one, "", axes).filter(|it| matches!(it, Part::Nth(_)))?)
+        }
     };
     Some(Understood {
         face: Some(face),
         ..Understood::new(Role::Traction, part, format!("traction_{face}"))
     })
-}
-
-fn letter(text: &str) -> Option<usize> {
-    ["x", "y", "z"].iter().position(|it| text.eq_ignore_ascii_case(it))
 }

@@ -21,7 +21,8 @@ use interpolation::Interpolation;
 pub enum Asked {
     /// Its values: so many components at each place.
     Values,
-    /// Their derivatives by X: row by row, as many more as there are dimensions.
+    /// Their derivatives by X: row by row, as many more as there are dimensions. On a meridian these are of the displacement,
+    /// in space: three rows of three, R, Z and theta.
     Gradients,
 }
 
@@ -179,7 +180,7 @@ struct Found {
 }
 
 impl Mesh<'_> {
-    /// The volume of each point: the integral of its function over the cells, as in a lumped mass.
+    /// The volume of each point: the integral of its function over the cells, as in a lumped mass; on a meridian per radian.
     ///
     /// # Errors
     /// A cell that is flat, or turned inside out.
@@ -190,18 +191,18 @@ impl Mesh<'_> {
         let mut batch = Batch::default();
         for (cell, shape, points) in self.full() {
             if !shape.has_functions() {
-                let (area, _) = self.polygon(points);
+                let (area, middle) = self.polygon(points);
                 if area == 0.0 || !area.is_finite() {
                     return Err(Mistake::new(format!("cell {cell} is flat: its area is {area:e}")));
                 }
                 // Nothing says which part of it belongs to which of its points.
-                let part = area.abs() / points.len() as f64;
+                let part = area.abs() * self.radius(&middle) / points.len() as f64;
                 points.iter().for_each(|&point| volumes[point] += part);
                 continue;
             }
             // Exact for the function of a point, times the volume of a cell with straight edges; and for the volume of one
-            // with curved edges.
-            let degree = shape.highest() as usize;
+            // with curved edges. The radius is one degree more.
+            let degree = shape.highest() as usize + usize::from(self.is_meridian);
             let table = Table::among(&mut tables, shape, (degree + 2).max(2 * degree));
             batch.clear();
             self.place(&mut batch, cell, &tables[table], points, none)?;
@@ -211,6 +212,11 @@ impl Mesh<'_> {
             }
         }
         Ok(volumes)
+    }
+
+    /// The volume of a place over that of the mesh there: the radius on a meridian.
+    fn radius(&self, place: &[f64]) -> f64 {
+        if self.is_meridian { place[0] } else { 1.0 }
     }
 
     /// The norms over the body of what its points carry.
@@ -290,7 +296,7 @@ impl Mesh<'_> {
                 )));
             }
             sign = determinant.signum();
-            let density = factor * determinant.abs();
+            let density = factor * determinant.abs() * self.radius(&sums[..dimension]);
             batch.weights.push(weight * density);
             batch.densities.push(density);
             batch.places.extend(&sums[..dimension]);
@@ -302,6 +308,12 @@ impl Mesh<'_> {
                         (0..dimension).map(along).sum::<f64>()
                     };
                     batch.gradients.extend((0..dimension).map(by));
+                    if self.is_meridian {
+                        batch.gradients.push(0.0);
+                    }
+                }
+                if self.is_meridian {
+                    around(&mut batch.gradients, &sums[..size]);
                 }
             }
         }
@@ -326,9 +338,9 @@ impl Mesh<'_> {
         less(&mut batch.values, &exact(Asked::Values, &batch.places)?);
         if has_gradient {
             less(&mut batch.gradients, &exact(Asked::Gradients, &batch.places)?);
-            let squares = batch.gradients.chunks_exact(components * self.dimension).map(square);
-            found.gradient +=
-                batch.weights.iter().zip(squares).map(|(weight, it)| weight * it).sum::<f64>();
+            let squares = batch.gradients.chunks_exact(batch.gradients.len() / batch.weights.len());
+            let squares = batch.weights.iter().zip(squares.map(square));
+            found.gradient += squares.map(|(weight, it)| weight * it).sum::<f64>();
         }
         let mut first = 0;
         for &(cell, table) in &batch.cells {
@@ -521,6 +533,16 @@ impl Found {
         self.peaks.sort_by(|a, b| b.error.total_cmp(&a.error));
         self.peaks.truncate(COMPARED);
     }
+}
+
+/// Adds the derivatives around the axis to the rows of a displacement gradient at a place: R, Z and u there.
+fn around(gradient: &mut Vec<f64>, place: &[f64]) {
+    let (radius, u) = (place[0], &place[2..]);
+    let turn = u.get(2).map_or(0.0, |turn| turn / radius);
+    gradient.extend(vec![0.0; 3 * (3 - u.len())]);
+    let first = gradient.len() - 9;
+    gradient[first + 2] = -turn;
+    gradient[first + 8] = u[0] / radius;
 }
 
 fn square(numbers: &[f64]) -> f64 {

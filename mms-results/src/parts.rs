@@ -1,5 +1,6 @@
 //! The arrays of a snapshot, and the parts of their names: the name of a quantity, and a component.
 
+use crate::axes::Axes;
 use crate::meaning::{Part, Place};
 use crate::role::{Form, Role, plain};
 use crate::{Array, Snapshot};
@@ -16,8 +17,9 @@ const UNCLEAR: &[(&str, [Role; 2])] = &[
 pub(crate) const S: &str = "S";
 
 /// The two quantities that a name may mean, if it may mean two.
-pub(crate) fn two_meanings(name: &str) -> Option<[Role; 2]> {
-    let (stem, plain) = (stem(name), plain(stem(name)));
+pub(crate) fn two_meanings(name: &str, axes: Axes) -> Option<[Role; 2]> {
+    let stem = stem(name, axes);
+    let plain = plain(stem);
     let is_it = |word: &str| if word == S { stem == S } else { word == plain };
     UNCLEAR.iter().find(|(word, _)| is_it(word)).map(|(_, roles)| *roles)
 }
@@ -48,31 +50,42 @@ pub fn all_names(snapshot: &Snapshot) -> String {
 }
 
 /// A name without what says which component it is.
-pub(crate) fn stem(name: &str) -> &str {
-    split(name).map_or(name, |(base, _)| base)
+pub(crate) fn stem(name: &str, axes: Axes) -> &str {
+    split(name, axes).map_or(name, |(base, _)| base)
 }
 
 /// A name without what says which component it is.
-pub(crate) fn split(name: &str) -> Option<(&str, Part)> {
+pub(crate) fn split(name: &str, axes: Axes) -> Option<(&str, Part)> {
     let name = name.strip_suffix([']', ')']).unwrap_or(name);
-    let (before, last) = name.split_at_checked(name.len().checked_sub(1)?)?;
-    let last = axis(last.bytes().next()?)?;
     let base = |text: &'_ str| -> usize { text.trim_end_matches(SEPARATORS).len() };
+    if let (Axes::Axisymmetric { .. }, Some(before)) = (axes, name.strip_suffix(HOOP)) {
+        let found = &before[..base(before)];
+        return (!found.is_empty()).then_some((found, Part::Nth(2)));
+    }
+    let (before, last) = name.split_at_checked(name.len().checked_sub(1)?)?;
+    let letter = last.bytes().next()?;
+    let last = axes.of(letter)?;
     let of_entry =
         before.split_at_checked(before.len().saturating_sub(1)).and_then(|(rest, first)| {
-            let first = axis(first.bytes().next()?)?;
+            let first = axes.of(first.bytes().next()?)?;
             Some((&rest[..base(rest)], Part::Entry(first, last)))
         });
     let found = of_entry.filter(|(base, _)| has_entries(base));
     let found = found.unwrap_or((&before[..base(before)], Part::Nth(last)));
-    (!found.0.is_empty()).then_some(found)
+    // A time step is called dt.
+    let is_hoop = letter.eq_ignore_ascii_case(&b't') && matches!(found.1, Part::Nth(_));
+    let is_apart = !is_hoop || found.0.len() < before.len();
+    (!found.0.is_empty() && is_apart).then_some(found)
 }
 
 /// The component that a name tells behind the name of a quantity, as `pk1_stress_xx` does of `pk1_stress`.
-pub(crate) fn part_of(name: &str, quantity: &str) -> Option<Part> {
+pub(crate) fn part_of(name: &str, quantity: &str, axes: Axes) -> Option<Part> {
     let rest = name.strip_prefix(quantity)?.trim_end_matches([']', ')']);
     let rest = rest.trim_start_matches(SEPARATORS);
-    let axes: Option<Vec<usize>> = rest.bytes().map(axis).collect();
+    if let (Axes::Axisymmetric { .. }, HOOP) = (axes, rest) {
+        return Some(Part::Nth(2));
+    }
+    let axes: Option<Vec<usize>> = rest.bytes().map(|it| axes.of(it)).collect();
     match axes?[..] {
         [one] => Some(Part::Nth(one)),
         [row, column] => Some(Part::Entry(row, column)),
@@ -80,16 +93,8 @@ pub(crate) fn part_of(name: &str, quantity: &str) -> Option<Part> {
     }
 }
 
-/// The axis of a letter or a digit.
-pub(crate) fn axis(byte: u8) -> Option<usize> {
-    match byte {
-        b'x' | b'X' => Some(0),
-        b'y' | b'Y' => Some(1),
-        b'z' | b'Z' => Some(2),
-        b'0'..=b'9' => Some(usize::from(byte - b'0')),
-        _ => None,
-    }
-}
+/// The word for the direction around the axis.
+const HOOP: &str = "theta";
 
 /// The letters between the name of a quantity and a component.
 const SEPARATORS: [char; 7] = ['_', ':', '.', '[', '(', '-', ' '];

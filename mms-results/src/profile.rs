@@ -3,6 +3,7 @@
 //! A profile names. Where the numbers of a file decide, they do: points of which one reading lies in the body have that
 //! reading, and components that a file names are those.
 
+use crate::axes::Axes;
 use crate::components::{has_names, parts};
 use crate::mapping::{components, whole};
 use crate::meaning::{Meaning, Part, Why};
@@ -34,12 +35,12 @@ impl Profile {
     }
 
     /// The parts of a quantity that the components of an array are: by the names in the file, else by the order for as many.
-    pub(crate) fn parts(&self, role: Role, array: &Array) -> Vec<Part> {
-        let is_open = role.form() == Form::Symmetric && !has_names(array);
+    pub(crate) fn parts(&self, role: Role, array: &Array, axes: Axes) -> Vec<Part> {
+        let is_open = role.form() == Form::Symmetric && !has_names(array, axes);
         let order = self.orders.iter().find(|it| is_open && it.len() == array.components);
         match order {
             Some(order) => order.iter().map(|&(row, column)| Part::Entry(row, column)).collect(),
-            None => parts(array),
+            None => parts(array, axes),
         }
     }
 
@@ -47,17 +48,18 @@ impl Profile {
     pub(crate) fn meanings(
         &self,
         snapshot: &Snapshot,
+        axes: Axes,
         wants: &dyn Fn(Role) -> bool,
     ) -> Vec<Meaning> {
         let mut found = Vec::new();
         for (role, names) in self.quantities.iter().filter(|(role, _)| wants(*role)) {
             let found_here = names.iter().find_map(|name| {
                 let one = std::slice::from_ref(name);
-                if let Some(columns) = components(snapshot, one) {
+                if let Some(columns) = components(snapshot, one, axes) {
                     return Some((name, columns));
                 }
                 let (array, columns) = whole(snapshot, name)?;
-                let parts = self.parts(*role, array);
+                let parts = self.parts(*role, array, axes);
                 Some((name, parts.into_iter().zip(columns).collect()))
             });
             let Some((name, columns)) = found_here else { continue };
@@ -69,6 +71,7 @@ impl Profile {
                 columns,
                 why,
                 reading: None,
+                axes,
             });
         }
         found

@@ -1,5 +1,6 @@
 //! Suggestions: the columns of a file that may be a quantity whose name is unknown.
 
+use crate::axes::Axes;
 use crate::meaning::{Meaning, Place};
 use crate::parts::{arrays, split};
 use crate::role::{Form, Role};
@@ -72,7 +73,8 @@ fn vectors(snapshot: &Snapshot, dimension: usize) -> Vec<Candidate> {
     let single: Vec<&Array> =
         of_points().map(|(_, array)| array).filter(|it| it.components == 1).collect();
     let mut windows: Vec<_> = single.windows(dimension.max(1)).collect();
-    let base = |array: &&Array| split(&array.name).map(|(base, _)| base.to_owned());
+    let base =
+        |array: &&Array| split(&array.name, Axes::Cartesian).map(|(base, _)| base.to_owned());
     let has_one_base = |them: &&[&Array]| {
         base(&them[0]).is_some_and(|it| them.iter().all(|other| base(other).as_ref() == Some(&it)))
     };

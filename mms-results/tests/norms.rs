@@ -116,7 +116,12 @@ impl One {
     }
 
     fn mesh(&self) -> Mesh<'_> {
-        Mesh { cells: &self.cells, points: &self.points, dimension: self.dimension }
+        Mesh {
+            cells: &self.cells,
+            points: &self.points,
+            dimension: self.dimension,
+            is_meridian: false,
+        }
     }
 }
 
@@ -287,7 +292,7 @@ fn interpolants_have_their_orders() {
     for (kind, degree) in [(5, 1.0), (9, 1.0), (22, 2.0), (28, 2.0)] {
         let errors = [8, 16].map(|cells| {
             let (found, points) = grid(cells, kind);
-            let mesh = Mesh { cells: &found, points: &points, dimension: 2 };
+            let mesh = Mesh { cells: &found, points: &points, dimension: 2, is_meridian: false };
             let sizes = mesh.sizes().unwrap();
             let edge = if kind == 5 || kind == 22 { 2f64.sqrt() } else { 1.0 } / cells as f64;
             assert!(sizes.iter().all(|size| (size - edge).abs() < 1e-12));
@@ -307,7 +312,7 @@ fn flat_and_folded_cells_are_named() {
     let quad = Cells { types: vec![9], points: vec![0, 1, 2, 3], ends: vec![4] };
     let mut none = |what: Asked, places: &[f64]| Ok(exact(what, places, 2));
     let said = |points: &[f64], exact: Exact<'_>| {
-        let mesh = Mesh { cells: &quad, points, dimension: 2 };
+        let mesh = Mesh { cells: &quad, points, dimension: 2, is_meridian: false };
         mesh.measure(carried(&[0.0; 8], 2), exact).unwrap_err().what
     };
     let flat = said(&[0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 3.0, 0.0], &mut none);
@@ -315,16 +320,16 @@ fn flat_and_folded_cells_are_named() {
     let folded = said(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0], &mut none);
     assert!(folded.contains("or folded"), "{folded}");
     let turned = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0];
-    let mesh = Mesh { cells: &quad, points: &turned, dimension: 2 };
+    let mesh = Mesh { cells: &quad, points: &turned, dimension: 2, is_meridian: false };
     assert!(mesh.measure(carried(&[0.0; 8], 2), &mut none).is_ok());
-    let solid = Mesh { cells: &quad, points: &[0.0; 12], dimension: 3 };
+    let solid = Mesh { cells: &quad, points: &[0.0; 12], dimension: 3, is_meridian: false };
     assert!(solid.measure(carried(&[0.0; 12], 3), &mut none).unwrap_err().what.contains("no cell"));
 }
 
 #[test]
 fn middles_are_where_cells_are() {
     let (cells, points) = grid(2, 9);
-    let mesh = Mesh { cells: &cells, points: &points, dimension: 2 };
+    let mesh = Mesh { cells: &cells, points: &points, dimension: 2, is_meridian: false };
     assert_eq!(mesh.middles(), [0.25, 0.25, 0.75, 0.25, 0.25, 0.75, 0.75, 0.75]);
 }
 
@@ -348,7 +353,7 @@ fn monomials_over_wedges_and_pyramids_have_their_integrals() {
         };
         let count = points.len() / 3;
         let cells = Cells { types: vec![kind], points: (0..count).collect(), ends: vec![count] };
-        let mesh = Mesh { cells: &cells, points, dimension: 3 };
+        let mesh = Mesh { cells: &cells, points, dimension: 3, is_meridian: false };
         for exponents in (0..216).map(|it| [it % 6, it / 6 % 6, it / 36]) {
             if exponents.iter().sum::<i32>() > 5 {
                 continue;
@@ -385,7 +390,7 @@ fn pyramids_and_wedges_fill_a_cube() {
         }
         let ends = (1..=cells.len()).map(|it| it * cells[0].len()).collect();
         let found = Cells { types: vec![kind; cells.len()], points: cells.concat(), ends };
-        let mesh = Mesh { cells: &found, points: &points, dimension: 3 };
+        let mesh = Mesh { cells: &found, points: &points, dimension: 3, is_meridian: false };
         let volume: f64 = mesh.volumes().unwrap().iter().sum();
         assert!((volume - 1.0).abs() < 1e-14, "{kind}: {volume}");
         let longest = if kind == PYRAMID { 1.0 } else { 2f64.sqrt() };

@@ -179,7 +179,8 @@ fn measured(case: &Case) -> [f64; 4] {
         Ok(all.flat_map(each).collect())
     };
     let carried = Carried { values, components, has_gradient: true };
-    let found = Mesh { cells, points, dimension }.measure(carried, &mut asked).unwrap();
+    let found =
+        Mesh { cells, points, dimension, is_meridian: false }.measure(carried, &mut asked).unwrap();
     [found.value.l1, found.value.l2, found.value.linf, found.h1]
 }
 

@@ -64,7 +64,11 @@ fn holds_the_mesh(name: &str, snapshot: &Snapshot, rows: usize, cells: usize) {
 fn measure(snapshot: &Snapshot, dimension: usize) -> f64 {
     let motion = motion(snapshot, dimension);
     let points = &motion.reference.numbers;
-    Mesh { cells: &snapshot.cells, points, dimension }.volumes().unwrap().iter().sum()
+    Mesh { cells: &snapshot.cells, points, dimension, is_meridian: false }
+        .volumes()
+        .unwrap()
+        .iter()
+        .sum()
 }
 
 #[test]

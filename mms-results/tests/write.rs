@@ -1,6 +1,6 @@
 //! What is written is read back to the bit, by readers that are held to files of meshio, VTK and NumPy (`files.rs`).
 
-use mms_results::names::{KNOWN, Role, everything, recognise};
+use mms_results::names::{Axes, KNOWN, Role, everything, recognise};
 use mms_results::write::{Column, Fact, Mesh, Shape, State, Value, csv, npz, vtu};
 use mms_results::{Cells, Contents, Snapshot, Stored, parse};
 
@@ -30,7 +30,7 @@ fn state(dimension: usize, time: f64, [x, u, f]: [&str; 3]) -> State {
     let numbers = Value::Numbers(vec![number(0), number(1)]);
     let facts = [("time_window", numbers), ("face_x_min", Value::Word("fixed".into()))];
     let facts = facts.map(|(name, value)| Fact { name: name.into(), value }).to_vec();
-    State { time, dimension, facts, columns }
+    State { time, dimension, axes: Axes::Cartesian, facts, columns }
 }
 
 const SYMBOLS: [&str; 3] = ["X", "u", "F"];

@@ -25,7 +25,12 @@ pub struct Domain {
     /// The least and the greatest coordinates x of samples.
     reach: [Vec<f64>; 2],
     faces: Vec<(Face, Claim)>,
+    /// Whether points stand for rings.
+    is_axisymmetric: bool,
 }
+
+/// What the volumes and masses of rings are.
+const OF_RINGS: &str = "per radian";
 
 impl Domain {
     /// Collects the data of a field with numbers for its parameters.
@@ -36,7 +41,8 @@ impl Domain {
         let faces = claims(&exact.input().compiled.field);
         let window = Some(exact.window).filter(|_| !exact.input().is_static());
         let body = exact.body.clone();
-        Ok(Domain { reach: reach(exact)?, window, body, faces })
+        let is_axisymmetric = exact.space().is_axisymmetric();
+        Ok(Domain { reach: reach(exact)?, window, body, faces, is_axisymmetric })
     }
 
     /// In lines for a person.
@@ -47,6 +53,9 @@ impl Domain {
             None => "static: no time\n".into(),
         };
         text += &format!("motion: x from {lower:?} to {upper:?}, as far as samples show\n");
+        if self.is_axisymmetric {
+            text += &format!("volumes and masses: of rings, {OF_RINGS}\n");
+        }
         for (face, claim) in &self.faces {
             text += &format!("{}: {}, {}\n", face.name(), claim.name(), claim.meaning());
         }
@@ -64,7 +73,14 @@ impl Domain {
         facts.extend(self.faces.iter().map(|(face, claim)| {
             fact(&format!("face_{}", face.name()), write::Value::Word(claim.name().to_owned()))
         }));
+        let volumes = self.volumes().map(|it| fact("volumes", write::Value::Word(it)));
+        facts.extend(volumes);
         facts
+    }
+
+    /// What volumes and masses are, if they are not those of the whole body.
+    fn volumes(&self) -> Option<String> {
+        self.is_axisymmetric.then(|| OF_RINGS.to_owned())
     }
 
     /// The data as a part of a document.
@@ -79,6 +95,7 @@ impl Domain {
             body: body(&self.body),
             motion: StateBox { lower, upper },
             faces: self.faces.iter().map(face).collect(),
+            volumes: self.volumes(),
         }
     }
 }
@@ -129,7 +146,11 @@ fn reach(exact: &mut Exact) -> anyhow::Result<[Vec<f64>; 2]> {
         (vec![f64::INFINITY; dimension], vec![f64::NEG_INFINITY; dimension]);
     for index in 0..TIMES {
         let time = first + (last - first) * fraction(index, TIMES);
-        for position in exact.values(Quantity::Position, time, &points)?.chunks(dimension) {
+        let components = exact.components(Quantity::Position);
+        for position in exact.values(Quantity::Position, time, &points)?.chunks(components) {
+            // Along the hoop a point leaves its meridian, and its distance from the axis counts.
+            let mut position = position.to_vec();
+            position[0] = position[dimension..].iter().fold(position[0], |r, it| r.hypot(*it));
             for axis in 0..dimension {
                 lower[axis] = lower[axis].min(position[axis]);
                 upper[axis] = upper[axis].max(position[axis]);

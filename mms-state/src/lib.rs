@@ -12,6 +12,7 @@ use anyhow::{bail, ensure};
 use mms_exact::Exact;
 use mms_files::machine::memory;
 use mms_files::words::bytes;
+use mms_judge::results::axes;
 use mms_results::write::{Column, Shape, State};
 use mms_spec::Face;
 use mms_spec::quantity::{self, Quantity};
@@ -185,7 +186,8 @@ impl Wanted<'_> {
             }
         }
         columns.extend(weights(exact, points, time)?);
-        Ok(State { time, dimension, facts: self.domain.facts(), columns })
+        let axes = axes(&exact.input().compiled.field);
+        Ok(State { time, dimension, axes, facts: self.domain.facts(), columns })
     }
 
     /// A quantity that takes a normal at the points of a face; 0 at all others.
@@ -238,13 +240,14 @@ fn shape(quantity: Quantity, exact: &Exact) -> Shape {
     match quantity.shape() {
         quantity::Shape::Tensor if exact.rows() > exact.dimension => Shape::Nine,
         quantity::Shape::Scalar => Shape::Scalar,
+        quantity::Shape::Vector if exact.space().vector() > exact.dimension => Shape::Three,
         quantity::Shape::Vector => Shape::Vector,
         quantity::Shape::Tensor => Shape::Tensor,
     }
 }
 
 /// Present and reference volume, which are one at small strain, and the mass, where volumes are known: mass = density x
-/// volume, if the field gives a density.
+/// volume, if the field gives a density. Those of rings are per radian.
 fn weights(exact: &mut Exact, points: &Points, time: f64) -> anyhow::Result<Vec<Column>> {
     let Some(reference) = &points.volume else { return Ok(Vec::new()) };
     let stretched = match exact.is_small_strain() {

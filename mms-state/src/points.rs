@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use anyhow::{bail, ensure};
 use mms_analysis::present::{Inverse, Unplaced};
-use mms_exact::{Exact, says};
+use mms_exact::{Exact, TURNS, says};
 use mms_files::machine::memory;
 use mms_files::results::Disk;
 use mms_judge::results::{Results, placed, without_positions};
@@ -65,6 +65,7 @@ impl Given {
             Given::Reference(points) => Ok(Cow::Borrowed(points)),
             Given::Present(places) => {
                 let input = exact.input();
+                ensure!(!exact.turns(), "`--at-present`: {TURNS}; give X");
                 let mut inverse = Inverse::new(&input.compiled, &input.settings(settings)?, time);
                 Ok(Cow::Owned(places.points(&mut inverse, exact.dimension, time)?))
             }

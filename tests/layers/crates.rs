@@ -181,7 +181,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-results",
         knows: &["mms-hdf5"],
         layers: &[
-            "cell files lattice mistake norm role snapshot",
+            "axes cell files lattice mistake norm role snapshot",
             "own wanted",
             "comparison meaning mesh",
             "components parts",

@@ -199,7 +199,7 @@ impl Diagnose {
         let provenance = this_command("diagnose", input.provenance(&self.set));
         let mut exact = Exact::new(input, &self.set)?;
         let (law, wanted) = self.quantities(&exact.input().own_quantities())?;
-        let names = self.naming.names(&exact.input().own_quantities())?;
+        let names = self.naming.names(Some(exact.input()))?;
         let all = self.files.iter().map(|file| find(file, &names, self.max_memory, &Disk));
         let mut all = all.collect::<anyhow::Result<Vec<_>>>()?;
         let is_static = exact.input().is_static();

@@ -319,7 +319,7 @@ impl Eval {
         let Some(path) = &self.points else {
             return self.at.iter().map(|at| coordinates("--at", at, dimension)).collect();
         };
-        let names = self.naming.names(&input.own_quantities())?;
+        let names = self.naming.names(Some(input))?;
         // The body decides between X and x; points outside it are evaluated all the same.
         let points =
             Points::of_file(path, &names, dimension, &|point: &[f64]| body.distance(point))

@@ -2,10 +2,10 @@
 
 use anyhow::anyhow;
 use clap::Args;
+use mms_exact::Input;
 use mms_harness::profile;
-use mms_judge::results::own_roles;
-use mms_results::names::{Mapping, Names};
-use mms_spec::own::Own;
+use mms_judge::results::{axes, own_roles};
+use mms_results::names::{Axes, Mapping, Names};
 
 use super::next;
 
@@ -26,16 +26,17 @@ pub struct Naming {
 }
 
 impl Naming {
-    /// The names of arrays, for a field with these quantities of its own.
+    /// The names of arrays, in files about this field, or about none.
     ///
     /// # Errors
     /// An unknown profile, a mistake in a profile of one's own, with its place, or a mapping of no quantity.
-    pub fn names(&self, own: &[Own]) -> anyhow::Result<Names> {
+    pub fn names(&self, input: Option<&Input>) -> anyhow::Result<Names> {
         let profile = self.from.as_deref().map(profile::find).transpose()?;
-        let own = own_roles(own);
+        let own = own_roles(&input.map_or(Vec::new(), Input::own_quantities));
+        let axes = input.map_or(Axes::Cartesian, |it| axes(&it.compiled.field));
         let map = self.map.iter().map(|text| Mapping::read(text, &own));
         let map = map.collect::<Result<_, _>>().map_err(|mistake| anyhow!("`--map`: {mistake}"))?;
-        Ok(Names { map, columns: self.columns.clone(), profile, own })
+        Ok(Names { map, columns: self.columns.clone(), profile, own, axes })
     }
 
     /// The arguments that ask for them.

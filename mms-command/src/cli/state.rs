@@ -30,7 +30,8 @@ use super::{Outcome, print, print_json, spare};
 ///
 /// A state holds X, x, u, v, F, P, sigma, the density and b at points and times; tractions P N per reference area at the points
 /// of each face, as traction_FACE, which is 0 at all others; and, where volumes are known, present and reference volume and the
-/// mass, which is density times volume. `mms judge` reads it as it is. Tables and NumPy have symbols for names (X, u, F), VTK
+/// mass, which is density times volume. Of an axisymmetric field a point stands for a ring, whose volume and mass are per radian.
+/// `mms judge` reads it as it is. Tables and NumPy have symbols for names (X, u, F), VTK
 /// has words (reference_position, displacement), and its points are x.
 ///
 /// The data of the field that a solver needs once stand in the file, and of a table beside it, in FILE.json: the time window,
@@ -179,7 +180,7 @@ impl State {
 
     fn given(&self, exact: &Exact) -> anyhow::Result<Given> {
         let dimension = exact.dimension;
-        let names = self.naming.names(&exact.input().own_quantities())?;
+        let names = self.naming.names(Some(exact.input()))?;
         match (&self.points, &self.cells) {
             (Some(path), _) if self.at_present => {
                 Ok(Given::Present(Box::new(Places::of_file(path, &names, dimension)?)))
@@ -214,7 +215,7 @@ impl State {
         let input = exact.input();
         let first = &frames[0].state;
         let names: Vec<&str> = first.columns.iter().map(|it| it.name.as_str()).collect();
-        let count = frames[0].position.len() / exact.dimension;
+        let count = first.points();
         let points = if count == 1 { "1 point".to_owned() } else { format!("{count} points") };
         if self.json {
             return print_json(&documents::State {

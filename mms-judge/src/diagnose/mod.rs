@@ -340,7 +340,8 @@ fn state(
         if computed == Computed::Acceleration && !is_at_exact {
             return Ok(None);
         }
-        let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
+        let is_meridian = exact.space().is_axisymmetric();
+        let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension, is_meridian };
         let volumes = match computed {
             Computed::NodalResidual => None,
             _ => {
@@ -403,7 +404,8 @@ fn level(
         let motion = motion(snapshot, &meanings, time, (exact, false))?;
         let rounding = motion.reference.rounding;
         let reference = motion.reference.numbers.into_owned();
-        let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
+        let is_meridian = exact.space().is_axisymmetric();
+        let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension, is_meridian };
         level.cell_size = size(given, &mesh, exact);
         let u = motion.displacement.map(|it| (Quantity::Displacement, it.numbers.into_owned()));
         let v = values(&meanings, Role::Velocity, snapshot, dimension)?

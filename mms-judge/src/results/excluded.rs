@@ -51,7 +51,7 @@ impl Exclusions {
 }
 
 /// The mistakes that results with these errors at some times exclude, whose finest has this time step; none without errors of the
-/// motion or, of a static field, of its equilibrium.
+/// motion or, of a static field, of its equilibrium, and for a field with a swirl, which the solver cannot run.
 ///
 /// # Errors
 /// The field cannot be run.
@@ -61,6 +61,9 @@ pub fn exclusions(
     times: Vec<f64>,
     time_step: Option<f64>,
 ) -> anyhow::Result<Option<Exclusions>> {
+    if exact.turns() {
+        return Ok(None);
+    }
     let times = (!exact.input().is_static()).then_some(times);
     let finest = measured.runs.iter().map(|run| run.cell_size).fold(f64::INFINITY, f64::min);
     let error = |name: &str| error(measured, name, finest);

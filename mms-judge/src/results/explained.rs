@@ -55,7 +55,7 @@ impl Explained {
         let (mut quantities, mut left_out) = (Vec::new(), Vec::new());
         for meaning in &meanings {
             let place = matches!(meaning.role, Role::Place | Role::Position | Role::Reference);
-            match reading.unlike(meaning, snapshot, &motion, exact.rows()) {
+            match reading.unlike(meaning, snapshot, &motion, exact) {
                 Some(why) if !place => left_out.push(why),
                 _ => {
                     let mut how = meaning.explained(snapshot);

@@ -54,7 +54,9 @@ pub fn of_cells(
     rounding: f64,
     path: &str,
 ) -> anyhow::Result<Covered> {
-    let volumes = mesh.volumes().map_err(|mistake| placed(mistake.of(path)))?;
+    // The share of a body of revolution is that of its meridian.
+    let flat = Mesh { is_meridian: false, ..*mesh };
+    let volumes = flat.volumes().map_err(|mistake| placed(mistake.of(path)))?;
     let measure: f64 = volumes.iter().sum();
     let dimension = mesh.dimension;
     let body = &exact.body;
@@ -109,7 +111,8 @@ impl Body for Filled<'_> {
     }
 
     fn is_filled(&self, points: &[f64]) -> bool {
-        let mesh = Mesh { cells: self.cells, points, dimension: self.exact.dimension };
+        let (cells, dimension) = (self.cells, self.exact.dimension);
+        let mesh = Mesh { cells, points, dimension, is_meridian: false };
         match mesh.sizes() {
             _ if self.is_part => false,
             Some(_) => of_cells(&mesh, (self.exact, false), SINGLE, "").is_ok(),

@@ -5,11 +5,12 @@ use mms_exact::Exact;
 use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, hold_distinct};
 use mms_results::names::{
-    Form, Meaning, Names, OwnRole, Role, Values, all_names, everything, recognise, wanted,
+    Axes, Form, Meaning, Names, OwnRole, Role, Values, all_names, everything, recognise, wanted,
 };
 use mms_results::{Files, Snapshot, Stored, suggestion};
 use mms_spec::own::Own;
 use mms_spec::quantity::{Quantity, Shape};
+use mms_spec::{FieldSpec, Space};
 
 use super::extent::{self, Covered};
 use super::files::{Results, placed, room};
@@ -22,7 +23,7 @@ const POLYGON: u8 = 7;
 /// Over what a norm is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
-    /// Over points, all alike.
+    /// Over points, all alike; of an axisymmetric field by their radii.
     Points,
     /// Over points, by their weights.
     Weighted,
@@ -192,6 +193,14 @@ pub fn without_positions(
     )
 }
 
+/// The letters of components in files about a field.
+pub fn axes(field: &FieldSpec) -> Axes {
+    match field.space {
+        Space::Cartesian(_) => Axes::Cartesian,
+        Space::Axisymmetric { swirl } => Axes::Axisymmetric { swirl },
+    }
+}
+
 /// The quantities of a field's own, as arrays may be.
 pub fn own_roles(own: &[Own]) -> Vec<OwnRole> {
     let form = |own: &Own| match own.part.shape() {
@@ -213,9 +222,11 @@ pub fn values<'a>(
     snapshot: &'a Snapshot,
     exact: &Exact,
 ) -> anyhow::Result<Values<'a>> {
+    let is_place = matches!(meaning.role, Role::Reference | Role::Place | Role::Normal);
     let rows = match meaning.role.form() {
         Form::Tensor | Form::Symmetric => exact.rows(),
-        Form::Scalar | Form::Vector | Form::Voigt => exact.dimension,
+        Form::Vector if !is_place => exact.space().vector(),
+        Form::Vector | Form::Scalar | Form::Voigt => exact.dimension,
     };
     meaning.values(snapshot, rows).map_err(placed)
 }
@@ -262,7 +273,8 @@ impl Reading<'_> {
         let meanings = self.meanings(snapshot, exact)?;
         let motion = extent::motion(snapshot, &meanings, time, (exact, self.is_part))?;
         let cells = &snapshot.cells;
-        let mesh = Mesh { cells, points: &motion.reference.numbers, dimension };
+        let is_meridian = exact.space().is_axisymmetric();
+        let mesh = Mesh { cells, points: &motion.reference.numbers, dimension, is_meridian };
         let sizes = mesh.sizes();
         let rounding_of_places = motion.reference.rounding;
         let covered = if sizes.is_some() {
@@ -289,7 +301,7 @@ impl Reading<'_> {
             errors.push(taken.errors(Quantity::Displacement, u, weights)?);
         }
         for meaning in meanings.iter().filter(|it| self.is_judged(it, &motion)) {
-            if let Some(why) = self.unlike(meaning, snapshot, &motion, taken.exact.rows()) {
+            if let Some(why) = self.unlike(meaning, snapshot, &motion, taken.exact) {
                 passed_over.push(why);
                 continue;
             }
@@ -355,8 +367,7 @@ impl Reading<'_> {
         let time = snapshot.time.map_or(exact.window[0], |time| time.value);
         let motion = extent::motion(snapshot, &meanings, time, (exact, self.is_part))?;
         let judged = meanings.iter().filter(|it| {
-            self.is_judged(it, &motion)
-                && self.unlike(it, snapshot, &motion, exact.rows()).is_none()
+            self.is_judged(it, &motion) && self.unlike(it, snapshot, &motion, exact).is_none()
         });
         let judged: Vec<&Meaning> = judged.collect();
         let u = motion.displacement.filter(|_| self.wants_u());
@@ -379,15 +390,16 @@ impl Reading<'_> {
         meaning: &Meaning,
         snapshot: &Snapshot,
         motion: &Motion<'_>,
-        rows: usize,
+        exact: &Exact,
     ) -> Option<String> {
         let points = motion.reference.numbers.len() / motion.reference.components;
-        let dimension = match meaning.role.form() {
-            Form::Tensor | Form::Symmetric => rows,
-            Form::Scalar | Form::Vector | Form::Voigt => motion.reference.components,
+        let (rows, own) = (exact.rows(), exact.space());
+        let (dimension, in_space) = match meaning.role.form() {
+            Form::Tensor | Form::Symmetric => (rows, rows != own.rows()),
+            Form::Vector => (own.vector(), false),
+            Form::Scalar | Form::Voigt => (exact.dimension, false),
         };
-        let is_asked = self.wanted.iter().any(|it| it.name() == meaning.role.name())
-            || dimension != motion.reference.components;
+        let is_asked = in_space || self.wanted.iter().any(|it| it.name() == meaning.role.name());
         let why = meaning.unlike(snapshot, dimension, Some(points));
         why.filter(|_| !is_asked)
     }

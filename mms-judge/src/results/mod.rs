@@ -31,7 +31,7 @@ pub use excluded::{Exclusions, exclusions};
 pub use explained::Explained;
 pub use extent::{distances, motion};
 pub use files::{Results, placed, room};
-pub use level::{Over, Reading, Sampling, own_roles, weight, without_positions};
+pub use level::{Over, Reading, Sampling, axes, own_roles, weight, without_positions};
 pub use same::{Same, same};
 pub use start::Start;
 pub use units::known as unit;
@@ -140,6 +140,7 @@ pub fn measure(
         quantities = all;
     }
     notes.extend(remarks::norms(&quantities));
+    notes.extend(remarks::rings(exact));
     notes.push(remarks::left_out(&common, &levels, &own));
     let is_given = levels.iter().flat_map(|it| &it.errors).all(|it| it.is_given);
     remarks::suspicions(&levels, is_given, &mut warnings);

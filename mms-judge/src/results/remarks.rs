@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use mms_exact::Exact;
 use mms_results::own::LeftOut;
 use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
@@ -50,6 +51,15 @@ pub fn norms(quantities: &[(Quantity, Sampling)]) -> Vec<String> {
         .into_values()
         .map(|(symbols, says)| format!("norms of {}: {says}", symbols.join(", ")))
         .collect()
+}
+
+/// A sentence about means of an axisymmetric field.
+pub fn rings(exact: &Exact) -> Option<String> {
+    exact.space().is_axisymmetric().then(|| {
+        "means are over the body of revolution: a point, or the middle of a cell, counts by its radius R unless `--weight` \
+         names another weight, and quadrature over cells has the weight R"
+            .into()
+    })
 }
 
 /// The order that elements of degree 2 and more promise, unless another was given.

@@ -128,7 +128,7 @@ fn are_irregular(levels: &[Level], sizes: &[f64]) -> bool {
 
 /// Whether a vector of the exact motion is not affine in X at the start.
 fn bends(quantity: Quantity, exact: &mut Exact) -> anyhow::Result<bool> {
-    let dimension = exact.dimension;
+    let components = exact.components(quantity);
     let middle = exact.body.point(&[0.45; 3]);
     let mut places = Vec::new();
     for along in [[0.1, 0.3, 0.2], [0.7, 0.2, 0.4], [0.3, 0.8, 0.9], [0.6, 0.5, 0.1]] {
@@ -139,9 +139,9 @@ fn bends(quantity: Quantity, exact: &mut Exact) -> anyhow::Result<bool> {
     }
     let values = exact.values(quantity, exact.window[0], &places)?;
     let largest = values.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
-    Ok(values.chunks(3 * dimension).any(|three| {
-        (0..dimension).any(|it| {
-            let bend = three[it] - 2.0 * three[dimension + it] + three[2 * dimension + it];
+    Ok(values.chunks(3 * components).any(|three| {
+        (0..components).any(|it| {
+            let bend = three[it] - 2.0 * three[components + it] + three[2 * components + it];
             bend.abs() > ROUNDING * largest
         })
     }))

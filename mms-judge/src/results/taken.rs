@@ -92,7 +92,11 @@ impl Taken<'_> {
             (false, true, None) => Sampling::Cells,
             (false, false, None) => Sampling::Points,
         };
-        let weights = weights.filter(|_| sampling == Sampling::Weighted);
+        let radii = self.exact.radii(places);
+        let weights = match sampling {
+            Sampling::Weighted => weights,
+            _ => radii.as_deref(),
+        };
         if let Some(weights) = weights.filter(|it| it.len() != rows) {
             bail!("{}: {} weights for {rows} points", self.snapshot.path, weights.len());
         }
@@ -171,8 +175,10 @@ impl Taken<'_> {
             (quantity == Quantity::Displacement).then_some(Quantity::DisplacementGradient);
         let exact = &mut *self.exact;
         let mut asked = |asked: Asked, places: &[f64]| {
-            let of = if asked == Asked::Gradients { gradient } else { None };
-            let found = exact.values(of.unwrap_or(quantity), time, places);
+            let found = match gradient.filter(|_| asked == Asked::Gradients) {
+                Some(gradient) => exact.own(gradient, time, places),
+                None => exact.values(quantity, time, places),
+            };
             found.map_err(|error| Mistake::new(format!("{error:#}")))
         };
         let (values_of_points, has_gradient) = (&values.numbers, gradient.is_some());

@@ -26,9 +26,10 @@ struct Loaded {
 impl Loaded {
     /// Adds rows of values, each with its normal.
     fn add(&mut self, places: &[f64], values: &Values<'_>, rows: &[usize], normals: &[f64]) {
-        let size = values.components;
+        let (size, dimension) =
+            (values.components, places.len() * values.components / values.numbers.len());
         for &row in rows {
-            self.places.extend(&places[row * size..][..size]);
+            self.places.extend(&places[row * dimension..][..dimension]);
             self.tractions.extend(&values.numbers[row * size..][..size]);
         }
         self.normals.extend(normals);
@@ -49,12 +50,12 @@ impl Taken<'_> {
     pub fn tractions(&mut self, meanings: &[Meaning]) -> anyhow::Result<Option<Errors>> {
         let mut loaded = Loaded::default();
         for meaning in meanings.iter().filter(|it| it.role == Role::Traction) {
-            let values = self.of_points(meaning)?;
+            let values = self.of_points(meaning, self.exact.space().vector())?;
             let normal = meanings.iter().find(|it| it.role == Role::Normal);
             match (meaning.face, normal) {
                 (Some(face), _) => self.of_face(face, &values, &mut loaded)?,
                 (None, Some(normal)) => {
-                    let normals = self.of_points(normal)?;
+                    let normals = self.of_points(normal, self.mesh.dimension)?;
                     self.of_normals(&values, &normals, &mut loaded)?;
                 }
                 (None, None) => self.of_faces(&values, &mut loaded)?,
@@ -62,19 +63,23 @@ impl Taken<'_> {
         }
         let Loaded { places, normals, tractions, rounding, stored } = loaded;
         let Some(stored) = stored else { return Ok(None) };
-        let components = self.mesh.dimension;
+        let (components, dimension) = (self.exact.space().vector(), self.mesh.dimension);
         let values =
             Values { numbers: tractions.into(), components, rounding, stored, is_of_cells: false };
         let solution: Solution<'_> = &|exact, time, first, places| {
-            exact.by_normals(Quantity::Traction, &normals[first * components..], time, places)
+            exact.by_normals(Quantity::Traction, &normals[first * dimension..], time, places)
         };
-        let compared = self.compared(Quantity::Traction, (&values, None), &places, solution)?;
+        let radii = self.exact.radii(&places);
+        let compared =
+            self.compared(Quantity::Traction, (&values, radii.as_deref()), &places, solution)?;
         self.over_points(Quantity::Traction, &values, Sampling::Faces, &compared).map(Some)
     }
 
-    fn of_points(&self, meaning: &Meaning) -> anyhow::Result<Values<'_>> {
-        let values = meaning.values(self.snapshot, self.mesh.dimension).map_err(placed)?;
-        let (rows, points) = (values.numbers.len(), self.mesh.points.len());
+    /// A vector of so many components at each point.
+    fn of_points(&self, meaning: &Meaning, components: usize) -> anyhow::Result<Values<'_>> {
+        let values = meaning.values(self.snapshot, components).map_err(placed)?;
+        let rows = values.numbers.len() / components;
+        let points = self.mesh.points.len() / self.mesh.dimension;
         ensure!(
             !values.is_of_cells && rows == points,
             "{}: `{}`: expected a vector for each point",

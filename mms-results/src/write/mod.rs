@@ -6,6 +6,7 @@ mod table;
 mod vtu;
 
 use crate::Cells;
+use crate::names::Axes;
 
 pub use npz::npz;
 pub use table::csv;
@@ -22,6 +23,8 @@ pub enum Shape {
     Vector,
     /// A square matrix, by rows.
     Tensor,
+    /// A vector of three components in any dimension.
+    Three,
     /// A matrix of three rows in any dimension.
     Nine,
 }
@@ -33,6 +36,7 @@ impl Shape {
             Shape::Scalar | Shape::Whole => 1,
             Shape::Vector => dimension,
             Shape::Tensor => dimension * dimension,
+            Shape::Three => 3,
             Shape::Nine => 9,
         }
     }
@@ -74,10 +78,20 @@ pub struct State {
     pub time: f64,
     /// The dimension.
     pub dimension: usize,
+    /// The letters of components.
+    pub axes: Axes,
     /// What is known of it as a whole; a table has no place for that.
     pub facts: Vec<Fact>,
     /// What is known of the points; the same columns at all times.
     pub columns: Vec<Column>,
+}
+
+impl State {
+    /// The number of points.
+    pub fn points(&self) -> usize {
+        let rows = |it: &Column| it.values.len() / it.shape.components(self.dimension);
+        self.columns.first().map_or(0, rows)
+    }
 }
 
 /// Where the points of a state are, and between which of them there are cells.

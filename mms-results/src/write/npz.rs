@@ -51,6 +51,7 @@ fn axes(column: &Column, dimension: usize) -> String {
         Shape::Scalar | Shape::Whole => format!("{rows},"),
         Shape::Vector => format!("{rows}, {dimension}"),
         Shape::Tensor => format!("{rows}, {dimension}, {dimension}"),
+        Shape::Three => format!("{rows}, 3"),
         Shape::Nine => format!("{rows}, 3, 3"),
     }
 }

@@ -4,9 +4,15 @@ use std::fmt::Write as _;
 use std::io;
 
 use super::{Column, Shape, State};
+use crate::names::Axes;
 
 /// Letters of axes.
-const AXES: [&str; 3] = ["x", "y", "z"];
+fn letters(axes: Axes) -> [&'static str; 3] {
+    match axes {
+        Axes::Cartesian => ["x", "y", "z"],
+        Axes::Axisymmetric { .. } => ["r", "z", "t"],
+    }
+}
 
 /// Writes states with the same columns, one below the other.
 ///
@@ -14,7 +20,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// What the writer says.
 pub fn csv(states: &[&State], out: &mut dyn io::Write) -> io::Result<()> {
     let Some(first) = states.first() else { return Ok(()) };
-    let names = first.columns.iter().flat_map(|column| names(column, first.dimension));
+    let names = first.columns.iter().flat_map(|column| names(column, first));
     let header: Vec<String> = std::iter::once("time".to_owned()).chain(names).collect();
     out.write_all(format!("{}\n", header.join(",")).as_bytes())?;
     states.iter().try_for_each(|state| lines(state, out))
@@ -23,10 +29,9 @@ pub fn csv(states: &[&State], out: &mut dyn io::Write) -> io::Result<()> {
 fn lines(state: &State, out: &mut dyn io::Write) -> io::Result<()> {
     let sizes = state.columns.iter().map(|column| column.shape.components(state.dimension));
     let sizes: Vec<usize> = sizes.collect();
-    let rows = state.columns.first().map_or(0, |column| column.values.len() / sizes[0]);
     let time = format!("{:?}", state.time);
     let mut line = String::new();
-    for row in 0..rows {
+    for row in 0..state.points() {
         line.clone_from(&time);
         for (column, &size) in state.columns.iter().zip(&sizes) {
             for value in &column.values[row * size..][..size] {
@@ -43,17 +48,20 @@ fn lines(state: &State, out: &mut dyn io::Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The names of the columns of numbers: X, Y and x, y for positions, u_x, F_xy for others, and no axes in one dimension.
-fn names(column: &Column, dimension: usize) -> Vec<String> {
+/// The names of the columns of numbers: X, Y and x, y for positions, u_x, F_xy for others, and no axes in one dimension; of an
+/// axisymmetric field R, Z and r, z, u_r, F_rz.
+fn names(column: &Column, state: &State) -> Vec<String> {
     let name = &column.name;
-    let rows = if column.shape == Shape::Nine { AXES.len() } else { dimension };
-    let axes = || AXES[..rows].iter();
+    let is_spatial = matches!(column.shape, Shape::Three | Shape::Nine);
+    let rows = if is_spatial { 3 } else { state.dimension };
+    let letters = letters(state.axes);
+    let axes = || letters[..rows].iter();
     match (column.shape, name.as_str()) {
         (Shape::Vector, "X") => axes().map(|axis| axis.to_uppercase()).collect(),
         (Shape::Vector, "x") => axes().map(|axis| (*axis).to_owned()).collect(),
         (Shape::Scalar | Shape::Whole, _) => vec![name.clone()],
         _ if rows == 1 => vec![name.clone()],
-        (Shape::Vector, _) => axes().map(|axis| format!("{name}_{axis}")).collect(),
+        (Shape::Vector | Shape::Three, _) => axes().map(|axis| format!("{name}_{axis}")).collect(),
         (Shape::Tensor | Shape::Nine, _) => {
             axes().flat_map(|i| axes().map(move |j| format!("{name}_{i}{j}"))).collect()
         }

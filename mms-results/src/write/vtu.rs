@@ -27,7 +27,7 @@ pub fn head(kind: &str) -> String {
 /// What the writer says.
 pub fn vtu(state: &State, mesh: Mesh<'_>, out: &mut dyn Write) -> io::Result<()> {
     let dimension = state.dimension;
-    let points = mesh.position.len() / dimension;
+    let points = state.points();
     let cells = or_vertices(mesh.cells, points);
     writeln!(out, "{}<UnstructuredGrid>", head("UnstructuredGrid"))?;
     // With all digits: fewer would say that the time is not known better.
@@ -45,7 +45,9 @@ pub fn vtu(state: &State, mesh: Mesh<'_>, out: &mut dyn Write) -> io::Result<()>
         numbers(&column.name, column.shape, &column.values, dimension, out)?;
     }
     out.write_all(b"</PointData>\n<Points>\n")?;
-    numbers("position", Shape::Vector, mesh.position, dimension, out)?;
+    let is_spatial = mesh.position.len() == 3 * points;
+    let shape = if is_spatial { Shape::Three } else { Shape::Vector };
+    numbers("position", shape, mesh.position, dimension, out)?;
     out.write_all(b"</Points>\n<Cells>\n")?;
     let whole = |values: &[usize]| -> Vec<u8> {
         values.iter().flat_map(|value| (*value as u64).to_le_bytes()).collect()
@@ -95,6 +97,7 @@ fn numbers(
     let bytes = |values: &[f64]| values.iter().flat_map(|value| value.to_le_bytes()).collect();
     let (kind, components, bytes): (_, _, Vec<u8>) = match shape {
         Shape::Scalar => ("Float64", 1, bytes(values)),
+        Shape::Three => ("Float64", 3, bytes(values)),
         Shape::Nine => ("Float64", 9, bytes(values)),
         Shape::Vector => ("Float64", 3, bytes(&padded(values, dimension, [1, 3]))),
         Shape::Tensor => ("Float64", 9, bytes(&padded(values, dimension, [dimension, 9]))),

@@ -168,7 +168,7 @@ impl Judge {
                 input.offered(names, evaluated(&input.own_quantities(), names)?)?
             }
         };
-        Ok((self.results.naming.names(&exact.input().own_quantities())?, wanted))
+        Ok((self.results.naming.names(Some(exact.input()))?, wanted))
     }
 
     fn reading<'a>(&self, names: &'a Names, wanted: &'a [Quantity]) -> Reading<'a> {
@@ -225,7 +225,7 @@ impl Judge {
     pub(super) fn same(&self) -> anyhow::Result<Outcome> {
         let [a, b] = self.results.same.as_slice() else { bail!("`--same`: expected two results") };
         let (room, advice) = room(self.results.max_memory, &Disk);
-        let names = self.results.naming.names(&[])?;
+        let names = self.results.naming.names(None)?;
         let find = |given| Results::find(given, &everything(&names).within(room, advice), &Disk);
         let found = same(&find(a)?, &find(b)?, &names)?;
         self.printing.print(&differences(a, b, &found))?;
