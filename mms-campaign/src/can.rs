@@ -26,6 +26,8 @@ pub struct Can {
     pub start_deformed: bool,
     /// Whether moduli or the density may depend on X.
     pub graded: bool,
+    /// Whether it solves in R and Z, on bodies of revolution.
+    pub axisymmetric: bool,
     /// Whether bodies may move at all, as they may where nothing is said; else all is at rest.
     pub dynamics: bool,
 }
@@ -39,6 +41,7 @@ const KEYS: &[&str] = &[
     "start_moving",
     "start_deformed",
     "graded",
+    "axisymmetric",
     "dynamics",
 ];
 
@@ -76,6 +79,7 @@ pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Can> {
         start_moving: reader.flag(&table, "start_moving", false),
         start_deformed: reader.flag(&table, "start_deformed", false),
         graded: reader.flag(&table, "graded", false),
+        axisymmetric: reader.flag(&table, "axisymmetric", false),
         dynamics: reader.flag(&table, "dynamics", true),
     })
 }

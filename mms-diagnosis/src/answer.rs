@@ -416,7 +416,7 @@ fn one<const D: usize>(
             let most = explained.margin.min(SURE * step).max(KNOWN * it.size.abs().max(step));
             (it.size - found).abs() <= most
         };
-        let known = (hypothesis.known)(exact);
+        let known = hypothesis.known(exact);
         let away = |it: &&crate::hypothesis::Known| (it.size - found).abs();
         let nearest =
             known.iter().filter(|it| near(it)).map(|it| away(&it)).fold(f64::INFINITY, f64::min);

@@ -6,6 +6,7 @@ use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::{Domain, Fill, ManufacturedField, Matrix, Vector};
 
 use crate::law::{LAWS, Law, moduli};
+use crate::revolved::Revolved;
 
 /// What of the motion solvers write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -71,7 +72,11 @@ pub struct Exact<'a, const D: usize> {
     pub law: Option<&'static Law>,
     /// The parameters of the material, if they are known.
     pub parameters: Option<&'a dyn Parameters<D>>,
+    /// The field in space, if it is axisymmetric.
+    pub space: Option<&'a Exact<'a, 3>>,
     moduli: Moduli,
+    /// Whether strains have no shears along the hoop: this is an axisymmetric field in space.
+    is_revolved: bool,
 }
 
 /// Displacement gradients at which laws are told apart, and one at which all are alike.
@@ -96,6 +101,15 @@ const LINEAR: f64 = 1e-4;
 impl<'a, const D: usize> Exact<'a, D> {
     /// Of a field, for a solver with this h and time step.
     pub fn new(field: &'a dyn ManufacturedField<f64, D>, cell_size: f64, time_step: f64) -> Self {
+        Self::of(field, cell_size, time_step, false)
+    }
+
+    fn of(
+        field: &'a dyn ManufacturedField<f64, D>,
+        cell_size: f64,
+        time_step: f64,
+        is_revolved: bool,
+    ) -> Self {
         let domain = field.domain();
         let mut exact = Exact {
             field,
@@ -104,12 +118,14 @@ impl<'a, const D: usize> Exact<'a, D> {
             cell_size,
             law: None,
             parameters: None,
+            space: None,
             moduli: Moduli::None,
+            is_revolved,
         };
         let places = exact.places();
         exact.law = LAWS.iter().find(|law| {
             let fits = |x: &Vector<f64, D>| {
-                let found = moduli(law, &exact.samples(x, &trials()));
+                let found = moduli(law, &exact.samples(x, &exact.trials()));
                 found.is_some_and(|(_, missed)| missed < SAME)
             };
             places.iter().all(fits)
@@ -124,6 +140,20 @@ impl<'a, const D: usize> Exact<'a, D> {
             }
         };
         exact
+    }
+
+    /// Displacement gradients that the field may have, at which laws are told apart.
+    fn trials(&self) -> [Matrix<f64, D>; 4] {
+        let is_shear = |i: usize, j: usize| self.is_revolved && (i == 2) != (j == 2);
+        let held = |h: Matrix<f64, D>| {
+            Matrix::from_fn(|i, j| if is_shear(i, j) { 0.0 } else { h[(i, j)] })
+        };
+        trials().map(held)
+    }
+
+    /// Whether the body reaches the axis.
+    pub fn starts_at_axis(&self) -> bool {
+        bounding_box(&self.domain.body).is_ok_and(|[lower, _]| lower[0] == 0.0)
     }
 
     /// Whether nothing moves: v and a are 0 at all times.
@@ -177,8 +207,8 @@ impl<'a, const D: usize> Exact<'a, D> {
     /// lambda and mu at X, of the law where it is known, and else at small strains.
     fn fitted(&self, x: &Vector<f64, D>) -> Option<[f64; 2]> {
         let (law, gradients, most) = match self.law {
-            Some(law) => (law, trials(), SAME),
-            None => (&LAWS[LAWS.len() - 1], trials().map(|h| h * SMALL), LINEAR),
+            Some(law) => (law, self.trials(), SAME),
+            None => (&LAWS[LAWS.len() - 1], self.trials().map(|h| h * SMALL), LINEAR),
         };
         let (found, missed) = moduli(law, &self.samples(x, &gradients))?;
         (missed < most && found.iter().all(|it| it.is_finite())).then_some(found)
@@ -269,6 +299,17 @@ impl<'a, const D: usize> Exact<'a, D> {
                 rows.iter().flat_map(|h| h.transpose().as_slice().to_vec()).collect()
             }
         }
+    }
+}
+
+impl<'a> Exact<'a, 3> {
+    /// Of an axisymmetric field in space.
+    pub fn in_space<const D: usize>(
+        field: &'a Revolved<'a, D>,
+        cell_size: f64,
+        time_step: f64,
+    ) -> Self {
+        Self::of(field, cell_size, time_step, true)
     }
 }
 

@@ -108,6 +108,9 @@ where
         mesh: &'a Mesh,
         is_static: bool,
     ) -> Result<Self, Obstacle> {
+        if is_static && exact.space.is_some() {
+            return Err(Obstacle::Axisymmetric("results at rest"));
+        }
         if is_static {
             let equilibrium = Equilibrium::new(exact, frame)?.ok_or(Obstacle::NotHeld)?;
             return Ok(Solvers::Rest(Statics::new(Arc::new(equilibrium), frame, mesh)));

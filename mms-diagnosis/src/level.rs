@@ -91,6 +91,9 @@ impl<'a, const D: usize> Levels<'a, D> {
         f64: Solve<D>,
     {
         let mesh = meshes.last().ok_or(Obstacle::NotFinite)?;
+        if exact.space.is_some() && exact.is_at_rest() {
+            return Err(Obstacle::Axisymmetric("results at rest"));
+        }
         let equilibrium = if exact.is_at_rest() {
             Some(Arc::new(Equilibrium::new(exact, frame)?.ok_or(Obstacle::NotHeld)?))
         } else {

@@ -45,6 +45,7 @@ pub mod patterns;
 pub mod place;
 pub mod quadrature;
 pub mod rank;
+mod revolved;
 pub mod run;
 pub mod sample;
 pub mod scene;

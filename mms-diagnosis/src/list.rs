@@ -23,7 +23,9 @@ pub struct Listed {
 
 /// All hypotheses about a field, each followed by the names of its sizes.
 pub fn listed<const D: usize>(exact: &Exact<'_, D>) -> Vec<Listed> {
-    let all = [all(exact), of_tangent(), voigt_orders()];
+    let of_laws = if exact.space.is_some() { Vec::new() } else { of_tangent() };
+    let orders = if exact.space.is_some() { Vec::new() } else { voigt_orders() };
+    let all = [all(exact), of_laws, orders];
     let mut found: Vec<Listed> = all.iter().flatten().flat_map(|it| names(exact, it)).collect();
     found.extend(patterns::LISTED.iter().map(|(title, says)| Listed {
         title: (*title).into(),
@@ -57,7 +59,7 @@ fn names<const D: usize>(exact: &Exact<'_, D>, it: &Hypothesis<D>) -> Vec<Listed
         }
         Size::Fixed => None,
     };
-    let known = (it.known)(exact).into_iter().filter(|it| it.size.is_finite());
+    let known = it.known(exact).into_iter().filter(|it| it.size.is_finite());
     let known = known.map(|it| named(it.name, it.says, it.size));
     let all = known.chain(below).collect::<Vec<_>>();
     std::iter::once(own).chain(all).collect()
@@ -74,5 +76,6 @@ fn shown_by<const D: usize>(it: &Hypothesis<D>) -> &'static str {
         Change::Start(_) => "step, results",
         Change::Tangent(_) | Change::Order(_) => "law",
         Change::Condition(_) | Change::Output(_) | Change::Wall(_) => "results",
+        Change::InSpace(_) | Change::Ring(_) => "results",
     }
 }

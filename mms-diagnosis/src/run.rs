@@ -38,6 +38,8 @@ pub enum Obstacle {
     AtStart,
     /// A stress of the field is not finite at a row of a table.
     SingularDeformation,
+    /// Evidence of this kind is not looked at for axisymmetric fields.
+    Axisymmetric(&'static str),
     /// Nothing holds a body at rest, or it is unstable.
     NotHeld,
     /// The body has no extent.
@@ -74,6 +76,11 @@ impl fmt::Display for Obstacle {
                 write!(f, "the exact stress is not finite at a row: is det F <= 0 there?")
             }
             Obstacle::Refused(refusal) => refusal.fmt(f),
+            Obstacle::Axisymmetric(what) => write!(
+                f,
+                "the field is axisymmetric, and {what} of such a field are not diagnosed: expected u, v or F of a motion, \
+                 at times after its start"
+            ),
             Obstacle::NotHeld => write!(
                 f,
                 "the field is at rest, and its equilibrium is not unique or not stable: expected faces that hold the \

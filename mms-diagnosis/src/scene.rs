@@ -8,11 +8,12 @@ use mms_runtime::{ManufacturedField, Matrix, Method, Vector};
 use crate::answer::{Diagnosis, Finding, Ranked, Rung};
 use crate::closed_form::{self, ClosedForm, Values};
 use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
-use crate::exact::{Exact, Quantity, vectors};
+use crate::exact::{Exact, Parameters, Quantity, vectors};
 use crate::excluded::{Excluded, Study, excluded};
 use crate::hypothesis::{Hypothesis, all};
 use crate::list::{Listed, listed};
 use crate::material::{Material, Own};
+use crate::revolved::Revolved;
 use crate::run::Obstacle;
 use crate::smooth::Smooth;
 use crate::solver::Solver;
@@ -159,8 +160,9 @@ where
 {
     let meshes = thinned::<D>(meshes);
     let Some(mesh) = meshes.last() else { return Ok(Vec::new()) };
-    let exact = exact(field, mesh.cell_size, None);
-    like::orders_of(&exact, &frame(&exact, &meshes)?, mesh, method)
+    with_exact(field, None, (mesh.cell_size, None), |exact| {
+        like::orders_of(exact, &frame(exact, &meshes)?, mesh, method)
+    })
 }
 
 /// Which mistakes results exclude whose errors are no more than those of a method.
@@ -196,20 +198,28 @@ pub fn is_at_rest(scene: &Scene<f64>) -> bool {
 /// All hypotheses about a field.
 pub fn hypotheses(scene: &Scene<f64>) -> Vec<Listed> {
     match scene {
-        Scene::Line(field) => listed(&Exact::new(field.as_ref(), 1.0, 1.0)),
-        Scene::Plane(field) => listed(&Exact::new(field.as_ref(), 1.0, 1.0)),
-        Scene::Space(field) => listed(&Exact::new(field.as_ref(), 1.0, 1.0)),
+        Scene::Line(field) => with_exact(field.as_ref(), None, (1.0, Some(1.0)), |it| listed(it)),
+        Scene::Plane(field) => with_exact(field.as_ref(), None, (1.0, Some(1.0)), |it| listed(it)),
+        Scene::Space(field) => with_exact(field.as_ref(), None, (1.0, Some(1.0)), |it| listed(it)),
     }
 }
 
-/// A field, and what a solver with this h takes; without a time step, about that of the largest Courant number.
-fn exact<const D: usize>(
+/// Does something with a field and what a solver with this h takes; without a time step, about that of the largest Courant
+/// number.
+fn with_exact<const D: usize, R>(
     field: &dyn ManufacturedField<f64, D>,
-    cell_size: f64,
-    time_step: Option<f64>,
-) -> Exact<'_, D> {
+    parameters: Option<&dyn Parameters<D>>,
+    (cell_size, time_step): (f64, Option<f64>),
+    then: impl FnOnce(&mut Exact<'_, D>) -> R,
+) -> R {
     let ordinary = || COURANT * cell_size / Exact::new(field, 1.0, 1.0).wave_speed();
-    Exact::new(field, cell_size, time_step.unwrap_or_else(ordinary))
+    let time_step = time_step.unwrap_or_else(ordinary);
+    let revolved = Revolved(field);
+    let is_axisymmetric = field.axisymmetric().is_some();
+    let space = is_axisymmetric.then(|| Exact::in_space(&revolved, cell_size, time_step));
+    let mut exact = Exact::new(field, cell_size, time_step);
+    (exact.space, exact.parameters) = (space.as_ref(), parameters);
+    then(&mut exact)
 }
 
 fn closed_form_of<const D: usize>(
@@ -217,8 +227,9 @@ fn closed_form_of<const D: usize>(
     of: ClosedForm,
     values: &Values<'_>,
 ) -> Option<Ranked> {
-    let exact = exact(field, 1.0, None);
-    closed_form::diagnose(&exact, of, values, all(&exact))
+    with_exact(field, None, (1.0, None), |exact| {
+        closed_form::diagnose(exact, of, values, all(exact))
+    })
 }
 
 fn excludes_of<const D: usize>(
@@ -228,8 +239,9 @@ fn excludes_of<const D: usize>(
 where
     f64: Solve<D>,
 {
-    let exact = exact(field, study.cell_size, study.time_step);
-    excluded(&exact, study, &all(&exact))
+    with_exact(field, None, (study.cell_size, study.time_step), |exact| {
+        excluded(exact, study, &all(exact))
+    })
 }
 
 fn of<const D: usize>(
@@ -248,23 +260,33 @@ where
         Evidence::State { cell_size, .. } => (*cell_size, None),
         Evidence::Law(_) | Evidence::Tangent(_) => (1.0, None),
     };
-    let mut exact = exact(field, cell_size, time_step);
-    exact.parameters = Some(parameters);
-    let hypotheses = all(&exact);
-    match evidence {
-        Evidence::Results(meshes) => {
-            if let Some(step) = step::response(&exact, meshes, solver.without) {
-                return Ok(state::diagnose(&exact, &step, &hypotheses)?);
+    with_exact(field, Some(parameters), (cell_size, time_step), |exact| {
+        let hypotheses = all(exact);
+        let unseen = match evidence {
+            _ if exact.space.is_none() => None,
+            Evidence::Results(_) => None,
+            Evidence::State { .. } => Some("accelerations and residuals"),
+            Evidence::Law(_) | Evidence::Tangent(_) => Some("tables of a law"),
+        };
+        if let Some(what) = unseen {
+            return Err(Obstacle::Axisymmetric(what));
+        }
+        match evidence {
+            Evidence::Results(meshes) => {
+                let step = step::response(exact, meshes, solver.without);
+                match step.filter(|_| exact.space.is_none()) {
+                    Some(step) => Ok(state::diagnose(exact, &step, &hypotheses)?),
+                    None => of_results(exact, meshes, &hypotheses, solver),
+                }
             }
-            of_results(&exact, meshes, &hypotheses, solver)
+            Evidence::State { response, .. } => {
+                let response = Response { without: solver.without, ..response.clone() };
+                Ok(state::diagnose(exact, &response, &hypotheses)?)
+            }
+            Evidence::Law(law) => of_law(exact, law, hypotheses),
+            Evidence::Tangent(law) => of_tangent(exact, law, hypotheses),
         }
-        Evidence::State { response, .. } => {
-            let response = Response { without: solver.without, ..response.clone() };
-            Ok(state::diagnose(&exact, &response, &hypotheses)?)
-        }
-        Evidence::Law(law) => of_law(&exact, law, hypotheses),
-        Evidence::Tangent(law) => of_tangent(&exact, law, hypotheses),
-    }
+    })
 }
 
 fn of_results<const D: usize>(

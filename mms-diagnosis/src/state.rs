@@ -113,6 +113,7 @@ pub fn diagnose<const D: usize>(
         Change::Start(_) => response.step.is_some(),
         Change::Condition(_) | Change::Output(_) | Change::Wall(_) => false,
         Change::Tangent(_) | Change::Order(_) => false,
+        Change::InSpace(_) | Change::Ring(_) => false,
     };
     let right = sums.computed(response.computed, 1.0);
     let scale = sums.scale();

@@ -332,20 +332,6 @@ impl Input {
         Ok(())
     }
 
-    /// Refuses an axisymmetric field, whose results nothing judges.
-    ///
-    /// # Errors
-    /// The field is axisymmetric.
-    pub fn hold_cartesian(&self) -> anyhow::Result<()> {
-        ensure!(
-            !self.compiled.field.space.is_axisymmetric(),
-            "`{}` is axisymmetric, and this command works in Cartesian coordinates; `mms check`, `mms eval`, `mms show`, `mms \
-             accuracy`, `mms emit`, `mms run` and `mms study` take this field",
-            self.name.shown()
-        );
-        Ok(())
-    }
-
     /// Whether nothing moves: the field has no time.
     pub fn is_static(&self) -> bool {
         self.compiled.model.domain.is_static

@@ -88,9 +88,9 @@ struct Shown {
 pub fn suggest(can: &Can, open: Open<'_>) -> anyhow::Result<Suggestion> {
     let mut shown = Vec::new();
     let is_known = |field: &FieldSpec| {
-        // Results of axisymmetric fields are not judged.
         let is_law = can.materials.iter().any(|it| it == material(field));
-        is_law && !field.space.is_axisymmetric()
+        // Who solves in Cartesian coordinates lacks nothing of a meridian.
+        is_law && (can.axisymmetric || !field.space.is_axisymmetric())
     };
     for field in gallery::fields().iter().filter(|field| is_known(field)) {
         shown.push(Shown::new(field.name.raw(), can, open)?);
@@ -145,6 +145,9 @@ fn terms(field: &FieldSpec, visibility: &Visibility) -> BTreeMap<String, &'stati
     add(format!("dimension.{}", field.dimension), "no body of that dimension");
     add(format!("material.{}", material(field)), "that law is not tested");
     add(format!("body.{}", field.domain.body.name()), "no body of that shape");
+    if field.space.is_axisymmetric() {
+        add("hoop".into(), "neither F_tt nor P_tt/R is tested");
+    }
     for face in &field.boundary {
         add(format!("face.{}", face.claim.value.name()), "no such condition on a face");
     }

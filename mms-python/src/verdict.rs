@@ -204,7 +204,7 @@ fn diagnose(
             residual_sign,
             is_nodal: nodal,
         };
-        let mut notes = left_out(&all, &reading, exact.dimension)?;
+        let mut notes = left_out(&all, &reading, &exact)?;
         let evidence = read(&all, &reading, &mut exact)?;
         let is_out = |term: &str| without.iter().any(|it| it == term);
         let without = Without {

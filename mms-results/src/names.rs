@@ -8,9 +8,9 @@ use crate::role::plain;
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot};
 
+pub use crate::axes::Axes;
 pub use crate::mapping::Mapping;
 pub use crate::meaning::{Meaning, Values, Why};
-pub use crate::axes::Axes;
 pub use crate::parts::all_names;
 pub use crate::profile::Profile;
 pub use crate::role::{Form, OwnRole, Role};

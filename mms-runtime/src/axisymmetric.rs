@@ -109,6 +109,15 @@ impl Station {
     }
 }
 
+/// How particles are made of boxes in the meridian.
+#[derive(Clone, Copy)]
+pub struct Rings<'a> {
+    /// Where they lie.
+    pub station: Station,
+    /// The volume of a ring over the area of its box, by the radius of its middle: see [`Axisymmetric::weight`].
+    pub weight: &'a dyn Fn(f64) -> f64,
+}
+
 /// F_tt = 1 + h of a particle; 1 if there are no hoop strains.
 pub fn hoop_stretch<T: Real>(hoop_strain: &[T], particle: usize) -> T {
     hoop_strain.get(particle).map_or(T::one(), |&strain| T::one() + strain)
@@ -176,8 +185,8 @@ pub fn energy_at_own_strain<T: Real, const D: usize>(
 
 impl<const D: usize> Filling<D> {
     /// Revolves boxes of the meridian: particles move to their stations, and volumes and pieces of faces become those of
-    /// rings, per radian.
-    pub(crate) fn revolve(&mut self, station: Station) {
+    /// rings, per radian, by the weight that a radius has.
+    pub(crate) fn revolve(&mut self, Rings { station, weight }: Rings<'_>) {
         let middles: Vec<[f64; 2]> = self
             .position
             .iter()
@@ -189,11 +198,11 @@ impl<const D: usize> Filling<D> {
             self.volume[p] *= match () {
                 () if on(Defect::RadiusWeight) => 1.0,
                 () if on(Defect::EdgeVolume) => middle + half_width,
-                () => middle,
+                () => weight(middle),
             };
         }
         for piece in &mut self.pieces {
-            piece.area *= piece.position[0];
+            piece.area *= weight(piece.position[0]);
             if !matches!(piece.face, Face::Min(0) | Face::Max(0)) {
                 let [middle, half_width] = middles[piece.particle];
                 piece.position[0] = station.radius(middle, half_width);

@@ -96,6 +96,12 @@ pub trait Axisymmetric<T: Real, const D: usize>: Send + Sync {
         stresses: (&mut [Matrices<T, D>], &mut [[T; BUNCH]]),
     );
 
+    /// The volume per radian of a ring over the area of its box in the meridian, whose middle has this radius: that radius
+    /// (Pappus). A solver that weighs rings otherwise errs.
+    fn weight(&self, middle: f64) -> f64 {
+        middle
+    }
+
     /// The strain energy W per reference volume, and whether the material offers it.
     fn strain_energy(
         &self,

@@ -1,6 +1,6 @@
 //! A field of any dimension, ready for a solver.
 
-use crate::axisymmetric::Station;
+use crate::axisymmetric::{Rings, Station};
 use crate::body::bounding_box;
 use crate::failure::Refusal;
 use crate::field::{Body, ManufacturedField};
@@ -117,7 +117,8 @@ impl<T: Real> Scene<T> {
         match self {
             Scene::Line(field) => layout(&field.domain().body, setup, cells, None),
             Scene::Plane(field) => {
-                let rings = field.axisymmetric().map(|_| Station::Middle);
+                let of_middle = Rings { station: Station::Middle, weight: &|middle| middle };
+                let rings = field.axisymmetric().map(|_| of_middle);
                 layout(&field.domain().body, setup, cells, rings)
             }
             Scene::Space(field) => layout(&field.domain().body, setup, cells, None),
@@ -147,7 +148,7 @@ fn layout<T: Real, const D: usize>(
     body: &Body<T, D>,
     setup: &Setup,
     cells: &Division,
-    rings: Option<Station>,
+    rings: Option<Rings<'_>>,
 ) -> Result<Layout, Refusal> {
     let filling = filling(body, setup, cells, rings)?;
     let reference = filling.position.iter().flat_map(|position| position.iter().copied());

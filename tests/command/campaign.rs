@@ -499,6 +499,13 @@ fn proposals_show_what_can_be_shown_and_can_be_pasted() {
     let unseen = run["unseen"].as_array().expect("terms");
     let start = unseen.iter().find(|it| it["term"] == "initial_velocity").expect("a start");
     assert!(start["needs"].as_array().expect("keys").iter().any(|key| key == "start_moving"));
+    // Whoever solves in R and Z as well gets a body of revolution.
+    let rings = "can = { dimensions = [2], axisymmetric = true, start_moving = true }\n";
+    folder.write(&format!("{ODD}/c.toml"), &file("2", rings));
+    campaign(&folder, &["--suggest"])
+        .exits(0)
+        .prints("field = \"axisymmetric_rod\"")
+        .prints("hoop");
     let none = "can = { dimensions = [3], materials = [\"gent\"] }\n";
     folder.write(&format!("{ODD}/c.toml"), &file("2", none));
     campaign(&folder, &["--suggest"])

@@ -13,6 +13,7 @@ mod demo;
 mod diagnose;
 mod diagnose_foreign;
 mod diagnose_order;
+mod diagnose_rings;
 mod diagnose_state;
 mod documents;
 mod emit;

@@ -164,7 +164,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-diagnosis",
         knows: &["mms-runtime"],
         layers: &[
-            "body falls law sample slopes smooth",
+            "body falls law revolved sample slopes smooth",
             "exact",
             "evidence hypothesis material",
             "answer changed quadrature",

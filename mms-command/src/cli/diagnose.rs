@@ -184,7 +184,6 @@ impl Diagnose {
         let variation = if self.affine { Variation::Affine } else { Variation::Nothing };
         let options = Options { variation, ..self.variant.options(Selection::default()) };
         let input = Input::new(open(self.field.as_deref().unwrap_or(LISTED))?, &options)?;
-        input.hold_cartesian()?;
         let scene = input.scene(&self.set, |code| code.double)?;
         if self.list {
             let report = Hypotheses { field: &input.name, all: scene::hypotheses(&scene) };
@@ -222,7 +221,7 @@ impl Diagnose {
             residual_sign: self.residual_sign,
             is_nodal: self.residual == Residual::Nodal,
         };
-        let left_out = left_out(&all, &reading, exact.dimension)?;
+        let left_out = left_out(&all, &reading, &exact)?;
         if !left_out.is_empty() {
             say(format_args!("left out: {}", left_out.join(", ")));
         }

@@ -9,6 +9,7 @@ mod force;
 mod law;
 mod output;
 mod parameter;
+mod ring;
 mod start;
 mod stress;
 mod tangent;
@@ -22,6 +23,7 @@ use crate::exact::{Exact, Quantity};
 use crate::slopes::Slopes;
 
 pub use output::earlier_velocity;
+pub use ring::Ring;
 pub use stress::over_jacobian;
 pub use tangent::{of_tangent, voigt_orders};
 
@@ -101,6 +103,10 @@ pub enum Change<const D: usize> {
     Condition(Condition),
     /// Nothing that is computed: what is written of a quantity.
     Output(fn(&Given<'_, D>, Quantity) -> Vec<f64>),
+    /// b, stresses or tractions of an axisymmetric field, in space: the mistake has the components R, Z and theta.
+    InSpace(Box<Hypothesis<3>>),
+    /// What a solver takes for a ring.
+    Ring(Ring),
     /// The tangent of the law, that no explicit solver has.
     Tangent(OfTangent<D>),
     /// Nothing that is computed: the shear components 12, 13, 23 of what a law gives are these of the right ones.
@@ -121,6 +127,8 @@ impl<const D: usize> Change<D> {
             Change::Condition(_) => "boundary condition",
             Change::Output(_) | Change::Order(_) => "output",
             Change::Tangent(_) => "tangent",
+            Change::InSpace(it) => it.change.name(),
+            Change::Ring(_) => "ring",
         }
     }
 }
@@ -322,10 +330,18 @@ impl<const D: usize> Hypothesis<D> {
         is_there && (quantities.len() > 1 || !self.is_beside)
     }
 
+    /// Sizes with names of their own, of a field.
+    pub fn known(&self, exact: &Exact<'_, D>) -> Vec<Known> {
+        match (&self.change, exact.space) {
+            (Change::InSpace(it), Some(space)) => (it.known)(space),
+            _ => (self.known)(exact),
+        }
+    }
+
     /// The sizes that people make mistakes of: those with names, and of a factor some more.
     pub fn usual(&self, exact: &Exact<'_, D>) -> Vec<f64> {
         let Size::Any { right, range: [_, most], .. } = &self.size else { return Vec::new() };
-        let known = (self.known)(exact).into_iter().map(|it| it.size);
+        let known = self.known(exact).into_iter().map(|it| it.size);
         let factors = if right == &[1.0] && *most == f64::MAX { &FACTORS[..] } else { &[] };
         let all = known.chain(factors.iter().copied());
         let mut all: Vec<f64> = all.filter(|it| it.is_finite() && right != &[*it]).collect();
@@ -356,6 +372,9 @@ impl<const D: usize> Hypothesis<D> {
 
 /// All hypotheses about a field that a solver shows; of a law alone there are [`of_tangent`] and [`voigt_orders`] besides.
 pub fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
+    if let Some(space) = exact.space {
+        return ring::all(exact, space);
+    }
     let families = [
         force::all(exact),
         stress::all(exact),

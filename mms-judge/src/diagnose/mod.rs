@@ -13,7 +13,7 @@ use mms_diagnosis::scene::{Evidence, LawOf, TangentOf};
 use mms_diagnosis::state::{Computed, Response};
 use mms_diagnosis::table::Measure;
 use mms_results::mesh::Mesh;
-use mms_results::names::{Meaning, Names, Profile, Role, Values, recognise, wanted};
+use mms_results::names::{Form, Meaning, Names, Profile, Role, Values, recognise, wanted};
 use mms_results::{Files, Snapshot, Stored};
 use mms_spec::quantity;
 
@@ -159,7 +159,7 @@ pub fn gradients(
     let Some(snapshot) = all.iter().flat_map(|it| &it.snapshots).next() else {
         return Ok(Vec::new());
     };
-    let found = meanings(snapshot, reading, exact.dimension)?;
+    let found = meanings(snapshot, reading, exact)?;
     let named = [
         (Role::DisplacementGradient, quantity::Quantity::DisplacementGradient),
         (Role::DeformationGradient, quantity::Quantity::DeformationGradient),
@@ -175,13 +175,20 @@ pub fn gradients(
 fn meanings(
     snapshot: &Snapshot,
     reading: &Reading<'_>,
-    dimension: usize,
+    exact: &Exact,
 ) -> anyhow::Result<Vec<Meaning>> {
     let mut found = recognised(snapshot, reading)?;
     if reading.law.is_none() {
-        found.retain(|meaning| meaning.unlike(snapshot, dimension, None).is_none());
+        found.retain(|meaning| unlike(meaning, snapshot, exact).is_none());
     }
     Ok(found)
+}
+
+/// Why an array has another shape than the quantity of its name; none if it has that shape.
+fn unlike(meaning: &Meaning, snapshot: &Snapshot, exact: &Exact) -> Option<String> {
+    let is_tensor = matches!(meaning.role.form(), Form::Tensor | Form::Symmetric);
+    let rows = if is_tensor { exact.space().rows() } else { exact.dimension };
+    meaning.unlike(snapshot, rows, None)
 }
 
 /// The quantities that diagnosis looks for, whatever the shape of their arrays.
@@ -204,12 +211,12 @@ fn recognised(snapshot: &Snapshot, reading: &Reading<'_>) -> anyhow::Result<Vec<
 pub fn left_out(
     all: &[Results],
     reading: &Reading<'_>,
-    dimension: usize,
+    exact: &Exact,
 ) -> anyhow::Result<Vec<String>> {
     let first = all.first().and_then(|it| it.snapshots.first());
     let Some(snapshot) = first.filter(|_| reading.law.is_none()) else { return Ok(Vec::new()) };
     let found = recognised(snapshot, reading)?;
-    Ok(found.iter().filter_map(|it| it.unlike(snapshot, dimension, None)).collect())
+    Ok(found.iter().filter_map(|it| unlike(it, snapshot, exact)).collect())
 }
 
 /// Whether it is a stress, which results are not diagnosed by.
@@ -228,8 +235,26 @@ fn values<'a>(
     Ok(values.filter(|it| !it.is_of_cells))
 }
 
-/// H, from H or F.
+/// H, from H or F; of an axisymmetric field the part in the meridian.
 fn gradient<'a>(
+    meanings: &[Meaning],
+    snapshot: &'a Snapshot,
+    exact: &Exact,
+) -> anyhow::Result<Option<Values<'a>>> {
+    let (rows, dimension) = (exact.space().rows(), exact.dimension);
+    let whole = whole_gradient(meanings, snapshot, rows)?;
+    let is_around = |at: usize| at % rows >= dimension || at / rows % rows >= dimension;
+    Ok(whole.map(|it| match rows == dimension {
+        true => it,
+        false => {
+            let kept = it.numbers.iter().enumerate().filter(|(at, _)| !is_around(*at));
+            let numbers = kept.map(|(_, number)| *number).collect();
+            Values { numbers, components: dimension * dimension, ..it }
+        }
+    }))
+}
+
+fn whole_gradient<'a>(
     meanings: &[Meaning],
     snapshot: &'a Snapshot,
     dimension: usize,
@@ -259,8 +284,8 @@ fn law(
     reading: &Reading<'_>,
     exact: &Exact,
 ) -> anyhow::Result<Evidence> {
-    let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading, exact.dimension)?);
-    let h = gradient(&meanings, snapshot, dimension)?;
+    let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading, exact)?);
+    let h = gradient(&meanings, snapshot, exact)?;
     let h =
         h.with_context(|| format!("{}: no F: name its columns with `--map F=..`", snapshot.path))?;
     let reference = values(&meanings, Role::Reference, snapshot, dimension)?;
@@ -321,7 +346,7 @@ fn state(
 ) -> anyhow::Result<Option<Evidence>> {
     let Some(results) = all.last() else { return Ok(None) };
     let Some(snapshot) = results.snapshots.first() else { return Ok(None) };
-    let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading, exact.dimension)?);
+    let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading, exact)?);
     let residual = if reading.is_nodal { Computed::NodalResidual } else { Computed::Residual };
     let kinds = [(Role::Residual, residual), (Role::Acceleration, Computed::Acceleration)];
     let asked = if reading.is_nodal { &kinds[..1] } else { &kinds[..] };
@@ -398,8 +423,7 @@ fn level(
 ) -> anyhow::Result<Level> {
     let mut level = Level::default();
     for (at, snapshot) in results.snapshots.iter().enumerate() {
-        let (dimension, meanings) =
-            (exact.dimension, meanings(snapshot, reading, exact.dimension)?);
+        let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading, exact)?);
         let time = time(snapshot, reading, at)?;
         let motion = motion(snapshot, &meanings, time, (exact, false))?;
         let rounding = motion.reference.rounding;
@@ -410,7 +434,7 @@ fn level(
         let u = motion.displacement.map(|it| (Quantity::Displacement, it.numbers.into_owned()));
         let v = values(&meanings, Role::Velocity, snapshot, dimension)?
             .map(|it| (Quantity::Velocity, it.numbers.into_owned()));
-        let h = gradient(&meanings, snapshot, dimension)?
+        let h = gradient(&meanings, snapshot, exact)?
             .map(|it| (Quantity::DisplacementGradient, it.numbers.into_owned()));
         let mut values: Vec<_> = [u, v, h].into_iter().flatten().collect();
         values.retain(|(it, _)| reading.wants(*it));

@@ -6,7 +6,7 @@ use super::need::Need;
 use super::order::When;
 use super::slabs::Slabs;
 use super::weights::Kind;
-use crate::axisymmetric::{Station, hoop_strain};
+use crate::axisymmetric::{Rings, Station, hoop_strain};
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
 use crate::defect::{Defect, on};
@@ -67,12 +67,15 @@ where
         let spacing = spacing::<D>(setup, &cell_size)?;
         let expected = (upper - lower).component_div(&spacing).iter().product();
         need.check(expected, 0.0)?;
-        let is_meridian = field.axisymmetric().is_some();
+        let revolved = field.axisymmetric();
+        let is_meridian = revolved.is_some();
         if is_meridian {
             of_rings(kind.is_product, setup)?;
         }
+        let weight = |middle: f64| revolved.map_or(1.0, |it| it.weight(middle));
         let station = if kind.domain > 0 { Station::Centroid } else { Station::Middle };
-        let filling = fill(&domain.body, setup, &spacing, is_meridian.then_some(station))?;
+        let rings = is_meridian.then_some(Rings { station, weight: &weight });
+        let filling = fill(&domain.body, setup, &spacing, rings)?;
 
         let mut particles = Particles::new(&filling, setup.transfer);
         let speed = largest_wave_speed(field, &particles.reference_position)?;
@@ -177,7 +180,7 @@ pub fn filling<T: Real, const D: usize>(
     body: &Body<T, D>,
     setup: &Setup,
     cells: &Division,
-    rings: Option<Station>,
+    rings: Option<Rings<'_>>,
 ) -> Result<Filling<D>, Refusal> {
     let [lower, upper] = bounding_box(body)?;
     let cell_size = cell_size(&(upper - lower), cells)?;
@@ -220,15 +223,15 @@ fn fill<T: Real, const D: usize>(
     body: &Body<T, D>,
     setup: &Setup,
     spacing: &Vector<f64, D>,
-    rings: Option<Station>,
+    rings: Option<Rings<'_>>,
 ) -> Result<Filling<D>, Refusal> {
     let along_faces = match body {
         Body::Box { .. } => Fill::Cartesian,
         _ => Fill::Fitted,
     };
     let mut filling = Filling::new(body, setup.fill.unwrap_or(along_faces), spacing)?;
-    if let Some(station) = rings {
-        filling.revolve(station);
+    if let Some(rings) = rings {
+        filling.revolve(rings);
     }
     if setup.jitter != 0.0 {
         filling.jitter(setup.jitter, setup.seed);
