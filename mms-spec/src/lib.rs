@@ -34,6 +34,7 @@ pub mod names;
 pub mod own;
 pub mod quantity;
 mod rigid;
+pub mod section;
 pub mod source;
 mod space;
 mod study;

@@ -290,3 +290,42 @@ time = [2, 3.1]
     assert!((-1e-12..=0.0).contains(&least) && (1.0..1.02).contains(&most), "{least} {most}");
     assert_eq!(height, [0.0, 1.0]);
 }
+
+/// `mms new --from-axisymmetric` writes the field in space: F, P and b of both agree where the meridian is turned.
+#[test]
+fn a_field_in_space_is_written_of_its_section() {
+    let folder = folder();
+    folder.mms("new rod_3d --from-axisymmetric axisymmetric_rod").exits(0).prints("rod_3d.toml");
+    folder.mms("check rod_3d.toml").exits(0).prints("claim  outer is fixed (u = 0): proved");
+    let (angle, radius, axial) = (0.7_f64, 0.6, 0.3);
+    let values = |field: &str, at: String| {
+        let run = format!("eval {field} --at {at} --time 0.004 --quantity F,P,b --json");
+        let document = folder.mms(&run).exits(0).json();
+        let of = |name: &str| numbers(&document["points"][0][name]);
+        ["deformation_gradient", "first_piola_kirchhoff", "body_force"].map(of)
+    };
+    let (sine, cosine) = angle.sin_cos();
+    let flat = values("axisymmetric_rod", format!("{radius},{axial}"));
+    let space = values("rod_3d.toml", format!("{},{},{axial}", radius * cosine, radius * sine));
+    // The rows of R, Z and theta in space.
+    let basis = [[cosine, sine, 0.0], [0.0, 0.0, 1.0], [-sine, cosine, 0.0]];
+    let near = |a: f64, b: f64, scale: f64| assert!((a - b).abs() <= 1e-11 * scale, "{a} {b}");
+    for (flat, space) in flat.iter().zip(&space).take(2) {
+        let scale = flat.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            let terms = (0..9).map(|at| basis[i][at / 3] * space[at] * basis[j][at % 3]);
+            near(terms.sum(), flat[3 * i + j], scale);
+        }
+    }
+    for (row, flat) in basis.iter().zip(&flat[2]) {
+        near(row.iter().zip(&space[2]).map(|(a, b)| a * b).sum(), *flat, 100.0);
+    }
+    for (field, says) in
+        [("bar_1d", "it is not axisymmetric"), ("shaft.toml", "it has given fields")]
+    {
+        let new = format!("new other --from-axisymmetric {field}");
+        folder.mms(&new).exits(2).complains(says);
+    }
+    folder.mms("new other --from-axisymmetric axisymmetric_rod --dimension 2").exits(2);
+    folder.mms("new other").exits(2).complains("--dimension");
+}

@@ -36,7 +36,7 @@ pub const CRATES: &[Crate] = &[
             "balance field_name given rigid symbols",
             "check",
             "defined field material moduli",
-            "folder twin units",
+            "folder section twin units",
         ],
     },
     Crate {

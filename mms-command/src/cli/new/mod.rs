@@ -8,10 +8,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
-use mms_exact::gallery;
+use clap::builder::ArgPredicate;
+use mms_codegen::Options;
+use mms_exact::{Input, gallery};
 use mms_files::write;
-use mms_spec::field_name;
-use mms_spec::foreign;
+use mms_options::field::open;
+use mms_spec::foreign::{self, shown};
+use mms_spec::{field_name, section};
 
 use self::template::{Body, Template};
 use super::{Outcome, print};
@@ -31,8 +34,12 @@ pub struct New {
     /// The field's name, which is its file's too: lower-case letters, digits and underscores.
     name: String,
     /// The dimension of space: 1, 2 or 3.
-    #[arg(long, value_name = "D", value_parser = clap::value_parser!(u8).range(1..=3))]
+    #[arg(long, value_name = "D", value_parser = clap::value_parser!(u8).range(1..=3), required_unless_present = "from_axisymmetric", default_value_if("from_axisymmetric", ArgPredicate::IsPresent, "3"))]
     dimension: u8,
+    /// Write the field in space of which this axisymmetric one, a gallery name or the path of a TOML file, is the section: for a code
+    /// without R and Z. Its body keeps away from the axis, and closed forms and studies are left out.
+    #[arg(long, value_name = "FIELD", conflicts_with_all = ["dimension", "shape", "material", "undeformed"])]
+    from_axisymmetric: Option<String>,
     /// The shape of the body; an annulus needs `--dimension 2`.
     #[arg(long, value_enum, default_value_t)]
     shape: Body,
@@ -55,6 +62,7 @@ impl New {
         if self.shape == Body::Annulus && dimension != 2 {
             bail!("`--shape annulus` is 2-dimensional: it needs `--dimension 2`");
         }
+        let section = self.from_axisymmetric.as_deref().map(in_space).transpose()?;
         let material = template::material(&self.material)?;
         let folder = self.folder();
         let path = folder.join(format!("{}.toml", self.name));
@@ -71,7 +79,7 @@ impl New {
             is_undeformed: self.undeformed,
             schema: folder.join(SCHEMA).is_file().then_some(SCHEMA),
         };
-        write_new(&path, &template.text())?;
+        write_new(&path, &section.unwrap_or_else(|| template.text()))?;
         print(&self.next_steps(&shown))?;
         Ok(Outcome::AsExpected)
     }
@@ -90,7 +98,7 @@ impl New {
             format!("  mms check {path}   # mistakes, claims and closed forms"),
             format!("  mms show {path}    # every formula that follows from it"),
         ];
-        if self.shape == Body::Box {
+        if self.shape == Body::Box && self.from_axisymmetric.is_none() {
             lines.push(format!("  mms study {path}   # the order of the solver on it"));
         }
         if gallery::find(&self.name).is_some() {
@@ -101,6 +109,17 @@ impl New {
         }
         lines.join("\n")
     }
+}
+
+/// The text of the field in space of which a named one is the section.
+fn in_space(field: &str) -> anyhow::Result<String> {
+    let input = Input::new(open(field)?, &Options::default())?;
+    section::in_space(&input.compiled.field).map_err(|why| {
+        anyhow!(
+            "`--from-axisymmetric {}`: {why}; expected an axisymmetric field without that",
+            shown(field)
+        )
+    })
 }
 
 /// Writes a file that must not be there yet.
