@@ -150,7 +150,7 @@ impl<const D: usize> Material<f64, D> for Changed<'_, D> {
 }
 
 impl<const D: usize> Changed<'_, D> {
-    /// What is taken for a ring by mistake.
+    /// The body that is taken for a ring by mistake.
     fn ring(&self) -> Option<Ring> {
         match self.mistake {
             Some((Hypothesis { change: Change::Ring(ring), .. }, _)) => Some(*ring),

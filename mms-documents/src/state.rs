@@ -39,7 +39,7 @@ pub struct StateDomain {
     pub motion: StateBox,
     /// The faces of the body.
     pub faces: Vec<StateFace>,
-    /// What volumes and masses are where points stand for rings: `per radian`. It is there if the field is axisymmetric.
+    /// The measure of volumes and masses where points stand for rings, `per radian`; it is there if the field is axisymmetric.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub volumes: Option<String>,
 }

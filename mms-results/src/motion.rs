@@ -60,7 +60,7 @@ pub fn resolve<'a>(
     };
     let values = |role: Role| of_size(role, dimension);
     let vector = meanings.first().map_or(dimension, |it| it.axes.of_vectors(dimension));
-    // What turns is on another meridian at x: X alone tells the points.
+    // A body that turns is on another meridian at x: X alone tells its points.
     let turns = vector > dimension;
     let reference = values(Role::Reference)?;
     let is_read = !turns || reference.is_none();

@@ -29,7 +29,7 @@ pub struct Domain {
     is_axisymmetric: bool,
 }
 
-/// What the volumes and masses of rings are.
+/// The measure of volumes and masses of rings.
 const OF_RINGS: &str = "per radian";
 
 impl Domain {
@@ -78,7 +78,7 @@ impl Domain {
         facts
     }
 
-    /// What volumes and masses are, if they are not those of the whole body.
+    /// The measure of volumes and masses, if it is not that of the whole body.
     fn volumes(&self) -> Option<String> {
         self.is_axisymmetric.then(|| OF_RINGS.to_owned())
     }

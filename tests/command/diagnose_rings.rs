@@ -17,7 +17,7 @@ use super::sampled::sampled;
 
 type Field = dyn ManufacturedField<f64, 2>;
 
-/// What the elements take for a ring.
+/// The elements, with their mistakes about rings.
 #[derive(Clone, Copy)]
 struct Solid {
     /// Whether P_tt/R is in Div P.

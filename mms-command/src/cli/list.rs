@@ -122,7 +122,8 @@ fn claims(field: &FieldSpec) -> String {
     }
     let is_made =
         |claim: &&Claim| field.boundary.iter().any(|boundary| boundary.claim.value == **claim);
-    let claims: Vec<_> = Claim::ALL.iter().filter(is_made).map(|claim| claim.name()).collect();
+    let all = Claim::ALL.iter().chain(&[Claim::Axis]);
+    let claims: Vec<_> = all.filter(is_made).map(|claim| claim.name()).collect();
     claims.join(", ")
 }
 

@@ -105,7 +105,7 @@ pub enum Change<const D: usize> {
     Output(fn(&Given<'_, D>, Quantity) -> Vec<f64>),
     /// b, stresses or tractions of an axisymmetric field, in space: the mistake has the components R, Z and theta.
     InSpace(Box<Hypothesis<3>>),
-    /// What a solver takes for a ring.
+    /// The body that a solver takes for a ring.
     Ring(Ring),
     /// The tangent of the law, that no explicit solver has.
     Tangent(OfTangent<D>),

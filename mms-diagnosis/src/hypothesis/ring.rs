@@ -8,7 +8,7 @@ use super::{Change, Given, Hypothesis, Of, OfStress, density, face, force, law, 
 use super::{output, wall};
 use crate::exact::Exact;
 
-/// What a solver takes for a ring.
+/// The body that a solver takes for a ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ring {
     /// Its box, in a plane: volumes and masses lack the radius.
