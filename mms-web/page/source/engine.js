@@ -1,0 +1,87 @@
+// The way from the page to the module: unpacks it, keeps workers, sends requests, cancels them.
+
+/** Reads the module out of the page, and compiles it. */
+async function unpack() {
+  const text = document.getElementById("module").textContent.trim();
+  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+}
+
+const compiled = unpack();
+const workerUrl = URL.createObjectURL(new Blob([WORKER_TEXT], { type: "text/javascript" }));
+
+/** The error of a request that somebody cancelled. */
+export class Cancelled extends Error {}
+
+/** The error that the module answers with; `diagnostics` have places. */
+export class Refused extends Error {
+  constructor({ message, diagnostics }) {
+    super(message);
+    this.diagnostics = diagnostics ?? [];
+  }
+}
+
+/** A worker with a line of requests, answered one after another. */
+export class Engine {
+  #worker = null;
+  #waiting = new Map();
+  #next = 1;
+
+  /** @param {() => void} onChange is called whenever requests come or go */
+  constructor(onChange) {
+    this.onChange = onChange;
+    this.#start();
+  }
+
+  async #start() {
+    const worker = new Worker(workerUrl);
+    this.#worker = worker;
+    worker.onmessage = ({ data }) => this.#answered(data);
+    worker.onerror = (event) => this.#stop(() => new Refused({ message: event.message || "the worker stopped" }));
+    const module = await compiled.catch(() => null);
+    if (module) worker.postMessage({ module });
+  }
+
+  /** Sends a request; resolves to what the module answers, rejects with `Refused` or `Cancelled`. */
+  async ask(title, header, files = []) {
+    await compiled.catch((error) => {
+      throw new Refused({ message: `this browser cannot run the module: ${error.message}` });
+    });
+    return new Promise((resolve, reject) => {
+      const id = this.#next++;
+      this.#waiting.set(id, { title, resolve, reject });
+      this.#worker.postMessage({ id, header, files });
+      this.onChange();
+    });
+  }
+
+  /** The titles of the requests that are at work or wait. */
+  get titles() {
+    return [...this.#waiting.values()].map((request) => request.title);
+  }
+
+  /** Ends what is at work and what waits. A new worker takes later requests. */
+  cancel() {
+    if (this.#waiting.size) this.#stop(() => new Cancelled("cancelled"));
+  }
+
+  #answered({ id, reply, broken }) {
+    const request = this.#waiting.get(id);
+    if (!request) return;
+    this.#waiting.delete(id);
+    if (reply.ok !== undefined) request.resolve(reply.ok);
+    else request.reject(new Refused(reply.error));
+    if (broken) this.#stop(() => new Cancelled("cancelled"));
+    this.onChange();
+  }
+
+  #stop(reason) {
+    this.#worker.terminate();
+    const waiting = [...this.#waiting.values()];
+    this.#waiting.clear();
+    this.#start();
+    for (const request of waiting) request.reject(reason());
+    this.onChange();
+  }
+}
