@@ -31,6 +31,7 @@ export function codePanel(panel, page) {
 
   let files = [];
   let targets = [];
+  let offered = "";
   const chosen = () => [...boxes.querySelectorAll("input:checked")].map((box) => box.value);
   const shownFile = () => files.find(({ name }) => name === file.value) ?? files[0] ?? { name: "", text: "" };
 
@@ -50,8 +51,11 @@ export function codePanel(panel, page) {
     code.textContent = shownFile().text;
   }
 
+  /** Fills both lists anew where what is offered has changed, so that a focused box stays what it is. */
   async function fill() {
     const answer = await page.ask("the languages", { do: "targets", ...page.source() });
+    if (offered === JSON.stringify(answer)) return;
+    offered = JSON.stringify(answer);
     targets = answer.targets;
     const [kept, marked] = [target.value || "c", chosen()];
     target.replaceChildren(...targets.map(({ name }) => make("option", { value: name }, name)));
