@@ -71,6 +71,7 @@ function changed() {
   const own = /^\s*model\s*=\s*["']\.{0,2}\/?[^"']*\.toml["']/m.test(editor.text);
   byId("material").hidden = !own;
   if (!replacing) edited = true;
+  checkPanel.panel.classList.add("stale");
   clearTimeout(timer);
   timer = setTimeout(follow, replacing ? 0 : PAUSE);
 }
@@ -96,6 +97,7 @@ async function check() {
     page.say(showMistakes(checkPanel.panel, error));
     checkPanel.state("wrong");
   }
+  checkPanel.panel.classList.remove("stale");
 }
 
 /** Makes the open panel anew where the field, or a choice (`again`), has changed since it was made. */

@@ -44,6 +44,7 @@ class Visit:
         return self
 
     def verdict(self, text):
+        expect(self.page.locator("#panel-check")).not_to_have_class(re.compile("stale"), timeout=LONG)
         expect(self.page.locator("#panel-check .verdict")).to_contain_text(text, timeout=LONG)
 
     def type_field(self, text):
