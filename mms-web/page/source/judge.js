@@ -1,5 +1,5 @@
 // The panel "Judge": results of a solver, or a table of its errors, and what the verdict on them is.
-import { copy, download, errorBox, make, table } from "./dom.js";
+import { copy, download, errorBox, make, shown, table } from "./dom.js";
 
 const VERDICTS = /^(pass|exact to round-off|fail|not asymptotic|no evidence)\b/;
 
@@ -13,8 +13,9 @@ function numbers(text, what) {
   });
 }
 
-/** Splits a CSV file whose cells hold no quotes. */
-const cells = (csv) => csv.trimEnd().split("\n").map((line) => line.split(","));
+/** Splits a CSV file whose cells hold no quotes, and writes its numbers with four digits. */
+const cells = (csv) =>
+  csv.trimEnd().split("\n").map((line) => line.split(",").map((cell) => (/^-?\d.*\d$/.test(cell) ? shown(Number(cell)) : cell)));
 
 /** @param {import("./main.js").Page} page */
 export function judgePanel(panel, page) {
@@ -110,7 +111,7 @@ export function judgePanel(panel, page) {
     verdict.replaceChildren(
       make("p", { className: result.passes ? "verdict good" : "verdict wrong" }, first),
       ...(result.next
-        ? [make("p", {}, "Next, with the command on your machine:"), make("pre", { className: "command" }, result.next), make("button", { type: "button", onclick: () => copy(result.next) }, "Copy the command")]
+        ? [make("p", {}, "Next, with the command on your machine:"), make("pre", { className: "command" }, result.next), make("div", { className: "bar" }, make("button", { type: "button", onclick: () => copy(result.next) }, "Copy the command"))]
         : []),
       make("ul", {}, result.notes.map((note) => make("li", {}, note))),
       table(heads, rows, "Errors of each mesh"),

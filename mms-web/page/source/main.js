@@ -56,7 +56,7 @@ const tabs = createTabs(byId("tabs"), byId("panels"), () => refresh());
 const checkPanel = tabs.add("Check");
 for (const [title, create] of [["Derivation", derivationPanel], ["Motion", motionPanel], ["Code", codePanel], ["Judge", judgePanel]]) {
   const tab = tabs.add(title);
-  tab.problem = make("div", {});
+  tab.problem = make("div", { className: "problem" });
   tab.panel.append(tab.problem);
   tab.update = create(tab.panel, page);
 }

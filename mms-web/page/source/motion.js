@@ -21,7 +21,7 @@ export function motionPanel(panel, page) {
   const at = make("input", { type: "text", size: 10, inputMode: "decimal", spellcheck: false });
   const values = make("div", {});
   panel.append(
-    make("div", { className: "bar" }, make("label", {}, "Colour ", color)),
+    make("div", { className: "bar" }, make("label", {}, "Colour ", color), make("span", { className: "quiet" }, "of a vector or tensor its norm")),
     canvas,
     make("div", { className: "legend" }, ramp, make("div", { className: "ends" }, low, unit, high)),
     controls,
