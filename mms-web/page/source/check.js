@@ -7,7 +7,7 @@ const count = (number, word) => `${number} ${word}${number === 1 ? "" : "s"}`;
 /** Makes one line of the check a row: its word, and the rest. Lines that are further in go on with the one above. */
 function row(line) {
   const [, word, rest] = line.match(/^ {2}(\S+) +(.*)$/) ?? [null, "", line.trim()];
-  const bad = /REFUTED|FAILED|not proved/.test(rest);
+  const bad = /REFUTED|FAILED|UNPROVED|NOT FINITE|NOT COMPARED/.test(rest);
   return [word, make("span", { className: bad ? "bad" : "" }, rest)];
 }
 

@@ -1,6 +1,7 @@
 // The panel "Judge": results of a solver, or a table of its errors, and what the verdict on them is.
 import { copy, download, errorBox, make, shown, table } from "./dom.js";
 
+const MOST = 1e9; // bytes of files that fit into the memory of a page beside what is made of them
 const VERDICTS = /^(pass|exact to round-off|fail|not asymptotic|no evidence)\b/;
 
 /** Reads numbers between commas or blanks; `1/8` is one, too. */
@@ -96,6 +97,8 @@ export function judgePanel(panel, page) {
     verdict.replaceChildren();
     await page.attempt(async () => {
       if (!files.length) throw new Error("there is no file yet. Drop the results of your solver, one file for each mesh.");
+      const size = files.reduce((sum, file) => sum + file.size, 0);
+      if (size > MOST) throw new Error(`the files have ${(size / 1e9).toFixed(1)} GB; a page takes at most ${MOST / 1e9} GB. Use the command mms judge.`);
       const header = { do: "judge", ...page.source(), options: options(), files: files.map(({ name, size }) => ({ name, size })) };
       const bytes = await Promise.all(files.map((file) => file.arrayBuffer()));
       show(await page.ask("the verdict", header, bytes));
