@@ -208,8 +208,11 @@ async function start() {
     return checkPanel.panel.replaceChildren(errorBox(error));
   }
   ready = true;
-  const titles = gallery.fields.map((field) => make("option", { value: field.name, title: field.title }, `${field.name} (${field.dimension}-D)`));
-  byId("gallery").replaceChildren(make("option", { value: "" }, "choose one"), ...titles);
+  const groups = [1, 2, 3].map((dimension) => {
+    const fields = gallery.fields.filter((field) => field.dimension === dimension);
+    return make("optgroup", { label: `${dimension}-D` }, fields.map(({ name: value, title }) => make("option", { value }, `${value}: ${title}`)));
+  });
+  byId("gallery").replaceChildren(make("option", { value: "" }, "choose one"), ...groups);
   const materials = byId("template").querySelector("[name=material]");
   materials.replaceChildren(...gallery.materials.map((material) => make("option", { value: material }, material)));
   materials.value = "neo_hookean";
