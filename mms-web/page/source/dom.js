@@ -32,14 +32,15 @@ export function table(heads, rows, caption) {
   );
 }
 
-/** Shows an error as the module gives it: its message, then each diagnostic with its place. */
+/** Shows an error as the module gives it: its message, and diagnostics that the message does not show already. */
 export function errorBox(error) {
-  const places = (error.diagnostics ?? []).map((diagnostic) => {
+  const untold = (error.diagnostics ?? []).filter((diagnostic) => !error.message.includes(diagnostic.message));
+  const places = untold.map((diagnostic) => {
     const place = diagnostic.line == null ? "" : `${diagnostic.path ?? ""}:${diagnostic.line}:${diagnostic.column} `;
     return make("li", {}, place + wording(diagnostic));
   });
-  const said = (error.diagnostics ?? []).some((diagnostic) => diagnostic.message === error.message);
-  return make("div", { className: "error" }, said ? null : make("p", {}, error.message), places.length ? make("ul", {}, places) : null);
+  const message = make(error.message.includes("\n") ? "pre" : "p", {}, error.message);
+  return make("div", { className: "error" }, message, places.length ? make("ul", {}, places) : null);
 }
 
 /** Writes a number with four digits. */

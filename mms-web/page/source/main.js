@@ -122,11 +122,11 @@ async function refresh(again = false) {
   }
 }
 
-function showMessages(diagnostics) {
+function showMessages(diagnostics, heading = diagnostics.length ? `Messages: ${diagnostics.length}` : "No mistakes") {
   const mine = diagnostics.filter((diagnostic) => !isOfMaterial(diagnostic));
   editor.mark(mine);
   materialEditor.mark(diagnostics.filter(isOfMaterial));
-  byId("messages-count").textContent = diagnostics.length ? `Messages: ${diagnostics.length}` : "No mistakes";
+  byId("messages-count").textContent = heading;
   byId("messages-list").replaceChildren(
     ...diagnostics.map((diagnostic) => {
       const where = diagnostic.line == null ? "" : `line ${diagnostic.line}, column ${diagnostic.column}: `;
@@ -147,6 +147,7 @@ function open(source) {
   materialEditor.text = source.material ?? "";
   replacing = false;
   edited = false;
+  showMessages([], "Messages");
   follow();
 }
 

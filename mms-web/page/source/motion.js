@@ -132,7 +132,7 @@ export function motionPanel(panel, page) {
     slider.max = motion.points.length - 1;
     controls.hidden = motion.points.length < 2;
     [low.textContent, high.textContent] = motion.range.map(shown);
-    unit.textContent = `${chosen.replaceAll("_", " ")}${motion.unit ? ` in ${motion.unit}` : ""}`;
+    unit.textContent = `${chosen.replaceAll("_", " ")}${motion.unit && motion.unit !== "1" ? ` in ${motion.unit}` : ""}`;
     canvas.ariaLabel = `The body as it moves, coloured by ${unit.textContent}, from ${low.textContent} to ${high.textContent}`;
     showCoordinates(names);
     draw();
