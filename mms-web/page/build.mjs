@@ -47,6 +47,24 @@ function licenses(folders) {
   });
 }
 
+/** Leaves out the custom sections of a module: names of functions and the like, which nothing reads. */
+function withoutNames(module) {
+  const kept = [module.subarray(0, 8)];
+  for (let at = 8; at < module.length; ) {
+    const start = at;
+    const isCustom = module[at++] === 0;
+    let size = 0;
+    let bits = 0;
+    do {
+      size += (module[at] & 127) * 2 ** bits;
+      bits += 7;
+    } while (module[at++] & 128);
+    at += size;
+    if (!isCustom) kept.push(module.subarray(start, at));
+  }
+  return Buffer.concat(kept);
+}
+
 /** Makes text safe inside a script element. */
 const inScript = (text) => text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 const escaped = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
@@ -73,7 +91,7 @@ const parts = {
   POLICY: policy,
   STYLE: style.outputFiles[0].text.trim(),
   SCRIPT: script,
-  MODULE: gzipSync(readFileSync(modulePath), { level: 9 }).toString("base64"),
+  MODULE: gzipSync(withoutNames(readFileSync(modulePath)), { level: 9 }).toString("base64"),
   LICENSES: escaped(licenses([...page.packages, ...worker.packages]).join("\n\n----\n\n")),
 };
 const template = readFileSync(join(here, "source/index.html"), "utf8");
