@@ -33,26 +33,25 @@ export class Engine {
   /** @param {() => void} onChange is called whenever requests come or go */
   constructor(onChange) {
     this.onChange = onChange;
-    this.#start();
   }
 
-  async #start() {
+  #start(module) {
     const worker = new Worker(workerUrl);
-    this.#worker = worker;
     worker.onmessage = ({ data }) => this.#answered(data);
     worker.onerror = (event) => this.#stop(() => new Refused({ message: event.message || "the worker stopped" }));
-    const module = await compiled.catch(() => null);
-    if (module) worker.postMessage({ module });
+    worker.postMessage({ module });
+    return worker;
   }
 
   /** Sends a request; resolves to what the module answers, rejects with `Refused` or `Cancelled`. */
   async ask(title, header, files = []) {
-    await compiled.catch((error) => {
+    const module = await compiled.catch((error) => {
       throw new Refused({ message: `this browser cannot run the module: ${error.message}` });
     });
     return new Promise((resolve, reject) => {
       const id = this.#next++;
       this.#waiting.set(id, { title, resolve, reject });
+      this.#worker ??= this.#start(module);
       this.#worker.postMessage({ id, header, files });
       this.onChange();
     });
@@ -63,7 +62,7 @@ export class Engine {
     return [...this.#waiting.values()].map((request) => request.title);
   }
 
-  /** Ends what is at work and what waits. A new worker takes later requests. */
+  /** Ends what is at work and what waits. A later request starts a new worker. */
   cancel() {
     if (this.#waiting.size) this.#stop(() => new Cancelled("cancelled"));
   }
@@ -79,10 +78,10 @@ export class Engine {
   }
 
   #stop(reason) {
-    this.#worker.terminate();
+    this.#worker?.terminate();
+    this.#worker = null;
     const waiting = [...this.#waiting.values()];
     this.#waiting.clear();
-    this.#start();
     for (const request of waiting) request.reject(reason());
     this.onChange();
   }

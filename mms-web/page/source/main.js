@@ -191,6 +191,7 @@ byId("template").addEventListener("close", ({ target }) => {
     (error) => byId("panels").prepend(errorBox(error)),
   );
 });
+byId("share-file").hidden = location.protocol !== "file:";
 byId("copy-link").addEventListener("click", async () => {
   page.say((await copy(byId("link").value, byId("link"))) ? "The link is copied" : "Copy the link by hand");
 });
