@@ -1,8 +1,9 @@
 // The panel "Judge": results of a solver, or a table of its errors, and what the verdict on them is.
 import { copy, download, errorBox, make, shown, table } from "./dom.js";
+import { plot } from "./plot.js";
 
 const MOST = 1e9; // bytes of files that fit into the memory of a page beside what is made of them
-const VERDICTS = /^(pass|exact to round-off|fail|not asymptotic|no evidence)\b/;
+const GOOD = ["pass", "exact to round-off"];
 
 /** Reads numbers between commas or blanks; `1/8` is one, too. */
 function numbers(text, what) {
@@ -14,9 +15,37 @@ function numbers(text, what) {
   });
 }
 
-/** Splits a CSV file whose cells hold no quotes, and writes its numbers with four digits. */
-const cells = (csv) =>
-  csv.trimEnd().split("\n").map((line) => line.split(",").map((cell) => (/^-?\d.*\d$/.test(cell) ? shown(Number(cell)) : cell)));
+const words = (name) => name.replaceAll("_", " ");
+
+/** Writes a word as a shell reads it. */
+const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
+
+/** Returns the line of a quantity in the picture, of the norm that decides. */
+function lineOf({ name, norm, norms }) {
+  const { levels } = norms.find((other) => other.norm === norm) ?? norms[0];
+  const points = levels.filter(({ error }) => error > 0).map(({ length, error }) => [length, error]);
+  return { label: `${words(name)} ${norm}`, points };
+}
+
+/** Returns what the command says of a quantity: after the verdict if it stands above already. */
+function said({ says }, several) {
+  return says.slice(several ? 0 : 1).map((sentence) => make("p", {}, sentence));
+}
+
+/** Returns the rows of a quantity: its name, norm, h, error and order. */
+function rowsOf({ name, norms }) {
+  return norms.flatMap(({ norm, levels }) => levels.map(({ length, error, order }) => [name, norm, length, error ?? "", order ?? ""]));
+}
+
+/** Makes the table of a quantity: errors and orders of each mesh in all norms. */
+function errorsOf({ name, norms }) {
+  const heads = ["h", ...norms.flatMap(({ norm }) => [norm, "order"])];
+  const rows = norms[0].levels.map(({ length }, at) => [
+    shown(length),
+    ...norms.flatMap(({ levels }) => [shown(levels[at].error), levels[at].order == null ? "-" : levels[at].order.toFixed(2)]),
+  ]);
+  return table(heads, rows, `Errors of ${words(name)}`);
+}
 
 /** @param {import("./main.js").Page} page */
 export function judgePanel(panel, page) {
@@ -105,31 +134,35 @@ export function judgePanel(panel, page) {
     }, (error) => verdict.replaceChildren(errorBox(error)));
   }
 
-  function show(result) {
-    const first = result.text.split("\n").find((line) => VERDICTS.test(line)) ?? (result.passes ? "pass" : "no pass");
-    const picture = make("img", { alt: `Errors over mesh size. ${first}`, src: URL.createObjectURL(new Blob([result.svg], { type: "image/svg+xml" })) });
-    const [heads, ...rows] = cells(result.csv);
+  function show({ document: judged, passes, notes }) {
+    const several = judged.quantities.length > 1;
+    const good = judged.quantities.filter((quantity) => GOOD.includes(quantity.verdict)).length;
+    const first = several ? `${judged.verdict}: ${good} of ${judged.quantities.length} quantities pass` : judged.quantities[0].says[0];
+    const lines = judged.quantities.map(lineOf).filter((line) => line.points.length);
+    const svg = lines.length ? plot(lines) : "";
+    const picture = make("img", { alt: `Errors over mesh size. ${first}`, src: URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })) });
+    const tables = judged.quantities.map((quantity) => [make("h3", {}, words(quantity.name)), ...said(quantity, several), errorsOf(quantity)]);
+    const next = (judged.next_command ?? []).map(quoted).join(" ");
+    const csv = judged.quantities.flatMap(rowsOf).map((row) => row.join(",")).join("\n");
     const save = (label, name, content, type) => make("button", { type: "button", onclick: () => download(name, content, type) }, label);
     page.say(first);
     verdict.replaceChildren(
-      make("p", { className: result.passes ? "verdict good" : "verdict wrong" }, first),
-      ...(result.next
-        ? [make("p", {}, "Next, with the command on your machine:"), make("pre", { className: "command" }, result.next), make("div", { className: "bar" }, make("button", { type: "button", onclick: () => copy(result.next) }, "Copy the command"))]
+      make("p", { className: passes ? "verdict good" : "verdict wrong" }, first),
+      ...(next
+        ? [make("p", {}, "Next, with the command on your machine:"), make("pre", { className: "command" }, next), make("div", { className: "bar" }, make("button", { type: "button", onclick: () => copy(next) }, "Copy the command"))]
         : []),
-      make("ul", {}, result.notes.map((note) => make("li", {}, note))),
-      table(heads, rows, "Errors of each mesh"),
-      result.svg ? make("figure", {}, picture) : "",
+      svg ? make("figure", {}, picture) : "",
+      ...tables.flat(),
+      make("h3", {}, "Notes"),
+      make("ul", {}, [...new Set([...notes, ...(judged.notes ?? [])])].map((note) => make("li", {}, note))),
       make(
         "div",
         { className: "bar" },
         "Download ",
-        save("JSON", "convergence.json", JSON.stringify(result.document, null, 2), "application/json"),
-        save("CSV", "convergence.csv", result.csv, "text/csv"),
-        save("Markdown", "convergence.md", result.markdown, "text/markdown"),
-        save("LaTeX", "convergence.tex", result.latex),
-        save("Picture", "convergence.svg", result.svg, "image/svg+xml"),
+        save("JSON", "convergence.json", JSON.stringify(judged, null, 2), "application/json"),
+        save("CSV", "convergence.csv", `quantity,norm,h,error,order\n${csv}\n`, "text/csv"),
+        save("Picture", "convergence.svg", svg, "image/svg+xml"),
       ),
-      make("details", { open: true }, make("summary", {}, "All that the command prints"), make("pre", { className: "code", tabIndex: 0 }, result.text)),
     );
   }
   // Judging waits for its button: nothing is to be made anew when the field changes.
