@@ -293,11 +293,12 @@ fn documents_have_the_keys_of_the_page() {
     folder.write("faulty.toml", FAULTY);
     folder.write(
         "sign.toml",
-        &BAR.replace("+ young/rho0*(1 + F^-2)*A)", "- young/rho0*(1 + F^-2)*A)"),
+        // A wrong sign, and a parameter with the name of a quantity.
+        &BAR.replace("+ young/rho0*(1 + F^-2)*A)", "- young/rho0*(1 + F^-2)*A)")
+            .replace("young", "E"),
     );
     folder.write("loaded.toml", LOADED);
-    // A parameter with the name of a quantity.
-    folder.write("soft.toml", &SOFT.replace("young", "E"));
+    folder.write("soft.toml", SOFT);
     folder.write("errors.csv", "h,l1,l2,linf\n8,1,1352,3\n4,2,352,\n2,3,96,4\n1,4,28,5\n");
     folder.write("steps.csv", "h,dt,l2\n1,0.4,16\n1,0.2,4\n1,0.1,1\n");
     for name in ["a.csv", "b.csv", "c.csv"] {
