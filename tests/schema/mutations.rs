@@ -211,6 +211,12 @@ fn beyond(changed: &Value) -> Option<&'static str> {
     if studies.into_iter().flatten().any(is_falling) {
         return Some("cells must increase");
     }
+    let parameters = changed.get("parameters").and_then(Value::as_table);
+    let symbols =
+        parameters.into_iter().flat_map(|it| it.values()).filter_map(|it| it.get("symbol"));
+    if symbols.filter_map(Value::as_str).any(|it| it.trim().is_empty()) {
+        return Some("a symbol is math of LaTeX");
+    }
     None
 }
 
@@ -249,7 +255,7 @@ fn one_slip_is_refused_by_the_schema_where_the_reader_refuses_it() {
     reasons.sort_unstable();
     reasons.dedup();
     assert!(
-        reasons.len() == 6 || !all_is_tried(),
+        reasons.len() == 7 || !all_is_tried(),
         "{reasons:?} are the only reasons that are needed"
     );
 }
