@@ -373,7 +373,11 @@ impl<const D: usize> Hypothesis<D> {
 /// All hypotheses about a field that a solver shows; of a law alone there are [`of_tangent`] and [`voigt_orders`] besides.
 pub fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     if let Some(space) = exact.space {
-        return ring::all(exact, space);
+        let in_space = [force::all(space), stress::all(space), law::all(space), face::all(space)];
+        let forces = [force::all(exact), face::all(exact), density::all()];
+        let others = [start::all(exact), wall::all(exact), output::all(exact)];
+        let in_meridian = forces.into_iter().chain(others).flatten();
+        return ring::all(exact, space, in_space.into_iter().flatten(), in_meridian);
     }
     let families = [
         force::all(exact),

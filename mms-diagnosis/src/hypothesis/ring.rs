@@ -4,8 +4,7 @@ use std::borrow::Cow;
 
 use mms_runtime::{Condition, Face, Matrix};
 
-use super::{Change, Given, Hypothesis, Of, OfStress, density, face, force, law, start, stress};
-use super::{output, wall};
+use super::{Change, Given, Hypothesis, Of, OfStress};
 use crate::exact::Exact;
 
 /// The body that a solver takes for a ring.
@@ -22,11 +21,13 @@ pub enum Ring {
 /// Hypotheses that have another meaning around an axis, or none.
 const OTHERS: [&str; 3] = ["constant_force", "coriolis", "centrifugal"];
 
+/// Mistakes about rings, those of b, stresses and tractions in space, and those of the meridian that are no such.
 pub(super) fn all<const D: usize>(
     exact: &Exact<'_, D>,
     space: &Exact<'_, 3>,
+    in_space: impl Iterator<Item = Hypothesis<3>>,
+    in_meridian: impl Iterator<Item = Hypothesis<D>>,
 ) -> Vec<Hypothesis<D>> {
-    let in_space = [force::all(space), stress::all(space), law::all(space), face::all(space)];
     let is_shared = |it: &Hypothesis<3>| {
         let is_lifted = matches!(
             it.change,
@@ -34,14 +35,13 @@ pub(super) fn all<const D: usize>(
         );
         is_lifted && !OTHERS.contains(&it.name) && it.which.as_deref().is_none_or(is_of_meridian)
     };
-    let shared = in_space.into_iter().flatten().filter(is_shared).map(lifted);
-    let own_force = force::all(exact).into_iter().filter(|it| it.name == OTHERS[0]);
-    let is_condition = |it: &Hypothesis<D>| matches!(it.change, Change::Condition(_));
-    let of_faces = face::all(exact).into_iter().filter(is_condition);
-    let of_rings = of_rings(exact, space);
-    let rest = [density::all(), start::all(exact), wall::all(exact), output::all(exact)];
-    let all = of_rings.into_iter().chain(shared).chain(own_force).chain(of_faces);
-    all.chain(rest.into_iter().flatten()).collect()
+    let is_own = |it: &Hypothesis<D>| match it.change {
+        Change::Force(_) => it.name == OTHERS[0],
+        Change::Surface(_) | Change::Loads(..) => false,
+        _ => true,
+    };
+    let shared = in_space.filter(is_shared).map(lifted);
+    of_rings(exact, space).into_iter().chain(shared).chain(in_meridian.filter(is_own)).collect()
 }
 
 /// Whether a mistake of some components is one in the meridian.
