@@ -17,9 +17,6 @@ function numbers(text, what) {
 
 const words = (name) => name.replaceAll("_", " ");
 
-/** Writes a word as a shell reads it. */
-const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
-
 /** Returns the line of a quantity in the picture, of the norm that decides. */
 function lineOf({ name, norm, norms }) {
   const { levels } = norms.find((other) => other.norm === norm) ?? norms[0];
@@ -134,7 +131,7 @@ export function judgePanel(panel, page) {
     }, (error) => verdict.replaceChildren(errorBox(error)));
   }
 
-  function show({ document: judged, passes, notes }) {
+  function show({ document: judged, passes, notes, next }) {
     const several = judged.quantities.length > 1;
     const good = judged.quantities.filter((quantity) => GOOD.includes(quantity.verdict)).length;
     const first = several ? `${judged.verdict}: ${good} of ${judged.quantities.length} quantities pass` : judged.quantities[0].says[0];
@@ -142,7 +139,6 @@ export function judgePanel(panel, page) {
     const svg = lines.length ? plot(lines) : "";
     const picture = make("img", { alt: `Errors over mesh size. ${first}`, src: URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })) });
     const tables = judged.quantities.map((quantity) => [make("h3", {}, words(quantity.name)), ...said(quantity, several), errorsOf(quantity)]);
-    const next = (judged.next_command ?? []).map(quoted).join(" ");
     const csv = judged.quantities.flatMap(rowsOf).map((row) => row.join(",")).join("\n");
     const save = (label, name, content, type) => make("button", { type: "button", onclick: () => download(name, content, type) }, label);
     page.say(first);

@@ -1,4 +1,4 @@
-// Completions at places of a field file: node --test mms-web/page/test/
+// Completions at places of a field file: node --test mms-web/page/test/complete.test.js
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
