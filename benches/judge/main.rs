@@ -11,7 +11,7 @@ use std::path::Path;
 use std::process::Command;
 
 use cpu_time::ProcessTime;
-use mms_results::names::{KNOWN, everything};
+use mms_results::names::{Axes, KNOWN, everything};
 use mms_results::write::{Column, Shape, State, npz};
 
 /// Points where nothing is said.
@@ -38,7 +38,7 @@ fn state(points: usize) -> State {
         column("X", of([golden, 2.0_f64.sqrt()], 1.0)),
         column("u", of([3.0_f64.sqrt(), golden], 1e-3)),
     ];
-    State { time: 0.02, dimension: 2, facts: Vec::new(), columns }
+    State { time: 0.02, dimension: 2, axes: Axes::Cartesian, facts: Vec::new(), columns }
 }
 
 /// VTK with raw data behind the XML, as ParaView writes it: vectors have three components, and each point is a vertex.

@@ -31,10 +31,15 @@ pub fn part<const D: usize>(tensor: &Matrix<f64, 3>) -> Matrix<f64, D> {
     Matrix::from_fn(|i, j| tensor[(i, j)])
 }
 
+/// A quantity of a field that is a vector, at a time and points of the meridian.
+type VectorOf<const D: usize> =
+    fn(&dyn ManufacturedField<f64, D>, f64, &[Vector<f64, D>], &mut [Vector<f64, D>]);
+
 impl<const D: usize> Revolved<'_, D> {
+    /// Computes a vector in the meridian, and lifts it into space.
     fn vectors(
         &self,
-        of: fn(&dyn ManufacturedField<f64, D>, f64, &[Vector<f64, D>], &mut [Vector<f64, D>]),
+        of: VectorOf<D>,
         time: f64,
         reference: &[Vector<f64, 3>],
         out: &mut [Vector<f64, 3>],

@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 use anyhow::bail;
 use mms_command::studies;
 use mms_lab::trial::Progress;
-use mms_report::Study;
 use mms_runtime::Division;
 use mms_runtime::study::{Checkpoint, Observer};
 use mms_symbolic::work::Stop;
