@@ -19,4 +19,5 @@ mod sampled;
 mod scene;
 mod schema;
 mod snapshots;
+mod template;
 mod words;

@@ -1,7 +1,8 @@
 //! A field that a user named, with numbers for its parameters.
 //!
 //! A [`Source`] is the text of a field and the way to its material. [`Input`] is a field compiled from one; [`Exact`] evaluates
-//! it at many points. [`wave`] bounds the speed of its waves, [`gallery`] holds the texts of the shipped fields. Nothing here
+//! it at many points. [`wave`] bounds the speed of its waves, [`gallery`] holds the texts of the shipped fields, and [`template`]
+//! makes that of a new one. Nothing here
 //! opens a file: whoever makes a [`Source`] read it.
 
 mod exact;
@@ -11,6 +12,7 @@ pub mod plane;
 pub mod provenance;
 mod quantities;
 mod source;
+pub mod template;
 mod units;
 pub mod wave;
 

@@ -9,6 +9,7 @@ mod excluded;
 mod judgements;
 pub mod measured;
 pub mod names;
+pub mod next;
 pub mod results;
 pub mod table;
 

@@ -9,9 +9,11 @@ use mms_codegen::Options;
 use mms_codegen::selection::Selection;
 use mms_documents::check::CheckedFile;
 use mms_emit::{Subject, TARGETS, Target};
+use mms_exact::template::{self, Body, Template};
 use mms_exact::{Input, Source, evaluated, gallery, quantities};
 use mms_mechanics::TooLarge;
 use mms_show::{Document, mathml};
+use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 use serde::Serialize;
 
@@ -72,6 +74,29 @@ pub fn gallery() -> Gallery {
     });
     let materials = gallery::materials().into_iter().map(|it| it.name.raw().to_owned());
     Gallery { fields: fields.collect(), materials: materials.collect() }
+}
+
+/// A new field file.
+#[derive(Serialize)]
+pub struct NewField {
+    text: String,
+}
+
+/// Writes a new field file, as `mms new` does.
+pub fn template(dimension: usize, material: &str, shape: &str) -> Result<NewField, Mistake> {
+    let body = Body::of(shape).ok_or_else(|| {
+        let names = Body::ALL.map(Body::name).join(" or ");
+        Mistake::of(format!("no shape `{}`: expected {names}", shown(shape)))
+    })?;
+    let expected = if body == Body::Annulus { 2..=2 } else { 1..=3 };
+    if !expected.contains(&dimension) {
+        return Err(Mistake::of(format!("no {shape} has {dimension} dimensions")));
+    }
+    let material = template::material(material)?;
+    let (name, path, schema) = ("mine", "mine.toml", None);
+    let template =
+        Template { name, path, dimension, body, material: &material, is_undeformed: false, schema };
+    Ok(NewField { text: template.text() })
 }
 
 /// Everything that `mms check` says of a field.
@@ -168,8 +193,8 @@ struct Text {
 
 /// Writes the code of a field in a language, with its check program.
 pub fn emit(field: &FieldText, target: &str, names: &[String]) -> Result<Emitted, Mistake> {
-    let target =
-        Target::find(target).ok_or_else(|| Mistake::of(format!("no target `{target}`")))?;
+    let target = Target::find(target)
+        .ok_or_else(|| Mistake::of(format!("no target `{}`", shown(target))))?;
     let source = field.source();
     let wanted = match names {
         [] => None,

@@ -48,6 +48,9 @@ fn answered(request: &[u8]) -> Result<Box<RawValue>, Mistake> {
     match request {
         Request::Gallery => result(&field::gallery()),
         Request::Schema => Ok(RawValue::from_string(field::SCHEMA.to_owned())?),
+        Request::Template { dimension, material, shape } => {
+            result(&field::template(dimension, &material, &shape)?)
+        }
         Request::Check(text) => result(&field::check(&text)?),
         Request::Derivation { field, quantities } => result(&field::derive(&field, &quantities)?),
         Request::Values { field, at, time, set } => {

@@ -56,6 +56,15 @@ pub enum Request {
     Gallery,
     /// The JSON Schema of field files.
     Schema,
+    /// A new field file, as `mms new` writes it.
+    Template {
+        /// The dimension of space.
+        dimension: usize,
+        /// A shipped material.
+        material: String,
+        /// The shape of the body: box or annulus.
+        shape: String,
+    },
     /// Everything that `mms check` says.
     Check(FieldText),
     /// The derivation of some quantities.

@@ -9,7 +9,8 @@ use mms_documents::judge::Judge;
 use mms_documents::provenance::{Input, Provenance, VERSION};
 use mms_exact::Exact;
 use mms_judge::Judgements;
-use mms_judge::results::{Comparison, Reading, measure, own_roles};
+use mms_judge::next::{Meshes, after_judgement, list};
+use mms_judge::results::{Comparison, Reading, axes, measure, own_roles};
 use mms_judge::table::{self, Orders};
 use mms_results::Files;
 use mms_results::names::Names;
@@ -55,6 +56,8 @@ pub struct Verdict {
     document: Judge,
     passes: bool,
     notes: Vec<String>,
+    /// The words of the command to type next, if the verdict is no pass.
+    next: Option<Vec<String>>,
 }
 
 /// Judges attached results of a field, one file for each mesh, or a table of errors.
@@ -81,6 +84,7 @@ pub fn judge(
     Ok(Verdict {
         passes: report.verdict().is_good(),
         notes: report.notes.clone(),
+        next: report.next.clone(),
         document: report.document(),
     })
 }
@@ -96,6 +100,7 @@ fn of_table(files: &[(&str, &[u8])], orders: &Orders) -> anyhow::Result<Judgemen
     let input = Input { field: None, rigid: None, window: None, set: Vec::new(), hash };
     let mut report = Judgements::of(shown(name).to_string(), measured, provenance(input))?;
     report.notes = notes;
+    report.next = after_judgement(&report, None, false);
     Ok(report)
 }
 
@@ -108,7 +113,8 @@ fn of_results(
 ) -> Result<Judgements, Mistake> {
     let input = field.compiled()?;
     let own: Vec<_> = input.compiled.model.own.keys().copied().collect();
-    let names = Names { own: own_roles(&own), ..Names::default() };
+    let axes = axes(&input.compiled.field);
+    let names = Names { own: own_roles(&own), axes, ..Names::default() };
     let wanted = match options.quantities.as_slice() {
         [] => Vec::new(),
         quantities => named(&input, quantities)?,
@@ -138,6 +144,11 @@ fn of_results(
     let names: Vec<_> = folder.0.iter().map(|(name, _)| name.to_string()).collect();
     let mut report = Judgements::without_exclusions(&exact, &names, measurement, provenance)?;
     report.notes.splice(0..0, warnings);
+    let given = [list("h", &options.mesh_sizes), list("time", &options.times)];
+    let options_given = given.into_iter().flatten().collect();
+    let meshes =
+        Meshes { field: format!("{}.toml", field.name), files: names, options: options_given };
+    report.next = after_judgement(&report, Some(&meshes), !options.quantities.is_empty());
     Ok(report)
 }
 

@@ -49,6 +49,17 @@ fn code_is_for_the_quantities_that_are_chosen() {
     assert_eq!(reply["error"]["message"], "no target `basic`");
 }
 
+#[test]
+fn a_new_field_passes_its_check() {
+    let new =
+        |shape| json!({ "do": "template", "dimension": 2, "material": "gent", "shape": shape });
+    let reply = answer(&new("annulus"), &[]);
+    let checked = answer(&json!({ "do": "check", "text": reply["ok"]["text"] }), &[]);
+    assert_eq!(checked["ok"]["passes"], true, "{checked}");
+    let reply = answer(&new("ring"), &[]);
+    assert_eq!(reply["error"]["message"], "no shape `ring`: expected box or annulus");
+}
+
 /// u of the bar at the nodes of a mesh, with an error of h^2.
 fn results(cells: usize) -> String {
     let mut text = String::from("X,u,t\n");
@@ -71,6 +82,14 @@ fn attached_results_are_judged() {
     let request = json!({ "do": "judge", "name": "bar", "text": BAR, "files": files });
     let reply = answer(&request, texts.concat().as_bytes());
     assert_eq!(reply["ok"]["document"]["verdict"], "pass", "{reply}");
+    assert_eq!(reply["ok"]["next"], Value::Null);
+    let wrong = json!({ "expected_order": 3, "quantities": ["u"] });
+    let request =
+        json!({ "do": "judge", "name": "bar", "text": BAR, "files": files, "options": wrong });
+    let reply = answer(&request, texts.concat().as_bytes());
+    let next = "mms diagnose bar.toml 0.csv 1.csv 2.csv --quantity=displacement";
+    let words: Vec<_> = next.split(' ').collect();
+    assert_eq!(reply["ok"]["next"], json!(words), "{reply}");
     let cut = answer(&request, &texts.concat().as_bytes()[..99]);
     assert_eq!(cut["error"]["message"], "`0.csv` is not attached as a whole");
 }

@@ -253,7 +253,12 @@ pub const CRATES: &[Crate] = &[
             "mms-spec",
             "mms-symbolic",
         ],
-        layers: &["gallery plane provenance quantities units", "source", "input", "exact wave"],
+        layers: &[
+            "gallery plane provenance quantities units",
+            "source template",
+            "input",
+            "exact wave",
+        ],
     },
     Crate {
         name: "mms-judge",
@@ -269,7 +274,7 @@ pub const CRATES: &[Crate] = &[
             "mms-runtime",
             "mms-spec",
         ],
-        layers: &["measured names", "results table", "diagnose excluded", "judgements"],
+        layers: &["measured names", "results table", "diagnose excluded", "judgements", "next"],
     },
     Crate {
         name: "mms-state",

@@ -10,11 +10,12 @@ use mms_codegen::selection::{Entry, Freeze, Selection};
 use mms_documents::check::{self as documents, CheckedFile};
 use mms_exact::settings;
 use mms_files::shell::command;
+use mms_judge::next;
 use mms_options::field::{Variant, open};
 use mms_spec::diagnostic::{Diagnostic, render_styled};
 use mms_spec::foreign::Foreign;
 
-use super::{Outcome, next, print, print_json, say, say_styled};
+use super::{Outcome, print, print_json, say, say_styled};
 
 /// Check field files: mistakes, boundary claims, J > 0, and closed forms.
 ///

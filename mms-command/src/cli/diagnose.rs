@@ -19,6 +19,7 @@ use mms_exact::Exact;
 use mms_exact::{Input, evaluated};
 use mms_files::results::Disk;
 use mms_judge::diagnose::{Alone, Factors, Reading, falls, find, gradients, left_out, read};
+use mms_judge::next::{self, Meshes};
 use mms_judge::results::Results;
 use mms_judge::table::{Order, Orders};
 use mms_options::field::{Variant, open};
@@ -31,7 +32,7 @@ use mms_spec::quantity::Quantity;
 
 use super::format::{Detail, Printing};
 use super::naming::Naming;
-use super::next::{self, Meshes};
+use super::next::typed;
 use super::{Outcome, hold_output, print, replaced, say, this_command};
 
 /// Name the mistake of a solver by the error that it makes.
@@ -258,7 +259,7 @@ impl Diagnose {
         let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material)?;
         let input = exact.input();
         let meshes = self.meshes(reading.rest);
-        let next = next::after_diagnosis(&diagnosis, &meshes, &next::typed());
+        let next = next::after_diagnosis(&diagnosis, &meshes, &typed());
         let report =
             Diagnosed { input, files: &self.files, diagnosis: &diagnosis, next, provenance };
         self.printing.print_in(self.detail, &report)?;

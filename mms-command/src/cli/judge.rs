@@ -10,6 +10,7 @@ use mms_convergence::{TOLERANCE, Verdict};
 use mms_files::read::{self, Kind};
 use mms_files::store::digest;
 use mms_judge::Judgements;
+use mms_judge::next;
 use mms_judge::table::{self, Order, Orders};
 use mms_options::method::positive;
 use mms_report::View;
@@ -17,7 +18,7 @@ use mms_spec::foreign;
 
 use super::figure::FigureFile;
 use super::format::{Detail, Printing};
-use super::{Outcome, hold_output, next, print, replaced, this_command};
+use super::{Outcome, hold_output, print, replaced, this_command};
 use crate::provenance::Input;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.

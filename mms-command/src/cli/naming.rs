@@ -4,10 +4,9 @@ use anyhow::anyhow;
 use clap::Args;
 use mms_exact::Input;
 use mms_harness::profile;
+use mms_judge::next;
 use mms_judge::results::{axes, own_roles};
 use mms_results::names::{Axes, Mapping, Names};
-
-use super::next;
 
 /// The options of every command that reads files of other programs.
 #[derive(Args)]

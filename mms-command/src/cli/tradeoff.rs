@@ -9,6 +9,7 @@ use mms_exact::wave::sound;
 use mms_exact::{Input, units};
 use mms_files::shell;
 use mms_files::store::Store;
+use mms_judge::next::command;
 use mms_lab::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
 use mms_lab::tradeoff::setting::Setting;
 use mms_lab::trial::Trials;
@@ -108,7 +109,7 @@ impl Tradeoff {
         let mut report = self.report(&input, plan, found, &command)?;
         let run = |it: &Trial| {
             let words = arguments(field, &self.set, &self.motion, &it.setting, it.cells);
-            next::command(std::iter::once("run".to_owned()).chain(words))
+            command(std::iter::once("run".to_owned()).chain(words))
         };
         report.next = next::after_search(&report, run, &next::typed());
         let mut written = report.write(&folder)?;

@@ -17,6 +17,9 @@ function numbers(text, what) {
 
 const words = (name) => name.replaceAll("_", " ");
 
+/** Writes a word as a shell reads it. */
+const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
+
 /** Returns the line of a quantity in the picture, of the norm that decides. */
 function lineOf({ name, norm, norms }) {
   const { levels } = norms.find((other) => other.norm === norm) ?? norms[0];
@@ -131,7 +134,8 @@ export function judgePanel(panel, page) {
     }, (error) => verdict.replaceChildren(errorBox(error)));
   }
 
-  function show({ document: judged, passes, notes, next }) {
+  function show({ document: judged, passes, notes, next: nextWords }) {
+    const next = nextWords?.map(quoted).join(" ");
     const several = judged.quantities.length > 1;
     const good = judged.quantities.filter((quantity) => GOOD.includes(quantity.verdict)).length;
     const first = several ? `${judged.verdict}: ${good} of ${judged.quantities.length} quantities pass` : judged.quantities[0].says[0];

@@ -33,7 +33,7 @@ self.onmessage = async ({ data }) => {
     self.postMessage({ id: data.id, reply: ask(data.header, data.files) });
   } catch (error) {
     // A trap leaves the memory in an unknown state: the page starts a new worker.
-    const message = `the computation stopped (${error.message}): most likely it needs more memory than a page has. Use the command mms for it.`;
+    const message = `the computation stopped (${error.message}): it may need more memory than a page has. Use the command mms for it.`;
     self.postMessage({ id: data.id, broken: true, reply: { error: { message, diagnostics: [] } } });
   }
 };

@@ -12,6 +12,7 @@ use mms_exact::evaluated;
 use mms_files::read::{self, Kind};
 use mms_files::results::Disk;
 use mms_judge::Judgements;
+use mms_judge::next::{self, Meshes};
 use mms_judge::results::{
     Baseline, Comparison, Explained, Measurement, Over, Reading, Results, Start, measure, room,
     same, weight,
@@ -26,7 +27,6 @@ use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
 use super::super::naming::Naming;
-use super::super::next::{self, Meshes};
 use super::super::{Outcome, say, this_command};
 use super::{Judge, outcome};
 

@@ -3,6 +3,7 @@
 use mms_codegen::selection::{Freeze, Selection};
 use mms_convergence::{Expected, Verdict};
 use mms_exact::{Input, settings};
+use mms_judge::next::{Words, command};
 use mms_mechanics::amplitude::Amplitude;
 use mms_options::field::Variant;
 use mms_report::Refused;
@@ -15,7 +16,7 @@ use mms_stability::judge;
 use mms_stability::warnings::warnings;
 use mms_symbolic::expr::Symbol;
 
-use super::super::next::{Words, changed, command};
+use super::super::next::changed;
 use super::usual::is_box;
 
 /// A study that has ended.

@@ -1,11 +1,15 @@
+//! The text of a new field file.
+
 use mms_analysis::visibility::{Term, Visibility};
 use mms_codegen::certify::closed_form::{Comparison, Finding, compare};
 use mms_codegen::compile::Failure;
+use mms_codegen::materials::MATERIALS;
 use mms_codegen::{Compiled, compile};
+use mms_exact::gallery;
+use mms_exact::template::{Body, NEO_HOOKEAN, TAKEN, Template, material};
 use mms_spec::source::Sources;
-use mms_spec::{Face, format, read_material};
+use mms_spec::{Face, MaterialSpec, format, read_material};
 
-use super::*;
 use crate::sampled::sampled;
 
 /// The share of texts: one in so many is compiled.

@@ -7,7 +7,6 @@
 
 use anyhow::bail;
 use mms_codegen::materials::MATERIALS;
-use mms_exact::gallery;
 use mms_spec::foreign::Foreign;
 use mms_spec::language::FUNCTIONS;
 use mms_spec::suggest::advice;
@@ -15,14 +14,16 @@ use mms_spec::{
     FILLS, FORMS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS,
 };
 
+use crate::gallery;
+
 /// The text, with the lines of all variants.
 const TEMPLATE: &str = include_str!("template.toml");
 
 /// The material whose stress the closed forms in the template were derived for.
-const NEO_HOOKEAN: &str = "neo_hookean";
+pub const NEO_HOOKEAN: &str = "neo_hookean";
 
 /// The names that the template defines: a parameter of a material gets another one.
-const TAKEN: &[&str] = &[
+pub const TAKEN: &[&str] = &[
     "length",
     "inner",
     "outer",
@@ -40,13 +41,39 @@ const TAKEN: &[&str] = &[
 ];
 
 /// The shape of a body.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Body {
     /// With edges along the axes.
     #[default]
     Box,
     /// Between two circles, in the plane.
     Annulus,
+}
+
+impl Body {
+    /// All shapes.
+    pub const ALL: [Self; 2] = [Body::Box, Body::Annulus];
+
+    /// The word for the shape.
+    pub fn name(self) -> &'static str {
+        match self {
+            Body::Box => "box",
+            Body::Annulus => "annulus",
+        }
+    }
+
+    /// The shape in a few words.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Body::Box => "With edges along the axes",
+            Body::Annulus => "Between two circles, in the plane",
+        }
+    }
+
+    /// The shape of a name.
+    pub fn of(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|it| it.name() == name)
+    }
 }
 
 /// What a new field file is made of.
@@ -216,6 +243,3 @@ fn tagged(line: &str) -> Option<(&str, &str)> {
 fn renamed(name: &str) -> String {
     if TAKEN.contains(&name) { format!("material_{name}") } else { name.into() }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,22 +1,20 @@
 //! `mms new`: a field file to start from.
 
-mod template;
-
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
-use clap::builder::ArgPredicate;
+use clap::builder::{ArgPredicate, PossibleValue, PossibleValuesParser, TypedValueParser};
 use mms_codegen::Options;
+use mms_exact::template::{self, Body, Template};
 use mms_exact::{Input, gallery};
 use mms_files::write;
 use mms_options::field::open;
 use mms_spec::foreign::{self, shown};
 use mms_spec::{field_name, section};
 
-use self::template::{Body, Template};
 use super::{Outcome, print};
 
 /// Where fields are kept, in this project and in others.
@@ -41,7 +39,7 @@ pub struct New {
     #[arg(long, value_name = "FIELD", conflicts_with_all = ["dimension", "shape", "material", "undeformed"])]
     from_axisymmetric: Option<String>,
     /// The shape of the body; an annulus needs `--dimension 2`.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_name = "SHAPE", value_parser = bodies(), default_value = "box")]
     shape: Body,
     /// A shipped material; see `mms list`.
     #[arg(long, value_name = "NAME", default_value = "neo_hookean")]
@@ -53,6 +51,12 @@ pub struct New {
     /// The folder to write to; `fields` by default where there is one, else the current folder.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
+}
+
+/// Reads the shape of a body.
+fn bodies() -> impl TypedValueParser<Value = Body> {
+    let names = Body::ALL.map(|it| PossibleValue::new(it.name()).help(it.doc()));
+    PossibleValuesParser::new(names).map(|name| Body::of(&name).unwrap_or_default())
 }
 
 impl New {

@@ -1,0 +1,110 @@
+//! The next command to type after a verdict that is no pass: its words, `mms` first.
+//!
+//! Files and options are those of the command that has ended, so that the line can be typed as it stands.
+
+use std::fmt::Display;
+
+use mms_convergence::Verdict;
+use mms_diagnosis::answer::{Diagnosis, Finding, Rung};
+use mms_diagnosis::scene::FEWEST_POINTS;
+
+use crate::Judgements;
+
+/// The words of a command.
+pub type Words = Vec<String>;
+
+/// Results of a field on meshes, with the options that say how they are read.
+pub struct Meshes {
+    /// The field, as it was named.
+    pub field: String,
+    /// The files, one for each mesh.
+    pub files: Vec<String>,
+    /// The options that `mms judge` and `mms diagnose` share.
+    pub options: Vec<String>,
+}
+
+/// The option of this name with several values; nothing without a value.
+pub fn list<T: Display>(name: &str, values: &[T]) -> Option<String> {
+    let texts: Vec<String> = values.iter().map(T::to_string).collect();
+    (!texts.is_empty()).then(|| format!("--{name}={}", texts.join(",")))
+}
+
+/// The option of this name, once for each value.
+pub fn each<T: Display>(name: &str, values: &[T]) -> Vec<String> {
+    values.iter().map(|value| format!("--{name}={value}")).collect()
+}
+
+/// A command of these words.
+pub fn command<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> Words {
+    let words = words.into_iter().map(|it| it.as_ref().to_owned());
+    std::iter::once("mms".to_owned()).chain(words).collect()
+}
+
+impl Meshes {
+    /// A command about these results.
+    fn asks(&self, name: &str, more: impl IntoIterator<Item = String>) -> Words {
+        let head = [name.to_owned(), self.field.clone()];
+        let words = head.into_iter().chain(self.files.iter().cloned());
+        command(words.chain(self.options.iter().cloned()).chain(more))
+    }
+
+    /// The steps of a diagnosis, from the first on.
+    fn plan(&self) -> Words {
+        command(["diagnose", &self.field, "--plan"])
+    }
+}
+
+/// The quantities of results that `mms diagnose` looks at.
+const DIAGNOSED: [&str; 4] =
+    ["displacement", "velocity", "displacement_gradient", "deformation_gradient"];
+
+/// After a judgement of results, or of a table if there are no meshes. `is_chosen` says that quantities were asked for.
+pub fn after_judgement(
+    judgements: &Judgements,
+    meshes: Option<&Meshes>,
+    is_chosen: bool,
+) -> Option<Words> {
+    let verdict = judgements.verdict();
+    let Some(meshes) = meshes else {
+        return match verdict {
+            Verdict::Fail => Some(command(["diagnose", "--list"])),
+            Verdict::NotAsymptotic => Some(command(["explain", "asymptotic"])),
+            Verdict::NoEvidence | Verdict::Exact | Verdict::Pass => None,
+        };
+    };
+    match verdict {
+        Verdict::Exact | Verdict::Pass => None,
+        Verdict::NoEvidence => Some(meshes.asks("judge", ["--explain".to_owned()])),
+        Verdict::Fail | Verdict::NotAsymptotic => {
+            let samplings = judgements.samplings();
+            let is_at_points = |name: &&str| {
+                samplings.is_some_and(|all| {
+                    all.0.iter().any(|(of, how)| of == *name && how != "middles of cells")
+                })
+            };
+            let seen: Vec<&str> = DIAGNOSED.into_iter().filter(is_at_points).collect();
+            Some(match seen.is_empty() || judgements.points() < FEWEST_POINTS {
+                true => meshes.plan(),
+                false => meshes.asks("diagnose", list("quantity", &seen).filter(|_| is_chosen)),
+            })
+        }
+    }
+}
+
+/// After a diagnosis by a command of these words: once the mistake is fixed, or if nothing explains the error.
+pub fn after_diagnosis(diagnosis: &Diagnosis, meshes: &Meshes, words: &[String]) -> Option<Words> {
+    let field = meshes.field.as_str();
+    match (diagnosis.finding, diagnosis.rung) {
+        (Finding::Nothing, _) => None,
+        (Finding::Named, Rung::Results) => Some(meshes.asks("judge", None)),
+        (Finding::Named, _) => Some(words.to_vec()),
+        (Finding::Unexplained, Rung::Law) => Some(command(["diagnose", field, "--list"])),
+        (Finding::Unexplained, Rung::State(_)) => {
+            Some(command(["diagnose", field, "--plan", "law"]))
+        }
+        (Finding::Unexplained, Rung::Step) => {
+            Some(command(["diagnose", field, "--plan", "accelerations"]))
+        }
+        (Finding::Unexplained, Rung::Results) => Some(meshes.plan()),
+    }
+}
