@@ -354,6 +354,7 @@ fn documents_have_the_keys_of_the_page() {
         ("state", "state generalized_vortex --cells 2 --time 0.5 -o state.npz", 0),
         ("state", "state twisted_tube --cells 2 --time 0.01 -o tube.vtu", 0),
         ("state", "state lame_sphere --cells 2 --time 0.01 -o sphere.vtu", 0),
+        ("state", "state axisymmetric_rod --cells 2 --time 0.001 -o rod.vtu", 0),
         ("state", "state polygon.toml --cells 2 --time 0.01 -o polygon.vtu", 0),
         ("campaign-runs", "campaign campaign.toml --dry-run", 0),
         ("campaign", "campaign campaign.toml", 3),

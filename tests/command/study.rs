@@ -25,6 +25,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
             "levels",
             "noise",
             "quantities",
+            "units",
             "differences",
             "expected_order",
             "observed_order",
