@@ -9,7 +9,7 @@ use mms_exact::wave::sound;
 use mms_exact::{Input, units};
 use mms_files::shell;
 use mms_files::store::Store;
-use mms_judge::next::command;
+use mms_judge::next;
 use mms_lab::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
 use mms_lab::tradeoff::setting::Setting;
 use mms_lab::trial::Trials;
@@ -26,7 +26,8 @@ use mms_symbolic::sorted::SortedMap;
 
 use super::figure::FigureFile;
 use super::format::Printing;
-use super::{Outcome, next, print, say, this_command};
+use super::next::{after_search, typed};
+use super::{Outcome, print, say, this_command};
 use crate::session::progress::Progress;
 
 /// Find the cheapest method, numbers and grid for an error, or the least error for a time.
@@ -109,9 +110,9 @@ impl Tradeoff {
         let mut report = self.report(&input, plan, found, &command)?;
         let run = |it: &Trial| {
             let words = arguments(field, &self.set, &self.motion, &it.setting, it.cells);
-            command(std::iter::once("run".to_owned()).chain(words))
+            next::command(std::iter::once("run".to_owned()).chain(words))
         };
-        report.next = next::after_search(&report, run, &next::typed());
+        report.next = after_search(&report, run, &typed());
         let mut written = report.write(&folder)?;
         written.extend(self.figure.write(|| report.figure())?);
         self.printing.print(&report)?;
