@@ -51,8 +51,7 @@ fn code_is_for_the_quantities_that_are_chosen() {
 
 #[test]
 fn a_new_field_passes_its_check() {
-    let new =
-        |shape| json!({ "do": "template", "dimension": 2, "material": "neo_hookean", "shape": shape });
+    let new = |shape| json!({ "do": "template", "dimension": 2, "material": "neo_hookean", "shape": shape });
     let reply = answer(&new("annulus"), &[]);
     let checked = answer(&json!({ "do": "check", "text": reply["ok"]["text"] }), &[]);
     assert_eq!(checked["ok"]["passes"], true, "{checked}");
