@@ -122,6 +122,8 @@ class Study(Document):
     """True for each level whose error may be round-off alone."""
     quantities: StudyErrors
     """The quantities."""
+    units: dict[str, str] | None = None
+    """The units of h, dt and the quantities, if the field states units."""
     differences: list[LevelDifference] | None
     """The differences of successive levels, if only time is refined."""
     expected_order: float
