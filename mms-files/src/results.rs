@@ -49,7 +49,28 @@ pub fn existing(given: &str) -> anyhow::Result<Vec<PathBuf>> {
     }
 }
 
-/// The files that are named, in the order of their names.
+/// The pieces of a name: text, then the digits behind it without leading zeros, after their count. In their order
+/// `out_9` comes before `out_10`.
+fn pieces(path: &Path) -> Vec<(String, usize, String)> {
+    let name = path.to_string_lossy();
+    let (mut pieces, mut rest) = (Vec::new(), &*name);
+    while !rest.is_empty() {
+        let is_digit = |it: char| it.is_ascii_digit();
+        let (text, after) = rest.split_at(rest.find(is_digit).unwrap_or(rest.len()));
+        let end = after.find(|it| !is_digit(it)).unwrap_or(after.len());
+        let number = after[..end].trim_start_matches('0');
+        pieces.push((text.to_owned(), number.len(), number.to_owned()));
+        rest = &after[end..];
+    }
+    pieces
+}
+
+/// Sorts files by their names, numbers in them by their size.
+fn sort(files: &mut [PathBuf]) {
+    files.sort_by_cached_key(|it| (pieces(it), it.clone()));
+}
+
+/// The files that are named, in the order of their names; numbers in names stand in their own order.
 fn paths(given: &str) -> anyhow::Result<Vec<PathBuf>> {
     let path = Path::new(given);
     if path.is_dir() {
@@ -59,10 +80,12 @@ fn paths(given: &str) -> anyhow::Result<Vec<PathBuf>> {
         return Ok(vec![path.to_owned()]);
     }
     let found = glob::glob(given).with_context(|| format!("`{given}`: not a pattern"))?;
-    let found: Vec<_> = found.filter_map(Result::ok).filter(|path| path.is_file()).collect();
+    let found = found.filter_map(Result::ok).filter(|path| path.is_file());
+    let mut found: Vec<_> = found.collect();
     if found.is_empty() {
         bail!("`{given}`: no file fits the pattern");
     }
+    sort(&mut found);
     Ok(found)
 }
 
@@ -70,7 +93,7 @@ fn paths(given: &str) -> anyhow::Result<Vec<PathBuf>> {
 fn folder(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let entries = path.read_dir().with_context(|| cannot_read(path))?;
     let mut files: Vec<PathBuf> = entries.filter_map(|it| it.ok().map(|it| it.path())).collect();
-    files.sort();
+    sort(&mut files);
     let ending = |end: &str| -> Vec<PathBuf> {
         let fits =
             |file: &&PathBuf| file.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
@@ -90,4 +113,17 @@ fn folder(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
         let known = ENDS.concat().iter().map(|it| format!(".{it}")).collect::<Vec<_>>().join(", ");
         anyhow!("`{}`: it holds no results: expected {known}", foreign::path(path))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PathBuf, sort};
+
+    #[test]
+    fn numbers_in_names_stand_in_their_order() {
+        let right = ["a/9.csv", "a/10.csv", "out", "out_8.csv", "out_009.csv", "out_10.csv"];
+        let mut files: Vec<PathBuf> = right.iter().rev().map(PathBuf::from).collect();
+        sort(&mut files);
+        assert_eq!(files, right.map(PathBuf::from));
+    }
 }
