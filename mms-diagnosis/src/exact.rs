@@ -303,7 +303,7 @@ impl<'a, const D: usize> Exact<'a, D> {
 }
 
 impl<'a> Exact<'a, 3> {
-    /// Of an axisymmetric field in space.
+    /// The exact solution of an axisymmetric field in space, in the components R, Z and theta.
     pub fn in_space<const D: usize>(
         field: &'a Revolved<'a, D>,
         cell_size: f64,

@@ -121,7 +121,7 @@ impl Input {
         &self.source
     }
 
-    /// The same field, whose evaluation another thread can stop.
+    /// Returns a copy of the field that `stop` ends: another thread can ask for it.
     pub fn stopped_by(&self, stop: Stop) -> Input {
         Input { options: Options { stop, ..self.options.clone() }, ..self.clone() }
     }

@@ -11,7 +11,8 @@ use crate::formula::Formula;
 /// that keeps away from the axis, where R has no derivative.
 ///
 /// # Errors
-/// What the field is or has, that this text cannot say.
+/// The first property of the field that a file in space cannot have: given fields, further balances, a rigid motion, a material
+/// of its own, or Cartesian coordinates.
 pub fn in_space(field: &FieldSpec) -> Result<String, &'static str> {
     let refused = [
         (!field.space.is_axisymmetric(), "it is not axisymmetric"),
@@ -58,6 +59,7 @@ fn parameters(field: &FieldSpec) -> String {
     let line = |it: &crate::symbols::ParameterSpec| {
         let mut parts = vec![format!("value = {}", quoted(&it.value.text))];
         parts.extend(it.unit.iter().map(|unit| format!("unit = {}", quoted(&unit.value))));
+        parts.extend(it.symbol.iter().map(|symbol| format!("symbol = {}", quoted(&symbol.value))));
         parts.extend(it.doc.iter().map(|doc| format!("doc = {}", word(doc))));
         parts.extend(it.range.iter().map(|[least, most]| {
             format!("range = [{}, {}]", quoted(&least.text), quoted(&most.text))
@@ -105,15 +107,16 @@ fn body(field: &FieldSpec) -> String {
     if let Some([first, last]) = &field.domain.time {
         text += &format!("time = [{}, {}]\n", quoted(&first.text), quoted(&last.text));
     }
-    let claims: Vec<String> = field.boundary.iter().filter_map(claim).collect();
+    let claims: Vec<String> = field.boundary.iter().map(claim).collect();
     if !claims.is_empty() {
         text += &format!("\n[boundary]\n{}", claims.concat());
     }
     text
 }
 
-/// The claim about the face of the body in space; none about the axis.
-fn claim(it: &crate::boundary::BoundarySpec) -> Option<String> {
+/// The claim about the face of the body in space. Where the section ends at the axis, the body in space has a face, on which u is
+/// prescribed.
+fn claim(it: &crate::boundary::BoundarySpec) -> String {
     let (face, is_round) = match it.face.value {
         Face::RadialMin => ("inner", true),
         Face::RadialMax => ("outer", true),
@@ -121,12 +124,12 @@ fn claim(it: &crate::boundary::BoundarySpec) -> Option<String> {
         _ => ("z_max", false),
     };
     let claim = match it.claim.value {
-        Claim::Axis => return None,
+        Claim::Axis => Claim::Prescribed,
         // Rollers are for planes.
         Claim::Roller if is_round => Claim::Prescribed,
         other => other,
     };
-    Some(format!("{face} = \"{}\"\n", claim.name()))
+    format!("{face} = \"{}\"\n", claim.name())
 }
 
 fn quoted(text: &str) -> String {

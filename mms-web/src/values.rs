@@ -53,7 +53,11 @@ pub fn values(
     let mut exact = exact(field, set)?;
     hold_finite(&[at, &[time]].concat())?;
     if at.len() != exact.dimension {
-        return Err(Mistake::of(format!("expected {} coordinates", exact.dimension)));
+        return Err(Mistake::of(format!(
+            "X has {} coordinates; expected {}",
+            at.len(),
+            exact.dimension
+        )));
     }
     let quantities: Vec<_> = exact.input().compiled.quantities().collect();
     let mut values = Vec::new();
@@ -106,7 +110,7 @@ pub fn motion(
         return Err(Mistake::of("a traction needs a normal, and is no colour"));
     }
     let (frames, sides) = (frames.clamp(1, MOST), cells.clamp(1, MOST));
-    let (reference, cells) = mesh(&exact.body, exact.dimension, sides);
+    let Mesh { points: reference, cells } = mesh(&exact.body, exact.dimension, sides);
     let flat = reference.concat();
     let [first, last] = exact.window;
     let steps = if exact.input().is_static() { 1 } else { frames };
@@ -145,79 +149,67 @@ pub fn motion(
     })
 }
 
-/// Points X and cells over a body: of a solid, the quadrilaterals of its six sides.
-fn mesh(body: &Extent<f64>, dimension: usize, sides: usize) -> (Vec<Vec<f64>>, Vec<Vec<usize>>) {
-    let fraction = |step: usize| step as f64 / sides as f64;
-    if dimension == 1 {
-        let points = (0..=sides).map(|step| body.point(&[fraction(step)]));
-        return (points.collect(), (0..sides).map(|at| vec![at, at + 1]).collect());
-    }
-    if let (Extent::Polygon(_), 2) = (body, dimension) {
-        return of_polygon(body, sides);
-    }
-    // The two directions of each side, the third, and where it is held.
-    let faces: &[([usize; 3], f64)] = match dimension {
-        2 => &[([0, 1, 2], 0.0)],
-        _ => &[
-            ([0, 1, 2], 0.0),
-            ([0, 1, 2], 1.0),
-            ([1, 2, 0], 0.0),
-            ([1, 2, 0], 1.0),
-            ([2, 0, 1], 0.0),
-            ([2, 0, 1], 1.0),
-        ],
-    };
-    let (mut points, mut cells) = (Vec::new(), Vec::new());
-    for (axes, held) in faces {
-        let start = points.len();
-        for second in 0..=sides {
-            for first in 0..=sides {
-                let mut at = [0.0; 3];
-                at[axes[0]] = fraction(first);
-                at[axes[1]] = fraction(second);
-                at[axes[2]] = *held;
-                points.push(body.point(&at));
-            }
-        }
-        let corner = |first: usize, second: usize| start + second * (sides + 1) + first;
-        for second in 0..sides {
-            cells.extend((0..sides).map(|first| {
-                vec![
-                    corner(first, second),
-                    corner(first + 1, second),
-                    corner(first + 1, second + 1),
-                    corner(first, second + 1),
-                ]
-            }));
-        }
-    }
-    (points, cells)
+/// Points X, and cells by the positions of their points.
+#[derive(Default)]
+struct Mesh {
+    points: Vec<Vec<f64>>,
+    cells: Vec<Vec<usize>>,
 }
 
-/// The cells of a lattice whose middles lie in a polygon.
-fn of_polygon(body: &Extent<f64>, sides: usize) -> (Vec<Vec<f64>>, Vec<Vec<usize>>) {
-    let [lower, upper] = body.bounding_box();
-    let along =
-        |axis: usize, at: f64| lower[axis] + (upper[axis] - lower[axis]) * at / sides as f64;
-    let mut points = Vec::new();
-    for second in 0..=sides {
-        points
-            .extend((0..=sides).map(|first| vec![along(0, first as f64), along(1, second as f64)]));
+impl Mesh {
+    /// Adds a lattice of quadrilaterals, so many along each side. `point` takes two fractions; a cell is kept if `keeps` says so of
+    /// the fractions of its middle.
+    fn add_lattice(
+        &mut self,
+        sides: usize,
+        point: impl Fn(f64, f64) -> Vec<f64>,
+        keeps: impl Fn(f64, f64) -> bool,
+    ) {
+        let start = self.points.len();
+        let fraction = |step: f64| step / sides as f64;
+        let all = |count: usize| (0..count).flat_map(move |b| (0..count).map(move |a| (a, b)));
+        let points = all(sides + 1).map(|(a, b)| point(fraction(a as f64), fraction(b as f64)));
+        self.points.extend(points);
+        let kept =
+            all(sides).filter(|(a, b)| keeps(fraction(*a as f64 + 0.5), fraction(*b as f64 + 0.5)));
+        let corner = |a: usize, b: usize| start + b * (sides + 1) + a;
+        self.cells.extend(kept.map(|(a, b)| {
+            vec![corner(a, b), corner(a + 1, b), corner(a + 1, b + 1), corner(a, b + 1)]
+        }));
     }
-    let corner = |first: usize, second: usize| second * (sides + 1) + first;
-    let mut cells = Vec::new();
-    for second in 0..sides {
-        for first in 0..sides {
-            let middle = [along(0, first as f64 + 0.5), along(1, second as f64 + 0.5)];
-            if body.contains(&middle) {
-                cells.push(vec![
-                    corner(first, second),
-                    corner(first + 1, second),
-                    corner(first + 1, second + 1),
-                    corner(first, second + 1),
-                ]);
+}
+
+/// The axis of a solid across which two of its sides lie, after the axes along them.
+const SIDES: [[usize; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
+
+/// A mesh over a body: of a solid, the quadrilaterals of its six sides; of a polygon, the cells of a lattice whose middles lie in
+/// it.
+fn mesh(body: &Extent<f64>, dimension: usize, sides: usize) -> Mesh {
+    let mut mesh = Mesh::default();
+    match (dimension, body) {
+        (1, _) => {
+            mesh.points = (0..=sides).map(|it| body.point(&[it as f64 / sides as f64])).collect();
+            mesh.cells = (0..sides).map(|it| vec![it, it + 1]).collect();
+        }
+        (2, Extent::Polygon(_)) => {
+            let [lower, upper] = body.bounding_box();
+            let along = |axis: usize, part: f64| lower[axis] + (upper[axis] - lower[axis]) * part;
+            let point = |a, b| vec![along(0, a), along(1, b)];
+            mesh.add_lattice(sides, point, |a, b| body.contains(&point(a, b)));
+        }
+        (2, _) => mesh.add_lattice(sides, |a, b| body.point(&[a, b]), |_, _| true),
+        _ => {
+            for ([first, second, across], held) in
+                SIDES.iter().flat_map(|it| [(it, 0.0), (it, 1.0)])
+            {
+                let point = |a, b| {
+                    let mut at = [0.0; 3];
+                    (at[*first], at[*second], at[*across]) = (a, b, held);
+                    body.point(&at)
+                };
+                mesh.add_lattice(sides, point, |_, _| true);
             }
         }
     }
-    (points, cells)
+    mesh
 }

@@ -122,5 +122,5 @@ fn an_odd_request_is_a_mistake() {
         assert!(reply["error"]["message"].is_string(), "{reply}");
     }
     let reply = of_bar("values", json!({ "at": [0.1, 0.2], "time": 0 }));
-    assert_eq!(reply["error"]["message"], "expected 1 coordinates");
+    assert_eq!(reply["error"]["message"], "X has 2 coordinates; expected 1");
 }

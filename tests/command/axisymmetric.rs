@@ -296,7 +296,11 @@ time = [2, 3.1]
 fn a_field_in_space_is_written_of_its_section() {
     let folder = folder();
     folder.mms("new rod_3d --from-axisymmetric axisymmetric_rod").exits(0).prints("rod_3d.toml");
-    folder.mms("check rod_3d.toml").exits(0).prints("claim  outer is fixed (u = 0): proved");
+    folder
+        .mms("check rod_3d.toml")
+        .exits(0)
+        .prints("claim  outer is fixed (u = 0): proved")
+        .prints("claim  inner is prescribed");
     let (angle, radius, axial) = (0.7_f64, 0.6, 0.3);
     let values = |field: &str, at: String| {
         let run = format!("eval {field} --at {at} --time 0.004 --quantity F,P,b --json");

@@ -19,19 +19,18 @@ use super::{Outcome, print, print_json, say, say_styled};
 
 /// Check field files: mistakes, boundary claims, J > 0, and closed forms.
 ///
-/// What holds over the whole body, time window and parameter ranges is proved: symbolically, or with
-/// intervals. A claim is `proved`; `enclosed`, where all that is certain is that it is within
+/// Proofs cover the whole body, time window and parameter ranges; they are symbolic, or use intervals. A claim is `proved`; `enclosed`, where all that is certain is that it is within
 /// 1e-12 of what it should be, relative to the size of the body or the modulus; `refuted` at a point
 /// that is named; or `unproved`. The last two exit 1, as do J <= 0, a function that ends or jumps within the domain, a
 /// quantity without a finite value or that f64 does not compute as one, and a closed form that differs or was compared
-/// nowhere. What takes more steps than a budget allows is said not to be proved. What f32 computes is a line of its own. A
+/// nowhere. A proof that takes more steps than its budget is said not to be made. The numbers of f32 have a line of their own. A
 /// stress at rest (P not 0 at F = I) is a warning. Bounds are given of J, the principal stretch, the strain rate, the wave
 /// speed, and the time step that waves allow, of x, and of the digits that sums such as X + c*t leave of angles.
 ///
 /// Whether a solver can follow the motion is looked at on a sample, for the defaults of the parameters: waves in the body
 /// (acoustic tensor), waves on faces that are loaded, free or on rollers (surface impedance, loads dead), their corners
 /// (coercivity of the second variation in a quadrant), and long waves
-/// (least eigenvalue on a coarse mesh). What grows is a warning, and does not change the exit code.
+/// (least eigenvalue on a coarse mesh). A disturbance that grows is a warning, and does not change the exit code.
 #[derive(Args)]
 pub struct Check {
     /// Field files, or names of fields of the gallery.

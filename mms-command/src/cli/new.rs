@@ -56,7 +56,7 @@ pub struct New {
 /// Reads the shape of a body.
 fn bodies() -> impl TypedValueParser<Value = Body> {
     let names = Body::ALL.map(|it| PossibleValue::new(it.name()).help(it.doc()));
-    PossibleValuesParser::new(names).map(|name| Body::of(&name).unwrap_or_default())
+    PossibleValuesParser::new(names).try_map(|name| Body::of(&name).ok_or("no such shape"))
 }
 
 impl New {

@@ -1,6 +1,7 @@
 //! `mms study`: the observed order of a method on a field.
 
 mod cause;
+mod excluded;
 mod periods;
 mod refined;
 mod usual;
@@ -16,12 +17,11 @@ use mms_codegen::selection::Selection;
 use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
 use mms_exact::{Input, Open, hold_division, units};
 use mms_judge::next;
-use mms_judge::results::Exclusions;
 use mms_lab::trial::Progress as Follow;
 use mms_mechanics::sample::domain;
 use mms_options::field::{Motion, open};
 use mms_options::method::{MethodOptions, Precision, finite, positive};
-use mms_report::{Comparison, Phases as InPhase, Refused, Study as Report, method, run};
+use mms_report::{Comparison, Phases as InPhase, Refused, Study as Report, method};
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
 use mms_runtime::{Division, Method, Real, Refusal, Run};
@@ -109,9 +109,6 @@ pub struct Study {
     #[command(flatten)]
     printing: Printing,
 }
-
-/// At these parts of the time, what mistakes add is held to the largest error of a study.
-const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// The quantities whose errors a study has.
 const COMPARED: [&str; 4] =
@@ -369,28 +366,6 @@ impl Study {
             expected,
             provenance,
         })
-    }
-
-    /// What the errors of the finest level exclude.
-    fn exclusions(
-        &self,
-        input: &Input,
-        method: &Method,
-        started: &[&Run],
-    ) -> anyhow::Result<Option<Exclusions>> {
-        let Some(finest) = started.last() else { return Ok(None) };
-        let set = input.settings(&self.set)?;
-        let (_, [first, last]) =
-            domain(&input.compiled.program, &input.compiled.parameters::<f64>(&set));
-        let last = method.setup.end_time.unwrap_or(last);
-        let times = LOOKED_AT.map(|part| first + part * (last - first)).to_vec();
-        let times = (!input.is_static()).then_some(times);
-        let scene = input.scene_with(&set, |code| code.double)?;
-        let largest = finest.details.as_ref().map(|it| run::quantities(&it.largest));
-        let error =
-            |name: &str| Some(largest.iter().flatten().find(|(_, key, _)| *key == name)?.2.l2);
-        let level = &finest.level;
-        Ok(Exclusions::new(&scene, error, (level.cell_size, Some(level.time_step)), times))
     }
 
     /// The periods in which amplitude and phase are measured, in order.

@@ -106,16 +106,13 @@ fn of_rings<const D: usize>(exact: &Exact<'_, D>, space: &Exact<'_, 3>) -> Vec<H
             "plane strain: F_tt = 1, and Div P without what is over R",
             Ring::Plane,
         ),
-        Hypothesis {
-            change: Change::Ring(Ring::Wider),
-            ..Hypothesis::amount(
-                "ring_volume",
-                "volumes, masses and faces of rings of another radius than that of the middle, as of an edge; the size is by \
-                 how much",
-                vec![exact.cell_size / 2.0],
-                Change::Ring(Ring::Wider),
-            )
-        }
+        Hypothesis::amount(
+            "ring_volume",
+            "volumes, masses and faces of rings of another radius than that of the middle, as of an edge; the size is by \
+             how much",
+            vec![exact.cell_size / 2.0],
+            Change::Ring(Ring::Wider),
+        )
         .within([-2.0 * exact.cell_size, 2.0 * exact.cell_size])
         .of_mesh(),
     ];

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 from . import _native, documents
 from ._native import Field, Level
-from .verdicts import Judgement, Results, Shown, judge, opened
+from .verdicts import Judged, Judgement, Results, Shown, judge, opened
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,23 +28,12 @@ _NO_OPTIONS = ("format", "full", "help", "json", "output", "set", "study", "verb
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Study(Shown, documents.Study):
+class Study(Judged, documents.Study):
     """The observed order of a method of this project's own solver: `study` returns one."""
 
+    _kind = "study"
+
     __str__ = Shown.__str__
-
-    def __repr__(self) -> str:
-        order = "" if self.observed_order is None else f", order {self.observed_order:.2f}"
-        return f"<study of {self.field}: {self.verdict}{order}>"
-
-    @property
-    def passed(self) -> bool:
-        """Whether the order is the expected one, or the results are exact to round-off."""
-        return self.verdict in ("pass", "exact to round-off")
-
-    def to_svg(self) -> str:
-        """A picture of the errors against h."""
-        return self._view("svg")
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the norms of the error against h, or against dt, with Matplotlib, and returns the axes."""

@@ -8,7 +8,7 @@ import os
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeVar, Union
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 
 from . import _native
 from ._document import Document
@@ -61,15 +61,17 @@ class Shown(Document):
         return f"{self._view('svg')}<pre>{html.escape(str(self))}</pre>"
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
-class Judgement(Shown, Judge):
-    """The verdict on results: `judge` returns one."""
+class Judged(Shown):
+    """An observed order and the verdict on it."""
 
-    __str__ = Shown.__str__
+    _kind: ClassVar[str]
+    field: Any
+    verdict: Any
+    observed_order: Any
 
     def __repr__(self) -> str:
         order = "" if self.observed_order is None else f", order {self.observed_order:.2f}"
-        return f"<judgement of {self.field}: {self.verdict}{order}>"
+        return f"<{self._kind} of {self.field}: {self.verdict}{order}>"
 
     @property
     def passed(self) -> bool:
@@ -77,8 +79,17 @@ class Judgement(Shown, Judge):
         return self.verdict in ("pass", "exact to round-off")
 
     def to_svg(self) -> str:
-        """A picture of the errors against h, with the orders in the legend."""
+        """A picture of the errors against h or dt, with the orders in the legend."""
         return self._view("svg")
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Judgement(Judged, Judge):
+    """The verdict on results: `judge` returns one."""
+
+    _kind = "judgement"
+
+    __str__ = Shown.__str__
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the deciding norm of each quantity against h with Matplotlib, and returns the axes."""

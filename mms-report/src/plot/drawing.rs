@@ -154,12 +154,12 @@ pub struct Text {
     pub words: Words,
 }
 
-/// What is drawn.
+/// A line, a mark or a text of a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// Straight lines from point to point.
     Path {
-        /// What it is.
+        /// The part of the drawing, which says how it looks.
         role: Role,
         /// The points.
         points: Vec<[f64; 2]>,
@@ -168,7 +168,7 @@ pub enum Item {
     },
     /// A disc.
     Disc {
-        /// What it is.
+        /// The part of the drawing, which says how it looks.
         role: Role,
         /// The middle.
         centre: [f64; 2],

@@ -99,7 +99,7 @@ pub struct Drawing {
     pub title: String,
     /// The numbers in words.
     pub description: String,
-    /// What is drawn, one over the other.
+    /// The lines, marks and texts; each lies over those before it.
     pub items: Vec<Item>,
 }
 
