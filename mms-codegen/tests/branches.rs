@@ -126,6 +126,24 @@ fn every_formula_that_a_field_is_made_of_is_looked_at() {
     refused_at(&pole, "1/(X - 1/3)^2", true);
 }
 
+/// In a ring the invariants are functions of radius and angle: W is examined at the strain of each point, and at no other.
+#[test]
+fn the_energy_of_a_round_body_is_examined_at_its_own_strain() {
+    let gent = "model = \"gent\"\nkappa = 1\nmu = 1\nJm = 20\ndensity = 1";
+    let wave = "0.05*sin(2*pi*(hypot(X, Y) - 0.5))/hypot(X, Y)";
+    let u = [format!("{wave}*X"), format!("{wave}*Y")];
+    passes(&Case { material: gent, ..Case::of(&[&u[0], &u[1]], RING) });
+    let energy = "model = \"./mine.toml\"\nmu = 1\ndensity = 1";
+    let growing = ["0.1*(hypot(X, Y) - 0.9)*X", "0.1*(hypot(X, Y) - 0.9)*Y"];
+    let cut = Case { material: energy, ..Case::of(&growing, RING) };
+    refused_at(&cut, "atan2(J - 1, -1)", true);
+    let (_, certificate) = certified(&cut.text());
+    let place = &certificate.exits[0].witness.coordinates;
+    let radius = f64::hypot(place[0], place[1]);
+    let jacobian = (1.0 + 0.1 * (2.0 * radius - 0.9)) * (1.0 + 0.1 * (radius - 0.9));
+    assert!((jacobian - 1.0).abs() < 1e-12, "J = {jacobian} at {place:?}");
+}
+
 #[test]
 fn roots_logarithms_and_arcs_end_where_they_are_not_analytic() {
     let cases = [

@@ -184,9 +184,8 @@ impl Template<'_> {
     fn parameters(&self) -> String {
         let lines = self.material.parameters.iter().map(|parameter| {
             let unit = parameter.unit.as_ref().map(|unit| unit.value.as_str());
-            // Any positive number will do, if it is no limit of strain that the motion would reach:
-            // the user knows the body, the template does not.
-            let value = if unit == Some("Pa") { "1e6" } else { "10" };
+            // The motion of the template stays far from the limits of strain that a material of this value has.
+            let value = if unit == Some("Pa") { "1e6" } else { "50" };
             let mut line = format!("{:<9} = {{ value = {value}", renamed(&parameter.name.value));
             for (key, text) in [("unit", unit), ("doc", parameter.doc.as_ref().map(Foreign::raw))] {
                 if let Some(text) = text {

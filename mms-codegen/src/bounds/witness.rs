@@ -4,8 +4,8 @@ use super::chart::{Chart, Spot};
 use mms_math::Scalar as _;
 use mms_program::precise::Precise;
 
-/// What it may take to find a place, in the steps of [`mms_symbolic::work`].
-const STEPS: u64 = 10_000_000;
+/// The budget of finding a place or a culprit after a search, in the steps of [`mms_symbolic::work`].
+pub const STEPS: u64 = 10_000_000;
 
 /// A place, a time, and the values there of the parameters that have a range.
 #[derive(Clone, Debug, PartialEq)]

@@ -154,11 +154,11 @@ impl<'a> Steps<'a> {
             if volume.is_some_and(|volume| limit.operands == [volume]) {
                 continue;
             }
-            let operands = match invariants {
-                Some(invariants) => substitute(graph, &limit.operands, invariants),
-                None => limit.operands.clone(),
-            };
-            let operands = chart.pull_back(graph, &operands);
+            // The invariants are functions of the chart's variables already.
+            let mut operands = chart.pull_back(graph, &limit.operands);
+            if let Some(invariants) = invariants {
+                operands = substitute(graph, &operands, invariants);
+            }
             let varies = operands.iter().any(|operand| {
                 graph.symbols(*operand).iter().any(|symbol| chart.variables().contains(symbol))
             });

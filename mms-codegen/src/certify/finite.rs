@@ -4,7 +4,7 @@ use super::motion::{ChartMotion, without_volume};
 use crate::bounds::chart::{Chart, Spot};
 use crate::bounds::enclosure::Formulas;
 use crate::bounds::search::{Cell, Measure, largest};
-use crate::bounds::witness::Witness;
+use crate::bounds::witness::{STEPS, Witness};
 use crate::compile::Compiled;
 use mms_mechanics::invariant::SUPPLIED_VOLUME;
 use mms_mechanics::{Output, Program};
@@ -91,7 +91,8 @@ pub fn bound(
             return (Finite::Undefined(quantity, witness), found.cells);
         }
     }
-    let quantity = gap(&found.worst);
+    // The culprit is named even if the budget is spent.
+    let quantity = chart.work().aside(STEPS, || gap(&found.worst));
     let witness = Witness::at(chart, &found.worst.centre()).0;
     (Finite::Unproved(quantity.unwrap_or(Quantity::Displacement), witness), found.cells)
 }
