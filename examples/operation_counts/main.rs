@@ -1,5 +1,4 @@
-//! How much code a field takes, and how little where less is asked for: writes the page
-//! `docs/operation-counts.md` to stdout.
+//! Writes the page `docs/operation-counts.md` to stdout: the operations and the code of a field, for all quantities and for some.
 //!
 //! ```console
 //! $ cargo run --example operation_counts > docs/operation-counts.md

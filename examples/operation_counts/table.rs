@@ -7,43 +7,43 @@ use mms_mechanics::Output;
 use mms_program::Stage;
 use mms_spec::quantity::Quantity;
 
-/// What stands above the table.
+/// The text above the table.
 const HEAD: &str = "\
 # Operation counts
 
-What a field costs, and how little where less is asked for. Made by a command; a test fails where
-the page is out of date:
+The operations of the emitted code of a field, for all quantities and for some. A command writes this
+page; a test fails if it is out of date:
 
 ```console
 $ cargo run --example operation_counts > docs/operation-counts.md
 ```
 
 One operation is an addition, a subtraction, a multiplication, a division, or a call of a function;
-constants, loads and changes of sign are free. The columns are the stages: `parameter` once,
-`time` once per step, `point` once per particle where its `Point` is kept, `point_time` at every
-evaluation. `ln` counts the logarithms among them, `lines` is the length of the emitted file, and
-`cache` the bytes of a `Point` in double precision. Where all is asked for, the file also holds the
+constants, loads and changes of sign are free. The columns are the stages: `parameter` runs once,
+`time` once per step, `point` once per particle if its `Point` is kept, `point_time` at every
+evaluation. `ln` counts the logarithms among the operations, `lines` is the length of the emitted file,
+and `cache` the bytes of a `Point` in double precision. With all quantities, the file also holds the
 domain and the material, which the operations do not count.
 
 ";
 
-/// What stands below it.
+/// The text below the table.
 const FOOT: &str = "
 * `bar_1d` is in `fields/`, the other files are in `examples/fields/`.
-* A constant `lambda = 0` takes the logarithm with it, as W has mu ln J and lambda/2 (ln J)^2, and the
-  divergence of P has the logarithm of the second only.
-* At rest, v and a are the constant 0, and b is what is left: no code is emitted for time.
+* With the constant `lambda = 0`, b needs no logarithm: W has mu ln J and lambda/2 (ln J)^2, and only the
+  second leaves a logarithm in the divergence of P.
+* At rest, v and a are the constant 0, and b = -Div P/rho0: no code is emitted for time.
 * A field of one dimension computes with scalars: F has one entry, which is J, and its inverse is one
   division.
 ";
 
-/// A row: a field, and what of it is asked for.
+/// A row: a field, and the requested quantities.
 struct Row {
     /// The path of the field file.
     path: &'static str,
-    /// The quantities; none stands for all.
+    /// The quantities; all of them if empty.
     quantities: &'static [Quantity],
-    /// What becomes a constant, as the command line says it.
+    /// The options of the command line that make parameters constants.
     constants: &'static str,
 }
 
@@ -79,7 +79,7 @@ const ROWS: &[Row] = &[
 
 /// The whole page.
 pub fn page() -> String {
-    let heading = ["field", "asked for", "constants"];
+    let heading = ["field", "quantities", "constants"];
     let counts = ["parameter", "time", "point", "point_time", "all", "ln", "lines", "cache"];
     let rule = heading.map(|_| "---").into_iter().chain(counts.map(|_| "---:")).map(String::from);
     let names = heading.into_iter().chain(counts).map(String::from);

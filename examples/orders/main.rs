@@ -1,6 +1,6 @@
-//! Writes docs/orders.md: which order of convergence each method shows, beside what theory says.
+//! Writes docs/orders.md: the order of convergence that each method shows, and the order of theory.
 //!
-//! `cargo run --release --example orders > docs/orders.md`; some minutes.
+//! `cargo run --release --example orders > docs/orders.md` takes some minutes.
 
 mod rows;
 
@@ -15,26 +15,26 @@ use mms_runtime::study::{Watch, differences, judge, orders};
 use mms_spec::twin::Twin;
 use rows::{GROUPS, IN_TIME, InTime, Row, STANDARD};
 
-/// What stands before the tables.
+/// The text before the tables.
 const INTRODUCTION: &str = "\
 # Observed orders
 
-What the solver shows on the fields of the gallery, and what theory says. Errors are those of the
-displacement: the largest over time of the root mean square (l2) and of the maximum (linf) over the
-particles. An order is that between two neighbouring levels, coarse to fine. The verdict is that of
-`mms study` against order 2; where a row says why it cannot be, `fail` is what theory expects. Made by
+The orders that the solver shows on the fields of the gallery, and the orders of theory. Errors are errors
+of the displacement: the largest over time of the root mean square (l2) and of the maximum (linf) over the
+particles. Each order is between two neighbouring levels, from coarse to fine. The verdict of `mms study` is
+against order 2; if a row gives a reason why order 2 is impossible, theory expects `fail`. The command is
 `cargo run --release --example orders > docs/orders.md`.
 ";
 
-/// What stands before the orders in time.
+/// The text before the orders in time.
 const IN_TIME_TEXT: &str = "\
-One grid, finer and finer time steps. The error of the grid stays, so that each run is compared with the next
-finer one, as `mms study FIELD --refine time` does.";
+One grid, with ever smaller time steps. The error of the grid stays the same, so each run is compared with the
+next finer one, as `mms study FIELD --refine time` does.";
 
-/// The Courant number of the first level in time; each further level has half of it.
+/// The Courant number of the first level in time; each further level halves it.
 const COARSEST: f64 = 0.4;
 
-/// At the ends of so many equal parts of the time window, runs are compared.
+/// The number of equal parts of the time window at whose ends runs are compared.
 const PARTS: usize = 16;
 
 /// Levels in time.
@@ -124,7 +124,7 @@ fn line_in_time(row: &InTime) -> Result<String, Box<dyn Error>> {
     ))
 }
 
-/// Orders, as far as there are such.
+/// The orders as text, `-` for a missing one.
 fn words(orders: impl Iterator<Item = Option<f64>>) -> String {
     let words: Vec<_> =
         orders.map(|order| order.map_or("-".into(), |order| format!("{order:.2}"))).collect();

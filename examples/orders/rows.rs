@@ -1,4 +1,4 @@
-//! What is run, and what is expected of it.
+//! The rows of the tables: fields, methods, levels, and the reason if theory expects another order.
 
 use mms_runtime::{Fill, Method, UnknownName};
 
@@ -6,13 +6,13 @@ use mms_runtime::{Fill, Method, UnknownName};
 pub struct InTime {
     /// The field.
     pub field: &'static str,
-    /// As that of a [`Row`].
+    /// The method, written as in a [`Row`].
     pub method: &'static str,
     /// The grid.
     pub cells: usize,
     /// The formal order.
     pub order: f64,
-    /// Why it is not seen.
+    /// The reason if the solver does not show that order.
     pub reason: &'static str,
 }
 
@@ -21,9 +21,8 @@ const fn time(field: &'static str, method: &'static str, cells: usize, order: f6
     InTime { field, method, cells, order, reason: "" }
 }
 
-/// Of an error that does not shrink with dt.
-const MAPS: &str =
-    "what the map to the grid and back loses in a step, of O(h^2), adds up with their number";
+/// The reason for an error that does not shrink with dt.
+const MAPS: &str = "each step loses O(h^2) by the map to the grid and back, which adds up with the number of steps";
 
 /// The orders in time of integrators and transfers.
 pub const IN_TIME: &[InTime] = &[
@@ -51,20 +50,20 @@ pub struct Row {
     pub method: &'static str,
     /// The levels, coarse to fine.
     pub levels: &'static [usize],
-    /// How far from 2 is still as expected, if that is more than usual.
+    /// The accepted distance of the order from 2, if it is more than usual.
     pub tolerance: f64,
-    /// Why.
+    /// The reason for another verdict or other levels; empty for none.
     pub reason: &'static str,
 }
 
 impl Row {
-    /// Its method.
+    /// The method of the row.
     pub fn method(&self) -> Result<Method, UnknownName> {
         method(self.method)
     }
 }
 
-/// The method that words say, one after the other.
+/// The method described by words, separated by blanks.
 pub fn method(words: &str) -> Result<Method, UnknownName> {
     let mut method = Method::default();
     for word in words.split(' ') {
@@ -96,7 +95,7 @@ const fn space(
     Row { field, twin: "", method, levels, tolerance: 0.0, reason }
 }
 
-/// A row whose order is settled in finer meshes than these.
+/// A row whose order settles only on finer meshes.
 const fn space_within(
     tolerance: f64,
     field: &'static str,
@@ -107,7 +106,7 @@ const fn space_within(
     Row { tolerance, ..space(field, method, levels, reason) }
 }
 
-/// The same on a rigid twin.
+/// A row for a rigid twin of a field.
 const fn twin(
     field: &'static str,
     twin: &'static str,
@@ -124,11 +123,10 @@ const SPACE: &[usize] = &[4, 8, 16, 32];
 const RING: &[usize] = &[16, 32, 64, 128];
 const RINGS: &[usize] = &[32, 64, 128, 256];
 
-/// A translation by three lengths, ever faster, in the standard twin of a bar; a rotation by two radians
-/// as well in two dimensions.
+/// The standard twin: an accelerated translation by three lengths; in two dimensions also a rotation by two radians.
 pub const STANDARD: &str = "standard";
 
-/// Titles, texts, rows.
+/// The tables: titles, texts, rows.
 pub const GROUPS: &[(&str, &str, &[Row])] = &[
     (
         "Aligned motion, contiguous particles",
@@ -144,7 +142,7 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
     ),
     (
         "Total Lagrangian",
-        "Nothing crosses a cell. Second order, which lumped mass caps.",
+        "No particle crosses a cell. The lumped mass caps the order at 2.",
         &[
             space("bar_1d", "total linear leapfrog", LINE, ""),
             space("bar_1d", "total ugimp leapfrog", LINE, ""),
@@ -165,8 +163,8 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
     ),
     (
         "Rigid twins",
-        "The same stresses in a body that moves and turns through the grid, or with the total formulation \
-         does not.",
+        "The same stresses, in a body that moves and turns. In the updated formulation it does so through the \
+         grid.",
         &[
             twin("bar_1d", STANDARD, "total linear leapfrog", LINE, ""),
             twin("bar_1d", STANDARD, "total quadratic_bspline leapfrog", LINE, ""),
@@ -184,8 +182,8 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
     ),
     (
         "Curved bodies",
-        "Particles lie along the circles. Splines on a grid that the faces cut have few particles in some \
-         cells; more of them restore the order.",
+        "Particles lie along the circles. With splines, cells that the faces cut may have few particles; more \
+         particles restore the order.",
         &[
             space_within(
                 0.25,
@@ -205,7 +203,7 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
                 "generalized_vortex_third",
                 "updated cpgimp leapfrog",
                 RINGS,
-                "boxes follow no shear of order 2",
+                "boxes do not follow shear: no order 2",
             ),
             space("expanding_ring", "updated cpdi leapfrog", RING, ""),
             space(
@@ -226,12 +224,17 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
                 RING,
                 "boxes overlap and gap along a circle",
             ),
-            space("expanding_ring", "updated cpgimp leapfrog cartesian", RING, "and ragged edges"),
+            space(
+                "expanding_ring",
+                "updated cpgimp leapfrog cartesian",
+                RING,
+                "boxes overlap and gap, and edges are ragged",
+            ),
         ],
     ),
     (
         "Moved and loaded faces",
-        "Nodes follow the field, or its stress acts on the surface.",
+        "Nodes at a face follow the field, or the traction of the field acts on the face.",
         &[
             space("uniform_stretch", "total linear leapfrog", LINE, ""),
             space("uniform_stretch", "updated cpdi leapfrog", LINE, ""),
@@ -253,14 +256,14 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
                 "sheared_block_2d",
                 "total linear leapfrog",
                 PLANE,
-                "likewise; 1.57, 1.81, 1.89 and a pass with amplitude=0.15, where it is stable",
+                "likewise; with amplitude=0.15, where the corner is stable, orders 1.57, 1.81, 1.89 and a pass",
             ),
             space("plane_strain_mooney_rivlin", "total linear leapfrog", PLANE, ""),
         ],
     ),
     (
-        "What must fail",
-        "Judged against order 2 all the same.",
+        "Methods that must fail",
+        "These methods are judged against order 2 as well.",
         &[
             space(
                 "bar_1d",
@@ -278,7 +281,7 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
     ),
     (
         "Other transfers",
-        "They lose nothing of the order.",
+        "They keep the order.",
         &[
             space("bar_1d", "updated cpgimp leapfrog apic", LINE, ""),
             space("bar_1d", "updated cpgimp leapfrog xpic2", LINE, ""),

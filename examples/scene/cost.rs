@@ -1,4 +1,4 @@
-//! What a variant costs: operations, machine code and time.
+//! The cost of a variant: operations, machine code and time.
 
 use std::path::Path;
 
@@ -13,12 +13,12 @@ use object::{Object as _, ObjectSection as _, SectionKind};
 
 use super::table::{Table, Variant};
 
-/// How many operations it takes to compute every quantity of a variant at a point.
+/// The number of operations to compute every quantity of a variant at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Operations {
-    /// All of them.
+    /// All operations.
     pub all: usize,
-    /// Those that depend on X.
+    /// The operations that depend on X.
     pub of_position: usize,
 }
 
@@ -44,8 +44,8 @@ impl Subject {
         Ok(Subject { variant, compiled })
     }
 
-    /// What is done at every evaluation. Each quantity is a call: what two of them share is computed
-    /// by both, but for what needs no X.
+    /// The operations of every evaluation. Each quantity is a call: both of two quantities compute the operations that
+    /// they share, except those without X.
     pub fn operations(&self) -> Operations {
         let program = &self.compiled.program;
         let outputs: Vec<Output> = Quantity::ALL
@@ -66,7 +66,7 @@ impl Subject {
         }
     }
 
-    /// How it is called for one point, and for many.
+    /// The functions to call for one point, and for many.
     fn ways(&self) -> [Way; 2] {
         match self.variant.is_kept {
             false => [Way::Single, Way::Batch],
@@ -83,7 +83,7 @@ impl Subject {
         Ok([one?, many?])
     }
 
-    /// The nanoseconds per point, one by one and for many: those of all quantities together.
+    /// The nanoseconds per point, one by one and for many, summed over all quantities.
     fn time(&self, times: &[Time], name: &str) -> [f64; 2] {
         self.ways().map(|way| {
             let own = times.iter().filter(|time| {
@@ -110,7 +110,7 @@ pub fn subjects(table: &Table) -> anyhow::Result<Vec<[Subject; 2]>> {
     pairs.collect()
 }
 
-/// The nanoseconds per point of these variants, which take turns.
+/// Measures the nanoseconds per point of these variants, which take turns.
 pub fn times(bench: &Workbench, pairs: &[[Subject; 2]]) -> anyhow::Result<Vec<[[f64; 2]; 2]>> {
     let subjects: Vec<&Subject> = pairs.iter().flatten().collect();
     let names: Vec<String> = (0..subjects.len()).map(|index| format!("subject_{index}")).collect();

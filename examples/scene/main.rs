@@ -1,5 +1,5 @@
-//! What modelling only what a scene requires saves: writes the page `docs/scene.md` to stdout. It
-//! compiles what is emitted with the `rustc` on the PATH, and takes some minutes.
+//! Writes the page `docs/scene.md` to stdout: the cost of a field, and of the parts that a scene requires. Compiles the emitted
+//! code with the `rustc` on the PATH, and takes some minutes.
 //!
 //! ```console
 //! $ cargo run --release --example scene > docs/scene.md

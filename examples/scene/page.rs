@@ -5,29 +5,29 @@ use mms_lab::workbench::Workbench;
 use super::cost::{Subject, subjects, times};
 use super::table::{TABLES, Table, Variant};
 
-/// What stands above the tables.
+/// The text above the tables.
 const HEAD: &str = "\
 # Model only what a scene requires
 
-What the same field costs a scene that takes more of it, and one that takes less. Made by a command;
-a test fails where the operations are out of date, and where less of a field takes more operations or
-more code:
+The cost of a field for a scene that uses all of it, and for a scene that uses a part. A command writes
+this page; a test fails if the operations are out of date, or if a part of a field takes more operations
+or more code than the whole:
 
 ```console
 $ cargo run --release --example scene > docs/scene.md
 ```
 
 * Operations are additions, subtractions, multiplications, divisions and calls of functions, from
-  parameters, time and position to the result. Each quantity is a call of its own: of what two have in
-  common, only what needs no X is done once. [operation-counts.md](operation-counts.md) has the stages.
-* Bytes are those of the instructions in an object file (COMPILER, ARCHITECTURE) with `prepare`,
-  `at_time`, a function for each quantity, and what is compiled for these: for one point, or for many,
-  with loops for AVX-512, for AVX2 and for everything else. Constants are not counted, nor functions
-  that are compiled with `mms-math`.
+  parameters, time and position to the result. Each quantity is a separate call: of the operations that two
+  quantities share, only those without X run once. [operation-counts.md](operation-counts.md) has the stages.
+* Bytes count the instructions in an object file (COMPILER, ARCHITECTURE) with `prepare`,
+  `at_time`, a function for each quantity, and the functions that these need: for one point, or for many,
+  with loops for AVX-512, for AVX2 and for everything else. Constants and functions compiled with
+  `mms-math` are not counted.
 * Times are nanoseconds per point, one by one and 4096 at once. They are medians of rounds in which all
-  rows of a table take turns, and comparable within a table alone.
+  rows of a table take turns. Compare them only within a table.
 
-In parentheses is the part that a number is of the one above it.
+Numbers in parentheses are ratios to the number above.
 ";
 
 /// The heading of every table.
@@ -36,7 +36,7 @@ pub const COLUMNS: &str = "\
 |---|---|---:|---:|---:|---:|---:|---:|
 ";
 
-/// The whole page; `progress` hears the title of every table before it is measured.
+/// The whole page; calls `progress` with the title of each table before measuring it.
 pub fn page(progress: impl Fn(&str)) -> anyhow::Result<String> {
     let bench = Workbench::open()?;
     let mut page =
@@ -68,7 +68,7 @@ fn section(bench: &Workbench, table: &Table) -> anyhow::Result<String> {
     Ok(format!("\n## {title}\n\n{about}\n\n{COLUMNS}{rows}\n{conclusion}\n"))
 }
 
-/// The cells of a row that no machine changes.
+/// The cells of a row that do not depend on the machine.
 pub fn counted(variants: &[Variant; 2], subjects: &[Subject; 2], index: usize) -> String {
     let [whole, own] = [subjects[0].operations(), subjects[index].operations()];
     let all = part(own.all, whole.all, index);
@@ -77,7 +77,7 @@ pub fn counted(variants: &[Variant; 2], subjects: &[Subject; 2], index: usize) -
     format!("| {} | {name} | {all} | {of_position} |", variants[index].field())
 }
 
-/// A number, and what part it is of that in the row above.
+/// A number, with its ratio to the number in the row above.
 fn part(number: usize, whole: usize, row: usize) -> String {
     format!("{number}{}", share(number as f64, whole as f64, row))
 }

@@ -1,20 +1,20 @@
-//! What is compared with what.
+//! The tables of the page: pairs of variants of a field, with the texts around them.
 
 use mms_program::precision::Precision;
 use mms_spec::quantity::Quantity;
 
-/// A field, and what of it a scene takes.
+/// A field, and the part of it that a scene uses.
 #[derive(Clone, Copy)]
 pub struct Variant {
-    /// What it is called in its table.
+    /// The name in the table.
     pub name: &'static str,
     /// The path of the field file.
     pub path: &'static str,
-    /// Whether the body force is all that is wanted.
+    /// Whether the body force is the only quantity.
     pub is_forcing: bool,
     /// Whether the parameters are constants.
     pub is_frozen: bool,
-    /// Whether what X determines is kept of each point.
+    /// Whether values that depend on X alone are kept for each point.
     pub is_kept: bool,
     /// The precision.
     pub precision: Precision,
@@ -26,7 +26,7 @@ impl Variant {
         self.path.rsplit('/').next().unwrap_or(self.path).trim_end_matches(".toml")
     }
 
-    /// The quantities; none stands for all.
+    /// The quantities; `None` for all.
     pub fn quantities(&self) -> Option<&'static [Quantity]> {
         self.is_forcing.then_some(&[Quantity::BodyForce])
     }
@@ -48,20 +48,20 @@ const fn forcing(path: &'static str) -> Variant {
     }
 }
 
-/// All quantities of it.
+/// All quantities of a field, in double precision.
 const fn everything(path: &'static str) -> Variant {
     Variant { name: "all quantities", is_forcing: false, ..forcing(path) }
 }
 
-/// What stands in a table.
+/// A table with its texts.
 pub struct Table {
-    /// Its heading.
+    /// The heading.
     pub title: &'static str,
-    /// What is compared.
+    /// The text above: the compared variants.
     pub about: &'static str,
-    /// Each more than a scene may require, and what it does.
+    /// Pairs: more than a scene may require, and only the required part.
     pub pairs: &'static [[Variant; 2]],
-    /// What follows from it.
+    /// The text below: the conclusion.
     pub conclusion: &'static str,
 }
 
@@ -102,65 +102,65 @@ pub const TABLES: &[Table] = &[
     Table {
         title: "The body force alone, or all quantities",
         about: "\
-`quantities = [body_force]`, beside a call for every quantity that there is.",
+`quantities = [body_force]`, compared with a call for every quantity.",
         pairs: &[alone(BAR), alone(VORTEX), alone(COLUMN)],
         conclusion: "\
-Ask for what the solver reads: b alone is a tenth of the whole or less, in most columns. A call costs
-no more where other functions are emitted beside it. So what the selection saves is code, and the time
-of a build; what is not called takes no time anyway.",
+Request the quantities that the solver reads: in most columns b alone is a tenth of the whole or less. A
+call costs no more if other functions are emitted beside it. So the selection saves code and build time;
+functions that nothing calls take no time anyway.",
     },
     Table {
         title: "Parameters that are constants, or free",
-        about: "`freeze`, of b alone.",
+        about: "`freeze`; b alone.",
         pairs: &[frozen(BAR), frozen(VORTEX), frozen(SHEAR)],
         conclusion: "\
-What only parameters determine is folded, and its code is gone: that is most of what is saved. A loop
-over many points has these numbers ready in either case, and gains little or nothing; but the angle of
-`generalized_vortex` is then proved to be less than a quarter turn, and needs no reduction. Nor is it sure to
-get shorter: in `twisted_column`, `sheared_block_2d`, `self_weight_column` and `quiet_boundary_2d`
-numbers that are multiplied out hide what terms have in common, and a few more operations depend on X.",
+The compiler folds terms that depend only on parameters, and emits no code for them: that is most of the
+saving. A loop over many points computes these terms before it starts in either case, and gains little or
+nothing. But the angle of `generalized_vortex` is then proved to be less than a quarter turn, and needs no
+reduction. Freezing may also add operations: in `twisted_column`, `sheared_block_2d`, `self_weight_column` and
+`quiet_boundary_2d` folded numbers hide common factors, and a few more operations depend on X.",
     },
     Table {
         title: "One dimension, or the same motion in three",
         about: "\
-u = f(X, t) in a bar, beside u = (f(X, t), 0, 0) in a cube, of b alone.",
+u = f(X, t) in a bar, compared with u = (f(X, t), 0, 0) in a cube; b alone.",
         pairs: &[ALONG_ONE_AXIS],
         conclusion: "\
-What is zero folds: the motion of one dimension takes the same operations in three, and about the same
-code for a point. What is left are the columns of a batch, three to read and three to write. So a
-scene of one dimension needs no field of three, and loses little with it.",
+Zeros fold: a motion along one axis takes the same operations in three dimensions, and about the same code
+for a point. The difference is in a batch, which reads three columns and writes three. So a scene of one
+dimension needs no field of three, and loses little with it.",
     },
     Table {
         title: "At rest, or in motion",
         about: "\
-The displacement that a standing wave has at t = 0, beside the wave, of b alone.",
+The displacement of a standing wave at t = 0, compared with the wave; b alone.",
         pairs: &[[forcing(DYNAMIC), forcing(STATIC)]],
         conclusion: "\
-Without t there are no velocity and no acceleration, nothing to do at a new time, and one loop in place
-of two. The divergence of P, which is most of b, remains: it is the next table that saves that.",
+Without t there are no velocity, no acceleration and no work at a new time, and one loop in place of two.
+The divergence of P, which is most of b, remains; the next table shows how to save it.",
     },
     Table {
-        title: "What X determines kept, or computed again",
+        title: "Values of X alone, kept or computed again",
         about: "\
-`body_force_at` and `body_force_batch_at`, beside `body_force` and `body_force_batch`. What is done
-once per point, `at_point` and `at_points`, is among the bytes, and neither among the operations nor
-in the times.",
+`body_force_at` and `body_force_batch_at`, compared with `body_force` and `body_force_batch`. The bytes
+include `at_point` and `at_points`, which run once per point; operations and times do not.",
         pairs: &[kept(BAR), kept(VORTEX), kept(WAVES), kept(COLUMN), kept(STATIC)],
         conclusion: "\
-Keep what X determines where that is sines, roots and exponentials; at rest it is all of b. Where it is
-five sums and products, as in the bar, reading takes as long as computing. The loops that keep points are
-code too: up to a third more, in the bar twice as much. The 4096 points are near. Columns are chosen for
-points that are not, and for few bytes: a number that up to three sums and products make of others is no
-column. Near points may take longer for it; where columns come from memory, it takes less time.",
+Keep the values that depend on X alone if they are sines, roots and exponentials; at rest they are all of b.
+If they are five sums and products, as in the bar, reading takes as long as computing. The loops over kept
+points are code too: up to a third more, in the bar twice as much. The 4096 points of this table are in the
+cache. The compiler chooses columns for points in memory, with few bytes: a number that up to three sums and
+products compute from others is no column. That may take longer for points in the cache, and takes less time
+for columns in memory.",
     },
     Table {
         title: "Single precision, or double",
-        about: "`f32`, beside `f64`, of b alone.",
+        about: "`f32`, compared with `f64`; b alone.",
         pairs: &[single(BAR), single(VORTEX), single(COLUMN)],
         conclusion: "\
 The operations are the same, and twice as many numbers fit into a vector: many points take about half
-of the time. [accuracy.md](accuracy.md) has the errors. There is more code, since what needs no X is
-computed in `f64`, whose functions are compiled with it, and for `f64` in twice its digits, whose
-functions are in `mms-math`.",
+of the time. [accuracy.md](accuracy.md) has the errors. `f32` has more code, since terms without X are
+computed in `f64`, whose functions are compiled with it; `f64` computes them in twice its digits, with
+functions in `mms-math`.",
     },
 ];
