@@ -1,4 +1,4 @@
-//! What the page and its test measure.
+//! Measurements of the page and its test.
 
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ pub fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// Measures what is asked for of a field.
+/// Measures the requested errors of a field.
 pub fn measured(path: &Path, request: &Request) -> Accuracy {
     let (name, shown) = (stem(path), path.display().to_string());
     let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{shown}: {error}"));
@@ -55,7 +55,7 @@ pub fn regimes(accuracy: &Accuracy) -> Vec<String> {
     regimes
 }
 
-/// The quantity that fares worst, and how many components were lost in all quantities.
+/// The quantity with the largest error, and the number of components lost in all quantities.
 pub fn worst<'a>(
     accuracy: &'a Accuracy,
     regime: &str,

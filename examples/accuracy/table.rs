@@ -6,50 +6,50 @@ use mms_spec::Form;
 
 use crate::sample::{columns, files, measured, regimes, stem, worst};
 
-/// What stands above the table.
+/// The text above the table.
 const HEAD: &str = "\
 # Accuracy
 
-The errors of what is generated, against arbitrary precision: for every field of the gallery and
+The errors of generated code against arbitrary precision: for every field of the gallery and
 every regime, the largest |error| over points and components over the largest |value| of that
-quantity, in eps of the precision (f32: 2^-23, f64: 2^-52, wide: 2^-104). Each entry is of the
-quantity that fares worst, and names it by its symbol. Made by a command, at the number of points and
-times that it states, in half an hour of two processors; a test measures every row again at fewer:
+quantity, in eps of the precision (f32: 2^-23, f64: 2^-52, wide: 2^-104). Each entry shows the
+quantity with the largest error, by its symbol. The command below writes this page in half an hour on
+two processors; its argument is the number of points and times. A test measures every row again at fewer:
 
 ```console
 $ cargo run --release --example accuracy -- POINTS > docs/accuracy.md
 ```
 
-`mms accuracy FIELD` shows the same quantity by quantity, with the median and the other quantiles of
-|error|/|value|, and what the code costs.
+`mms accuracy FIELD` shows the errors of each quantity, with the median and the other quantiles of
+|error|/|value|, and the cost of the code.
 
 | regime | the field is evaluated |
 |---|---|
-| `declared` | as its file says |
-| `displacement_1e-4` ... | with a displacement of that part of its size |
-| `jacobian_1e-3`, `jacobian_1e-6`, `jacobian_1e3` | with an amplitude such that J falls, or rises, to that |
+| `declared` | as its file declares it |
+| `displacement_1e-4` ... | with a displacement of 1e-4 ... of its size |
+| `jacobian_1e-3`, `jacobian_1e-6`, `jacobian_1e3` | with an amplitude that lowers, or raises, J to that number |
 | `lambda_mu_1e8`, `lambda_mu_0` | with that lambda/mu in its material |
 | `moduli_1e-9`, `moduli_1e9`; `lengths_1e-9`, `lengths_1e9` | with parameters of that size, in their unit |
 | `origin_1e6` | 1e6 of its sizes off the origin: u(X - s, t) |
 | `time_1e6` | 1e6 time windows later |
 | `subnormal_inputs`, `largest_inputs` | at a coordinate or a time that is subnormal, or the last finite number |
-| `subnormal_amplitude`, `largest_amplitude` | with an amplitude that is that |
+| `subnormal_amplitude`, `largest_amplitude` | with an amplitude that is subnormal, or the last finite number |
 
-A field whose parameters do not scale its displacement gets a factor for that. Where J is near 0, an
-error of eps in X already changes what is divided by J by eps/J: no evaluation in that precision does
-better. `lost` counts components that are not finite although the true value is within range; those
-whose true value is beyond it are no loss. Magnitudes below the least normal number count as that one.
+If no parameter of a field scales its displacement, the regimes multiply it by a factor. If J is near 0, an
+error of eps in X changes quantities divided by J by eps/J: no evaluation in that precision does
+better. `lost` counts components that are not finite although the true value is within range; if the true
+value is beyond the range, nothing is lost. Magnitudes below the least normal number count as that number.
 
-The stable form promises 64 eps as declared, and at displacements down to 1e-12 of the size: a test
-holds the page to that, with the one exception below, and in single and double precision to the same
-1e6 time windows later. But for J near 0 and far from 1, and for inputs and amplitudes at the ends of
-the range, beyond 64 eps is, in the stable form,
+The stable form promises 64 eps as declared, and at displacements down to 1e-12 of the size. A test
+checks the page for it, with the one exception below; in single and double precision also 1e6 time
+windows later. Apart from J near 0 or far from 1, and inputs and amplitudes at the ends of the range, the
+stable form exceeds 64 eps in these cases:
 
 | regime | what is lost | why |
 |---|---|---|
-| `displacement_1e-4` and below of `self_weight_column` | eps/e^2 of u, eps/e of H and the stress at a strain e | u is a logarithm times a length that grows with 1/e, less X: what is of first order cancels in rounded numbers |
-| `time_1e6` | 1e6 eps in twice the digits | single and double precision take t to its part of a period with twice their digits; twice the digits have no more |
-| `lengths_1e9`, `moduli_1e-9` in single precision | what they say | squares of lengths, or modulus times area, near the end of the range |
+| `displacement_1e-4` and below of `self_weight_column` | eps/e^2 of u, eps/e of H and the stress at a strain e | u is a logarithm times a length that grows with 1/e, less X: the terms of first order cancel in rounded numbers |
+| `time_1e6` | 1e6 eps in twice the digits | single and double precision reduce t to its part of a period with twice their digits; `wide` has no more digits |
+| `lengths_1e9`, `moduli_1e-9` in single precision | as their rows show | squares of lengths, or modulus times area, near the end of the range |
 
 ";
 
@@ -64,7 +64,7 @@ fn cell(accuracy: &Accuracy, regime: &str, column: (Precision, Form)) -> String 
     }
 }
 
-/// The whole page; `progress` hears the name of every field before it begins.
+/// The whole page; calls `progress` with the name of each field before measuring it.
 pub fn page(points: usize, mut progress: impl FnMut(&str)) -> String {
     let mut text = HEAD.replace("POINTS", &points.to_string());
     let names = columns().map(|(precision, form)| format!("{} {}", precision.name(), form.name()));

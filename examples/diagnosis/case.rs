@@ -1,4 +1,4 @@
-//! One case: a solver with a mistake, and what is said of its results.
+//! One case: a solver with a mistake, and the diagnosis of its results.
 
 use mms_diagnosis::answer::{Diagnosis, Finding};
 use mms_diagnosis::changed::{Changed, Without};
@@ -20,16 +20,16 @@ use mms_runtime::{
 pub enum Case {
     /// The mistake is in the list.
     Closed,
-    /// Its family is not.
+    /// No mistake of its family is in the list.
     Open,
-    /// There are two, both in the list.
+    /// Two mistakes, both in the list.
     Two,
-    /// There is none.
+    /// No mistake.
     Right,
 }
 
 impl Case {
-    /// Its name.
+    /// The name in the table.
     pub fn name(self) -> &'static str {
         match self {
             Case::Closed => "closed",
@@ -40,22 +40,22 @@ impl Case {
     }
 }
 
-/// How a case ended.
+/// The result of a case.
 #[derive(Debug)]
 pub struct Outcome {
     /// `right`, `wrong`, `unexplained` or `nothing`.
     pub finding: &'static str,
     /// The field.
     pub field: String,
-    /// What the mistake is called.
+    /// The name of the mistake.
     pub name: &'static str,
     /// The mistake, its size and the method.
     pub mistake: String,
-    /// What stands first.
+    /// The first name of the answer.
     pub first: String,
-    /// The share of the squared error that it explains.
+    /// The share of the squared error that the first name explains.
     pub explained: f64,
-    /// Whether what explains most is the mistake.
+    /// Whether the hypothesis that explains most is the mistake.
     pub is_right_by_share: bool,
 }
 
@@ -83,7 +83,7 @@ impl Observer for States {
 /// A mistake with its size.
 type Mistake<'a, const D: usize> = (&'a Hypothesis<D>, Vec<f64>);
 
-/// What a user writes of a run with up to two mistakes.
+/// The results of a run with up to two mistakes, as a user writes them; `None` if the run fails.
 fn written<const D: usize>(
     exact: &Exact<'_, D>,
     method: &Method,
@@ -114,7 +114,7 @@ where
     Some(Mesh { cell_size: run.level.cell_size, time_step: None, snapshots })
 }
 
-/// X and u of a state, with what is written wrongly.
+/// X and u of a state, with the mistake if it is one of the output.
 fn snapshot<const D: usize>(
     exact: &Exact<'_, D>,
     state: &State,
@@ -134,7 +134,7 @@ fn snapshot<const D: usize>(
     Snapshot { time: state.time, reference, values, ..Snapshot::default() }
 }
 
-/// A method that a user may have.
+/// Draws a method that a user may have.
 fn method(case: Case, random: &mut fastrand::Rng) -> Method {
     let shapes = [
         ShapeName::Linear,
@@ -162,7 +162,7 @@ fn method(case: Case, random: &mut fastrand::Rng) -> Method {
     }
 }
 
-/// A size of a mistake: its distance from the right one is 0.1 to 3 times the first that is tried.
+/// Draws a size of a mistake: its distance from the right size is 0.1 to 3 times the distance of the first tried size.
 fn sized<const D: usize>(hypothesis: &Hypothesis<D>, random: &mut fastrand::Rng) -> Vec<f64> {
     let Size::Any { right, first, .. } = &hypothesis.size else { return Vec::new() };
     let sign = if random.bool() { 1.0 } else { -1.0 };
@@ -175,13 +175,13 @@ fn sized<const D: usize>(hypothesis: &Hypothesis<D>, random: &mut fastrand::Rng)
     right.iter().zip(first).map(part).collect()
 }
 
-/// The size on a mesh that is so many times coarser.
+/// The size on a mesh that is `coarser` times as coarse.
 fn on_mesh<const D: usize>(size: &[f64], hypothesis: &Hypothesis<D>, coarser: usize) -> Vec<f64> {
     let factor = if hypothesis.is_of_mesh { coarser as f64 } else { 1.0 };
     size.iter().map(|it| it * factor).collect()
 }
 
-/// Hypotheses with effects of one kind, which stand for each other.
+/// The family of a hypothesis: all members have effects of one kind.
 fn family<const D: usize>(hypothesis: &Hypothesis<D>) -> &'static str {
     match hypothesis.name {
         "stress_small_strain" | "material" => "law",
@@ -198,7 +198,7 @@ fn family<const D: usize>(hypothesis: &Hypothesis<D>) -> &'static str {
     }
 }
 
-/// Draws a case, and diagnoses it; `None` where it does not count.
+/// Draws a case, and diagnoses it; `None` if it does not count.
 pub fn drawn<const D: usize>(
     field: &str,
     manufactured: &dyn ManufacturedField<f64, D>,
@@ -264,14 +264,14 @@ where
     Some(outcome(&answer, &hypotheses, case, &titles, Told { field, name, mistake }))
 }
 
-/// What a case is called.
+/// The texts that describe a case.
 struct Told<'a> {
     field: &'a str,
     name: &'static str,
     mistake: String,
 }
 
-/// Whether mistakes that are made together are of different families, and of what is computed.
+/// Whether two mistakes are of different families, and both of computed quantities; true for fewer than two.
 fn are_apart<const D: usize>(hypotheses: &[Hypothesis<D>], truths: &[usize]) -> bool {
     let [first, second] = truths else { return true };
     let [first, second] = [first, second].map(|it| &hypotheses[*it]);

@@ -1,10 +1,10 @@
 //! Writes docs/diagnosis.md: how often `mms diagnose` names a mistake, and how often wrongly.
 //!
-//! `cargo run --release --example diagnosis -- SEED CASES > docs/diagnosis.md`; a case in a plane takes some 20 s. The script in
-//! `elements` adds what becomes of a solver that shares nothing.
+//! `cargo run --release --example diagnosis -- SEED CASES > docs/diagnosis.md`; a case in a plane takes some 20 s. The scripts in
+//! `elements` add the sections about an independent solver.
 //!
-//! Cases are drawn, not chosen: a field, a mistake with a size, a method, meshes, a layout of particles, a time. All that were
-//! drawn count, but for those whose error is not three times that of the right run, and those that stop.
+//! A case is drawn, not chosen: a field, a mistake with a size, a method, meshes, a layout of particles, a time. It counts if it
+//! does not stop, and if its error exceeds three times the error of the right run.
 
 mod case;
 
@@ -19,27 +19,29 @@ use mms_diagnosis::list::listed;
 use mms_exact::gallery;
 use mms_runtime::scene::Scene;
 
-/// What stands before the table.
+/// The text before the table.
 const INTRODUCTION: &str = "\
 # Diagnosis, measured
 
-A solver makes a mistake of a size on a field of the gallery, and writes its displacements at two times, on one mesh or two. Its
-method is drawn: shape function, integrator, transfer, formulation, jitter, offset of the grid. `mms diagnose` gets these
-results, and no more. Fields, mistakes, sizes, methods, meshes and times are drawn from a seed. Cases whose error is not
-three times that of the right run are drawn again, and so are runs that stop. The list of hypotheses is that of this
-version (its hash is printed): it was not changed after the seed was drawn. The solvers share the code of the mistakes with
-the hypotheses; their methods are of the same project.
+A solver makes a mistake of some size on a field of the gallery, and writes its displacements at two times, on one mesh or two.
+`mms diagnose` gets only these results. A seed determines fields, mistakes, sizes, meshes, times and methods: shape function,
+integrator, transfer, formulation, jitter, offset of the grid. A case is drawn again if a run stops, or if its error is at most
+three times the error of the right run. The list of hypotheses belongs to this version (its hash is printed), and was not
+changed after the seed was drawn. The solvers share the code of the mistakes with the hypotheses; their methods are of the
+same project.
 
-* closed: the mistake is in the list. Right is what stands first, or is named as the same.
-* open: the family of the mistake is taken out of the list, so that each name is wrong.
-* two: two mistakes at once, of different families, in what is computed. Right is one of them.
+* closed: the mistake is in the list. The answer is right if the mistake is the first name, or equivalent to it.
+* open: the family of the mistake is removed from the list, so that every name is wrong.
+* two: two mistakes at once, of different families, in computed quantities. The answer is right if it names one of them.
 * right: no mistake, integrators of second order.
 
-`conformal_sector_2d` is left out: it is unstable under its own loads, so that no solver can follow it. An
-interval is that of Wilson, for 95 %.
+In `share alone right`, the mistake explains the largest part of the error, whether or not the answer names it.
+
+`conformal_sector_2d` is left out: it is unstable under its own loads, so no solver can follow it. Intervals
+are for 95 %, after Wilson.
 ";
 
-/// Left out: no solver can follow them.
+/// Fields that are left out: no solver can follow them.
 const UNSTABLE: &[&str] = &["conformal_sector_2d"];
 
 /// How a set of cases ended.
@@ -50,7 +52,7 @@ struct Tally {
     wrong: usize,
     unexplained: usize,
     nothing: usize,
-    /// What explains the largest part of the error, whether or not it may be.
+    /// The cases in which the mistake explains the largest part of the error, named or not.
     by_share_alone: usize,
 }
 
@@ -114,7 +116,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     println!(
-        "\nWhat was named wrongly:\n\n| set | field | mistake | named | explains |\n|---|---|---|---|---|"
+        "\nWrong names:\n\n| set | field | mistake | named | explains |\n|---|---|---|---|---|"
     );
     for (set, it) in wrong {
         println!(
@@ -129,7 +131,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A hash of what the hypotheses about these fields are.
+/// A hash of the hypotheses about these fields.
 fn hash<'a>(scenes: impl Iterator<Item = &'a Scene<f64>>) -> u64 {
     let mut hasher = DefaultHasher::new();
     let listed = scenes.flat_map(|scene| match scene {

@@ -216,18 +216,18 @@ fn words(looks: Looks) -> [String; Check::ALL.len()] {
 const INTRODUCTION: &str = "\
 # Deliberate mistakes
 
-A suite that does not fail for a seeded defect is no verification suite. Each of these mistakes was made in the
-solver, or in what derives b, and rows of the quick [verification matrix](verification.md) were run with it. The
-columns on the right are what \"pseudo verification\" says of the very same runs: `objects` where it sees that
-something is wrong, `content` where it does not, `-` where it cannot tell, or objects to the right program as well.
+A verification suite must fail if the program has a defect. Each of these mistakes was made in the solver or in the
+derivation of b, and rows of the quick [verification matrix](verification.md) were run with it. The
+columns on the right are the answers of \"pseudo verification\" to the same runs: `objects` if it finds a fault,
+`content` if it finds none, `-` if it cannot tell, or also objects to the correct program.
 
-| check | objects where |
+| check | objects if |
 |---|---|
-| picture | u is off by a tenth, seen beside the exact solution on the finest grid |
-| bounded | a run stops, or something moves further than the body is long |
-| symmetric | a motion that is its own mirror image does not stay it, to a millionth |
-| energy | kinetic and strain energy differ from what b has put in by a twentieth |
-| settles | half the cell size changes the size of the motion by more than a twentieth |
+| picture | u differs from the exact solution by more than 10 % on the finest grid |
+| bounded | a run stops, or a displacement exceeds the length of the body |
+| symmetric | a motion that is its own mirror image loses the symmetry by more than 1e-6 |
+| energy | kinetic and strain energy differ from the work of b by more than 5 % |
+| settles | half the cell size changes the size of the motion by more than 5 % |
 
-Made by `cargo run --release --features defects -- verify --defects --page > docs/defects.md`.
+The command is `cargo run --release --features defects -- verify --defects --page > docs/defects.md`.
 ";

@@ -236,14 +236,14 @@ impl Shown for List<'_> {
 const INTRODUCTION: &str = "\
 # Verification matrix
 
-One mode at a time, each by the field that isolates it. Rows are data, in `mms-verify/src/matrix.toml`, with what
-theory expects beside it; here is what is observed. Made by `cargo run --release -- verify --page >
-docs/verification.md`.
+Each row tests one mode of the solver, with the field that isolates it. The rows are data in
+`mms-verify/src/matrix.toml`, with the order that theory expects; this page adds the observed orders. The command is
+`cargo run --release -- verify --page > docs/verification.md`.
 
-Where the time step alone is refined, the order is that in time. Orders are those of l2 between neighbouring
-levels, coarse to fine; the constant is l2 over h^order or dt^order, in the units of the field, and held to one
-percent. `none` as a formal order means that the error must not shrink, or the run stop, and `exact` that
-there must be no error but rounding.
+If only the time step is refined, the order is the order in time. Observed orders compare l2 of neighbouring
+levels, from coarse to fine. The constant is l2 over h^order or dt^order, in the units of the field, and may differ by
+1 %. The formal order `none` means that the error must not shrink, or that the run stops; `exact` means that
+rounding is the only error.
 ";
 
 /// The cells of a line of the page that follow from the row alone.

@@ -1,10 +1,10 @@
-"""How often `mms diagnose` names the mistakes of a solver that shares nothing with it.
+"""Measures how often `mms diagnose` names the mistakes of an independent solver.
 
     python3 examples/diagnosis/elements/draw.py MMS SEED WRONG RIGHT >> docs/diagnosis.md
 
-MMS is the command. Fields, mistakes with their sizes, elements, meshes, times and time steps are drawn from the seed; every case
-counts whose error is three times that of the right run, and does not stop. Exits 1 if a name is wrong, or if a right run is accused
-that `mms judge` passes.
+MMS is the command; it gets WRONG cases with a mistake and RIGHT without. Fields, mistakes with their sizes, elements, meshes, times and
+time steps are drawn from the seed. A case counts if it does not stop and its error exceeds three times the error of the right run.
+Exits 1 if a name is wrong, or if `diagnose` accuses a right run that `mms judge` passes.
 """
 
 import importlib
@@ -28,7 +28,7 @@ FIELDS = [
     "nearly_incompressible_2d",
     "sheared_block_2d",
 ]
-# The sizes of each mistake; of faces the claims of those on which it is made.
+# The sizes of each mistake; for a mistake on a face, a tuple of the claims of possible faces.
 MISTAKES = {
     "force_sign": [None],
     "inertia_missing": [None],
@@ -51,7 +51,7 @@ MISTAKES = {
     "traction_missing": ("traction",),
     "traction_sign": ("traction",),
 }
-# Names that say the same: those of sizes, and those that are one formula for b per mass inside a body.
+# Other names that count as right: names of sizes, and names with the same formula for b per mass inside a body.
 SAME = {
     "force_factor": {"force_missing", "force_half", "force_twice", "force_reversed"},
     "force_late": {"force_early"},
@@ -66,7 +66,7 @@ LARGE = 3.0  # times the error of the right run
 
 
 class Case:
-    """What is drawn, but for the mistake."""
+    """A drawn case without its mistake."""
 
     def __init__(self, command, random):
         self.name = FIELDS[random.integers(len(FIELDS))]
@@ -80,7 +80,7 @@ class Case:
         self.meshes = [Mesh(self.field, self.element, n, self.irregular, random) for n in self.cells]
 
     def solved(self, mistake, size):
-        """u on each mesh; None where a run stops."""
+        """u on each mesh; None if a run stops."""
         solvers = [Solver(self.field, self.faces, mesh, mistake, size) for mesh in self.meshes]
         runs = [solver.until(self.end, self.courant) for solver in solvers]
         return None if any(u is None for u in runs) else runs
@@ -91,7 +91,7 @@ class Case:
         return np.sqrt(np.mean((u[-1] - exact) ** 2))
 
     def diagnosed(self, command, u):
-        """What the command says of results."""
+        """The command's diagnosis of the results."""
         with tempfile.TemporaryDirectory() as folder:
             paths = [os.path.join(folder, f"{n}.csv") for n in self.cells]
             for path, mesh, values in zip(paths, self.meshes, u):
@@ -106,7 +106,7 @@ class Case:
 
 
 def load(command, name):
-    """The emitted module of a field, and what it claims of its faces."""
+    """The emitted module of a field, and its claims about faces."""
     if name not in load.known:
         subprocess.run([command, "emit", name, "--target", "numpy", "-o", load.folder], check=True, capture_output=True)
         fields = json.loads(subprocess.run([command, "list", "--json"], capture_output=True, text=True).stdout)
@@ -117,7 +117,7 @@ def load(command, name):
 
 
 def drawn_mistake(case, random):
-    """A mistake with its size, or None where the field has no such face."""
+    """A mistake with its size, or None if the field has no such face."""
     names = list(MISTAKES)
     mistake = names[random.integers(len(names))]
     sizes = MISTAKES[mistake]
@@ -136,7 +136,7 @@ def outcome(answer, mistake):
 
 
 def wilson(count, every):
-    """The interval of a share, for 95 %, in percent."""
+    """The count, with the 95 % interval of its share in percent."""
     z, share = 1.96, count / every
     middle, width = share + z * z / (2 * every), z * np.sqrt(share * (1 - share) / every + (z / (2 * every)) ** 2)
     low, high = (100 * (middle + sign * width) / (1 + z * z / every) for sign in (-1, 1))
@@ -181,15 +181,16 @@ def main():
             if found != "right":
                 best = answer["ranked"][0]["hypothesis"]
                 missed.append((case.told(), told, f"{found}: {best}" if found == "wrong" else found))
-    print("\n## By a solver that shares nothing\n")
-    print("Finite elements in NumPy (`examples/diagnosis/elements`), explicit, P1 and Q1, on regular and irregular meshes; the mistakes are")
-    print("typed there by hand. u at one time, on one mesh or two. Drawn as above, after the last change of the hypotheses.\n")
+    print("\n## By an independent solver\n")
+    print("The solver is explicit finite elements in NumPy (`examples/diagnosis/elements`), P1 and Q1, on regular and irregular meshes, with")
+    print("mistakes typed by hand. It writes u at one time, on one mesh or two. Cases are drawn as above, after the last change of the hypotheses.\n")
     print(f"Seed {seed}.\n\n| set | cases | named right | named wrong | unexplained | nothing |\n|---|---|---|---|---|---|")
     for name, of in tally.items():
         every = sum(of.values())
         print(f"| {name} | {every} | {' | '.join(wilson(of[kind], every) for kind in kinds)} |")
-    print(f"\nOf the right runs `mms judge` does not pass {coarse}, whose meshes are too coarse to show the order. Of the others {accused} are accused.")
-    print("\nWhat was not named rightly:\n\n| case | mistake | found |\n|---|---|---|")
+    print(f"\n`mms judge` does not pass {coarse} of the right runs, whose meshes are too coarse to show the order; `diagnose` is never milder, and calls")
+    print(f"these `unexplained`. Among the other right runs, `diagnose` accuses {accused}.")
+    print("\nNot named rightly:\n\n| case | mistake | found |\n|---|---|---|")
     for row in missed:
         print(f"| {' | '.join(row)} |")
     return any(of["wrong"] for of in tally.values()) or accused > 0

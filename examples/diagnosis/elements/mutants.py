@@ -1,11 +1,11 @@
-"""Whether the ladder of `mms diagnose` finds the stage of a solver in which an operator was changed.
+"""Measures whether the ladder of `mms diagnose` finds the stage of a solver in which an operator was changed.
 
     python3 examples/diagnosis/elements/mutants.py MMS [EVERY] >> docs/diagnosis.md
 
-Each mutant is solver.py with one operator, operand, sign, order of axes or statement changed, by rule and not by choice; its stage is
-that of the function that it is in. MMS, the command, gets what a user would give it: a table of F and P; forces at nodes at an
-exact state, with all terms and without one; then results of two meshes. A mutant counts if it runs and its error is three times that
-of the right solver. With EVERY, one of so many mutants is tried. Exits 1 where fewer than 80 % of the stages are right.
+Each mutant is solver.py with one operator, operand, sign, order of axes or statement changed, by rule and not by choice; the changed
+function determines its stage. MMS, the command, gets the input that a user would give it: a table of F and P; forces at nodes at an
+exact state, with all terms and without one; then results of two meshes. A mutant counts if it runs and its error exceeds three times
+the error of the right solver. With EVERY, every EVERY-th mutant is tried. Exits 1 if fewer than 80 % of the stages are right.
 """
 
 import ast
@@ -45,7 +45,7 @@ STAGES = {
     "until": "time",
     "write": "output",
 }
-# What is at fault where leaving out a term leaves nothing wrong, and where results are wrong and the balance is not.
+# The stage at fault, by the term without which the balance is right, and by the named change of results if the balance is right.
 OF_TERM = {"stress": "kinematics", "body_force": "force", "traction": "boundary"}
 OF_CHANGE = {
     "start": "start",
@@ -60,7 +60,7 @@ TIME = 0.3  # of the window
 
 
 def changes(node):
-    """What a node may become: what is changed, and the other node."""
+    """The changes of a node: a name for each, and the new node."""
     match node:
         case ast.BinOp(left, op, right) if type(op) in SWAPPED:
             yield "operator", ast.BinOp(left, SWAPPED[type(op)](), right)
@@ -80,7 +80,7 @@ def changes(node):
 
 
 def mutants(source):
-    """The stage of each mutant, what is changed in which line, and its text."""
+    """The stage of each mutant, its change and line, and its source."""
     places = [
         (function.name, at, change)
         for function in ast.walk(ast.parse(source))
@@ -105,7 +105,7 @@ def mutants(source):
 
 
 class Trial:
-    """A solver, and what it makes of the field."""
+    """A solver, with its results on the field."""
 
     def __init__(self, command, folder, source):
         self.command, self.folder = command, folder
@@ -127,7 +127,7 @@ class Trial:
         return solver.broadcast(getattr(self.field.at_time(self.time), quantity)(*mesh.x), mesh.x[0])
 
     def results(self):
-        """u of both meshes as it is written, or None where a run stops."""
+        """The written file of the finest mesh, or None if a run stops; writes u of both meshes."""
         runs = []
         for mesh, spacing in zip(self.meshes, self.spacings):
             u = self.solver(mesh).until(self.time, COURANT)
@@ -139,7 +139,7 @@ class Trial:
         return written.T if np.isfinite(written).all() else None
 
     def error(self):
-        """Of what is written for the finest mesh."""
+        """The error of the written u of the finest mesh."""
         written = self.results()
         if written is None:
             return None
@@ -165,7 +165,7 @@ class Trial:
         return self.diagnosed([self.path("law")], "--quantity", "stress")["finding"] == "nothing"
 
     def balance_is_right(self, without=()):
-        """Whether the forces at nodes are, at the exact state."""
+        """Whether the forces at nodes are right at the exact state."""
         files = []
         for mesh, spacing in zip(self.meshes, self.spacings):
             tried = self.solver(mesh, without)
@@ -191,11 +191,11 @@ class Trial:
         if answer["finding"] == "nothing":
             return "none"
         name = answer["ranked"][0]["hypothesis"] if answer["finding"] == "named" else None
-        # The balance is right, and no hypothesis of what is left explains the error.
+        # The balance is right, and no other hypothesis explains the error.
         return OF_CHANGE.get(self.changes().get(name), "time")
 
     def changes(self):
-        """What each hypothesis changes."""
+        """The part of the solution that each hypothesis changes."""
         run = subprocess.run([self.command, "diagnose", FIELD, "--list", "--json"], capture_output=True, text=True)
         return {it["hypothesis"]: it["changes"] for it in json.loads(run.stdout)["hypotheses"]}
 
@@ -227,17 +227,18 @@ def main():
             if said != stage:
                 missed.append((stage, said, what))
     print("\n## Operators of a solver\n")
-    print("Each mutant is the solver of the section above with one operator, operand, sign, order of axes or statement changed, by")
-    print(f"rule (`examples/diagnosis/elements/mutants.py`), on `{FIELD}`, whose law is typed by hand. Its stage is that of the")
-    print("function it is in. The answers to a table of stresses, to forces at nodes at an exact state with all terms and without")
-    print("one, and to results of two meshes say which stage is at fault: the first that is not right, and of the balance the term")
-    print(f"without which it is. Not counted: {silent} mutants that stop, or make less than three times the error of the right solver.")
+    print("Each mutant is the independent solver with one operator, operand, sign, order of axes or statement changed by")
+    print(f"rule (`examples/diagnosis/elements/mutants.py`), on `{FIELD}`, whose law is typed by hand. The changed function")
+    print("determines the stage of the mutant. `mms diagnose` gets a table of stresses, then forces at nodes at an exact state, with")
+    print("all terms and without one, then results of two meshes. The first wrong answer gives the stage at fault; if the balance is")
+    print(f"wrong, the stage is the term without which it is right. {silent} mutants are not counted: they stop, or their error is at most")
+    print("three times the error of the right solver.")
     print("\n| stage | mutants | stage right |\n|---|---|---|")
     for stage, (hits, count) in found.items():
         print(f"| {stage} | {count} | {hits} |")
     hits, count = (sum(of[k] for of in found.values()) for k in (0, 1))
     print(f"| all | {count} | {wilson(hits, count)} |")
-    print("\n| stage | said | what was changed |\n|---|---|---|")
+    print("\n| stage | answer | change |\n|---|---|---|")
     for row in missed:
         print(f"| {' | '.join(row)} |")
     return hits < 0.8 * count

@@ -1,13 +1,13 @@
 """Explicit finite elements in NumPy for any emitted field on a rectangle, with mistakes typed by hand.
 
-Nothing is shared with the solver or the hypotheses of this project but the values of the field: P of H, b, tractions and the exact
+The solver shares only the values of the field with this project: P of H, b, tractions and the exact
 motion come from the module that `mms emit --target numpy` writes. Elements are P1 or Q1, on regular or irregular meshes.
 """
 
 import numpy as np
 
 GAUSS = 0.5 / 3**0.5
-# The vertices of Q1 and P1 on their reference cells, and their quadratures: points with weights.
+# The quadratures of Q1 and P1 on their reference cells: points with weights.
 QUADRATURES = {
     "q1": [((x, y), 1.0) for x in (-2 * GAUSS, 2 * GAUSS) for y in (-2 * GAUSS, 2 * GAUSS)],
     "p1": [((1 / 6, 1 / 6), 1 / 6), ((2 / 3, 1 / 6), 1 / 6), ((1 / 6, 2 / 3), 1 / 6)],
@@ -61,7 +61,7 @@ class Mesh:
         return nodes[np.argsort(self.x[1 - axis, nodes])]
 
     def assembled(self, values):
-        """Sums at the nodes of values at the vertices of cells."""
+        """Sums values at the vertices of cells into the nodes."""
         return np.bincount(self.cells.ravel(), values.ravel(), self.x.shape[1])
 
 
@@ -107,7 +107,7 @@ def wrong_force(mistake, size, field, time, step, x, u):
 
 
 class Solver:
-    """The balance of momentum on a mesh. `law` is P of X and H, `without` the terms that are left out."""
+    """The balance of momentum on a mesh. `law` computes P from X and H, `without` names the terms to leave out."""
 
     def __init__(self, field, faces, mesh, mistake=None, size=None, law=None, without=()):
         self.field, self.faces, self.mesh = field, dict(faces), mesh
@@ -124,7 +124,7 @@ class Solver:
         return np.array(np.broadcast_arrays(*np.ravel(np.array(components, object)))).reshape(2, 2, -1)
 
     def held_nodes(self):
-        """Which components of nodes follow the field."""
+        """A mask of the nodal components that follow the field."""
         held = np.zeros(self.mesh.x.shape, bool)
         for face, claim in self.faces.items():
             if claim in ("fixed", "prescribed"):
@@ -134,7 +134,7 @@ class Solver:
         return held
 
     def masses(self):
-        """The densities of each point of the quadrature, and the masses of nodes."""
+        """The density at each quadrature point, and the nodal masses."""
         mesh, factor = self.mesh, self.size if self.mistake == "density_factor" else 1.0
         density = [broadcast([self.field.density(*x)], x[0])[0] * factor for _, _, _, x in mesh.points]
         parts = zip(mesh.points, density)
@@ -145,7 +145,7 @@ class Solver:
         return np.einsum("ikc,jkc->ijc", u[:, self.mesh.cells], gradients)
 
     def internal(self, force, p, gradients, volume):
-        """Adds the forces of stresses."""
+        """Adds the internal forces."""
         for i in (0, 1):
             force[i] -= self.mesh.assembled(volume * np.einsum("jc,jkc->kc", p[i], gradients))
 
@@ -187,7 +187,7 @@ class Solver:
         return force
 
     def acceleration(self, time, u):
-        """Of nodes; those that are held have that of the field."""
+        """The accelerations of nodes; held components follow the field."""
         exact = broadcast(self.field.at_time(time).acceleration(*self.mesh.x), self.mesh.x[0])
         return np.where(self.held, exact, self.forces(time, u) / self.mass)
 
@@ -198,7 +198,7 @@ class Solver:
         return u * (self.mistake != "start_undeformed"), v * (self.mistake != "start_at_rest")
 
     def until(self, end, courant):
-        """u at the end by the central-difference method; None where that is not finite."""
+        """u at the end by the central-difference method; None if it is not finite."""
         first = float(self.field.time_window()[0])
         speed = max(np.max(self.field.wave_speed(*x)) for _, _, _, x in self.mesh.points)
         steps = int(np.ceil((end - first) * speed / (courant * self.mesh.spacing.min() / 2)))
@@ -216,6 +216,6 @@ class Solver:
 
 
 def write(path, mesh, time, u):
-    """u at the nodes at a time."""
+    """Writes u at the nodes at a time."""
     rows = np.column_stack([np.full(mesh.x.shape[1], time), *mesh.x, *u])
     np.savetxt(path, rows, delimiter=",", header="time,X,Y,ux,uy", comments="", fmt="%.17g")

@@ -10,16 +10,16 @@ use super::{Report, factor};
 const INTRODUCTION: &str = "\
 # Speed against accuracy
 
-By what factor the choice of `mms tradeoff` beats the default (updated cpgimp leapfrog, f64, 2 particles per cell and
-direction, Courant 0.4), for a largest displacement error over time and particles of 1e-3, 1e-4 and 1e-5. Made by
+The factor by which the choice of `mms tradeoff` beats the default (updated cpgimp leapfrog, f64, 2 particles per cell and
+direction, Courant 0.4), for a largest displacement error over time and particles of 1e-3, 1e-4 and 1e-5. The command is
 
 ```console
 $ cargo run --release -- tradeoff --page > docs/tradeoff.md
 ```
 
-Both take one thread. What the default takes follows from its power law, through the run of it that is nearest. A time
-is particle-steps times what one takes in the longest runs with the method. Runs of more than 1e8 particle-steps are not
-made.
+Both run on one thread. The cost of the default follows from its power law, through its run nearest to the target. A time
+is the number of particle-steps, times the time of one in the longest runs with the method. Runs of more than 1e8
+particle-steps are left out.
 ";
 
 /// Tables of fields, one after the other.

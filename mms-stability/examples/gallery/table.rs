@@ -12,16 +12,16 @@ use mms_stability::{Stability, judge};
 const HEAD: &str = "\
 # Is the gallery fit to verify with?
 
-What `mms check` finds for each field, at the defaults of its parameters; [what it means](guide/stability.md). Moduli are
-relative to mu at rest. Made by
+The results of `mms check` for each field, at the defaults of its parameters ([explanation](guide/stability.md)). Moduli are
+relative to mu at rest. The command is
 
 ```sh
 cargo run -p mms-stability --example gallery > docs/stability.md
 ```
 
-Acoustic tensors: the least eigenvalue of a sample, and whether all are proved to be positive. Impedance: of the worst face
-that can move. Coercivity: of the worst corner of two such faces. Growth: the factor by which a long wave grows over the
-window, and the least w^2 in 1/s^2.
+Acoustic tensors: the least eigenvalue of a sample, and whether all are proved to be positive. Impedance: its least
+eigenvalue on the worst face that can move. Coercivity: at the worst corner of two such faces. Growth: the factor by which
+a long wave grows over the window, and the least w^2 in 1/s^2.
 
 | field | acoustic tensors | impedance | coercivity | growth | least w^2 | warned of |
 |---|---|---|---|---|---|---|
