@@ -1,4 +1,4 @@
-"""Reads states of a run with meshio, and holds them to each other: x = X + d, u of the field as d less its error."""
+"""Reads the states of a run with meshio, and checks that they are consistent: x = X + d, with the same X and particles in each."""
 
 import sys
 

@@ -1,6 +1,6 @@
-"""Holds what `mms check` says of stability to finite elements of scikit-fem: least eigenvalues of the tangent on the same
-meshes, and whether a disturbance grows faster on finer ones where a surface impedance, or the coercivity of a corner, is
-negative, and nowhere else.
+"""Compares the stability that `mms check` reports with finite elements of scikit-fem: the least eigenvalues of the tangent on
+the same meshes, and whether a disturbance grows faster on finer meshes if and only if a surface impedance, or the coercivity of
+a corner, is negative.
 
     MMS=target/release/mms python3 -B .ci/stability/compare.py
 """
@@ -51,8 +51,8 @@ def column(n):
     return Body([-0.25, -0.25, 0], [0.25, 0.25, 1], [n, n, n], {(2, 0): "all"})
 
 
-# A field with what is set, its material, its body, the elements along each axis, and the part by which the eigenvalue of
-# another mesh may differ: in a sector the sides of elements are parabolas here, and arcs there.
+# A field with its settings, its material, its body, the elements along each axis, and the relative difference allowed between
+# the eigenvalues: in a sector, the sides of elements are parabolas here, and arcs in mms.
 EIGENVALUES = [
     (FIELDS / "sheared_block_2d.toml", None, FIRM, clamped_below, 4, 1e-5),
     (FIELDS / "axis_aligned_2d.toml", None, FIRM, on_rollers, 4, 1e-5),
@@ -63,7 +63,7 @@ EIGENVALUES = [
     (FIELDS / "twisted_column.toml", None, FIRM, column, 2, 1e-5),
 ]
 
-# A field with what is set, and whether a face or a corner lets short waves grow.
+# A field with its settings, its material, its body, and whether a face or a corner lets short waves grow.
 GROWTH = [
     (HERE / "compressed_block.toml", "stretch=0.75", FIRM, compressed, None),
     (HERE / "compressed_block.toml", "stretch=0.45", FIRM, compressed, "face"),
@@ -77,7 +77,7 @@ MESHES = [8, 16, 32]
 
 
 def checked(path, setting):
-    """What `mms check` says of the stability of a field."""
+    """The stability of a field as `mms check` reports it."""
     options = ["--set", setting] if setting else []
     run = subprocess.run([MMS, "check", path, "--json", *options], capture_output=True, check=True)
     return json.loads(run.stdout)["files"][0]["stability"]

@@ -1,6 +1,6 @@
 """The tangent of a body about a state, by finite elements of scikit-fem, and its least eigenvalue.
 
-Nothing here comes from mms but F: the laws are typed, and their tangents are complex steps.
+Only F comes from mms: the laws are typed here, and their tangents are complex steps.
 """
 
 import numpy as np
@@ -21,7 +21,7 @@ STEP = 1e-30
 
 
 def neo_hookean(young, nu):
-    """P = mu (F - F^-T) + lambda ln J F^-T; F has its indices last."""
+    """P = mu (F - F^-T) + lambda ln J F^-T; the last two axes of F are its indices."""
     lam, mu = young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))
 
     def stress(f):
@@ -44,7 +44,7 @@ def saint_venant_kirchhoff(young, nu):
 
 
 def tangent(stress, f):
-    """dP_iJ/dF_kL by complex steps, with these indices first; those of the points come last."""
+    """dP_iJ/dF_kL by complex steps: axes i, J, k, L first, the axes of the points last."""
     size, points = f.shape[-1], f.shape[:-2]
     slopes = np.empty((size,) * 4 + points)
     for k in range(size):
@@ -56,7 +56,7 @@ def tangent(stress, f):
 
 
 class Body:
-    """A box, or a sector of a ring, of quadratic elements; held where a face is named in `held`: `all` or `normal`."""
+    """A box, or a sector of a ring, of quadratic elements. `held` maps faces to the held components: `all` or `normal`."""
 
     def __init__(self, lower, upper, cells, held, polar=False):
         ticks = [np.linspace(a, b, n + 1) for a, b, n in zip(lower, upper, cells)]
@@ -79,7 +79,7 @@ class Body:
         self.free = np.setdiff1d(np.arange(self.basis.N), sorted(fixed))
 
     def pencil(self, stress, density, gradient):
-        """K and M of what is free, where `gradient(*X)` is du_i/dX_J."""
+        """K and M of the free degrees of freedom; `gradient(*X)` is du_i/dX_J."""
         places = self.basis.default_parameters()["x"]
         h = np.array(gradient(*places)) + np.zeros((self.size, self.size) + places[0].shape)
         f = np.moveaxis(h, (0, 1), (-2, -1)) + np.eye(self.size)
@@ -92,7 +92,7 @@ class Body:
         return part(stiff), part(mass)
 
     def rigid(self, position):
-        """The rigid motions of the deformed body, where `position(*X)` is x; none if something is held."""
+        """The rigid motions of the deformed body, with x = `position(*X)`; none if something is held."""
         if len(self.free) < self.basis.N:
             return np.zeros((len(self.free), 0))
         x = np.array(position(*self.basis.doflocs))
@@ -109,7 +109,7 @@ class Body:
 def least(stiffness, mass, apart):
     """The least eigenvalue of K v = w^2 M v on all v that are M-orthogonal to the columns of `apart`."""
     order, kept = mass.shape[0], apart.shape[1]
-    # With no eigenvalue below the shift, that nearest to it is the least.
+    # If no eigenvalue is below the shift, the nearest one is the least.
     shift = abs(stiffness).max() / abs(mass).max() * 1e-3
     while negative(stiffness + shift * mass) > 0:
         shift *= 4.0
@@ -133,7 +133,7 @@ def least(stiffness, mass, apart):
 
 
 def negative(matrix):
-    """How many eigenvalues of a symmetric matrix are negative, by the signs of its factors (Sylvester 1852)."""
+    """The number of negative eigenvalues of a symmetric matrix, by the signs of its factors (Sylvester 1852)."""
     factors = splu(
         matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
     )

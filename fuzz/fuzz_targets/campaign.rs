@@ -1,4 +1,4 @@
-//! Arbitrary text as a campaign file: reading it ends, with a campaign or with its mistakes, and so does counting its levels
+//! Reads any text as a campaign file: reading must end, with a campaign or its mistakes, and so must counting its levels
 //! and filling its words.
 
 #![no_main]

@@ -1,4 +1,4 @@
-//! Makes a field of bytes, and looks for points where its certificate says one thing and the program another.
+//! Makes a field from bytes, and searches for points at which the program contradicts its certificate.
 #![no_main]
 
 #[path = "../../mms-codegen/tests/support/hunt.rs"]

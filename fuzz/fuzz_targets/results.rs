@@ -1,5 +1,5 @@
-//! Arbitrary bytes as a file of results: reading them ends, with results or with a mistake, and so does what is made of
-//! them, and their comparison with themselves. Their number decides which arrays are wanted, and how much memory there is.
+//! Reads any bytes as a file of results: reading must end, with results or a mistake, and so must the functions on these
+//! results, and their comparison with themselves. The number of bytes decides which arrays are read, and the memory limit.
 //! The seeds are the files in `mms-results/tests/data`.
 
 #![no_main]
@@ -12,7 +12,7 @@ use mms_results::own;
 use mms_results::pairing::{cells, points};
 use mms_results::{Contents, parse};
 
-/// Bytes of memory where it is scarce.
+/// The memory limit in bytes, if memory is scarce.
 const SCARCE: u64 = 1 << 12;
 
 fuzz_target!(|bytes: &[u8]| {
