@@ -1,5 +1,5 @@
-//! Compiles a field to a file of Rust, which `src/main.rs` includes. For what the macro does not: a
-//! field that is chosen, or written, while the program is built.
+//! Compiles a field to a file of Rust, which `src/main.rs` includes. Use this instead of the macro for a
+//! field that the build chooses or writes.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, process};
@@ -14,7 +14,7 @@ const FIELD: &str = "fields/spring_1d.toml";
 fn main() -> std::io::Result<()> {
     println!("cargo::rerun-if-changed={FIELD}");
     let text = fs::read_to_string(FIELD)?;
-    // Of a material that the field brings along, as in `model = "./mine.toml"`.
+    // Loads a material file that the field names, as in `model = "./mine.toml"`.
     let load = |material: &str| {
         let path = Path::new("fields").join(material);
         println!("cargo::rerun-if-changed={}", path.display());
@@ -27,7 +27,7 @@ fn main() -> std::io::Result<()> {
     };
     let compiled = compile_with("spring_1d", FIELD, &text, &load, &Options::from(selection));
     let compiled = compiled.unwrap_or_else(|failure| {
-        // Every mistake, at its line and column.
+        // Prints every mistake with its line and column.
         eprintln!("{failure}");
         process::exit(1);
     });

@@ -1,11 +1,11 @@
-//! The same field twice: as the macro makes it, with parameters, and as the build script does, without.
-//! `cargo run` compares the two at some points, and exits 1 where they differ.
+//! Compares two modules of one field: from the macro, with parameters, and from the build script, without.
+//! `cargo run` evaluates both at some points, and exits 1 if they differ.
 
 use std::process::ExitCode;
 
 mms_macros::field!("fields/spring_1d.toml", quantities = [body_force, displacement]);
 
-/// All of the file, of which not all is used.
+/// The module that the build script wrote; not all of its functions are used.
 #[allow(dead_code)]
 mod frozen {
     include!(concat!(env!("OUT_DIR"), "/spring_1d.rs"));
