@@ -60,7 +60,7 @@ fn body_force<const D: usize>(
     })
 }
 
-/// det F and F^-1.
+/// Computes det F and F^-1.
 fn inverse<const D: usize>(f: [[f64; D]; D]) -> (f64, [[f64; D]; D]) {
     let minor = |i: usize, j: usize| match D {
         1 => 1.0,
@@ -117,7 +117,7 @@ fn every_point<const D: usize>(
     }
 }
 
-/// The one that fits the field.
+/// The contender for a field.
 pub fn contender(case: &Case) -> Box<dyn Contender> {
     let forcing: Forcing = match case.name {
         "A" => |p, t, x, b| every_point(bar, p, [0.0, p[1] / 2.0, p[2]], t, x, b),

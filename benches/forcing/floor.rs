@@ -1,10 +1,10 @@
-//! The least that a loop over points can take on this machine: the additions, multiplications and fused
-//! multiply-adds of the emitted code, fused as they are emitted and with those of its functions, times what one of
-//! them takes in the same run where none waits for another. A division and a square root count as one of them,
+//! The least time of a loop over points on this machine: the number of additions, multiplications and fused
+//! multiply-adds of the emitted code and of the functions that it calls, times the time of one such operation in the
+//! same run, if none waits for another. A division and a square root count as one operation,
 //! although they take longer; loads and stores, integers and selections are free.
 //!
-//! Operations are counted with a scalar of its own, from a table of the operations in `quick/` of `mms-math`: who
-//! changes a function there counts it again.
+//! A special scalar counts the operations, with a table of the operations of the functions in `quick/` of `mms-math`:
+//! count again if you change a function there.
 
 use std::cell::{Cell, RefCell};
 use std::hint::black_box;
@@ -22,39 +22,39 @@ type Slots = [usize; 2];
 
 /// Sine and cosine of an angle: one reduction, two polynomials.
 const SINE_AND_COSINE: Slots = [25, 22];
-/// The same where nothing is taken off the angle.
+/// Sine and cosine without reduction of the angle.
 const NEAR_ZERO: Slots = [18, 11];
-/// The same of an angle that is at most 1.
+/// Sine and cosine of an angle that is at most 1.
 const WITHIN_ONE: Slots = [16, 10];
-/// The same in half turns.
+/// Sine and cosine of an angle in half turns.
 const OF_HALF_TURNS: Slots = [19, 13];
 /// The logarithm.
 const LN: Slots = [16, 12];
 
-/// The operations that were done with numbers of a point.
+/// Counts the operations on numbers of a point.
 #[derive(Debug, Default)]
 pub struct Tally {
     /// The column of the tables: 0 for `f64`, 1 for `f32`.
     format: usize,
     slots: Cell<usize>,
-    /// Whether something was done that no table has.
+    /// Whether a function ran that the table lacks.
     uncounted: Cell<bool>,
-    /// What has its sine and cosine already, and by which functions.
+    /// The angles whose sine and cosine are counted already, with the operations of the function.
     angles: RefCell<Vec<(f64, Slots)>>,
 }
 
 impl Tally {
-    /// Nothing yet, of `f64` or `f32`.
+    /// An empty tally for `f64` or `f32`.
     pub fn new(precision: &str) -> Self {
         Tally { format: usize::from(precision == "f32"), ..Tally::default() }
     }
 
-    /// A number whose operations count, and those of all that is made of it.
+    /// A number whose operations count, like the operations on all results computed from it.
     pub fn number(&self, value: f64) -> Counted<'_> {
         Counted { value, tally: Some(self) }
     }
 
-    /// How many there were since the last call; nothing if some were not counted.
+    /// The number of operations since the last call; `None` if some were not counted.
     pub fn take(&self) -> Option<usize> {
         self.angles.take();
         let slots = self.slots.take();
@@ -65,7 +65,7 @@ impl Tally {
         self.slots.set(self.slots.get() + slots);
     }
 
-    /// A sine or a cosine; the second one of an angle is there.
+    /// Counts a sine or a cosine; the second function of the same angle is free.
     fn turn(&self, angle: f64, slots: Slots) {
         let mut angles = self.angles.borrow_mut();
         if !angles.contains(&(angle, slots)) {
@@ -75,7 +75,7 @@ impl Tally {
     }
 }
 
-/// A number that knows where its operations are counted; those of parameters and of the time are not.
+/// A number with the tally of its operations; operations on parameters and on the time are not counted.
 #[derive(Clone, Copy, Debug)]
 pub struct Counted<'a> {
     value: f64,
@@ -83,14 +83,14 @@ pub struct Counted<'a> {
 }
 
 impl<'a> Counted<'a> {
-    /// The result of one operation on both.
+    /// Counts one operation on two numbers, with the given result.
     fn with(self, other: Self, value: f64) -> Self {
         let tally = self.tally.or(other.tally);
         tally.inspect(|tally| tally.add(1));
         Counted { value, tally }
     }
 
-    /// The result of a function.
+    /// Counts a function call, with the given result.
     fn of(self, slots: Slots, value: f64) -> Self {
         self.tally.inspect(|tally| tally.add(slots[tally.format]));
         Counted { value, ..self }
@@ -124,7 +124,7 @@ impl Neg for Counted<'_> {
     }
 }
 
-/// Functions that the table lacks: what calls one has no floor.
+/// Functions that the table lacks: a loop that calls one has no floor.
 macro_rules! not_counted {
     ($($function:ident($($argument:ident)?))*) => {
         $(
@@ -193,7 +193,7 @@ impl Scalar for Counted<'_> {
 /// Multiply-adds of which few wait for each other.
 struct Chains;
 
-/// How many chains of multiply-adds there are, and their length.
+/// The number of chains of multiply-adds, and their length.
 const CHAINS: [usize; 2] = [16, 8];
 
 impl<S: Real> Function<S, 1, 1> for Chains {
@@ -219,7 +219,7 @@ impl<T: Float> Kernel<T, 1, 1> for Chains {
     }
 }
 
-/// What one operation takes in the loop that a batch of this machine is.
+/// The time of one operation in a batch on this machine.
 pub struct Slot {
     /// `f64` or `f32`.
     pub precision: &'static str,
@@ -228,7 +228,7 @@ pub struct Slot {
 }
 
 impl Slot {
-    /// In both precisions.
+    /// The slots of both precisions.
     pub fn all() -> [Slot; 2] {
         [Slot::of::<f64>("f64"), Slot::of::<f32>("f32")]
     }
@@ -249,7 +249,7 @@ impl Slot {
         Slot { precision, turn: Box::new(turn), rounds: Vec::new() }
     }
 
-    /// One more round.
+    /// Measures one more round.
     pub fn round(&mut self) {
         self.rounds.push((self.turn)());
     }

@@ -1,5 +1,5 @@
-//! b derived on paper from the structure of each field, as careful people type it: time apart from
-//! points, the standard library's functions, one point at a time.
+//! b derived on paper from the structure of each field, typed with care: terms in time are computed once,
+//! points one at a time, with the standard library's functions.
 
 use std::f64::consts::PI;
 
@@ -56,7 +56,7 @@ fn vortex(parameters: &[f64], time: f64, points: &[Vec<f64>], out: &mut [Vec<f64
     }
 }
 
-/// The one that fits the field.
+/// The contender for a field.
 pub fn contender(case: &Case) -> Box<dyn Contender> {
     let forcing = match case.name {
         "A" => bar,

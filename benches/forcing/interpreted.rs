@@ -1,4 +1,4 @@
-//! The same fields from their texts alone, run in blocks: what whoever has no compiler gets.
+//! The fields interpreted from their texts, in blocks of points, as for a user without a compiler.
 
 use std::error::Error;
 use std::sync::Arc;
@@ -90,7 +90,7 @@ fn contenders_in<T: Blockwise + Into<f64> + 'static>(
     ways.map(contender).into()
 }
 
-/// With the bits of compiled loops, and with those of one point, in both precisions.
+/// The contenders with the bits of compiled loops, and with rounded products (`portable`), in both precisions.
 pub fn contenders(case: &Case) -> Result<Vec<Box<dyn Contender>>, Box<dyn Error>> {
     let compiled = compile(case.name, "field", case.text, &|_| Err("no such file".into()))?;
     let mut all = contenders_in::<f64>(&compiled, case, "f64");

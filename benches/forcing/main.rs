@@ -1,9 +1,9 @@
-//! What b costs at a point, beside what others pay for it: `cargo bench --bench forcing`, with
-//! `-- --json` for a program.
+//! Times b per point, and compares it with other ways to compute b: `cargo bench --bench forcing`, with
+//! `-- --json` for JSON.
 //!
-//! Contenders take turns, round by round, so that all see the same machine; the median of a
-//! contender's rounds counts. Errors are those of the timed results, against 77 digits. The floor is
-//! what the arithmetic of a batch takes alone: see [`floor`].
+//! Contenders take turns, round by round, so that all run under the same conditions; the median of a
+//! contender's rounds counts. Errors compare the timed results with 77 digits. The floor is
+//! the time of the arithmetic of a batch alone: see [`floor`].
 
 mod dual;
 mod floor;
@@ -25,7 +25,7 @@ use mms_runtime::math::Scalar as _;
 use mms_spec::quantity::Quantity;
 use serde_json::json;
 
-/// Points of a field, and what b is there.
+/// A field with its points.
 pub struct Case {
     /// The name in reports.
     pub name: &'static str,
@@ -35,24 +35,24 @@ pub struct Case {
     pub parameters: &'static [f64],
     /// The time.
     pub time: f64,
-    /// One column for each axis.
+    /// The points, one column for each axis.
     pub points: Vec<Vec<f64>>,
 }
 
-/// How many points there are.
+/// The number of points.
 const COUNT: usize = 100_000;
 
-/// How many of them are compared with 77 digits.
+/// The number of points that are compared with 77 digits.
 const COMPARED: usize = 1_000;
 
-/// How often everyone takes a turn.
+/// The number of turns of each contender.
 const ROUNDS: usize = 15;
 
-/// For how long everyone works untimed at the beginning of a turn, at least once. Others have had the caches, and the
-/// processor has slept while a program ran.
+/// The time for which each contender runs untimed at the beginning of a turn, at least once. Another one has filled the
+/// caches, and the processor has slept while a program ran.
 const WARM: Duration = Duration::from_millis(1);
 
-/// The seconds that a turn takes.
+/// Runs `work` untimed, then returns the seconds of one more run.
 pub fn timed(mut work: impl FnMut()) -> f64 {
     let start = Instant::now();
     work();
@@ -64,9 +64,9 @@ pub fn timed(mut work: impl FnMut()) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// What someone computed, and how long each round of it took.
+/// The results of a contender, and the times of its rounds.
 pub struct Run {
-    /// Who.
+    /// The name of the contender.
     pub contender: &'static str,
     /// `f64` or `f32`.
     pub precision: &'static str,
@@ -74,17 +74,17 @@ pub struct Run {
     pub mode: &'static str,
     /// The seconds of each round.
     pub seconds: Vec<f64>,
-    /// The operations at a point, where a loop has been counted.
+    /// The operations at a point, if the loop was counted.
     pub slots: Option<usize>,
     /// b, one column for each component.
     pub results: Vec<Vec<f64>>,
 }
 
-/// Someone who can be asked to take a turn.
+/// A way to compute b that takes turns with others.
 pub trait Contender {
-    /// One more round.
+    /// Runs one more round.
     fn round(&mut self) -> Result<(), Box<dyn Error>>;
-    /// Everything seen.
+    /// Returns the times and results.
     fn finish(self: Box<Self>) -> Run;
 }
 

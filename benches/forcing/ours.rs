@@ -1,4 +1,4 @@
-//! What this project generates.
+//! The code that this project generates.
 
 use mms_runtime::math::Scalar as _;
 
@@ -40,7 +40,7 @@ impl<T: Copy + Into<f64>> Contender for Ours<T> {
     }
 }
 
-/// The operations at a point: of a batch, and of one from what was kept.
+/// The operations at a point: for a batch, and for a batch with kept points.
 macro_rules! slots {
     ($module:ident, $float:ident, $case:expr) => {{
         let tally = Tally::new(stringify!($float));
@@ -110,7 +110,7 @@ macro_rules! field {
     }};
 }
 
-/// Scalar, batch and cached, in both precisions.
+/// The contenders scalar, batch and cached, in both precisions.
 pub fn contenders(case: &Case) -> Vec<Box<dyn Contender>> {
     let both = match case.name {
         "A" => [field!(a, 1, f64, case), field!(a, 1, f32, case)],

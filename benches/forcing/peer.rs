@@ -1,5 +1,5 @@
-//! Peers in C: SymPy's common subexpressions, compiled by gcc. They are written and compiled anew for
-//! every run, and skipped with a word where Python, SymPy or gcc is missing.
+//! Peers in C: SymPy's common subexpressions, compiled by gcc. They are written and compiled again for
+//! every run, and skipped with a message if Python, SymPy or gcc is missing.
 
 use std::error::Error;
 use std::io::{Read as _, Write as _};
@@ -8,10 +8,10 @@ use std::process::{Command, Stdio};
 
 use crate::{COUNT, Case, Contender, Run};
 
-/// What ratios refer to.
+/// The contender that ratios refer to.
 pub const REFERENCE: &str = "SymPy cse, gcc -O3";
 
-/// The same with what makes gcc use vector functions.
+/// The peer compiled with options that make gcc use vector functions.
 const VECTORISED: &str = "SymPy cse, gcc vectorised";
 
 struct Peer {
@@ -21,7 +21,7 @@ struct Peer {
     components: usize,
     seconds: Vec<f64>,
     results: Vec<Vec<f64>>,
-    /// The program is in it.
+    /// The folder of the program.
     _folder: std::rc::Rc<tempfile::TempDir>,
 }
 
@@ -29,7 +29,7 @@ impl Contender for Peer {
     fn round(&mut self) -> Result<(), Box<dyn Error>> {
         let mut child =
             Command::new(&self.program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
-        // It reads everything before it writes.
+        // The program reads everything before it writes.
         child.stdin.take().ok_or("no pipe")?.write_all(&self.input)?;
         let mut output = Vec::new();
         child.stdout.take().ok_or("no pipe")?.read_to_end(&mut output)?;
@@ -58,7 +58,7 @@ impl Contender for Peer {
     }
 }
 
-/// Both peers, as far as there are the means.
+/// Both peers, if Python, SymPy and gcc are installed.
 pub fn contenders(case: &Case) -> Result<Vec<Box<dyn Contender>>, Box<dyn Error>> {
     let folder = std::rc::Rc::new(tempfile::tempdir()?);
     let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/forcing/peers");
@@ -105,7 +105,7 @@ pub fn contenders(case: &Case) -> Result<Vec<Box<dyn Contender>>, Box<dyn Error>
     Ok(contenders)
 }
 
-/// Why a program did not do its work, in one line.
+/// The reason why a program failed, in one line; `None` if it succeeded.
 fn failure(output: std::io::Result<std::process::Output>) -> Option<String> {
     match output {
         Ok(output) if output.status.success() => None,

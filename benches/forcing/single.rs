@@ -2,10 +2,10 @@
 
 use crate::{COUNT, Case, Contender, Run, timed};
 
-/// b at all points: parameters, time, coordinates by axis, and the components to write.
+/// A function that computes b at all points, from parameters, time and coordinates by axis, and writes the components.
 pub type Forcing = fn(&[f64], f64, &[Vec<f64>], &mut [Vec<f64>]);
 
-/// A function that is timed.
+/// A function to time.
 pub struct Single {
     contender: &'static str,
     forcing: Forcing,
@@ -17,7 +17,7 @@ pub struct Single {
 }
 
 impl Single {
-    /// Ready for its first round.
+    /// Prepares a contender for its first round.
     pub fn contender(contender: &'static str, case: &Case, forcing: Forcing) -> Box<dyn Contender> {
         Box::new(Single {
             contender,

@@ -1,9 +1,9 @@
-//! What judging takes beside reading: `cargo bench --bench judge`, or with another number of points, `-- 1000000`.
+//! Times judging against reading: `cargo bench --bench judge`, or with another number of points, `-- 1000000`.
 //!
-//! Files of NumPy and of VTK with raw data hold X and u of points in the unit square. `mms judge` is run on each, and is to
-//! take three times as long as reading the file into arrays at most, and four times as much memory as its arrays: so much
-//! it is given. What is more than that is marked. Times are those of the processors, and the least of some rounds, for other
-//! programs make nothing faster.
+//! Files of NumPy and of VTK with raw data contain X and u of points in the unit square. The bench runs `mms judge` on each.
+//! Judging may take at most three times as long as reading the file into arrays, and four times the memory of these arrays,
+//! to which the bench limits it. The table marks a row that exceeds this. Times are CPU times, the least of some rounds, since
+//! other programs make nothing faster.
 
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
@@ -14,16 +14,16 @@ use cpu_time::ProcessTime;
 use mms_results::names::{Axes, KNOWN, everything};
 use mms_results::write::{Column, Shape, State, npz};
 
-/// Points where nothing is said.
+/// The default number of points.
 const POINTS: usize = 10_000_000;
 
-/// How often each is done.
+/// The number of rounds of each measurement.
 const ROUNDS: usize = 3;
 
-/// What the program and its libraries take of address space.
+/// The bytes of address space of the program and its libraries.
 const PROGRAM: usize = 256 << 20;
 
-/// Fractions in [0, 1) that fill it evenly, each another.
+/// A sequence of different fractions that fills [0, 1) evenly.
 fn fraction(at: usize, step: f64) -> f64 {
     (at as f64 * step).fract()
 }
@@ -41,7 +41,7 @@ fn state(points: usize) -> State {
     State { time: 0.02, dimension: 2, axes: Axes::Cartesian, facts: Vec::new(), columns }
 }
 
-/// VTK with raw data behind the XML, as ParaView writes it: vectors have three components, and each point is a vertex.
+/// Writes VTK with raw data behind the XML, as ParaView does: vectors have three components, and each point is a vertex.
 fn vtu(state: &State, path: &Path) -> std::io::Result<usize> {
     let points = state.columns[0].values.len() / 2;
     let solid = |values: &[f64]| -> Vec<u8> {
@@ -95,8 +95,8 @@ fn least(work: impl FnMut() -> f64) -> f64 {
     std::iter::repeat_with(work).take(ROUNDS).fold(f64::INFINITY, f64::min)
 }
 
-/// The processors' seconds of the programs that a shell has run, as its `times` says: a line of its own, and one of theirs,
-/// each of what was done for a program and for the system, as `0m1.25s`.
+/// The CPU seconds of the programs that a shell has run, from the output of its `times`: a line for the shell, and one for the
+/// programs, each with user and system time as `0m1.25s`.
 fn seconds(times: &str) -> Option<f64> {
     let of = |text: &str| -> Option<f64> {
         let (minutes, seconds) = text.strip_suffix('s')?.split_once('m')?;

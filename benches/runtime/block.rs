@@ -1,4 +1,4 @@
-//! An elastic block: a field of the gallery, without what drives it.
+//! An elastic block: a field of the gallery, by default without its loads.
 
 use std::ops::MulAssign;
 
@@ -10,27 +10,27 @@ use mms_runtime::{Condition, Domain, ManufacturedField, Material, Matrix, Real, 
 /// A field of the gallery as a block.
 #[derive(Clone, Copy)]
 pub struct Body {
-    /// Its name.
+    /// The name of the field.
     pub field: &'static str,
-    /// Whether the field's body force acts, and its faces are as it says. Else there is no force, and they are
-    /// free.
+    /// Whether the field's body force acts, with the conditions of its faces. Otherwise there is no force, and all faces
+    /// are free.
     pub forced: bool,
 }
 
 impl Body {
-    /// A block that nothing acts on.
+    /// A block without loads.
     pub fn free(field: &'static str) -> Self {
         Self { field, forced: false }
     }
 }
 
-/// How much of the field's motion a block without force has: so little that particles stay in their cells, which
-/// hat functions need.
+/// The part of the field's motion that a block without force starts with: so small that particles stay in their cells,
+/// which hat functions need.
 const SHARE: f64 = 0.01;
 
 /// A scene of `D` dimensions.
 pub trait Of<T, const D: usize>: Sized {
-    /// The field of that name.
+    /// Finds a field by its name.
     fn find(name: &str) -> Option<Box<dyn ManufacturedField<T, D>>>;
 }
 

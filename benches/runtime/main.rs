@@ -1,10 +1,10 @@
-//! What a particle costs in a step: `cargo bench --bench runtime`, with `-- --json` for a program, and with words
-//! for the cases whose names hold one of them: `cargo bench --bench runtime -- 3d_ugimp 2d`.
+//! Times a particle in a step: `cargo bench --bench runtime`, with `-- --json` for JSON, and with words to select
+//! the cases whose names contain one of them: `cargo bench --bench runtime -- 3d_ugimp 2d`.
 //!
-//! An elastic block with 2 particles per cell and axis is let go from a deformed state, without output; a
-//! row of its own adds the field's forcing and walls. The thread is pinned, cases take turns, round by round, and the
-//! least time counts, for nothing makes a machine faster than it is: of one thread the time that it had the processor,
-//! of more the time that passed. The floor is what the multiply-adds alone take at the rate that was measured in the
+//! An elastic block with 2 particles per cell and axis is released from a deformed state, without output; separate
+//! rows add the field's forcing and walls. Threads are pinned, cases take turns, round by round, and the
+//! least time counts, since nothing makes a machine faster than it is: CPU time for one thread,
+//! wall time for more. The floor is the time of the multiply-adds alone, at the rate that was measured in the
 //! same run; see [`roof`].
 
 mod block;
@@ -22,13 +22,13 @@ use mms_runtime::{Division, FormulationName, ManufacturedField, Real, Setup, Sol
 use roof::{Count, Roof};
 use serde_json::json;
 
-/// How often every case takes a turn.
+/// The number of turns of every case.
 const ROUNDS: usize = 7;
 
-/// Steps of a turn: a multiple of those after which the solver looks at the order of the particles.
+/// The steps of a turn: a multiple of the steps between checks of the particles' order.
 const STEPS: usize = 32;
 
-/// Particles of every case, about.
+/// The approximate number of particles of every case.
 const PARTICLES: usize = 250_000;
 
 /// A case in one precision, with a number of threads.
@@ -37,14 +37,14 @@ struct Row {
     precision: &'static str,
     threads: usize,
     bytes: usize,
-    /// What a particle takes at least, if that was counted.
+    /// The multiply-adds of a particle, if counted.
     count: Option<Count>,
     turn: Box<dyn FnMut() -> f64>,
-    /// The least yet.
+    /// The least time so far.
     nanoseconds: f64,
 }
 
-/// Advances by some steps. The time of a particle in a step, in nanoseconds.
+/// Advances by some steps; returns the nanoseconds per particle and step.
 fn turn<T, const D: usize, F>(solver: &mut Solver<'_, T, D, F>, steps: usize) -> f64
 where
     T: Real,
@@ -62,7 +62,7 @@ where
     1e9 * elapsed.as_secs_f64() / (steps * particles) as f64
 }
 
-/// A row of one shape function and transfer, if its name holds one of the `words`, or there are none.
+/// A row of one shape function and transfer; `None` if there are `words` and its name contains none of them.
 fn row<T, const D: usize, S>(
     words: &[String],
     case: &'static str,
@@ -79,7 +79,7 @@ where
     if !words.is_empty() && !words.iter().any(|word| case.contains(word.as_str())) {
         return None;
     }
-    // It lives as long as the program.
+    // The block lives as long as the program.
     let block: &'static Block<T, D> = Box::leak(Box::new(Block::new(body)));
     let along = (PARTICLES as f64).powf(1.0 / D as f64) / 2.0;
     let setup = Setup { transfer, threads, courant: 0.2, ..Setup::default() };
@@ -104,7 +104,7 @@ where
     })
 }
 
-/// Both precisions of a case.
+/// The rows of a case in both precisions.
 fn pair<const D: usize, S: Shape>(
     words: &[String],
     case: &'static str,

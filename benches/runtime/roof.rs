@@ -1,4 +1,4 @@
-//! What the machine does at best, measured beside the cases: multiply-adds, and bytes in place.
+//! The best rates of the machine, measured beside the cases: multiply-adds, and bytes updated in place.
 
 use std::fmt;
 use std::hint::black_box;
@@ -10,14 +10,13 @@ use mms_runtime::Real;
 use mms_runtime::math::dispatch::{Work, best};
 use mms_runtime::math::machine::Machine;
 
-/// Chains of multiply-adds that do not wait for each other, and how often each goes on.
+/// The number of independent chains of multiply-adds, and the length of each.
 const CHAINS: [usize; 2] = [12, 1_000_000];
 
-/// Bytes that are read and written in place; more than any cache holds.
+/// The bytes that are read and written in place; more than fit into any cache.
 const STREAMED: usize = 1 << 27;
 
-/// Keeps the thread on a processor of its own, the last one for the first thread; without that, times are what they
-/// are.
+/// Pins each thread to its own core, the last core for the first thread; without core IDs, threads are not pinned.
 pub fn pin(thread: usize) {
     static CORES: OnceLock<Vec<CoreId>> = OnceLock::new();
     let cores = CORES.get_or_init(|| core_affinity::get_core_ids().unwrap_or_default());
@@ -26,31 +25,31 @@ pub fn pin(thread: usize) {
     }
 }
 
-/// The multiply-adds of a particle in a step: those of the sums over its nodes, factorised axis by axis. Additions are
-/// done beside them.
+/// The multiply-adds of a particle in a step, for sums onto and over its nodes, factorised axis by axis. Additions run
+/// beside them.
 #[derive(Clone, Copy)]
 pub struct Count(usize);
 
 impl Count {
-    /// FLIP with `width` nodes along each of `axes`: mass, momentum and acceleration without slopes, forces
-    /// and velocity with them.
+    /// The count for FLIP with `width` nodes along each of `axes`: mass, momentum and acceleration without slopes, forces
+    /// and velocity with slopes.
     pub fn flip(axes: usize, width: usize) -> Self {
         let momentum = (axes + 1) * onto(axes, width, 0);
         let force = axes * onto(axes, width, 1);
         Count(momentum + force + axes * (over(axes, width, 0) + over(axes, width, 1)))
     }
 
-    /// APIC: mass, and momentum with force, and the velocity, with slopes and moments.
+    /// The count for APIC: mass, momentum with force, and velocity, with slopes and moments.
     pub fn apic(axes: usize, width: usize) -> Self {
         Count((axes + 1) * onto(axes, width, 2) + axes * over(axes, width, 2))
     }
 }
 
-/// The sum of one number onto nodes, with asides of so many kinds, if any: for every node one product of the value and
-/// one of the aside, for every row one, for every plane one and those of the asides along the axes before; and what the
-/// asides are made of.
+/// The multiply-adds of the sum of one number onto nodes, with `kinds` kinds of asides: for every node one product of the
+/// value and one of the aside; for every row one; for every plane one, and products of the asides along the axes before;
+/// and the products that make the asides.
 fn onto(axes: usize, width: usize, kinds: usize) -> usize {
-    // Of three nodes the middle one takes what is left, and so does its row of a plane.
+    // Of three nodes, the middle one gets the total less the outer two, without products, and so does its row of a plane.
     let outer = if width == 3 { 2 } else { width };
     let aside = kinds.min(1);
     let along = |axis: usize| {
@@ -61,18 +60,18 @@ fn onto(axes: usize, width: usize, kinds: usize) -> usize {
     kinds * axes * outer + (0..axes).map(along).sum::<usize>()
 }
 
-/// The sum of one number over nodes, with so many kinds of slopes along every axis: 1 for every node, row and plane, and
-/// for each kind 1 more for a node, 2 for a row, 3 for a plane.
+/// The multiply-adds of the sum of one number over nodes, with `kinds` kinds of slopes along every axis: 1 for every node,
+/// row and plane, and for each kind 1 more for a node, 2 for a row, 3 for a plane.
 fn over(axes: usize, width: usize, kinds: usize) -> usize {
     let along = |axis: usize| (1 + kinds * (axis + 1)) * width.pow((axes - axis) as u32);
     (0..axes).map(along).sum()
 }
 
-/// The best that was seen of the machine in one precision.
+/// The best measured rates of the machine in one precision.
 pub struct Roof {
     pub precision: &'static str,
     turn: fn() -> [f64; 2],
-    /// Multiply-adds, and bytes read and written, in a nanosecond.
+    /// Multiply-adds, and bytes read and written, per nanosecond.
     best: [f64; 2],
 }
 
@@ -81,13 +80,13 @@ impl Roof {
         Self { precision, turn: turn::<T>, best: [0.0; 2] }
     }
 
-    /// One more round.
+    /// Measures one more round.
     pub fn round(&mut self) {
         let seen = (self.turn)();
         self.best = std::array::from_fn(|k| self.best[k].max(seen[k]));
     }
 
-    /// What a particle's multiply-adds take alone.
+    /// The nanoseconds of a particle's multiply-adds alone.
     pub fn nanoseconds(&self, count: Count) -> f64 {
         count.0 as f64 / self.best[0]
     }
@@ -127,7 +126,7 @@ fn turn<T: Real>() -> [f64; 2] {
     [adds, 2.0 * STREAMED as f64 / (1e9 * seconds)]
 }
 
-/// Eight numbers at a time, as the solver's sums have them.
+/// Chains of multiply-adds on eight numbers at a time, as in the solver's sums.
 struct Chains<T>(T);
 
 impl<T: Real> Work<T> for Chains<T> {

@@ -1,6 +1,6 @@
-"""Writes b of the bench's fields as C, the way it is usually done with SymPy: differentiate the whole
-displacement, eliminate common subexpressions, print. Powers are expanded to products, which is faster
-than what SymPy prints by itself. Usage: sympy_cse.py FOLDER."""
+"""Writes b of the bench's fields as C, as is usual with SymPy: differentiates the whole
+displacement, eliminates common subexpressions, prints. Powers are expanded to products, which are faster
+than the powers that SymPy prints. Usage: sympy_cse.py FOLDER."""
 
 import pathlib
 import sys
@@ -26,7 +26,7 @@ def body_force(u, axes, lam, mu, rho0):
     """b = a - Div P / rho0 of the compressible neo-Hookean solid of the slides."""
     d = len(axes)
     F = sp.eye(d) + sp.Matrix(d, d, lambda i, j: sp.diff(u[i], axes[j]))
-    # Neither `F.inv()` nor `F.det()`: they look for zeros among expressions, which takes forever.
+    # Not with `F.inv()` and `F.det()`, which test expressions for zero and do not end in useful time.
     J = cofactors(F)[0, :].dot(F[0, :])
     inverse = cofactors(F).T / J
     P = lam * sp.log(J) * inverse.T + mu * (F - inverse.T)

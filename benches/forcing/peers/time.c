@@ -1,5 +1,5 @@
-/* Times the body force of a header that sympy_cse.py wrote. Reads from standard input: the number of
-   points, of rounds, the time, the parameters, and the coordinates axis by axis, all as doubles. Writes
+/* Times the body force of a header that sympy_cse.py wrote. Reads from standard input, all as doubles: the
+   number of points, the number of rounds, the time, the parameters, and the coordinates axis by axis. Writes
    the seconds of each round and the results, component by component, as doubles. */
 #include <math.h>
 #include <stdio.h>
@@ -51,7 +51,7 @@ int main(void) {
         out[k] = malloc(n * sizeof *out[k]);
         if (!x[k] || !out[k] || fread(x[k], sizeof *x[k], n, stdin) != n) return 1;
     }
-    /* Untimed for a millisecond, as the others. */
+    /* Runs untimed for 1 ms, as the other contenders do. */
     double begun = now();
     do all(n, t, p, x, out);
     while (now() - begun < 1e-3);
