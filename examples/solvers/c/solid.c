@@ -1,6 +1,6 @@
 /* A total-Lagrangian solid of neo-Hookean material in plane strain: squares of bilinear elements, 2 x 2
  * points of quadrature, a lumped mass and central differences in time. It runs travelling_wave_2d of the
- * gallery from its first time on, and writes the displacement at the nodes in the legacy format of VTK.
+ * gallery from the start of its window, and writes the displacement at the nodes in the legacy format of VTK.
  *
  * mms emit travelling_wave_2d --target c -o FOLDER
  * cc -std=c99 -O2 -ffp-contract=off -IFOLDER FOLDER/travelling_wave_2d.c solid.c -lm
@@ -63,7 +63,7 @@ static void shape(double h, double x, double y, double N[4], double G[4][2])
     }
 }
 
-/* What the points of quadrature of element (i, j) see: its nodes, and weights 1/4. */
+/* The nodes of element (i, j), whose quadrature points have weights 1/4. */
 static void element(const solid *body, size_t i, size_t j, size_t at[4])
 {
     at[0] = node(body, i, j);
@@ -74,7 +74,7 @@ static void element(const solid *body, size_t i, size_t j, size_t at[4])
 
 static const double GAUSS[2] = {0.21132486540518713, 0.78867513459481287};
 
-/* Accelerations of the inner nodes: (rho0 b - P grad) over the mass; of the others, the field's. */
+/* Accelerations: of inner nodes, (rho0 b - P grad) over the mass; of the others, from the field. */
 static void accelerate(solid *body, const travelling_wave_2d_instant *now)
 {
     const size_t n = body->n, count = (n + 1) * (n + 1);
@@ -149,7 +149,7 @@ static int written(const solid *body, const char *path)
     return fclose(file) == 0;
 }
 
-/* A run from the first time of the window to another one; returns 0 if its end cannot be written. */
+/* Runs from the start of the window to `end`; returns 0 if the result cannot be written. */
 static int run(size_t n, size_t steps, double end, const char *path)
 {
     const travelling_wave_2d_parameters parameters = travelling_wave_2d_default_parameters();

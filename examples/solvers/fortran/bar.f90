@@ -1,6 +1,6 @@
 ! A total-Lagrangian bar of neo-Hookean material in finite volumes: displacements at the nodes, stress
 ! between them, central differences in time. Stiffness and density vary along it. It runs graded_bar of
-! the gallery from its first time on, and writes X and u of the nodes as a table.
+! the gallery from the start of its window, and writes X and u of the nodes as a table.
 !
 ! mms emit graded_bar --target fortran -o FOLDER
 ! gfortran -O2 -ffp-contract=off FOLDER/graded_bar.f90 bar.f90 && ./a.out CELLS STEPS END FILE
@@ -23,7 +23,7 @@ program bar
 
 contains
 
-    ! A run with n volumes from the first time to another one, whose end goes to a file.
+    ! Runs with n volumes from the start to an end time, and writes the result to a file.
     subroutine run(n, steps, end, path)
         integer, intent(in) :: n, steps
         real(wp), intent(in) :: end
@@ -41,7 +41,7 @@ contains
         h = parameters%length/n
         X = [(i*h, i = 0, n)]
         call moduli(parameters, X(1:n) - h/2, lambda, mu)
-        ! A volume reaches to the middle between nodes, and ends with the bar.
+        ! A volume ends in the middle between two nodes, or at the end of the bar.
         mass = [density(field, X(0:n - 1))*h, density(field, X(n))*h/2]
 
         dt = (end - window(1))/steps
@@ -62,7 +62,7 @@ contains
         close (file)
     end subroutine
 
-    ! Of node 0, which is held, the field's; of the last, whose outer end is free, from one side.
+    ! Accelerations: of node 0, which is held, from the field; of the last node, with a free end, from one side.
     function accelerations(now, X, u, mass, lambda, mu) result(a)
         type(instant_type), intent(in) :: now
         real(wp), intent(in) :: X(0:), u(0:), mass(0:), lambda(:), mu(:)
@@ -79,7 +79,7 @@ contains
         a(n) = b(n) - P(n)/mass(n)
     end function
 
-    ! Lame's moduli at X, of a Young's modulus that grows along the bar.
+    ! Lame's moduli at X, from a Young's modulus that grows along the bar.
     elemental subroutine moduli(parameters, X, lambda, mu)
         type(parameters_type), intent(in) :: parameters
         real(wp), intent(in) :: X

@@ -2,7 +2,7 @@
 //
 //     points CELLS STEPS START END FILE
 //
-// The field, which `mms emit --target cpp` writes, gives b and the start; the law is the solver's own.
+// b and the start come from the field, which `mms emit --target cpp` writes; the solver has its own law.
 
 #include <array>
 #include <cmath>
@@ -61,7 +61,7 @@ int main(int count, char **words)
     for (int step = 0; step < steps; step++) {
         const auto now = exact::at_time(field, begin + step * dt);
         std::vector<Node> nodes(row * row);
-        // The four nodes around a point, each with its weight and the gradient of that.
+        // The four nodes around a point, each with its weight and weight gradient.
         const auto around = [&](const Point &it, auto &&visit) {
             const int i = int(it.X[0] / h), j = int(it.X[1] / h);
             const double r = it.X[0] / h - i, s = it.X[1] / h - j;
@@ -85,7 +85,7 @@ int main(int count, char **words)
                 }
             });
         }
-        // The first kick takes half a step. Nothing moves through a side.
+        // The first kick is half a step. No node moves through a side.
         const double kick = step == 0 ? dt / 2 : dt;
         for (int n = 0; n < row * row; n++)
             for (int i = 0; i < 2; i++) {

@@ -28,7 +28,7 @@ def solve(field, cells, steps, end):
     X = np.stack([i * h, j * h])
     corner = (np.arange(cells)[:, None] * row + np.arange(cells)).ravel()
     nodes = corner[:, None] + np.array([0, 1, row, row + 1])
-    # Weights and their gradients at the points of Gauss, and the places of these.
+    # Weights and their gradients at the Gauss points, and the places of these points.
     points = [(r, s) for r in GAUSS for s in GAUSS]
     weights = [np.array([(1 - r) * (1 - s), r * (1 - s), (1 - r) * s, r * s]) for r, s in points]
     slopes = [
@@ -60,7 +60,7 @@ def solve(field, cells, steps, end):
                 load = np.stack(now.traction(*place, *normal), axis=1) * h / 2
                 np.add.at(force, side[:-1], (1 - s) * load)
                 np.add.at(force, side[1:], s * load)
-        # The first kick takes half a step; the base stays.
+        # The first kick is half a step; the base stays at rest.
         v += (dt / 2 if step == 0 else dt) * force / mass[:, None]
         v[:row] = 0
         u += dt * v
