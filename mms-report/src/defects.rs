@@ -123,8 +123,8 @@ impl<'a> Report<'a> {
             |showing: &&Showing| showing.looks.0[1..].iter().all(|look| *look != Some(true));
         let blind = self.showings.iter().filter(blind).count();
         format!(
-            "the matrix catches {caught} of {all} defects; by looking at the same runs: {}; {blind} look right in \
-             all but the picture of the exact solution",
+            "the matrix catches {caught} of {all} defects; plausibility checks of the same runs catch: {}; {blind} pass \
+             all checks except the picture of the exact solution",
             by_check.join(", ")
         )
     }
@@ -152,7 +152,7 @@ impl<'a> Report<'a> {
             }
         }
         let witnesses = self.rows.iter().filter_map(|row| Some((row, row.witness.as_ref()?)));
-        page += "\n## Rows that are there for another reason\n\n| row | no other row looks at |\n|---|---|\n";
+        page += "\n## Rows with another purpose\n\n| row | only this row tests |\n|---|---|\n";
         for (row, witness) in witnesses {
             page += &format!("| {} | {witness} |\n", row.name);
         }
