@@ -1,7 +1,7 @@
 //! Deliberate mistakes in the solver (fault injection), of the kind that people make.
 //!
-//! With the feature `defects`, [`select`] makes the process make one of them, and a verification that is worth its
-//! name fails; see `mms verify --defects`. Without the feature none of it is there.
+//! With the feature `defects`, [`select`] makes the process commit one of them, which a useful verification detects; see
+//! `mms verify --defects`. Without the feature this code is not compiled.
 
 mms_math::defects! {
     ForceLate, "force_late", "b at t - dt in place of t";
@@ -27,19 +27,19 @@ mms_math::defects! {
     AffineTransposed, "affine_transposed", "APIC keeps the transposed linear velocity";
     AffineFactor, "affine_factor", "APIC uses D^-1 = 3/h^2 of cubic splines for quadratic splines, in place of 4/h^2";
     XpicOrder, "xpic_order", "XPIC stops one map early";
-    XpicSign, "xpic_sign", "XPIC adds the part of v that the grid cannot represent";
-    HalfWidthKept, "half_width_kept", "the half widths of cpgimp do not change";
-    HalfWidthsSwapped, "half_widths_swapped", "the half widths of a box are in the reverse order of its axes";
+    XpicSign, "xpic_sign", "XPIC adds what the grid does not hold";
+    HalfWidthKept, "half_width_kept", "the half widths of cpgimp stay what they were";
+    HalfWidthsSwapped, "half_widths_swapped", "the half widths of a box have the reverse order of its axes";
     ShortSupport, "short_support", "GIMP leaves out the last of its nodes";
     CornersKept, "corners_kept", "the corners of cpdi keep their offsets from the particle";
     CornersTransposed, "corners_transposed", "the gradients of cpdi are made of R^-1 in place of R^-T";
-    SplineEnds, "spline_ends", "splines at the ends of knots are the inner ones";
+    SplineEnds, "spline_ends", "splines at the ends of knots have the form of those in the middle";
     SplineConstant, "spline_constant", "the 2/3 of the cubic spline is typed as 0.667";
     SquareCells, "square_cells", "gradients of weights use h of the first axis along all axes";
     RingVolumes, "ring_volumes", "all particles of an annulus have the volume of a particle on the middle circle";
     HoopStress, "hoop_stress", "the stress around the axis is left out: no - V0 tau_tt w/r";
     RadiusWeight, "radius_weight", "masses and volumes of rings lack the radius, as for boxes in a plane";
-    EdgeVolume, "edge_volume", "the volume of a ring uses the radius of its outer edge";
+    EdgeVolume, "edge_volume", "the volume of a ring takes the radius of its outer edge";
     FlatWeights, "flat_weights", "averages over a ring lack the weight r";
     AxisFixed, "axis_fixed", "the axis is a fixed wall, so that its nodes do not move along it either";
     NoGhosts, "no_ghosts", "contributions past a wall are lost: there are no ghost nodes";

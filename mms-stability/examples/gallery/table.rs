@@ -1,4 +1,4 @@
-//! The page of what is known of the stability of the gallery.
+//! The page of the stability of the gallery.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,8 +12,8 @@ use mms_stability::{Stability, judge};
 const HEAD: &str = "\
 # Is the gallery fit to verify with?
 
-The results of `mms check` for each field, at the defaults of its parameters ([explanation](guide/stability.md)). Moduli are
-relative to mu at rest. The command is
+Results of `mms check` for each field, at the defaults of its parameters; see [their meaning](guide/stability.md). Moduli are
+relative to mu at rest. Written by
 
 ```sh
 cargo run -p mms-stability --example gallery > docs/stability.md
@@ -72,13 +72,13 @@ pub fn row(path: &Path) -> String {
     format!("| {name} | {} | {warned} |\n", cells.join(" | "))
 }
 
-/// The least value, and what it is of.
+/// The least value, with the description of its subject.
 fn worst(values: impl Iterator<Item = (f64, String)>) -> Option<String> {
     let (value, of) = values.min_by(|(one, _), (other, _)| one.total_cmp(other))?;
     Some(format!("{} ({of})", short(value)))
 }
 
-/// Three digits: more are those of a sample, and of the functions of a system.
+/// A number in three digits: further digits depend on the sample, and on the functions of a system.
 fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     let is_plain = rounded == 0.0 || (1e-2..1e6).contains(&rounded.abs());
