@@ -3,8 +3,8 @@
     mms emit axisymmetric_rod --target numpy -o FOLDER
     PYTHONPATH=FOLDER python3 examples/solvers/axisymmetric/solid.py CELLS STEPS END FILE ["without hoop"]
 
-The integrals are per radian, with the weight R. The mass is lumped, and velocities are at half steps. b and the start come from the
-field; all sides except the axis are at rest. `without hoop` leaves out P_tt/R, and sets F_tt = 1.
+The integrals are per radian, with the weight R. The mass is lumped, and velocities are half a step off. Of the field it takes b, the
+start, and that all sides but the axis are at rest. `without hoop` leaves out P_tt/R, and takes F_tt = 1.
 """
 
 import sys

@@ -3,7 +3,7 @@
     mms emit heated_square_2d --target numpy -o FOLDER
     PYTHONPATH=FOLDER python3 heated.py right CELLS STEPS END FILE
 
-`without expansion` in place of `right` leaves out the term of b from the thermal stress, and `without conductivity` the
+`without expansion` in place of `right` leaves out the term of b that the thermal stress gives, and `without conductivity` the
 divergence of the heat flux in the source of heat.
 """
 

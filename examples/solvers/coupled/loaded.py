@@ -1,9 +1,9 @@
-"""A neo-Hookean block in equilibrium, with quadratic functions, under a part of its load.
+"""A neo-Hookean block in equilibrium, with quadratic functions, under a share of its load.
 
     mms emit loaded_2d.toml --target numpy --set load=0.5 -o FOLDER
     PYTHONPATH=FOLDER python3 loaded.py right CELLS FILE
 
-`without lame` in place of `right` leaves out the term of b from the first Lame parameter.
+`without lame` in place of `right` leaves out the term of b that the first Lame parameter gives.
 """
 
 import sys

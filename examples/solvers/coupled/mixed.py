@@ -1,4 +1,4 @@
-"""Taylor-Hood elements: an incompressible neo-Hookean block at rest, with quadratic functions of u and linear functions of p.
+"""Elements of Taylor and Hood: an incompressible neo-Hookean block at rest, with quadratic functions of u and linear ones of p.
 
     mms emit incompressible_2d.toml --target numpy -o FOLDER
     PYTHONPATH=FOLDER python3 mixed.py right CELLS FILE

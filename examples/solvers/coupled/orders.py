@@ -1,4 +1,4 @@
-"""Prints the orders of campaigns. Exits 1 unless each study with all terms passes, and each other study fails.
+"""Prints the orders of campaigns, and exits 1 unless each study passes that leaves nothing out, and each other fails.
 
     python3 orders.py CAMPAIGN.json...
 """
@@ -8,7 +8,7 @@ import sys
 
 
 def orders(study):
-    """For each quantity its name, the expected and observed orders of l2, and the verdict."""
+    """Of each quantity the order that is expected of l2, the observed one, and the verdict."""
     for quantity in study["judgement"]["quantities"]:
         norm = next(it for it in quantity["norms"] if it["norm"] == "l2")
         yield quantity["name"], norm["expected_order"], norm["observed_order"], quantity["verdict"]
@@ -27,7 +27,7 @@ def main(paths):
                 solver = path.rsplit("/", 2)[-2]
                 print(f"{solver:7} {study['name']:24} {name:13} {expected:8.0f} {observed:8.2f}  {verdict}")
     if wrong:
-        sys.exit(f"{wrong} studies do not have the expected verdict")
+        sys.exit(f"{wrong} studies have another verdict than they should have")
 
 
 main(sys.argv[1:])

@@ -1,4 +1,4 @@
-"""The shared parts of the three solvers: a square of elements, Newton's method, and the file of results."""
+"""The parts that the three solvers share: a square of triangles, Newton's method, and the file of results."""
 
 import importlib
 
@@ -9,8 +9,8 @@ from skfem.helpers import dot
 
 
 def prepared(name, study):
-    """The parameters of a field; the field; and the field with PARAMETER = 0, if the study is `without PARAMETER`. Sources are
-    linear in it, so that the sources of the second field lack exactly its term.
+    """The parameters of a field; the field; and the same with that parameter 0 which the study is without, if it is one of
+    `without PARAMETER`. Sources are linear in it, so that those of the second lack its term and no other.
     """
     module = importlib.import_module(name)
     left_out = study.partition("@")[0].partition("without ")[2]
@@ -25,8 +25,8 @@ def deformation(h):
 
 
 class Square:
-    """A mesh of n x n squares, or of twice as many triangles, with the functions of an element, the displacement first. `held`
-    lists axis, place on it, and names of the degrees of freedom that are 0 there. Quadrature is exact up to `order`.
+    """A square of n x n squares, or of twice as many triangles, with the functions of an element, the displacement first. `held`
+    has the axis, the place on it and the names of the degrees of freedom that are 0 there. Quadrature is exact up to an order.
     """
 
     def __init__(self, mesh, length, n, element, order, held):
@@ -41,14 +41,14 @@ class Square:
         self.loaded = np.setdiff1d(mesh.boundary_facets(), np.concatenate(sides))
 
     def surface_force(self, traction):
-        """The integral of T . v over the sides that are not held; `traction` is T as a function of x and N."""
+        """The integral of T . v over the sides that are not held, of a function of x and N."""
         faces = FacetBasis(self.basis.mesh, self.basis.elem, facets=self.loaded, intorder=self.order)
         at = faces.default_parameters()
         form = LinearForm(lambda v, *others: dot(others[-1].t, v))
         return form.assemble(faces, t=traction(*at["x"], *at["n"]))
 
     def solved(self, equations, x):
-        """Solves for a residual of 0 by Newton's method from x; `equations` returns the tangent and the residual."""
+        """Where the residual of equations is 0, by Newton's method from x; they give the tangent and the residual."""
         for _ in range(20):
             tangent, residual = equations(x)
             correction = solve(*condense(tangent, residual, D=self.held))
@@ -59,7 +59,7 @@ class Square:
         raise ArithmeticError("Newton's method does not converge")
 
     def write(self, path, u, nodes, **linear):
-        """Writes nodes, cells and a displacement, and interpolates `linear` quantities to the same nodes."""
+        """Nodes and cells of a displacement, and what is linear in each cell, at the same nodes."""
         (u1, part), (u2, _) = nodes.split(u)
         cells, corners = part.element_dofs, self.basis.mesh.t
         data = {"displacement": np.array([u1, u2, 0.0 * u1]).T}

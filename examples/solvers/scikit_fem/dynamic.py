@@ -1,6 +1,6 @@
-"""A field in motion: a consistent mass, and the Runge-Kutta method of fourth order, so that the elements
-dominate the error. The sides move with the accelerations of the field; b and the start come from the
-field.
+"""A field in motion: a consistent mass, and the method of Runge and Kutta of fourth order, so that the
+error is that of the elements. The sides move with the accelerations of the field; b and the start are
+the field's.
 """
 
 import numpy as np
@@ -9,7 +9,9 @@ from solid import Solid
 
 
 def moved(solid, field, begin, end, steps):
-    """The displacement, the velocity and the acceleration after `steps` steps from the state of the field at `begin`."""
+    """The displacement, the velocity and the acceleration at the end of so many steps, from the field's own state at the
+    beginning.
+    """
     mass = solid.mass().tocsc()
     held, free = solid.held, solid.basis.complement_dofs(solid.held)
     factors = splu(mass[free][:, free])
@@ -38,7 +40,7 @@ def moved(solid, field, begin, end, steps):
 
 
 def run(module, kind, n, steps, end, shift=0.0):
-    """The solid, and its motion after `steps` steps from the start of the window."""
+    """The solid, and its motion after so many steps from the first time on."""
     parameters = module.Parameters()
     field = module.prepare(parameters)
     solid = Solid(kind, n, parameters, lambda x: np.full(x[0].shape, True), shift)

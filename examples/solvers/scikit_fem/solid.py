@@ -1,7 +1,7 @@
 """A total-Lagrangian solid of neo-Hookean material in plane strain, discretised with scikit-fem.
 
-The solid depends on the field only through its arguments: moduli, density, and functions for b and for
-tractions.
+It knows nothing of the field that it is verified with but what is given to it: moduli, density, and
+functions for b and for tractions.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from skfem import (
     LinearForm, MeshQuad, MeshTri, condense, solve,
 )
 
-# For each kind of element: its mesh, its functions, its degree, and its number in VTK.
+# Of each kind: its mesh, its functions, its degree, and its number in VTK.
 ELEMENTS = {
     "P1": (MeshTri, ElementTriP1, 1, 5),
     "P2": (MeshTri, ElementTriP2, 2, 22),
@@ -43,14 +43,14 @@ def square(kind, n, length, shift):
 
 
 class Solid:
-    """A square of elements of a kind; its sides are held where `is_held` is true."""
+    """A square of elements of a kind; its sides are held where `is_held` says so."""
 
     def __init__(self, kind, n, parameters, is_held, shift=0.0):
         length, young, nu = parameters.length, parameters.young, parameters.nu
         mesh = square(kind, n, length, shift)
         _, functions, degree, self.number = ELEMENTS[kind]
         element = ElementVector(functions())
-        # High enough that the error of quadrature is negligible.
+        # Exact enough that quadrature shows in no error.
         self.order = 2 * degree + 4
         self.basis = Basis(mesh, element, intorder=self.order)
         self.loaded = mesh.facets_satisfying(lambda x: ~is_held(x), boundaries_only=True)
@@ -86,12 +86,12 @@ class Solid:
         return BilinearForm(form).assemble(self.basis, g=g, twist=twist)
 
     def body_force(self, b):
-        """The integral of rho0 b . v, with b a function of x."""
+        """The integral of rho0 b . v, of a function of x."""
         form = LinearForm(lambda v, w: self.rho0 * np.sum(w.b * v.value, axis=0))
         return form.assemble(self.basis, b=b(self.basis.default_parameters()["x"]))
 
     def surface_force(self, traction):
-        """The integral of T . v over the sides that are not held, with T a function of x and N."""
+        """The integral of T . v over the sides that are not held, of a function of x and N."""
         mesh, element = self.basis.mesh, self.basis.elem
         faces = FacetBasis(mesh, element, facets=self.loaded, intorder=self.order)
         at = faces.default_parameters()
@@ -122,7 +122,7 @@ class Solid:
         return u
 
     def write(self, u, path):
-        """Writes nodes, cells and the displacement in the legacy format of VTK."""
+        """Nodes, cells and the displacement, in the legacy format of VTK."""
         (u1, part), (u2, _) = self.basis.split(u)
         places, cells = part.doflocs, part.element_dofs
         with open(path, "w") as file:

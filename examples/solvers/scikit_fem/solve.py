@@ -1,4 +1,4 @@
-"""Runs one problem with one kind of elements, as in "static P1", and writes the displacement at the time END to FILE.
+"""One run: a kind of problem and of elements, as in "static P1", cells, steps, the last time, and a file.
 
     mms emit FIELD --target numpy -o FOLDER
     PYTHONPATH=FOLDER python3 examples/solvers/scikit_fem/solve.py "static P1" CELLS STEPS END FILE

@@ -1,4 +1,4 @@
-"""Writes the twenty right runs, on four meshes each, that are stored in `tests/command/data/scikit_fem`:
+"""Writes twenty right runs on four meshes each, as `tests/command/data/scikit_fem` holds them:
 
     for field in travelling_wave_2d starting_square_2d; do mms emit $field --target numpy -o FOLDER; done
     PYTHONPATH=FOLDER python3 examples/solvers/scikit_fem/stored.py OUTPUT
@@ -14,14 +14,14 @@ import numpy as np
 from solid import ELEMENTS
 
 END = 0.012
-# The largest wave speed times time step, over the distance of nodes.
+# The largest product of wave speed and time step over the distance of nodes.
 COURANT = 0.15
 NAMES = {5: "triangle", 9: "quad", 22: "triangle6", 28: "quad9"}
-# The fields: the first is deformed at the start, the second is not.
+# The fields: one that is deformed at the start, and one that is not.
 FIELDS = {"wave": "travelling_wave_2d", "start": "starting_square_2d"}
-# The written quantities of the motion, by field and degree.
+# What is written of the motion, by the field and the degree.
 WRITTEN = {("wave", 1): "uv", ("wave", 2): "uv", ("start", 1): "uva", ("start", 2): "uv"}
-# Four of the waves are written again, with accelerations.
+# Four of the waves once more, with accelerations.
 WITH_ACCELERATION = ["Q1_regular", "P2_regular", "P1_irregular", "Q2_irregular"]
 
 

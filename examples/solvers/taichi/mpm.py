@@ -3,9 +3,9 @@
     mms emit travelling_wave_2d --target numpy -o FOLDER
     PYTHONPATH=FOLDER python3 examples/solvers/taichi/mpm.py CELLS STEPS END FILE
 
-The grid covers the reference body, with 2 x 2 particles of neo-Hookean material in each cell.
-Velocities are at half steps. b at the particles, the motion of the sides and the start
-come from the field. X and u of the particles at the end go to a file of NumPy.
+The grid is that of the reference body, with 2 x 2 particles of neo-Hookean material in each cell.
+Velocities live between the times of positions. b at the particles, the motion of the sides and the start
+are the field's. X and u of the particles at the end go to a file of NumPy.
 """
 
 import sys
@@ -37,7 +37,7 @@ class Body:
 
     @ti.func
     def corner(self, p, k):
-        """The node, the weight and the weight gradient of the k-th corner of the particle's cell."""
+        """Of the corners of the particle's cell the k-th: its node, its weight, and the gradient."""
         place = self.X[p] / self.h
         cell = ti.min(ti.floor(place, int), self.n - 1)
         side = ti.Vector([k % 2, k // 2])
@@ -47,7 +47,7 @@ class Body:
 
     @ti.kernel
     def gather(self, b: ti.types.ndarray(dtype=ti.math.vec2, ndim=1)):
-        """Sums masses, momenta and forces of the particles onto the nodes."""
+        """From the particles to the nodes."""
         for node in ti.grouped(self.mass):
             self.mass[node] = 0.0
             self.velocity[node] = self.acceleration[node] = ti.Vector([0.0, 0.0])
@@ -64,7 +64,7 @@ class Body:
 
     @ti.kernel
     def move(self, dt: float, sides: ti.types.ndarray(dtype=ti.math.vec2, ndim=2)):
-        """Updates the nodes; nodes of the sides get prescribed velocities."""
+        """The nodes: those of the sides get the velocities that they are given."""
         for node in ti.grouped(self.mass):
             before = self.velocity[node] / self.mass[node]
             self.velocity[node] = before + dt * self.acceleration[node] / self.mass[node]
@@ -74,7 +74,7 @@ class Body:
 
     @ti.kernel
     def scatter(self, dt: float):
-        """Updates the particles from the nodes."""
+        """From the nodes to the particles."""
         for p in self.X:
             for k in ti.static(range(4)):
                 node, weight, gradient = self.corner(p, k)
@@ -84,7 +84,7 @@ class Body:
 
 
 def run(n, steps, end):
-    """X and u of the particles, after `steps` steps from the start of the window."""
+    """X and u of the particles, after so many steps from the first time on."""
     parameters = travelling_wave_2d.Parameters()
     field = travelling_wave_2d.prepare(parameters)
     body = Body(n, parameters)
@@ -93,7 +93,7 @@ def run(n, steps, end):
     nodes = np.array(np.meshgrid(*[np.arange(n + 1) * body.h] * 2, indexing="ij"))
 
     def columns(values):
-        """Moves components to the last axis, as Taichi expects of vectors."""
+        """Components last, as Taichi takes vectors."""
         return np.ascontiguousarray(np.moveaxis(values, 0, -1))
 
     begin, _ = field.time_window()
