@@ -1,23 +1,24 @@
 //! Bodies of revolution: the grid's plane is the meridian (R, Z), and masses, volumes and forces are per radian.
 //!
-//! A particle stands for a ring. In the meridian it is a box with the half width l along R and its middle at R_m. The ring's
+//! A particle represents a ring. In the meridian it is a box with the half width l along R and its middle at R_m. The ring's
 //! volume per radian is V0 = A R_m (Pappus), A being the area of the box. Beside the displacement gradient H of the meridian
-//! the particle keeps the hoop strain h = F_tt - 1 = u_R/R. Forces and strains around the axis come of the weights w_i/r, r
-//! being the distance from the axis:
+//! the particle stores the hoop strain h = F_tt - 1 = u_R/R. Forces and strains around the axis follow from the weights w_i/r,
+//! r being the distance from the axis:
 //!
 //! f_iR += - V0 S_tt w_i/r,   dF_tt/dt = F_tt sum_i v_iR w_i/r in the updated formulation,
 //!
-//! with S_tt = tau_tt; in the total formulation S_tt = P_tt, r is R, and the factor F_tt is left out.
+//! with S_tt = tau_tt. In the total formulation S_tt = P_tt, r is R, and the factor F_tt is left out.
 //!
-//! Shape functions that see points take the middle of a box for one. Those that see boxes average over the ring (Nairn and
-//! Guilkey, "Axisymmetric form of the generalized interpolation material point method", Int. J. Numer. Meth. Engng 101 (2015)
-//! 127-147, see [`crate::gimp`]). Averages of linear functions are their values at the ring's centroid,
+//! Shape functions that treat a particle as a point evaluate it at the middle of its box. Shape functions that treat it as a
+//! box average over the ring (Nairn and Guilkey, "Axisymmetric form of the generalized interpolation material point method",
+//! Int. J. Numer. Meth. Engng 101 (2015) 127-147, see [`crate::gimp`]). Averages of linear functions are their values at the
+//! ring's centroid,
 //!
 //! R_m + l^2/(3 R_m),
 //!
-//! and so their particles lie there. Either way a uniform pressure leaves nodes inside a body in equilibrium.
+//! and so these particles lie there. Either way a uniform pressure leaves nodes inside a body in equilibrium.
 //!
-//! The axis is a wall whose normal component is held: u_R = 0 there, and no traction acts along it, for it has no area.
+//! The axis is a wall that constrains its normal component: u_R = 0 there. No traction acts along it, for it has no area.
 
 use crate::body::Filling;
 use crate::column::{BUNCH, Bunches, Column, Matrices};
@@ -26,8 +27,8 @@ use crate::field::{Face, ManufacturedField};
 use crate::material::Axisymmetric;
 use crate::real::{Matrix, Real, Vector};
 
-/// Computes the Kirchhoff stress of a field's material in the plane of the grid and, of an axisymmetric field, around the
-/// axis. Of other fields the hoop strains and stresses are empty.
+/// Computes the Kirchhoff stress of a field's material in the plane of the grid and, if the field is axisymmetric, around the
+/// axis. Hoop strains and stresses are empty for other fields.
 ///
 /// # Panics
 /// If the slices have different lengths.
@@ -75,7 +76,7 @@ where
     }
 }
 
-/// The field's hoop strain at each position; nothing of a field that is not axisymmetric.
+/// The field's hoop strain at each position; empty if the field is not axisymmetric.
 pub fn hoop_strain<T: Real, const D: usize, F>(
     field: &F,
     time: T,
@@ -100,7 +101,7 @@ pub enum Station {
 }
 
 impl Station {
-    /// The radius, of a ring between `middle` - `half_width` and `middle` + `half_width`.
+    /// The radius of the particle of a ring between `middle` - `half_width` and `middle` + `half_width`.
     fn radius(self, middle: f64, half_width: f64) -> f64 {
         match self {
             Station::Middle => middle,
@@ -109,10 +110,10 @@ impl Station {
     }
 }
 
-/// How particles are made of boxes in the meridian.
+/// The rules that turn boxes in the meridian into particles.
 #[derive(Clone, Copy)]
 pub struct Rings<'a> {
-    /// Where they lie.
+    /// Where the particles lie.
     pub station: Station,
     /// The volume of a ring over the area of its box, by the radius of its middle: see [`Axisymmetric::weight`].
     pub weight: &'a dyn Fn(f64) -> f64,
@@ -123,13 +124,13 @@ pub fn hoop_stretch<T: Real>(hoop_strain: &[T], particle: usize) -> T {
     hoop_strain.get(particle).map_or(T::one(), |&strain| T::one() + strain)
 }
 
-/// The entries of a tensor of the meridian, column by column, and the one around the axis, of a bunch of particles.
+/// The entries of a bunch of tensors of the meridian, column by column, and then the entry around the axis.
 pub type Ring<T> = [[T; BUNCH]; 5];
 
 /// How many bunches are evaluated together.
 const TOGETHER: usize = 32;
 
-/// Evaluates a material, whose strains and stresses are kept ring by ring, for some bunches of particles.
+/// Evaluates a material that reads and writes [`Ring`]s, for some bunches of particles.
 pub fn by_rings<T: Real>(
     reference: &[[Vector<T, 2>; BUNCH]],
     (displacement_gradient, hoop_strain): (&[Matrices<T, 2>], &[[T; BUNCH]]),
@@ -184,8 +185,8 @@ pub fn energy_at_own_strain<T: Real, const D: usize>(
 }
 
 impl<const D: usize> Filling<D> {
-    /// Revolves boxes of the meridian: particles move to their stations, and volumes and pieces of faces become those of
-    /// rings, per radian, by the weight that a radius has.
+    /// Revolves boxes of the meridian: moves particles to their stations, and multiplies volumes and pieces of faces by the
+    /// weight of their radius, which makes them volumes and pieces of rings, per radian.
     pub(crate) fn revolve(&mut self, Rings { station, weight }: Rings<'_>) {
         let middles: Vec<[f64; 2]> = self
             .position

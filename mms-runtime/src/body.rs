@@ -24,7 +24,7 @@ const PARTICLE_LIMIT: f64 = (1u64 << 27) as f64;
 pub enum Fill {
     /// On a lattice of boxes; a curved face cuts it ragged.
     Cartesian,
-    /// Along the faces; in a box the same as `Cartesian`.
+    /// Along the faces; in a box equal to `Cartesian`.
     Fitted,
 }
 
@@ -61,7 +61,7 @@ pub struct Piece<const D: usize> {
     pub face: Face,
     /// The particle.
     pub particle: usize,
-    /// Its middle.
+    /// The middle of the piece.
     pub position: Vector<f64, D>,
     /// Area times outward normal.
     pub area: Vector<f64, D>,
@@ -72,7 +72,7 @@ pub struct Piece<const D: usize> {
 pub struct Filling<const D: usize> {
     /// X.
     pub position: Vec<Vector<f64, D>>,
-    /// V0. They add up to the volume of a box and of a body that particles are fitted to.
+    /// V0. The sum is the volume of the body if it is a box or if particles are fitted to it.
     pub volume: Vec<f64>,
     /// The columns are half the edges of each domain.
     pub half_edges: Vec<Matrix<f64, D>>,
@@ -81,8 +81,8 @@ pub struct Filling<const D: usize> {
 }
 
 impl<const D: usize> Filling<D> {
-    /// Fills a body, with about `spacing` between particles along each axis: as many of them as make their
-    /// domains fill it without gap or overlap.
+    /// Fills a body with particles about `spacing` apart along each axis. Their number makes their domains fill the body
+    /// without gap or overlap.
     ///
     /// # Errors
     /// The body has no extent, or takes too many particles.
@@ -117,8 +117,8 @@ impl<const D: usize> Filling<D> {
         self.position.is_empty()
     }
 
-    /// Moves each particle within its domain, by up to `fraction` of half its edges, at random. Domains,
-    /// volumes and pieces of faces stay.
+    /// Moves each particle at random within its domain, by up to `fraction` of half its edges. Does not change domains, volumes
+    /// or pieces of faces.
     pub fn jitter(&mut self, fraction: f64, seed: u64) {
         let mut random = fastrand::Rng::with_seed(seed);
         for (position, half_edges) in self.position.iter_mut().zip(&self.half_edges) {
@@ -128,17 +128,17 @@ impl<const D: usize> Filling<D> {
     }
 }
 
-/// A body that is no box, in double precision.
+/// A body other than a box, in double precision.
 enum Region<'a> {
     Round(Block),
     Polygon(Polygon<'a>),
 }
 
 impl<'a> Region<'a> {
-    /// That of a body which is no box.
+    /// The region of a body other than a box.
     ///
     /// # Errors
-    /// There is none.
+    /// There is no body.
     fn of<T: Real, const D: usize>(body: &'a Body<T, D>) -> Result<Self, Refusal> {
         let pair = |pair: &[T; 2]| pair.map(Real::to_f64);
         let round = |system: System, radii: [&T; 2], others: &[&[T; 2]]| {

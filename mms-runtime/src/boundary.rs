@@ -1,4 +1,4 @@
-//! What holds the grid's nodes at the body's faces.
+//! Boundary conditions: what the solver imposes on the grid's nodes at the body's faces.
 //!
 //! | claim on a face | the solver |
 //! |---|---|
@@ -30,7 +30,7 @@ use surface::Surface;
 use traction::{Place, Point, Traction};
 use wall::Wall;
 
-/// The boundary conditions of a scene. What a scene does not have is empty, and costs nothing.
+/// The boundary conditions of a scene. A condition that the scene does not have is empty, and costs nothing.
 pub struct Boundary<T, const D: usize> {
     periods: Vec<Period>,
     walls: Vec<Wall>,
@@ -93,7 +93,7 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         Ok(boundary)
     }
 
-    /// Finds how far beyond its faces a body gives nodes mass, before any is folded.
+    /// Finds how far beyond its faces the body gives mass to nodes. To be called before masses are folded.
     pub fn reach(&mut self, momentum: &[Nodal<T>]) {
         self.periods.iter_mut().for_each(|period| period.reach(momentum));
         self.walls.iter_mut().for_each(|wall| wall.reach(momentum));
@@ -116,8 +116,8 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         self.prescribed.locate(field, time, grid)
     }
 
-    /// Adds this `share` of the field's tractions at `time` to the nodes. `place` says where the piece of a face at
-    /// X, carried by a particle, is, and `point` which nodes a place has.
+    /// Adds this `share` of the field's tractions at `time` to the nodes. `place` computes where the piece of a face at X that
+    /// a particle carries is, and `point` the nodes of a place.
     ///
     /// # Errors
     /// A piece is off the grid, or the field's F is singular there.
@@ -157,13 +157,13 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         }
     }
 
-    /// Imposes what is left of a velocity that the boundary takes no part in.
+    /// Imposes zero on a residual velocity, for the boundary has none.
     pub fn residual(&mut self, residual: &mut [Nodal<T>]) {
         self.prescribed.impose(residual, |_, out| out.fill(Vector::zeros()));
         self.mirror(residual);
     }
 
-    /// Wall after wall; at edges the last one sees what the others have mirrored.
+    /// Mirrors at wall after wall; at edges the last wall reads what the others have mirrored.
     fn mirror(&self, intensive: &mut [Nodal<T>]) {
         self.walls.iter().for_each(|wall| wall.mirror(intensive));
         self.periods.iter().for_each(|period| period.copy(intensive));

@@ -1,4 +1,4 @@
-//! Arrays of particles, bunch by bunch and number by number (array of structures of arrays).
+//! Arrays of particles, grouped in bunches of [`BUNCH`] (array of structures of arrays).
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};
@@ -7,33 +7,33 @@ use mms_math::bunched::Numbers;
 
 use crate::real::{Matrix, Real, Vector};
 
-/// How many particles are in a bunch.
+/// The number of particles in a bunch.
 pub const BUNCH: usize = 8;
 
-/// And in each half of it.
+/// The number of particles in each half of a bunch.
 pub const HALF: usize = BUNCH / 2;
 
-/// An entry for every particle. The last bunch is full: its last entry stands in for those that there are not, so
-/// that whatever is done to bunches is done to all alike.
+/// An array with an entry for every particle. Copies of the last entry pad the last bunch, so that loops process all bunches
+/// alike.
 #[derive(Clone, Debug, Default)]
 pub struct Column<V> {
-    /// Of whole bunches.
+    /// The entries, padded to whole bunches.
     entries: Vec<V>,
     len: usize,
 }
 
 impl<V: Copy> Column<V> {
-    /// Bunch by bunch.
+    /// The entries, bunch by bunch.
     pub(crate) fn bunches(&self) -> &[[V; BUNCH]] {
         self.entries.as_chunks().0
     }
 
-    /// Bunch by bunch; those that stand for the last particle have to become what its own does.
+    /// The entries, bunch by bunch. The caller has to change the padding like the last particle's entry.
     pub(crate) fn bunches_mut(&mut self) -> &mut [[V; BUNCH]] {
         self.entries.as_chunks_mut().0
     }
 
-    /// Has the last entry stand in again for those that there are not.
+    /// Pads the last bunch with copies of the last entry again.
     pub(crate) fn fill_up(&mut self) {
         let last = self.last().copied();
         self.entries.truncate(self.len);
@@ -80,23 +80,23 @@ impl<'a, V> IntoIterator for &'a Column<V> {
     }
 }
 
-/// What a bunch of particles has, of each number those of all particles beside each other.
+/// The data of a bunch of particles: for each component, the values of all particles are adjacent.
 pub trait Bunch: Copy + fmt::Debug + Send + Sync {
-    /// What one particle has.
+    /// The data of one particle.
     type One: Copy;
 
-    /// A bunch of particles that are alike.
+    /// A bunch whose particles all have the same data.
     fn alike(one: &Self::One) -> Self;
 
-    /// That of one particle.
+    /// Reads the data of one particle.
     fn get(&self, particle: usize) -> Self::One;
 
-    /// Sets that of one particle.
+    /// Writes the data of one particle.
     fn set(&mut self, particle: usize, one: &Self::One);
 }
 
-/// The vectors of a bunch: of each of the `D` components those of all particles beside each other. Whole lines of the
-/// cache, for a register that is in two takes twice as long; so those of single precision may be padded.
+/// The vectors of a bunch: for each of the `D` components, the values of all particles are adjacent. Aligned to cache lines,
+/// since a load that crosses a line takes twice as long; bunches in single precision may therefore be padded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Vectors<T, const D: usize>(pub [[T; BUNCH]; D]);
@@ -179,7 +179,7 @@ macro_rules! numbers {
 
 numbers!(1 1, 2 4, 3 9);
 
-/// An entry for every particle, number by number. As in a [`Column`], the last bunch is full.
+/// An array of [`Bunch`]es with an entry for every particle. As in a [`Column`], the last bunch is full.
 #[derive(Clone, Debug)]
 pub struct Bunches<B> {
     bunches: Vec<B>,
@@ -197,7 +197,7 @@ impl<B: Bunch> Bunches<B> {
         self.len == 0
     }
 
-    /// That of one particle.
+    /// Reads the entry of one particle.
     ///
     /// # Panics
     /// If there is no such particle.
@@ -206,34 +206,34 @@ impl<B: Bunch> Bunches<B> {
         self.bunches[particle / BUNCH].get(particle % BUNCH)
     }
 
-    /// One after the other.
+    /// The entries of all particles, one after the other.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = B::One> {
         (0..self.len).map(|particle| self.get(particle))
     }
 
-    /// Bytes of one particle.
+    /// The number of bytes per particle.
     pub fn bytes(&self) -> usize {
         if self.is_empty() { 0 } else { size_of::<B>() / BUNCH }
     }
 
-    /// Bunch by bunch.
+    /// The bunches.
     pub(crate) fn bunches(&self) -> &[B] {
         &self.bunches
     }
 
-    /// Bunch by bunch; those that stand for the last particle have to become what its own does.
+    /// The bunches. The caller has to change the padding like the last particle's entry.
     pub(crate) fn bunches_mut(&mut self) -> &mut [B] {
         &mut self.bunches
     }
 
-    /// Exchanges those of two particles.
+    /// Exchanges the entries of two particles.
     pub(crate) fn swap(&mut self, a: usize, b: usize) {
         let (first, second) = (self.get(a), self.get(b));
         self.bunches[a / BUNCH].set(a % BUNCH, &second);
         self.bunches[b / BUNCH].set(b % BUNCH, &first);
     }
 
-    /// Has the last one stand in again for those that there are not.
+    /// Pads the last bunch with copies of the last entry again.
     pub(crate) fn fill_up(&mut self) {
         if let Some(last) = self.len.checked_sub(1) {
             let entry = self.get(last);
@@ -250,7 +250,7 @@ impl<B: Bunch> FromIterator<B::One> for Bunches<B> {
         for entry in entries {
             match all.len % BUNCH {
                 0 => all.bunches.push(B::alike(&entry)),
-                // Those that follow stand in for what does not come.
+                // Pads the rest of the bunch, in case no entry follows.
                 k => (k..BUNCH).for_each(|k| all.bunches[all.len / BUNCH].set(k, &entry)),
             }
             all.len += 1;

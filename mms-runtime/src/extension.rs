@@ -1,4 +1,4 @@
-//! The one visible list that an extension (a shape function, a time integrator) is added to.
+//! The macro that declares a family of extensions (shape functions, time integrators, formulations) in one visible list.
 
 /// Declares the modules of a family, and from the same list the family's names and its dispatch.
 ///
@@ -33,7 +33,7 @@ macro_rules! extension_list {
                 match self { $(Self::$member => stringify!($module)),* }
             }
 
-            /// Calls the visitor with the type that this name stands for.
+            /// Calls the visitor with the type that has this name.
             pub fn visit<V: $visitor>(self, visitor: V) -> V::Output {
                 match self { $(Self::$member => visitor.visit::<$member>()),* }
             }
@@ -58,12 +58,12 @@ macro_rules! extension_list {
             }
         }
 
-        /// Something to do with a member of the family, whichever it is.
+        /// An operation on any member of the family.
         pub trait $visitor {
             /// The result, the same type for every member.
             type Output;
 
-            /// Does it with the member `M`.
+            /// Performs the operation with the member `M`.
             fn visit<M: $family>(self) -> Self::Output;
         }
     };
@@ -71,7 +71,7 @@ macro_rules! extension_list {
 
 pub(crate) use extension_list;
 
-/// The names that end with one, as `ugimp` and `cpgimp` do with `gimp`: likely one of them is meant.
+/// The names that start or end with the given one, as `ugimp` and `cpgimp` end with `gimp`: likely one of them is meant.
 fn ending(given: &str, known: &[&str]) -> String {
     let given = given.to_lowercase().replace('-', "_");
     let ends = |it: &&&str| !given.is_empty() && (it.ends_with(&given) || it.starts_with(&given));

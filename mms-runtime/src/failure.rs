@@ -18,7 +18,7 @@ pub enum Refusal {
     UnsupportedCondition {
         /// The face.
         face: Face,
-        /// What it asks for.
+        /// The condition that the face asks for.
         condition: Condition,
     },
     /// A field without a body.
@@ -34,10 +34,10 @@ pub enum Refusal {
     RaggedFace {
         /// The face.
         face: Face,
-        /// What it asks for.
+        /// The condition that the face asks for.
         condition: Condition,
     },
-    /// A domain that follows the deformation, in a formulation where nothing moves.
+    /// A shape function whose domains follow the deformation, in a formulation where nothing moves.
     #[error(
         "shape function `{shape}` follows the deformation, but in the total formulation no particle's \
          domain moves; the nearest is `ugimp`, whose domains are those of the reference configuration"
@@ -64,9 +64,9 @@ pub enum Refusal {
     /// Threads that the system does not give.
     #[error("cannot run on {threads} thread(s): {reason}; use fewer")]
     NoThreads {
-        /// How many were asked for.
+        /// The requested number.
         threads: usize,
-        /// What the system says.
+        /// The system's message.
         reason: String,
     },
     /// More memory than there is.
@@ -75,15 +75,15 @@ pub enum Refusal {
          particles per cell, or single precision"
     )]
     TooLittleMemory {
-        /// What it takes, in 10^6 bytes.
+        /// The memory that the scene needs, in 10^6 bytes.
         needed: u64,
-        /// What there is, in 10^6 bytes.
+        /// The memory that is free, in 10^6 bytes.
         available: u64,
     },
     /// A checkpoint of another scene, or none.
     #[error("the state to go on from does not fit: {reason}")]
     NoState {
-        /// What is wrong with it.
+        /// The reason why the state does not fit.
         reason: String,
     },
     /// Numbers for another dimension.
@@ -96,7 +96,7 @@ pub enum Refusal {
         /// The body's dimension.
         dimension: usize,
     },
-    /// A particle so light that what it adds to nodes has no inverse.
+    /// A particle so light that its contribution to the mass of nodes has no inverse.
     #[error(
         "a particle has a mass of {mass:e}, and needs {least:e} in this precision: use double precision, or a unit of \
          mass that is smaller"
@@ -104,15 +104,15 @@ pub enum Refusal {
     TooLight {
         /// The least mass of a particle.
         mass: f64,
-        /// What it has to be at least.
+        /// The least mass that is supported.
         least: f64,
     },
     /// A number outside its range.
     #[error("{what} is {value}, and has to be between {from} and {to}")]
     OutOfRange {
-        /// What it is.
+        /// The name of the number.
         what: &'static str,
-        /// Its value.
+        /// The value.
         value: f64,
         /// The least it may be.
         from: f64,
@@ -130,7 +130,7 @@ pub enum Refusal {
         axis: usize,
         /// Whether the body is a box.
         is_box: bool,
-        /// Its length in cells.
+        /// The length of the body in cells.
         cells: f64,
     },
     /// A field that does not repeat itself.
@@ -158,20 +158,20 @@ pub enum Refusal {
     WallBetweenNodes {
         /// The face.
         face: Face,
-        /// What it asks for.
+        /// The condition that the face asks for.
         condition: Condition,
-        /// Its distance in cells from a plane of nodes or from the opposite face.
+        /// The distance of the face in cells from a plane of nodes or from the opposite face.
         cells: f64,
     },
     /// A value that has to be positive and finite is not.
     #[error("{what} is {value}, and has to be positive and finite")]
     NotPositive {
-        /// What it is.
+        /// The name of the value.
         what: &'static str,
-        /// Its value.
+        /// The value.
         value: f64,
     },
-    /// The field gives a value that is not finite inside its own time window.
+    /// A value of the field that is not finite inside the field's own time window.
     #[error("the field's {quantity} is not finite at time {time:e} and X = {reference_position:?}")]
     FieldNotFinite {
         /// The quantity.
@@ -192,12 +192,12 @@ pub enum Refusal {
         what: &'static str,
         /// How many there would be.
         count: f64,
-        /// How many are taken.
+        /// How many the solver accepts.
         limit: f64,
     },
 }
 
-/// What makes a scene smaller.
+/// Advice on how to make a scene smaller.
 fn fewer(what: &str) -> &'static str {
     match what {
         "steps" => "use a larger Courant number or time step, or an earlier end",
@@ -221,11 +221,11 @@ pub(crate) fn positive(what: &'static str, value: f64) -> Result<f64, Refusal> {
 
 /// `count`, if it is at most `limit`.
 pub(crate) fn at_most(what: &'static str, count: f64, limit: f64) -> Result<f64, Refusal> {
-    let within = count <= limit; // not so if it is not a number
+    let within = count <= limit; // false for NaN
     within.then_some(count).ok_or(Refusal::TooLarge { what, count, limit })
 }
 
-/// Why a run stopped, where and when.
+/// The reason, place and time of a run's stop.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}; {}", self.place(), cause.advice())]
 pub struct Failure {
@@ -233,11 +233,11 @@ pub struct Failure {
     pub step: usize,
     /// The time at the end of that step.
     pub time: f64,
-    /// The particle, unless it happened at a grid node.
+    /// The particle; `None` if the failure is at a grid node.
     pub particle: Option<usize>,
-    /// Reference position of the particle or node, `D` components; none if it happened to all of them.
+    /// Reference position of the particle or node, `D` components; empty if the failure concerns all of them.
     pub reference_position: Vec<f64>,
-    /// What happened.
+    /// The cause.
     pub cause: Cause,
 }
 
@@ -251,7 +251,7 @@ impl Failure {
     }
 }
 
-/// What stopped a run.
+/// The cause of a run's stop.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Cause {
     /// A time step in which a wave may cross a cell.
@@ -264,7 +264,7 @@ pub enum Cause {
         time_step: f64,
         /// The largest one that is proved to be stable.
         stable: f64,
-        /// Its Courant number.
+        /// The Courant number of the largest stable step.
         courant: f64,
     },
     /// J <= 0.
@@ -284,9 +284,9 @@ pub enum Cause {
         "the {quantity} is {value:e}, outside the range of this precision, {least:.1e} to {most:.1e}"
     )]
     OutOfRange {
-        /// What it is, the largest of all particles.
+        /// The quantity; its value is the largest of all particles.
         quantity: &'static str,
-        /// Its size; infinite where the precision has no number for it.
+        /// The size; infinite where the precision has no number for it.
         value: f64,
         /// The least positive number with all digits.
         least: f64,
@@ -326,26 +326,26 @@ pub enum Cause {
         /// The node's position.
         position: Vec<f64>,
     },
-    /// A body that does not come to rest.
+    /// A body that does not come to equilibrium.
     #[error(
         "the body has not come to equilibrium: its residual is {residual:.2e}, and has to be below {tolerance:.2e}"
     )]
     NotRelaxed {
-        /// The forces that are out of balance over those of the stress.
+        /// The ratio of the forces out of balance to the forces of the stress.
         residual: f64,
         /// The residual below which the run ends.
         tolerance: f64,
     },
-    /// Who follows the run could not go on.
+    /// An observer of the run failed.
     #[error("{reason}")]
     Stopped {
-        /// Why.
+        /// The observer's reason.
         reason: String,
     },
 }
 
 impl Cause {
-    /// A particle, or a corner of its domain, that the grid does not hold.
+    /// The cause for a particle, or a corner of its domain, outside the grid.
     pub(crate) fn lost<T: Real, const D: usize>(position: &Vector<T, D>) -> Self {
         Cause::Lost { position: components(position) }
     }

@@ -28,8 +28,8 @@ pub trait ManufacturedField<T: Real, const D: usize>: Material<T, D> {
     /// H_iJ = du_i/dX_J.
     fn displacement_gradient(&self, time: T, reference: &[Vector<T, D>], out: &mut [Matrix<T, D>]);
 
-    /// The Kirchhoff stress whose tractions act on the faces, where the field's H is `displacement_gradient`: that
-    /// of the material.
+    /// The Kirchhoff stress whose tractions act on the faces, where the field's H is `displacement_gradient`; by default the
+    /// material's stress.
     fn surface_stress(
         &self,
         time: T,
@@ -48,12 +48,12 @@ pub struct Domain<T, const D: usize> {
     pub body: Body<T, D>,
     /// Start and end of the time window.
     pub time: [T; 2],
-    /// What holds on each face. On a face without an entry the field prescribes the displacement.
+    /// The condition on each face. On a face without an entry the field prescribes the displacement.
     pub faces: Vec<(Face, Condition)>,
 }
 
 impl<T, const D: usize> Domain<T, D> {
-    /// What holds on `face`: the first claim about it, or else [`Condition::Prescribed`].
+    /// The condition on `face`: the first claim about it, or else [`Condition::Prescribed`].
     pub fn condition(&self, face: Face) -> Condition {
         let claim = self.faces.iter().find(|(claimed, _)| *claimed == face);
         claim.map_or(Condition::Prescribed, |(_, condition)| *condition)
@@ -131,7 +131,7 @@ pub enum Face {
     PhiMin,
     /// The last angle of a sphere from +Z.
     PhiMax,
-    /// The edge of a polygon after the vertex of that position, and its name.
+    /// The edge of a polygon that starts from the vertex of that index, and its name.
     Edge(usize, &'static str),
 }
 
@@ -153,7 +153,7 @@ impl fmt::Display for Face {
     }
 }
 
-/// What holds on a face, N being its reference normal.
+/// The boundary condition on a face; N is its reference normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Condition {
     /// u = 0.

@@ -6,13 +6,14 @@
 //!
 //! w = 1/(2 l) int hat(x) dx,  grad w = 1/(2 l) int hat'(x) dx,  x from x_p - l to x_p + l.
 //!
-//! On a meridian the domain is that of a ring, and the averages along R are those over the ring, that is with the weight r
-//! (Nairn and Guilkey, "Axisymmetric form of the generalized interpolation material point method", Int. J. Numer. Meth. Engng
-//! 101 (2015) 127-147). With the middle r_m of the box they are the averages above and a first moment each,
+//! On a meridian the domain is a ring, and the averages along R are over the ring, that is with the weight r (Nairn and
+//! Guilkey, "Axisymmetric form of the generalized interpolation material point method", Int. J. Numer. Meth. Engng 101 (2015)
+//! 127-147). With the middle r_m of the box they are the averages above plus a first moment each,
 //!
 //! w + 1/(2 l r_m) int (r - r_m) hat(r) dr,  grad w + 1/(2 l r_m) int (r - r_m) hat'(r) dr,
 //!
-//! and the weights w/r of the strain around the axis are those above over r_m. A ring that would cross the axis ends there.
+//! and the weights w/r of the strain around the axis are the averages above over r_m. A ring that would cross the axis ends
+//! there.
 
 use mms_math::machine::{Machine, Plain};
 use nalgebra::ComplexField;
@@ -29,11 +30,11 @@ use crate::spline;
 use crate::stencil::{Known, MOST, Tensor};
 use crate::tensor::determinant;
 
-/// Nodes along an axis that domains of up to a cell's width reach: the nearest one and its neighbours. Wider ones, of
-/// less than two cells, reach [`MOST`].
+/// The number of nodes along an axis that domains of up to a cell's width reach: the nearest one and its neighbours. Domains of
+/// up to two cells reach [`MOST`].
 const NEAREST: usize = 3;
 
-/// GIMP with half widths that stay, or that follow the stretch along the axes.
+/// GIMP with constant half widths, or with half widths that follow the stretch along the axes.
 pub struct Gimp<const FOLLOWS: bool>;
 
 impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
@@ -103,7 +104,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             }
             stencil.set(machine, lattice, a, first[a], weights);
         }
-        // What is not a number is on no grid.
+        // NaN is on no grid.
         let last = T::of(NEAREST as f64);
         let on_grid = std::array::from_fn(|a| [T::zero(), lattice.nodes[a] - last]);
         if machine.all_between(&first, &on_grid) {
@@ -121,7 +122,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     }
 }
 
-/// Half widths of up to a cell.
+/// Computes weights for half widths of up to a cell.
 #[cold]
 fn place_wide<T: Real, const D: usize>(
     stencil: &mut Tensor<T, D>,
@@ -129,7 +130,7 @@ fn place_wide<T: Real, const D: usize>(
     position: &Vectors<T, D>,
     half_width: &Vectors<T, D>,
 ) -> Result<(), Cause> {
-    // What is not inlined into a loop knows no better machine.
+    // This function is not inlined into a loop and so cannot use the loop's better instructions.
     let machine = T::PlainMachine::from(Plain);
     stencil.begin::<MOST>(lattice, Known::Regular);
     let mut fits = true;
@@ -172,8 +173,8 @@ fn place_wide<T: Real, const D: usize>(
     if fits { Ok(()) } else { Err(lost(position)) }
 }
 
-/// The half widths of the box that stands for a domain: its own if its edges run along the axes, else those
-/// of the cube of its volume. (A body-fitted domain is turned; a box is not.)
+/// The half widths of the box that replaces a domain: the domain's own if its edges run along the axes, else the half widths of
+/// the cube with its volume. (A body-fitted domain is turned; a box is not.)
 fn half_widths<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, D> {
     let diagonal = half_edges.diagonal();
     if *half_edges == Matrix::from_diagonal(&diagonal) {
@@ -184,9 +185,9 @@ fn half_widths<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, 
     Vector::repeat(ComplexField::powf(volume, T::ratio(1, D as i32)))
 }
 
-/// Averages of hat functions, and of their slopes, over [position - l, position + l] along an axis, with l
-/// of at most half a cell: they reach no further than from the nearest node to its neighbours. No branch, and
-/// one division. With them comes the first node.
+/// Averages of hat functions, and of their slopes, over [position - l, position + l] along an axis, with l of at most half a
+/// cell: they reach no further than from the nearest node to its neighbours. Computes them without a branch and with one
+/// division. Also returns the first node.
 #[inline(always)]
 fn around_nearest<T: Real, M: Machine<T>>(
     machine: M,
@@ -212,8 +213,8 @@ fn around_nearest<T: Real, M: Machine<T>>(
     (machine.minus(nearest, one), [[below, middle, above], slopes])
 }
 
-/// The middle and the half width of a box of the meridian, along R, whose ring has its centroid at `position`; of a ring that
-/// would cross the axis those of one that ends there.
+/// The middle and the half width, along R, of a box of the meridian whose ring has its centroid at `position`. A ring that
+/// would cross the axis is shortened to end there.
 #[inline(always)]
 fn ring<T: Real, M: Machine<T>>(
     machine: M,
@@ -276,8 +277,8 @@ fn moments_around_nearest<T: Real, M: Machine<T>>(
     moments
 }
 
-/// The averages of (x - offset) x and of x - offset over a part of a domain: of this length, and so far from the domain's
-/// middle `offset` to that of the part.
+/// The averages of (x - offset) x and of x - offset over a part of a domain. `length` is the part's length, `apart` the
+/// distance from the domain's middle `offset` to the part's middle.
 #[inline(always)]
 fn moments_of_part<T: Real, M: Machine<T>>(
     machine: M,
@@ -310,8 +311,8 @@ fn moment_of_hat<T: Real>(offset: T, half_width: T) -> [T; 2] {
     std::array::from_fn(|s| (rising[s] + falling[s]) / width)
 }
 
-/// The average of the hat 1 - |x|, and of its slope, over [offset - l, offset + l]: on either side
-/// of the node, the length of the overlap times the hat at its middle. Nothing cancels, whatever l.
+/// The average of the hat 1 - |x|, and of its slope, over [offset - l, offset + l]: on either side of the node, the length of
+/// the overlap times the hat at its middle. Nothing cancels for any l.
 fn average_of_hat<T: Real>(offset: T, half_width: T) -> [T; 2] {
     let (zero, one, half) = (T::zero(), T::one(), T::ratio(1, 2));
     let (from, to) = (offset - half_width, offset + half_width);

@@ -1,4 +1,4 @@
-//! The background grid: what its nodes carry.
+//! The background grid: the values at its nodes.
 
 use crate::lattice::Lattice;
 use crate::nodal::Nodal;
@@ -8,17 +8,17 @@ use crate::threads::each_node;
 /// The nodes of a [`Lattice`]; entry `i` of every array belongs to node `i`.
 #[derive(Clone, Debug)]
 pub struct Grid<T, const D: usize> {
-    /// Where the nodes are.
+    /// The geometry of the nodes.
     pub lattice: Lattice<T, D>,
-    /// A node with no more mass than this is taken as empty, and nothing is divided by its mass.
+    /// A node with no more mass than this counts as empty, and nothing is divided by its mass.
     pub mass_floor: T,
-    /// (mv)_i and m_i; with PIC and APIC after the kick.
+    /// (mv)_i and m_i; after the kick with PIC and APIC.
     pub momentum: Vec<Nodal<T>>,
-    /// f_i, internal and external, where it is not added to momentum at once.
+    /// f_i, internal and external; unused where forces are added to momentum at once.
     pub force: Vec<Nodal<T>>,
-    /// v_i. What is along with it means nothing.
+    /// v_i. The number beside the vector is unused.
     pub velocity: Vec<Nodal<T>>,
-    /// a_i, where particles take something of it.
+    /// a_i, if the particles' update reads it.
     pub acceleration: Vec<Nodal<T>>,
 }
 
@@ -61,7 +61,7 @@ impl<T: Real, const D: usize> Grid<T, D> {
         });
     }
 
-    /// a_i, and v_i after a kick: the three above in one pass.
+    /// Computes a_i, and v_i after a kick: the three functions above in one pass.
     pub fn kicked_from_momentum_and_force(&mut self, time_step: T) {
         let Self { momentum, force, velocity, acceleration, mass_floor, .. } = self;
         let mass_floor = *mass_floor;
@@ -80,8 +80,7 @@ impl<T: Real, const D: usize> Grid<T, D> {
     }
 }
 
-/// The vectors of `extensive` over the masses along with `momentum`; 0 on nodes with no more mass than
-/// `mass_floor`.
+/// Divides the vectors of `extensive` by the masses in `momentum`; 0 on nodes with no more mass than `mass_floor`.
 pub(crate) fn divide_by_mass<T: Real>(
     extensive: &[Nodal<T>],
     momentum: &[Nodal<T>],
@@ -95,7 +94,7 @@ pub(crate) fn divide_by_mass<T: Real>(
     });
 }
 
-/// 1/m_i, which the numbers of a node are multiplied by: one division for up to eight. It is 0 on empty nodes.
+/// 1/m_i, which multiplies the numbers of a node: one division for up to eight numbers. 0 on empty nodes.
 fn per_mass<T: Real>(momentum: &Nodal<T>, mass_floor: T) -> T {
     let mass = momentum.last();
     if mass > mass_floor { T::one() / mass } else { T::zero() }

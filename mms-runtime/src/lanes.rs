@@ -8,7 +8,7 @@ use crate::column::BUNCH;
 use crate::column::{Matrices, Vectors};
 use crate::real::{Real, Vector};
 
-/// The components of the vectors of a bunch that stand one after the other.
+/// Transposes a bunch of vectors that are stored one after the other into components.
 #[inline(always)]
 pub fn turned<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
@@ -19,7 +19,7 @@ pub fn turned<T: Real, M: Machine<T>, const D: usize>(
     components
 }
 
-/// The components of the vectors of a bunch.
+/// Loads the components of the vectors of a bunch.
 #[inline(always)]
 pub fn components<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
@@ -32,7 +32,7 @@ pub fn components<T: Real, M: Machine<T>, const D: usize>(
     components
 }
 
-/// The components of the positions X + d of a bunch; of X if nothing `moves`.
+/// Computes the components of the positions X + d of a bunch; of X if nothing `moves`.
 #[inline(always)]
 pub fn positions<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
@@ -50,7 +50,7 @@ pub fn positions<T: Real, M: Machine<T>, const D: usize>(
     positions
 }
 
-/// Gives the vectors of a bunch these components.
+/// Stores components in the vectors of a bunch.
 #[inline(always)]
 pub fn set_components<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
@@ -62,7 +62,7 @@ pub fn set_components<T: Real, M: Machine<T>, const D: usize>(
     }
 }
 
-/// The vectors with these components, as numbers: for what is rare, and so in functions that are not inlined.
+/// Stores components as vectors of numbers, for rare cases, which are handled in functions that are not inlined.
 #[inline(always)]
 pub fn vectors<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
@@ -73,7 +73,7 @@ pub fn vectors<T: Real, M: Machine<T>, const D: usize>(
     vectors
 }
 
-/// The matrices of a bunch, column by column.
+/// Loads the matrices of a bunch, column by column.
 #[inline(always)]
 pub fn columns<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
@@ -88,7 +88,7 @@ pub fn columns<T: Real, M: Machine<T>, const D: usize>(
     columns
 }
 
-/// Gives the matrices of a bunch these columns.
+/// Stores columns in the matrices of a bunch.
 #[inline(always)]
 pub fn set_columns<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
@@ -102,7 +102,7 @@ pub fn set_columns<T: Real, M: Machine<T>, const D: usize>(
     }
 }
 
-/// Matrices with these columns, times a number each.
+/// Multiplies each matrix with these columns by its own number.
 #[inline(always)]
 pub fn scaled<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
@@ -166,14 +166,14 @@ fn dot<T: Real, M: Machine<T>, const D: usize>(
     sum
 }
 
-/// How many iterations find a rotation; each doubles the digits.
+/// The maximum of iterations that find a rotation; each doubles the digits.
 const POLAR_ITERATIONS: usize = 20;
 
 /// The diagonals of the right stretch tensors U of F = R U with these columns; not finite where an F is singular or
 /// not finite.
 ///
-/// U^2 = C = F^T F. Where every C is diagonal but for e, U_aa is sqrt(C_aa) but for e^2, which is nothing if that is
-/// less than round-off: the stretches of eight diagonal F are exact. Otherwise R is the limit of (R + R^-T)/2 from R = F
+/// U^2 = C = F^T F. If every C is diagonal up to entries of the order e, U_aa is sqrt(C_aa) up to e^2. If e^2 is less than
+/// round-off, that is used: the stretches of eight diagonal F are exact. Otherwise R is the limit of (R + R^-T)/2 from R = F
 /// (Higham, "Computing the polar decomposition, with applications", SIAM J. Sci. Stat. Comput. 7 (1986)).
 #[inline(always)]
 pub fn stretches<T: Real, M: Machine<T>, const D: usize>(
@@ -214,7 +214,7 @@ pub fn stretches<T: Real, M: Machine<T>, const D: usize>(
                 rotation[j][i] = next;
             }
         }
-        // What is left is the square of that.
+        // The remaining error is the square of the change.
         if machine.all_at_most(change, round_off) {
             break;
         }
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn stretches_are_roots() {
-        // U by the iteration of Denman and Beavers (1976), whatever is beside the diagonal.
+        // U by the iteration of Denman and Beavers (1976), for all sizes of the entries off the diagonal.
         for aside in [1.0, 1e-3, 1e-7, 1e-9, 1e-20] {
             let h = Matrix::<f64, 3>::new(0.2, 1.5, -0.3, -0.9, 0.4, 0.1, 0.2, 0.0, -0.2);
             let h = h.map_with_location(|i, j, value| if i == j { value } else { value * aside });
@@ -253,7 +253,7 @@ mod tests {
             }
             let found = stretch(&f);
             assert!((found - u.diagonal()).amax() < 4e-15, "{aside}: {found}");
-            // A body a thousand times smaller is stretched alike.
+            // F/1024 has the stretches of F over 1024.
             let smaller = stretch(&(f / 1024.0)) * 1024.0;
             assert!((smaller - found).amax() < 4e-15, "{aside}: {smaller}");
         }

@@ -1,4 +1,4 @@
-//! The geometry of the background grid: cells, and the nodes that shape functions have on them.
+//! The geometry of the background grid: cells, and the nodes of shape functions on them.
 //!
 //! Along an axis, cells lie between knots, one cell size apart; a spline of degree p has one node per cell
 //! and p more. Node `j` is at the mean of the p inner knots of its spline (Greville 1967), so that
@@ -10,7 +10,7 @@ use crate::failure::Refusal;
 use crate::failure::at_most;
 use crate::real::{Real, Vector};
 
-/// More nodes than this are refused.
+/// The largest supported number of nodes.
 const NODE_LIMIT: f64 = (1u64 << 28) as f64;
 
 /// The cells along one axis.
@@ -22,10 +22,10 @@ pub struct Axis {
     pub cell_size: f64,
     /// How many cells there are.
     pub cells: usize,
-    /// The first and the last knot of splines. Where it is not the first or last of the axis, splines
-    /// end there with knots of full multiplicity: at the faces of a body that do not move.
+    /// The first and the last knot of splines. If it is not the first or last knot of the axis, splines end there with knots of
+    /// full multiplicity: at the faces of a body that do not move.
     pub ends: [i64; 2],
-    /// Where the faces of the body lie, in cells from the first knot.
+    /// The positions of the body's faces, in cells from the first knot.
     pub body: [f64; 2],
 }
 
@@ -61,13 +61,13 @@ pub struct Lattice<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Lattice<T, D> {
-    /// The nodes of shape functions of `degree` on these cells.
+    /// Places the nodes of shape functions of `degree` on these cells.
     ///
     /// # Errors
-    /// More than 2^28 nodes.
+    /// There are more than 2^28 nodes.
     pub fn new(mut axes: [Axis; D], degree: usize, periodic: [bool; D]) -> Result<Self, Refusal> {
         for axis in axes.iter_mut().filter(|_| degree == 1) {
-            // Hat functions go on beyond a face, for its images.
+            // Hat functions extend beyond a face, for its images.
             axis.ends = [0, axis.cells as i64];
         }
         let nodes: f64 = axes.iter().map(|axis| (axis.cells + degree) as f64).product();
@@ -123,14 +123,14 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         Vector::from_fn(|a, _| self.coordinate[a][coordinates[a]])
     }
 
-    /// A position in cells from the first knot, within the period where there is one.
+    /// A position in cells from the first knot, within the period if there is one.
     pub fn in_cells(&self, position: &Vector<T, D>) -> Vector<T, D> {
         let machine = T::PlainMachine::from(Plain);
         let along = |a: usize| self.cells_along(machine, a, machine.splat(position[a]));
         Vector::from_fn(|a, _| machine.numbers(along(a))[0])
     }
 
-    /// As [`in_cells`](Lattice::in_cells), of the particles of a bunch along one axis.
+    /// Converts coordinates of a bunch of particles along one axis to cells, as [`in_cells`](Lattice::in_cells) does.
     #[inline(always)]
     pub fn cells_along<M: Machine<T>>(
         &self,
@@ -147,8 +147,8 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         machine.minus(cells, machine.times(periods, period))
     }
 
-    /// The node on the lower (`false`) or upper face of the body along an axis, where there is one: the
-    /// face lies on a knot, and splines of a higher degree than 1 end there.
+    /// The node on the lower (`false`) or upper face of the body along an axis; `None` unless the face lies on a knot and
+    /// splines of a higher degree than 1 end there.
     pub fn node_on_face(&self, axis: usize, upper: bool) -> Option<usize> {
         let Axis { body, ends, .. } = &self.axes[axis];
         let knot = body[usize::from(upper)].round();
@@ -159,7 +159,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
     }
 }
 
-/// The mean of the inner knots of node `j`, in cells: the knots j - p + 1 to j, held between the ends.
+/// The mean of the inner knots of node `j`, in cells: the knots j - p + 1 to j, clamped to the ends.
 fn greville(j: usize, degree: usize, ends: [i64; 2]) -> f64 {
     let knot = |k: i64| k.clamp(ends[0], ends[1]) as f64;
     let first = j as i64 - degree as i64 + 1;

@@ -1,24 +1,25 @@
-//! The contract that a manufactured field fulfils, and an explicit MPM/GIMP solver that shows its own observed
-//! order of accuracy on any such field.
+//! The traits that a manufactured field implements, and an explicit MPM/GIMP solver that measures its own observed order of
+//! accuracy on any such field.
 //!
-//! * [`ManufacturedField`] and [`Material`] are what generated code implements; they are evaluated over slices of
-//!   particles and are object-safe.
+//! * [`ManufacturedField`] and [`Material`] are implemented by generated code; they are evaluated over slices of
+//! particles and are object-safe.
 //! * [`Solver`] advances a body of particles through a background grid. It is written once for one to three
 //!   dimensions and for `f32` and `f64`.
-//! * [`AnySolver`] is one for the names of a [`Method`] ([`Solve::solver`]), compiled here.
+//! * [`AnySolver`] is a solver for the names of a [`Method`] ([`Solve::solver`]), compiled here.
 //! * [`study`] runs a method over levels of refinement, measures the errors against the field, and judges the
 //!   observed orders.
 //!
-//! The crate knows no particular field. To add a shape function or a time integrator, see [`shape`] and
-//! [`integrator`]: each is one file and one word in a list.
+//! The crate depends on no particular field. To add a shape function or a time integrator, see [`shape`] and [`integrator`]:
+//! each is one file and one word in a list.
 //!
-//! | module | holds |
+//! | module | contents |
 //! |---|---|
 //! | `axisymmetric` | bodies of revolution: rings, hoop strain, hoop stress |
-//! | `body` | bodies full of particles: boxes, annuli and sectors, Cartesian or fitted; the pieces of faces that particles carry; jitter |
-//! | `lattice` | where nodes are: cells of any edge lengths, offset, period, knots |
-//! | `stencil`, `shape` | the nodes of a bunch with w and grad w; the sums between them |
-//! | `particle`, `column` | the particles' arrays; an array bunch by bunch, and number by number |
+//! | `body` | bodies filled with particles: boxes, annuli and sectors, Cartesian or fitted; the pieces of faces that particles
+//! carry; jitter |
+//! | `lattice` | positions of nodes: cells of any edge lengths, offset, period, knots |
+//! | `stencil`, `shape` | the nodes of a bunch with w and grad w; the sums between particles and nodes |
+//! | `particle`, `column` | the particles' arrays, grouped in bunches |
 //! | `lanes` | vectors and tensors of a bunch, a particle in each lane |
 //! | `spline`, `gimp` | B-splines of any degree on knots that may end; averages of hat functions |
 //! | `nodal`, `grid` | four numbers of a node, windows of nodes; the nodes |
@@ -26,8 +27,8 @@
 //! | `transfer` | FLIP, PIC, APIC, XPIC |
 //! | `solver` | P2G and G2P, weights, order of the particles, threads, state |
 //! | `boundary` | walls by images, periods, nodes that follow the field, tractions |
-//! | `integrator` | the order of a step |
-//! | `study` | a run, who follows it, its errors, orders, verdicts |
+//! | `integrator` | the order of the operations of a step |
+//! | `study` | a run, its observers, errors, orders, verdicts |
 //!
 //! Names follow one glossary: `reference_position` X, `position` x = X + u, `displacement_gradient` H = du/dX, F =
 //! I + H, J = det F, `kirchhoff_stress` tau = P F^T. Units are the field's own; any consistent system works.

@@ -6,9 +6,9 @@ use crate::real::{Matrix, Real, Vector};
 
 /// The constitutive response that the forcing was derived with.
 ///
-/// The stress comes from the same strain-energy density as the field's body force, so that solver
-/// and forcing cannot disagree. Every method works on a batch of particles: all slices of one call
-/// have equal length, entry `p` belongs to particle `p`, and every entry of the result is written.
+/// The stress follows from the same strain-energy density as the field's body force, so that solver and forcing cannot
+/// disagree. Every method works on a batch of particles: all slices of one call have equal length, entry `p` belongs to
+/// particle `p`, and every entry of the result is written.
 pub trait Material<T: Real, const D: usize>: Send + Sync {
     /// Reference density rho0 at each reference position (mass per reference volume).
     fn density(&self, reference: &[Vector<T, D>], density: &mut [T]);
@@ -21,20 +21,20 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
         false
     }
 
-    /// Whether W is a function of the small strain, which has one stress: P, whatever the measure.
+    /// Whether W is a function of the small strain. Then all measures of stress are equal to P.
     fn is_small_strain(&self) -> bool {
         false
     }
 
     /// The material and the hoop strain of a field of a body of revolution, whose plane is the meridian; `None` for all other
-    /// fields. Stress and energy at hoop strains other than the field's own are asked of it.
+    /// fields. It computes stress and energy at hoop strains other than the field's own.
     fn axisymmetric(&self) -> Option<&dyn Axisymmetric<T, D>> {
         None
     }
 
-    /// Kirchhoff stress tau = P F^T (force per reference area) of the displacement gradient
-    /// H = F - I, at a time. It takes H, not F, so that nothing cancels at small strain. It is P F^T for a W of the small strain too:
-    /// the updated formulation takes the divergence in the present configuration.
+    /// Kirchhoff stress tau = P F^T (force per reference area) of the displacement gradient H = F - I, at a time. The argument
+    /// is H, not F, so that nothing cancels at small strain. The stress is P F^T for a W of the small strain too: the updated
+    /// formulation computes the divergence in the present configuration.
     fn kirchhoff_stress(
         &self,
         time: T,
@@ -43,9 +43,9 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
         stress: &mut [Matrix<T, D>],
     );
 
-    /// [`kirchhoff_stress`](Material::kirchhoff_stress) of whole bunches of particles, whose matrices are kept entry by
-    /// entry: what a solver asks for in every step. A material that passes on another one's does so here too, for
-    /// otherwise matrices are turned twice.
+    /// [`kirchhoff_stress`](Material::kirchhoff_stress) of whole bunches of particles, whose matrices are stored entry by
+    /// entry. Solvers call it in every step. A material that wraps another one should forward this method too, otherwise
+    /// matrices are transposed twice.
     fn kirchhoff_stress_of_bunches(
         &self,
         time: T,
@@ -68,8 +68,8 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
         }
     }
 
-    /// Strain energy W (per reference volume) of the displacement gradient H at a time, and whether the material offers
-    /// it. Nothing but the balance of energy asks for it; without it `energy` stays as it is.
+    /// Computes the strain energy W (per reference volume) of the displacement gradient H at a time, and returns whether the
+    /// material supports it. If not, `energy` is unchanged. Only the balance of energy calls it.
     fn strain_energy(
         &self,
         _time: T,
@@ -81,8 +81,7 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     }
 }
 
-/// The hoop strain and the material of a body of revolution. Every method works on a batch, as those of
-/// [`Material`] do.
+/// The hoop strain and the material of a body of revolution. Every method works on a batch, as in [`Material`].
 pub trait Axisymmetric<T: Real, const D: usize>: Send + Sync {
     /// u_R/R; its limit on the axis.
     fn hoop_strain(&self, time: T, reference: &[Vector<T, D>], out: &mut [T]);
@@ -97,12 +96,12 @@ pub trait Axisymmetric<T: Real, const D: usize>: Send + Sync {
     );
 
     /// The volume per radian of a ring over the area of its box in the meridian, whose middle has this radius: that radius
-    /// (Pappus). A solver that weighs rings otherwise errs.
+    /// (Pappus). A solver that weights rings otherwise has an error.
     fn weight(&self, middle: f64) -> f64 {
         middle
     }
 
-    /// The strain energy W per reference volume, and whether the material offers it.
+    /// Computes the strain energy W per reference volume, and returns whether the material supports it.
     fn strain_energy(
         &self,
         time: T,
@@ -115,7 +114,8 @@ pub trait Axisymmetric<T: Real, const D: usize>: Send + Sync {
 /// How many bunches are evaluated together.
 const TOGETHER: usize = 32;
 
-/// [`Material::kirchhoff_stress`] by [`Material::kirchhoff_stress_of_bunches`], for materials that have the latter.
+/// Computes [`Material::kirchhoff_stress`] by [`Material::kirchhoff_stress_of_bunches`], for materials that implement the
+/// latter.
 ///
 /// # Panics
 /// If the slices have different lengths.
@@ -163,7 +163,7 @@ mod tests {
         h * h * x[0] + h.transpose() * x[1]
     }
 
-    /// Knows points one after the other alone.
+    /// A material that computes points one after the other only.
     struct ByPoints;
 
     impl Material<f64, 2> for ByPoints {
@@ -182,7 +182,7 @@ mod tests {
         }
     }
 
-    /// Knows bunches alone.
+    /// A material that computes bunches only.
     struct OfBunches;
 
     impl Material<f64, 2> for OfBunches {

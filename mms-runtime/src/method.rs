@@ -1,4 +1,4 @@
-//! A method: everything about a run but the field and the number of cells.
+//! A method: everything about a run except the field and the number of cells.
 
 use std::fmt;
 use std::str::FromStr;
@@ -11,7 +11,7 @@ use crate::shape::ShapeName;
 use crate::shape::{Shape, ShapeVisitor};
 use crate::transfer::Transfer;
 
-/// More threads than this are refused.
+/// The largest supported number of threads.
 const MOST_THREADS: f64 = 1024.0;
 
 /// Numbers of cells, or of particles per cell, along the axes.
@@ -19,12 +19,12 @@ const MOST_THREADS: f64 = 1024.0;
 pub enum Division {
     /// One number: of cells along the longest edge, all of them cubes; of particles along every axis.
     Uniform(usize),
-    /// One for each of this many axes, the first one running first; what is beyond means nothing.
+    /// One number for each of this many axes, the first axis first; further entries are unused.
     PerAxis([usize; 3], usize),
 }
 
 impl Division {
-    /// The number along an axis, where one is given for each.
+    /// The number along an axis.
     pub fn along(&self, axis: usize) -> usize {
         match *self {
             Division::Uniform(number) => number,
@@ -77,45 +77,45 @@ impl FromStr for Division {
     }
 }
 
-/// The numbers of a method: what it does not need a type for.
+/// The parameters of a method that need no type.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
-    /// How particles take the grid's velocity.
+    /// The update of the particles' velocity from the grid.
     pub transfer: Transfer,
     /// Particles per cell along each axis.
     pub particles_per_cell: Division,
-    /// How the body is filled; by default along the faces of an annulus.
+    /// The fill of the body; by default along the faces of an annulus.
     pub fill: Option<Fill>,
-    /// How far each particle is moved at random, as a fraction of half its domain.
+    /// The largest random displacement of each particle, as a fraction of half its domain.
     pub jitter: f64,
-    /// What the random numbers follow from.
+    /// The seed of the random numbers.
     pub seed: u64,
-    /// How far the grid is moved against the body along each axis, in cells.
+    /// The shift of the grid against the body along each axis, in cells.
     pub offset: [f64; 3],
     /// The axes along which the body repeats itself, instead of having faces.
     pub periodic: [bool; 3],
     /// time_step * c0 / shortest edge of a cell, c0 being the fastest wave speed at F = I.
     pub courant: f64,
-    /// The time step, instead of that of the Courant number.
+    /// The time step, instead of one computed from the Courant number.
     pub time_step: Option<f64>,
-    /// Into how many parts with equal numbers of steps the run is divided.
+    /// The number of parts, with equal numbers of steps, that the run is divided into.
     pub parts: usize,
-    /// The fastest wave that there is proved to be, in the frame of the grid: a run whose time step lets it
-    /// cross the shortest edge of a cell stops before it begins. Without it none does.
+    /// The proved bound of the wave speeds, in the frame of the grid: a run is refused if its time step lets such a wave cross
+    /// the shortest edge of a cell. `None` refuses no run.
     pub fastest_wave: Option<f64>,
-    /// When the run ends, instead of at the end of the field's time window.
+    /// The end of the run, instead of the end of the field's time window.
     pub end_time: Option<f64>,
-    /// Whether the run goes to the equilibrium of a field that does not move, by dynamic relaxation, however long that takes:
-    /// its end and its parts mean nothing then.
+    /// Whether the run computes the equilibrium of a field that does not move, by dynamic relaxation, however long that takes.
+    /// If so, `end_time` and `parts` are ignored.
     pub relax: bool,
-    /// How many threads work on one run, from 1. Its results do not depend on it.
+    /// The number of threads of one run, from 1. Results do not depend on it.
     pub threads: usize,
-    /// How many bytes of memory a run may take; without it as many as it does.
+    /// The largest memory of a run in bytes; `None` for no limit.
     pub memory: Option<u64>,
 }
 
 impl Setup {
-    /// Refuses numbers that mean nothing.
+    /// Refuses parameters outside their ranges.
     pub(crate) fn validate(&self) -> Result<(), Refusal> {
         let within = |what, value: f64, from, to| {
             let inside = (from..=to).contains(&value);
@@ -153,7 +153,7 @@ impl Default for Setup {
     }
 }
 
-/// A method: what stays the same on all levels of a study.
+/// A method: all settings that do not change between the levels of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Method {
     /// The shape function.
@@ -162,15 +162,16 @@ pub struct Method {
     pub integrator: IntegratorName,
     /// The formulation.
     pub formulation: FormulationName,
-    /// All else.
+    /// All other settings.
     pub setup: Setup,
 }
 
 impl Method {
-    /// Refuses what makes no sense together, and names the nearest that does.
+    /// Refuses combinations without a meaning, and names the nearest that has one.
     ///
     /// # Errors
-    /// A domain that follows the deformation, where nothing moves; a relaxation whose integrator has several velocities.
+    /// A shape function whose domain follows the deformation, in a formulation where nothing moves; a relaxation with an
+    /// integrator that uses several velocities.
     pub fn validate(&self) -> Result<(), Refusal> {
         struct Follows;
         impl ShapeVisitor for Follows {

@@ -1,5 +1,4 @@
-//! What a node of the grid carries: four numbers that go through the processor as one, a vector, and the mass
-//! beside the momentum.
+//! Values at a node of the grid: four numbers that fit one register, a vector and the mass beside the momentum.
 
 use std::ops::{Add, AddAssign, Mul};
 
@@ -7,22 +6,22 @@ use mms_math::machine::Machine;
 
 use crate::real::{Real, Vector};
 
-/// A vector at a node, in the first components, and in the last one what is mapped along with it: the
-/// mass along with the momentum.
+/// A vector at a node, in the first components, and in the last one a number that is mapped along with it: the mass beside the
+/// momentum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct Nodal<T>(pub [T; 4]);
 
-/// Where the mass is.
+/// The component of the mass.
 pub const LAST: usize = 3;
 
 impl<T: Real> Nodal<T> {
-    /// Nothing.
+    /// All four numbers 0.
     pub fn zero() -> Self {
         Self([T::zero(); 4])
     }
 
-    /// A vector, and a number along with it.
+    /// A vector, and a number beside it.
     #[inline(always)]
     pub fn new<const D: usize>(vector: &Vector<T, D>, last: T) -> Self {
         const { assert!(D <= LAST) };
@@ -35,7 +34,7 @@ impl<T: Real> Nodal<T> {
         Vector::from_fn(|a, _| self.0[a])
     }
 
-    /// The number along with the vector.
+    /// The number beside the vector.
     pub fn last(&self) -> T {
         self.0[LAST]
     }
@@ -61,37 +60,37 @@ impl<T: Real> Mul<T> for Nodal<T> {
     }
 }
 
-/// The nodes from `start` on, to be added to; an array that is not in use is empty.
+/// A mutable range of the nodes from `start` on; empty for an array that is not in use.
 pub struct Window<'a, T> {
-    /// The number of the first one.
+    /// The number of the first node.
     pub start: usize,
-    /// What they carry.
+    /// The values at the nodes.
     pub nodes: &'a mut [Nodal<T>],
 }
 
 impl<'a, T> Window<'a, T> {
-    /// The same nodes, for a while.
+    /// A shorter borrow of the same nodes.
     #[inline(always)]
     pub fn reborrow(&mut self) -> Window<'_, T> {
         Window { start: self.start, nodes: self.nodes }
     }
 
-    /// `W` nodes from this one on.
+    /// `W` nodes from `first` on.
     #[inline(always)]
     pub fn row<const W: usize>(&mut self, first: u32) -> &mut [Nodal<T>; W] {
-        // A number of 32 bits and W do not overflow 64: so the last node is all that has to be asked for.
+        // A number of 32 bits plus W does not overflow 64 bits, so checking the last node is enough.
         let first = first.wrapping_sub(self.start as u32) as usize;
         self.nodes[first..first + W].first_chunk_mut().expect("a range of W nodes")
     }
 
-    /// Those before a node, and those from it on.
+    /// Splits the window before node `at`.
     pub fn split(self, at: usize) -> [Self; 2] {
         let (before, after) = self.nodes.split_at_mut((at - self.start).min(self.nodes.len()));
         [Self { start: self.start, nodes: before }, Self { start: at, nodes: after }]
     }
 }
 
-/// A vector for each half, and the same number in all places that they leave.
+/// A vector for each half, and `other` in all further places.
 #[inline(always)]
 pub fn halves<T: Real, M: Machine<T>, const D: usize>(
     machine: M,

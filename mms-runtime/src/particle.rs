@@ -17,11 +17,11 @@ use crate::transfer::Transfer;
 
 /// The state of all particles.
 ///
-/// The displacement is stored, not the position, and H, not F: so `f32` loses nothing to x - X and to
-/// F - I, and X never has to be recovered. The stress is not stored, for it follows from H.
+/// The displacement is stored, not the position, and H, not F: so `f32` loses nothing to x - X and to F - I, and X is never
+/// recomputed. The stress is not stored, for it follows from H.
 #[derive(Clone, Debug)]
 pub struct Particles<T, const D: usize> {
-    /// The number that a particle started with: the solver may change their order.
+    /// The number that a particle started with: the solver may change the order of particles.
     pub id: Column<u32>,
     /// X.
     pub reference_position: Column<Vector<T, D>>,
@@ -31,21 +31,21 @@ pub struct Particles<T, const D: usize> {
     pub velocity: Bunches<Vectors<T, D>>,
     /// H = F - I.
     pub displacement_gradient: Bunches<Matrices<T, D>>,
-    /// h = F_tt - 1, the strain around the axis; only of a body of revolution.
+    /// h = F_tt - 1, the strain around the axis; empty unless the body is a body of revolution.
     pub hoop_strain: Column<T>,
     /// m.
     pub mass: Column<T>,
     /// V0.
     pub reference_volume: Column<T>,
-    /// C, the linear velocity on each particle; only with APIC.
+    /// C, the linear velocity on each particle; empty except with APIC.
     pub affine: Bunches<Matrices<T, D>>,
-    /// (I - S S+)^m v, what the grid does not represent of the velocity; only with XPIC.
+    /// (I - S S+)^m v, the part of the velocity that the grid does not represent; empty except with XPIC.
     pub residual: Bunches<Vectors<T, D>>,
 }
 
 impl<T: Real, const D: usize> Particles<T, D> {
-    /// The particles that fill a body, undeformed, at rest and without mass. C is 0: the first map of APIC
-    /// loses what is of second order in h.
+    /// Creates the particles that fill a body, undeformed, at rest and without mass. C is 0: the first map of APIC loses terms
+    /// of second order in h.
     pub fn new(filling: &Filling<D>, transfer: Transfer) -> Self {
         let count = filling.len();
         let (affine, residual) = match transfer {
@@ -54,7 +54,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
             Transfer::Flip { .. } | Transfer::Pic => (0, 0),
         };
         Self {
-            // Fillings are limited to less than that.
+            // The number of particles in a filling is limited to less than 2^32.
             id: (0..count as u32).collect(),
             reference_position: filling.position.iter().map(|x| x.map(T::of)).collect(),
             displacement: repeat_n(Vector::zeros(), count).collect(),
@@ -90,7 +90,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
             * hoop_stretch(&self.hoop_strain, particle)
     }
 
-    /// What is kept of one particle, in bytes.
+    /// The memory of one particle, in bytes.
     pub fn bytes_per_particle(&self) -> usize {
         let numbers = if self.hoop_strain.is_empty() { 2 } else { 3 };
         let given = size_of::<Vector<T, D>>() + numbers * size_of::<T>();
@@ -100,7 +100,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         size_of::<u32>() + given + kept + deformation + transfer
     }
 
-    /// Puts particle `order[p]` in place `p`, in every array.
+    /// Moves particle `order[p]` to place `p`, in every array.
     pub(crate) fn reorder(&mut self, order: &mut [u32]) {
         let Self {
             id,
@@ -127,7 +127,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.fill_up();
     }
 
-    /// Has the last particle stand in for those that its bunch has not, when particles were changed one by one.
+    /// Pads the last bunch with copies of the last particle, after particles were changed one by one.
     pub(crate) fn fill_up(&mut self) {
         self.reference_position.fill_up();
         self.displacement.fill_up();
@@ -140,7 +140,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.residual.fill_up();
     }
 
-    /// Has what is mapped of a bunch brought near, but for X and H, which others need sooner.
+    /// Prefetches the data that P2G reads of a bunch, except X and H, which other code needs sooner.
     #[inline(always)]
     pub(crate) fn fetch<M: Machine<T>>(&self, machine: M, bunch: usize) {
         machine.fetch(self.displacement.bunches(), bunch);
@@ -150,7 +150,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         machine.fetch(self.affine.bunches(), bunch);
     }
 
-    /// X, and what a step changes.
+    /// X, and the arrays that a step changes.
     pub(crate) fn columns(&mut self) -> (&[[Vector<T, D>; BUNCH]], Columns<'_, T, D>) {
         let columns = Columns {
             start: 0,
@@ -165,24 +165,24 @@ impl<T: Real, const D: usize> Particles<T, D> {
     }
 }
 
-/// Marks, in an order, the places that are done.
+/// Marks the completed places of an order.
 const DONE: u32 = 1 << 31;
 
-/// Puts item `order[p]` in place `p`; an array that is empty stays so.
+/// Moves item `order[p]` to place `p`; an empty array stays empty.
 pub(crate) fn reorder<V>(items: &mut [V], order: &mut [u32]) {
     if !items.is_empty() {
         follow(order, |place, from| items.swap(place, from));
     }
 }
 
-/// As [`reorder`].
+/// Moves entry `order[p]` to place `p`, as [`reorder`] does.
 pub(crate) fn reorder_bunches<B: Bunch>(items: &mut Bunches<B>, order: &mut [u32]) {
     if !items.is_empty() {
         follow(order, |place, from| items.swap(place, from));
     }
 }
 
-/// Does an order by exchanges, cycle by cycle.
+/// Applies an order by exchanges, cycle by cycle.
 fn follow(order: &mut [u32], mut swap: impl FnMut(usize, usize)) {
     for first in 0..order.len() {
         let mut place = first;
@@ -198,7 +198,7 @@ fn follow(order: &mut [u32], mut swap: impl FnMut(usize, usize)) {
     order.iter_mut().for_each(|from| *from &= !DONE);
 }
 
-/// What a step changes of the bunches from `start` on.
+/// The arrays that a step changes, for the bunches from `start` on.
 pub(crate) struct Columns<'a, T, const D: usize> {
     pub start: usize,
     pub displacement: &'a mut [Vectors<T, D>],
@@ -210,7 +210,7 @@ pub(crate) struct Columns<'a, T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Columns<'_, T, D> {
-    /// Has what changes of a bunch brought near.
+    /// Prefetches the data of a bunch that a step changes.
     #[inline(always)]
     pub fn fetch<M: Machine<T>>(&self, machine: M, bunch: usize) {
         machine.fetch(self.displacement, bunch);
@@ -260,7 +260,7 @@ impl<T: Real, const D: usize> Parts for Columns<'_, T, D> {
     }
 }
 
-/// Where material and b are evaluated, for some bunches: X; x, where a defect takes that for it.
+/// The points where material and b are evaluated, for some bunches: X, or x if a defect uses x instead.
 pub(crate) fn material_points<'a, T: Real, const D: usize>(
     reference: &'a [[Vector<T, D>; BUNCH]],
     displacement: &[Vectors<T, D>],

@@ -8,7 +8,7 @@ pub type Matrix<T, const D: usize> = nalgebra::SMatrix<T, D, D>;
 
 /// The precision a solver computes in: `f32` or `f64`.
 ///
-/// Implemented for every type that has the arithmetic; nothing is left to implement by hand.
+/// Implemented for every type that has the arithmetic; no manual implementation is needed.
 pub trait Real:
     mms_math::Scalar<Wide: Copy + Send + Sync>
     + mms_math::batch::Float
@@ -24,7 +24,7 @@ pub trait Real:
         <Self as mms_math::Scalar>::from_f64(value)
     }
 
-    /// The same value in double precision.
+    /// The value converted to double precision.
     fn to_f64(self) -> f64 {
         nalgebra::convert_unchecked(self)
     }
@@ -45,15 +45,15 @@ impl<T> Real for T where
 /// Vectors or matrices as arrays of their `N` numbers, matrices by columns.
 ///
 /// # Panics
-/// If they have another number of numbers.
+/// If the number of entries of a value is not `N`.
 pub fn arrays<T: Real, V: bytemuck::Pod, const N: usize>(values: &[V]) -> &[[T; N]] {
     bytemuck::cast_slice(values)
 }
 
-/// As [`arrays`], to write to.
+/// Mutable vectors or matrices as arrays of their `N` numbers, matrices by columns.
 ///
 /// # Panics
-/// If they have another number of numbers.
+/// If the number of entries of a value is not `N`.
 pub fn arrays_mut<T: Real, V: bytemuck::Pod, const N: usize>(values: &mut [V]) -> &mut [[T; N]] {
     bytemuck::cast_slice_mut(values)
 }

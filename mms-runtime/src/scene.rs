@@ -10,7 +10,7 @@ use crate::solver::{cell_size, filling};
 use crate::study::{Level, Run};
 use crate::study::{Observer, Solve, Watch};
 
-/// The cells along the longest edge of a run that names none, in one to three dimensions.
+/// The default number of cells along the longest edge of a run, in one to three dimensions.
 pub fn usual_cells(dimension: usize) -> usize {
     [32, 16, 8][dimension - 1]
 }
@@ -46,12 +46,11 @@ impl<T: Real> From<Box<dyn ManufacturedField<T, 3>>> for Scene<T> {
 /// A field that was compiled into a program.
 #[derive(Clone, Copy, Debug)]
 pub struct Code {
-    /// The name: the stem of its file.
+    /// The name: the stem of the field's file.
     pub name: &'static str,
-    /// The field in single precision, for parameter values in the order of the file; `None` for another number of
-    /// them.
+    /// Creates the field in single precision, for parameter values in the order of the file; `None` if their number is wrong.
     pub single: fn(&[f32]) -> Option<Scene<f32>>,
-    /// The same in double precision.
+    /// Creates the field in double precision, likewise.
     pub double: fn(&[f64]) -> Option<Scene<f64>>,
 }
 
@@ -73,13 +72,13 @@ macro_rules! code {
     };
 }
 
-/// A precision that there is a solver for, in every dimension.
+/// A precision in which solvers exist for all dimensions.
 pub trait Solvable: Solve<1> + Solve<2> + Solve<3> {}
 
 impl<T: Solve<1> + Solve<2> + Solve<3>> Solvable for T {}
 
 impl<T> Scene<T> {
-    /// The levels of a study that names none: cells along the longest edge of the body.
+    /// The default levels of a study: cells along the longest edge of the body.
     pub fn default_cells(&self) -> &'static [usize] {
         match self {
             Scene::Line(_) => &[8, 16, 32, 64, 128],
@@ -88,8 +87,8 @@ impl<T> Scene<T> {
         }
     }
 
-    /// The grid of a study in time that names none. It is fine, for what a map to the grid and back loses in a
-    /// step is of the order h^2 dt, and has to be less than the error of time.
+    /// The default grid of a study in time. It is fine: the error of a map to the grid and back in each step is of the order
+    /// h^2 dt, and has to be less than the error of time.
     pub fn cells_of_a_study_in_time(&self) -> usize {
         match self {
             Scene::Line(_) => 128,
@@ -100,7 +99,7 @@ impl<T> Scene<T> {
 }
 
 impl<T: Real> Scene<T> {
-    /// The edges of a box; none of another body.
+    /// The edges of a box; `None` for another body.
     pub fn edges(&self) -> Option<Vec<f64>> {
         match self {
             Scene::Line(field) => edges(field.domain().body),
@@ -112,7 +111,7 @@ impl<T: Real> Scene<T> {
     /// The particles that a run on such a grid starts from.
     ///
     /// # Errors
-    /// A body or a grid that cannot be filled.
+    /// A body or a grid cannot be filled.
     pub fn layout(&self, setup: &Setup, cells: &Division) -> Result<Layout, Refusal> {
         match self {
             Scene::Line(field) => layout(&field.domain().body, setup, cells, None),
@@ -125,7 +124,7 @@ impl<T: Real> Scene<T> {
         }
     }
 
-    /// The longest edge of a cell of such a grid, whose length is that of a level of a study; 0 where there is none.
+    /// The longest edge of a cell of such a grid, which is the length h of a level of a study; 0 if there is none.
     pub fn cell_size(&self, cells: &Division) -> f64 {
         match self {
             Scene::Line(field) => longest_edge(&field.domain().body, cells),
@@ -138,7 +137,7 @@ impl<T: Real> Scene<T> {
 /// Particles in the reference configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
-    /// X, the coordinates of a particle together.
+    /// X; the coordinates of a particle are adjacent.
     pub reference: Vec<f64>,
     /// V0.
     pub volume: Vec<f64>,
@@ -173,7 +172,7 @@ impl<T: Solvable> Scene<T> {
     /// Runs a method on the field; see [`Solve::run`].
     ///
     /// # Errors
-    /// A scene that cannot be started.
+    /// The scene cannot be started.
     pub fn run(
         &self,
         method: &Method,
@@ -191,7 +190,7 @@ impl<T: Solvable> Scene<T> {
     /// Runs one level of a study; see [`crate::run_level`].
     ///
     /// # Errors
-    /// A scene that cannot be started.
+    /// The scene cannot be started.
     pub fn run_level(
         &self,
         method: &Method,

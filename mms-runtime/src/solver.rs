@@ -1,52 +1,50 @@
 //! The explicit MPM/GIMP solver, for `const D` of 1 to 3 and for `f32` and `f64`.
 //!
-//! All state is in [`Solver`]: particles (structure of arrays), grid, boundary, clock. A step allocates nothing
-//! but for tractions on a body of revolution, and is two passes over the particles, in an order that the [`Integrator`] says through
-//! [`Operations`](crate::integrator::Operations): P2G (`p2g`: stress, weights, mass, momentum, force) and G2P
-//! (`g2p`: weights, v, d, H).
+//! All state is in [`Solver`]: particles (structure of arrays), grid, boundary, clock. A step is two passes over the particles,
+//! in an order that the [`Integrator`] determines through [`Operations`](crate::integrator::Operations): P2G (`p2g`: stress,
+//! weights, mass, momentum, force) and G2P (`g2p`: weights, v, d, H). A step allocates only for tractions on a body of
+//! revolution.
 //!
 //! # What is a type and what is a value
 //!
-//! What decides the code of the inner loops is a type: dimension, precision, and the number of nodes along an
-//! axis. What does not is a value: an integrator is the order in which a step calls `Operations`, compiled once
-//! for each precision, and a transfer is looked at once per bunch. A shape function is asked for weights and for
-//! nothing else (`weights`). [`crate::study::Solve`] goes from the names of a method to the types; its solvers are
-//! compiled in this crate, once, and are `dyn AnySolver` to those who take the steps themselves.
+//! Quantities that determine the code of the inner loops are types: dimension, precision, and the number of nodes along an
+//! axis. All others are values: an integrator is the order in which a step calls `Operations`, compiled once for each
+//! precision, and the transfer is tested once per bunch. A shape function only computes weights (`weights`).
+//! [`crate::study::Solve`] maps the names of a method to the types; its solvers are compiled in this crate, once, and callers
+//! that take the steps themselves use them as `dyn AnySolver`.
 //!
 //! # What is stored
 //!
-//! Particles store the displacement, not the position, and H, not F, so that single precision loses nothing to x -
-//! X and F - I. X is stored and never recovered. Stress is a function of H, computed for 256 particles at a time
-//! where it is needed, and not stored. So is b, at X and t^n, for 2048 particles at a time: a batch begins with
-//! what the time determines. One in eight of those is asked where its time goes, for the processor stops to look
-//! at the clock. Times are computed from the step number, never accumulated. Initial u, v and H are the field's.
-//! What particles read of the nodes decides what is computed for them (`transfer::Reads`): with PIC and APIC
-//! nothing but v_i after its kick, and then momentum and dt times force are one sum; with FLIP also a_i, and then
-//! v_i and a_i come of two sums in one pass over the nodes; with XPIC v_i before the kick too.
+//! Particles store the displacement, not the position, and H, not F, so that single precision loses nothing to x - X and F - I.
+//! X is stored and never recomputed. Stress is a function of H, computed for 256 particles at a time where it is needed, and
+//! not stored. The body force b, at X and t^n, is computed for 2048 particles at a time: a batch begins with the terms that
+//! depend on time alone. One in eight of these batches is timed, for the processor stops to read the clock. Times are computed
+//! from the step number, never accumulated. Initial u, v and H are the field's. The solver computes at nodes what particles
+//! read (`transfer::Reads`): with PIC and APIC only v_i after its kick, and then momentum and dt times force are one sum; with
+//! FLIP also a_i, and then v_i and a_i are computed from two sums in one pass over the nodes; with XPIC v_i before the kick
+//! too.
 //!
 //! # Memory and caches
 //!
-//! Both passes over the particles compute weights, for that is less work than reading them; where an integrator
-//! needs them after the particles have changed (`KEEPS_WEIGHTS`), what they follow is kept. What a pass reads of a
-//! large body has left the caches since the last pass, and is prefetched some bunches ahead; H, which stress needs
-//! first, a part ahead. What a step changes of a bunch (d, v, H, and C with APIC) is kept number by number, those
-//! of its particles beside each other, as registers take it (`column`); the material takes H, and gives stresses,
-//! in the same way. X, m and V0 are slices, as fields take and give them.
+//! Both passes over the particles compute weights, for that is less work than reading them. If an integrator needs them after
+//! the particles have changed (`KEEPS_WEIGHTS`), the solver keeps the data that they depend on. In a large body, a pass's data
+//! have left the caches since the last pass, and are prefetched some bunches ahead; H, which stress needs first, a part ahead.
+//! Data of a bunch that a step changes (d, v, H, and C with APIC) are stored component by component, the values of its
+//! particles adjacent, as registers load them (`column`); the material reads H, and writes stresses, in the same layout. X, m
+//! and V0 are slices, as in the methods of fields.
 //!
 //! # Threads
 //!
-//! Particles stand in the order of the nodes that they reach, in slabs along the last axis (`slabs`). Sums have
-//! one order whatever the number of threads is: results are the same bits. A particle may drift by a cell or more;
-//! when one has nodes outside its slab's window, all are sorted, slabs are cut anew and the sums begin again.
-//! Every 16 steps it is counted how many bunches and halves are of one cell, and how many could be: particles are
-//! sorted if a twentieth is missing. That follows from the state alone, so that a run that is resumed does the
-//! same. Small bodies, and stencils without a bound (`cpdi`), have one slab.
+//! Particles are sorted by the nodes that they reach, in slabs along the last axis (`slabs`). Sums have one order for any
+//! number of threads: results are the same bits. A particle may drift by a cell or more; when one has nodes outside its slab's
+//! window, all are sorted, slabs are cut anew and the sums begin again. Every 16 steps the solver counts how many bunches and
+//! halves are of one cell, and how many could be: it sorts the particles if 5 % are missing. That depends on the state alone,
+//! so that a resumed run does the same. Small bodies, and stencils without a bound (`cpdi`), have one slab.
 //!
 //! # Failures
 //!
-//! A run never returns a number that is not one. J <= 0, a value that is not finite, a lost particle, a domain too
-//! wide for its stencil or flat, a node without reference position: each stops the run with the step, the time,
-//! the particle or node, the cause and advice.
+//! A run never returns NaN. J <= 0, a value that is not finite, a lost particle, a domain too wide for its stencil or flat, a
+//! node without reference position: each stops the run with the step, the time, the particle or node, the cause and advice.
 
 mod any;
 mod clock;
@@ -88,8 +86,8 @@ pub use relaxation::{Ramp, Residual};
 pub use setup::{cell_size, filling};
 pub use state::State;
 
-/// After so many steps it is seen whether particles are to be put in order again, for bunches that share their nodes
-/// are faster than others.
+/// The number of steps after which the solver tests whether to sort particles again, for bunches that share their nodes are
+/// faster than others.
 const STEPS_IN_ORDER: usize = 16;
 
 /// A body of particles, its grid, and the field that drives it, with any shape function.
@@ -103,15 +101,15 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized> {
     boundary: Boundary<T, D>,
     transfer: Transfer,
     slabs: Slabs,
-    /// What weights follow, as it was at the beginning of the step, if the integrator asks for those once more when it
-    /// has changed.
+    /// The displacements and gradients at the beginning of the step, if the integrator uses weights again after they have
+    /// changed.
     kept: Vec<Kept<T, D>>,
     keeps_weights: bool,
-    /// XPIC: what is left of the velocity, mapped to nodes, and over their mass.
+    /// XPIC: the sum of the residual velocity at the nodes, and that sum over their mass.
     residual: [Vec<Nodal<T>>; 2],
     /// The time that the body force was last evaluated at.
     time_of_force: T,
-    /// Whether a state may be bad.
+    /// Whether the state may be invalid.
     suspect: bool,
     seconds: Seconds,
     formulation: Configuration<T, D>,
@@ -124,7 +122,7 @@ where
     /// Advances by one time step and checks the new state.
     ///
     /// # Errors
-    /// What the step led to, or could not do.
+    /// The step failed, or led to an invalid state.
     pub fn step<I: Integrator>(&mut self) -> Result<(), Failure> {
         let (step, time) = (self.clock.step + 1, self.clock.time_of(self.clock.step));
         self.keeps_weights = I::KEEPS_WEIGHTS && self.formulation.moves;
@@ -140,10 +138,10 @@ where
     /// Checks the state: J > 0, and displacement, velocity and H finite.
     ///
     /// # Errors
-    /// The first particle that is not so.
+    /// The first invalid particle.
     pub fn check(&self) -> Result<(), Failure> {
         let particles = &self.particles;
-        // An inverted particle first: what is not finite is often its consequence.
+        // Inverted particles first: they often cause values that are not finite.
         for p in 0..particles.len() {
             let jacobian = particles.jacobian(p);
             if jacobian <= T::zero() {
@@ -173,7 +171,7 @@ where
         self.present().failure(particle, cause)
     }
 
-    /// The state, as measurements see it.
+    /// The state, for measurements.
     pub fn present(&self) -> Present<'_, T, D, F> {
         let Clock { step, time_step, lag, .. } = self.clock;
         let time = self.clock.time_of(step);
@@ -194,7 +192,7 @@ where
         &self.particles
     }
 
-    /// The grid, as the last step left it.
+    /// The grid after the last step.
     pub fn grid(&self) -> &Grid<T, D> {
         &self.grid
     }
@@ -204,12 +202,12 @@ where
         self.clock.time_step
     }
 
-    /// How many steps the time window takes.
+    /// The number of steps of the time window.
     pub fn steps(&self) -> usize {
         self.clock.steps
     }
 
-    /// What the parts of the steps so far have taken.
+    /// The times of the parts of all steps so far.
     pub fn seconds(&self) -> Seconds {
         self.seconds
     }

@@ -1,8 +1,8 @@
 //! B-splines on the knots of one axis: particles are points.
 //!
-//! de Boor, "A practical guide to splines", 1978, chapter X. Knots are integers, one cell apart, and
-//! every knot beyond the ends lies on the end: splines are "open" there, reproduce linear functions up
-//! to it, and only one of them is not zero on it. So walls need no images.
+//! de Boor, "A practical guide to splines", 1978, chapter X. Knots are integers, one cell apart, and every knot beyond the ends
+//! lies on the end: splines are "open" there, reproduce linear functions up to it, and only one of them is not zero on it. So
+//! walls need no images.
 
 use mms_math::machine::{Machine, Plain};
 
@@ -16,7 +16,7 @@ use crate::real::{Matrix, Real, Vector};
 use crate::shape::{Shape, lost};
 use crate::stencil::{Known, Tensor};
 
-/// How far beyond the ends a particle may come, in cells: it has no business there.
+/// The distance beyond the ends that a particle may reach, in cells. Particles farther out are lost.
 const SLACK: f64 = 0.5;
 
 /// Splines of degree P, with N = P + 1 nodes along each axis.
@@ -49,7 +49,7 @@ impl<const P: usize, const N: usize> Shape for Spline<P, N> {
     }
 }
 
-/// The products of splines of degree P along the axes, at the points where the particles of a bunch are.
+/// Computes the products of splines of degree P along the axes, at the positions of a bunch of particles.
 ///
 /// # Errors
 /// A point is off the grid, or beyond the ends of the knots.
@@ -85,7 +85,8 @@ where
     Ok(())
 }
 
-/// As [`place`], where a point is `cells` from the first knot along an axis and may be near the ends or beyond them.
+/// Does the work of [`place`] for points, `cells` from the first knot along each axis, that may be near the ends or beyond
+/// them.
 #[cold]
 fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
     stencil: &mut Tensor<T, D>,
@@ -93,7 +94,7 @@ fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
     position: &Vectors<T, D>,
     cells: &Vectors<T, D>,
 ) -> Result<(), Cause> {
-    // What is not inlined into a loop knows no better machine.
+    // This function is not inlined into a loop and so cannot use the loop's better instructions.
     let machine = T::PlainMachine::from(Plain);
     let cells: [_; D] = components(machine, cells);
     let slack = T::of(SLACK);
@@ -120,10 +121,10 @@ fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
     Ok(())
 }
 
-/// As [`place`], at one point, as often as there are particles in a bunch.
+/// Does the work of [`place`] for a bunch of copies of one point.
 ///
 /// # Errors
-/// Likewise.
+/// The errors of [`place`].
 pub fn point<T: Real, const D: usize, const P: usize, const N: usize>(
     lattice: &Lattice<T, D>,
     position: &Vector<T, D>,
@@ -170,8 +171,8 @@ fn regular<T: Real, M: Machine<T>, const P: usize, const N: usize>(
     all
 }
 
-/// The cubic spline s^3/6 of the node before a cell, 2/3 - r^2 (1 - r/2) of the next one, and s^2/2 and
-/// r (3 r/2 - 2), which are but for signs their derivatives in r = 1 - s.
+/// The cubic splines s^3/6 of the node before a cell and 2/3 - r^2 (1 - r/2) of the next one, and s^2/2 and r (3 r/2 - 2),
+/// which are their derivatives in r = 1 - s up to signs.
 #[inline(always)]
 fn cubics<T: Real, M: Machine<T>>(
     machine: M,
@@ -191,7 +192,7 @@ fn cubics<T: Real, M: Machine<T>>(
     ([outer, inner], [half_square, machine.times(r, slope)])
 }
 
-/// As [`regular`], where knots may end.
+/// Does the work of [`regular`] where knots may end.
 #[cold]
 fn near_any_ends<T: Real, M: Machine<T>, const P: usize, const N: usize>(
     machine: M,
@@ -210,8 +211,8 @@ fn near_any_ends<T: Real, M: Machine<T>, const P: usize, const N: usize>(
     all.map(|all| all.map(|numbers| machine.eight(&numbers)))
 }
 
-/// The splines in a `cell` whose knots are not all one cell apart, by the recurrence of Cox and de Boor, and
-/// their derivatives. Knots are held between the `ends`; outside, the polynomials of the last cell go on.
+/// The splines in a `cell` whose knots are not all one cell apart, by the recurrence of Cox and de Boor, and their derivatives.
+/// Knots are clamped to the `ends`; outside, the polynomials of the last cell are continued.
 #[cold]
 fn near_ends<T: Real, const P: usize, const N: usize>(
     position: T,

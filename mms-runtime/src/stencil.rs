@@ -1,28 +1,27 @@
-//! The nodes of a bunch of particles, with their weights w_ip and weight gradients grad w_ip; the sums between
-//! them and their nodes.
+//! The nodes of a bunch of particles, with their weights w_ip and weight gradients grad w_ip; the sums between particles and
+//! nodes.
 //!
-//! There are two sums, each the transpose of the other: [`Stencil::scatter`] (P2G) adds w q, and more along each
-//! axis a: Q_a times (grad w)_a, and M_a times the moment w (x_i - x_p)_a; and [`Stencil::gather`] (G2P) returns
-//! sum_i w q_i, sum_i (grad w)_a q_i, and slopes that come of the moments. Mass, momentum and forces, interpolated
-//! velocities and their gradients are all of that kind; moments are for the linear velocity of APIC. Sums over
-//! three and four nodes along an axis are functions of their own, one for all passes and shape functions.
+//! There are two sums, each the transpose of the other: [`Stencil::scatter`] (P2G) adds w q, and more along each axis a: Q_a
+//! times (grad w)_a, and M_a times the moment w (x_i - x_p)_a; and [`Stencil::gather`] (G2P) returns sum_i w q_i, sum_i (grad
+//! w)_a q_i, and slopes computed from the moments. Mass, momentum, forces, interpolated velocities and their gradients are sums
+//! of this kind; the linear velocity of APIC uses moments. Sums over three and four nodes along an axis are functions that are
+//! not inlined, one for all passes and shape functions.
 //!
-//! A bunch is eight particles that stand beside each other, in two halves of four (an AoSoA tile). A quantity of
-//! particles has one of them in each lane of a register. A quantity of nodes has in each half one of their four
-//! numbers in each lane: those of the node that particle k of the first half sees, and those that particle k of
-//! the second one sees. What moves numbers within a register moves them within their half, which takes one
-//! instruction, so the halves of a bunch may be in different cells: with four particles in a cell, they are.
+//! A bunch is eight adjacent particles, in two halves of four (an AoSoA tile). A register of particle data has one particle in
+//! each lane. A register of nodal data has the four numbers of a node in the lanes of each half: in the first half a node of
+//! particle k of the first half, and in the second half a node of particle k of the second. Numbers within a register move only
+//! within their half, which takes one instruction, so the halves of a bunch may be in different cells: with four particles in a
+//! cell, they are.
 //!
-//! In most bunches those of a half share their nodes, for particles stand in the order of their cells: then a node
-//! is looked up once for all four. Where they do not, sums over nodes go through the nodes of those that share
-//! them with the weights of the others 0, and sums onto nodes take one particle of each half after the other. No
-//! sum is in a closure, and none goes through a method that takes one, as `map` of arrays does: they are not
-//! always inlined under the dispatch, and what is not is compiled without the processor's instructions. Bunches
-//! begin at every eighth particle whatever the slabs and the threads are; a slab adds only its own particles of a
-//! bunch. The last bunch is full: the last particle stands in for those that there are not.
+//! In most bunches the particles of a half share their nodes, since particles are sorted by cells: then a node is looked up
+//! once for all four. If they do not, sums over nodes run over the nodes of the particles that share them, with the weights of
+//! the others 0, and sums onto nodes process one particle of each half after the other. No sum is in a closure, and none calls
+//! a method with a closure, such as `map` of arrays: closures are not always inlined under the dispatch, and then are compiled
+//! without the processor's instructions. Bunches begin at every eighth particle for any slabs and threads; a slab adds only its
+//! own particles of a bunch. The last bunch is padded with copies of the last particle.
 //!
-//! On x86-64 without AVX2 nothing is gained by eight at a time: there `alone.rs` sums particle by particle, and little is
-//! compiled for processors that few still have.
+//! On x86-64 without AVX2, eight particles at a time are not faster: there `alone.rs` sums particle by particle, and little
+//! code is compiled for processors that few users still have.
 
 mod alone;
 mod gather;
@@ -40,14 +39,14 @@ use crate::real::{Real, Vector};
 
 pub use tensor::{Known, MOST, Tensor};
 
-/// What a bunch adds to its nodes.
+/// The data that a bunch adds to its nodes.
 #[derive(Clone, Copy)]
 pub struct Carried<F, const D: usize> {
     /// q: the four numbers of a node for each particle of both halves.
     pub value: [F; HALF],
     /// Q_a for every axis a: vectors, a number for each particle.
     pub slopes: Option<[[F; D]; D]>,
-    /// M_a, likewise.
+    /// M_a, in the layout of `slopes`.
     pub moments: Option<[[F; D]; D]>,
 }
 
@@ -59,7 +58,7 @@ impl<F, const D: usize> Carried<F, D> {
 }
 
 impl<T: Real, const D: usize> Carried<[T; BUNCH], D> {
-    /// The numbers of what a bunch carries.
+    /// Stores the data of a bunch as numbers.
     #[inline(always)]
     fn of<M: Machine<T>>(machine: M, carried: &Carried<M::Eight, D>) -> Self {
         let mut all = Self { value: [[T::zero(); BUNCH]; HALF], slopes: None, moments: None };
@@ -75,7 +74,7 @@ impl<T: Real, const D: usize> Carried<[T; BUNCH], D> {
         all
     }
 
-    /// Likewise, the other way.
+    /// Loads the data of a bunch as registers.
     #[inline(always)]
     fn eights<M: Machine<T>>(&self, machine: M) -> Carried<M::Eight, D> {
         let nothing = machine.splat(T::zero());
@@ -121,7 +120,7 @@ fn eights<T: Real, M: Machine<T>, const D: usize>(
     all
 }
 
-/// The vector q that nodes have, as a bunch sees it: a number for each particle.
+/// Sums over the nodes' vectors q at a bunch of particles: a number for each particle.
 #[derive(Clone, Copy)]
 pub struct Gathered<F, const D: usize> {
     /// sum_i w q_i.
@@ -133,7 +132,7 @@ pub struct Gathered<F, const D: usize> {
     pub slopes: [[F; D]; D],
 }
 
-/// What is wanted of the nodes beside the value.
+/// The sums that a caller needs beside the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
     /// [`Gathered::value`] alone.
@@ -144,16 +143,16 @@ pub enum Wanted {
     Slopes,
 }
 
-/// The nodes that a bunch touches.
+/// The nodes of a bunch of particles.
 pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
-    /// Whether the sums, and the search for the weights, gain by AVX-512 over AVX2.
+    /// Whether the sums, and the search for the weights, are faster with AVX-512 than with AVX2.
     const GAINS_BY_AVX512: bool;
 
-    /// Calls `visit(i, w_ip, grad w_ip)` for every node i of one of the particles; a node may come more than
-    /// once, and its weights then add up.
+    /// Calls `visit(i, w_ip, grad w_ip)` for every node i of one of the particles. If a node is visited more than once, its
+    /// weights add up.
     fn each(&self, particle: usize, visit: impl FnMut(usize, T, Vector<T, D>));
 
-    /// The first of the `members` that has nodes beyond these, if any has.
+    /// The first of the `members` that has nodes beyond these; `None` if all are within.
     fn beyond(&self, members: Members, nodes: &Range<usize>) -> Option<usize>;
 
     /// q_i += w q + sum_a ((grad w)_a Q_a + w (x_i - x_p)_a M_a) for every node i of the `members`.
@@ -166,8 +165,8 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
         nodes: Window<'_, T>,
     );
 
-    /// What the particles see of the nodes; what is not `wanted` is 0. For hat functions, the nearest linear
-    /// function is the one between the nodes.
+    /// Computes the sums over the nodes; sums that are not `wanted` are 0. For hat functions, the nearest linear function is
+    /// the interpolant between the nodes.
     fn gather<M: Machine<T>>(
         &self,
         machine: M,
@@ -182,8 +181,8 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     }
 }
 
-/// Which particles of a bunch are meant, from one on and before another.
+/// The range of particles of a bunch: the first one, and the one after the last.
 pub type Members = [usize; 2];
 
-/// All of a bunch.
+/// All particles of a bunch.
 pub const ALL: Members = [0, BUNCH];

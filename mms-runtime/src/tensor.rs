@@ -1,5 +1,4 @@
-//! The few tensor operations that the vectors and matrices of `nalgebra` do not offer for plain
-//! `const D`.
+//! The tensor operations that `nalgebra` does not have for vectors and matrices of plain `const D`.
 
 use crate::real::{Matrix, Real, Vector};
 
@@ -33,15 +32,15 @@ pub fn inverse_deformation_gradient<T: Real, const D: usize>(
     inverse(&deformation_gradient(displacement_gradient))
 }
 
-/// F^-1 for D = 1, 2, 3, or `None` where F is singular or not finite. That of `nalgebra` compiles those of larger
-/// matrices too, whatever D is.
+/// F^-1 for D = 1, 2, 3, or `None` where F is singular or not finite. The inverse of `nalgebra` would compile code for larger
+/// matrices too, for all D.
 pub fn inverse<T: Real, const D: usize>(f: &Matrix<T, D>) -> Option<Matrix<T, D>> {
     let determinant = determinant(f);
     let cofactor = |i: usize, j: usize| match D {
         1 => T::one(),
         2 if i == j => f[(1 - i, 1 - j)],
         2 => -f[(j, i)],
-        // Rows and columns go round, so that no sign changes.
+        // Rows and columns are cyclic, so that no sign changes.
         _ => {
             let ([i1, i2], [j1, j2]) = ([(i + 1) % 3, (i + 2) % 3], [(j + 1) % 3, (j + 2) % 3]);
             f[(i1, j1)] * f[(i2, j2)] - f[(i1, j2)] * f[(i2, j1)]
@@ -64,7 +63,7 @@ pub fn is_finite<T: Real, const D: usize>(vector: &Vector<T, D>) -> bool {
     vector.iter().all(|component| component.is_finite())
 }
 
-/// Whether every component is finite.
+/// Whether every component of a matrix is finite.
 pub fn matrix_is_finite<T: Real, const D: usize>(matrix: &Matrix<T, D>) -> bool {
     matrix.iter().all(|component| component.is_finite())
 }

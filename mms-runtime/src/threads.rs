@@ -1,13 +1,12 @@
-//! Fork and join: runs two things at once, if there are threads for it.
+//! Fork and join: runs two closures at once, if there are threads for it.
 //!
-//! Threads are those of the pool that the caller is in ([`crate::study::run`] makes one). Results do not depend on
-//! their number: what is joined is cut into the same parts whatever it is, and other parts have nothing to do with
-//! each other.
+//! The threads belong to the caller's pool ([`crate::study::run`] makes one). Results do not depend on their number: work whose
+//! results are joined is cut into parts that do not depend on it, and other parts are independent of each other.
 
-/// Nodes that are worked on by one thread at a time.
+/// The number of nodes that one thread processes at a time.
 const NODES: usize = 2048;
 
-/// Both results; at the same time in a pool of more than one thread.
+/// Runs both closures, at the same time in a pool of more than one thread.
 pub fn both<A: Send, B: Send>(
     first: impl FnOnce() -> A + Send,
     second: impl FnOnce() -> B + Send,
@@ -20,11 +19,11 @@ fn alone() -> bool {
     rayon::current_thread_index().is_none() || rayon::current_num_threads() == 1
 }
 
-/// What can be cut in two.
+/// Data that can be cut in two.
 pub trait Parts: Sized + Send {
-    /// How much there is of it.
+    /// The number of entries.
     fn len(&self) -> usize;
-    /// So much of it from its beginning, and what is left.
+    /// The entries before `at`, and the rest.
     fn split(self, at: usize) -> [Self; 2];
 }
 
@@ -59,7 +58,7 @@ impl Parts for std::ops::Range<usize> {
     }
 }
 
-/// As long as each other.
+/// Both have the same length.
 impl<A: Parts, B: Parts> Parts for (A, B) {
     fn len(&self) -> usize {
         self.0.len()
@@ -71,7 +70,7 @@ impl<A: Parts, B: Parts> Parts for (A, B) {
     }
 }
 
-/// Does `work` for all there is, in parts of at most `size`, and joins what comes of it.
+/// Does `work` for all data, in parts of at most `size`, and joins the results.
 pub fn each_part<P: Parts, R: Send>(
     all: P,
     size: usize,
@@ -88,8 +87,8 @@ pub fn each_part<P: Parts, R: Send>(
     join(first, others)
 }
 
-/// Does `work` for all there is, whose entries have nothing to do with each other: in parts of at most `size` if there
-/// are threads for them.
+/// Does `work` for all data, whose entries are independent of each other: in parts of at most `size` if there are threads for
+/// them.
 pub fn each<P: Parts>(all: P, size: usize, work: &(dyn Fn(P) + Sync)) {
     if alone() { work(all) } else { each_part(all, size, work, &|(), ()| ()) }
 }

@@ -1,4 +1,4 @@
-//! Transfers: how particles take the grid's velocity.
+//! Transfers: the update of the particles' velocity from the grid.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,13 +9,13 @@ use crate::extension::UnknownName;
 /// The highest order of XPIC that has a name.
 pub const MOST_XPIC: u32 = 5;
 
-/// What of the grid's velocity v_i and acceleration a_i a particle takes, S q = sum_i w_ip q_i being the
+/// The update of a particle's velocity from the grid's velocity v_i and acceleration a_i. S q = sum_i w_ip q_i is the
 /// interpolation to particles, and S+ v = sum_p w m v / m_i the map to the grid.
 ///
 /// Positions always follow S v_i.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Transfer {
-    /// v += dt S a, of which a `fraction` is taken, and S v of the rest.
+    /// v = `fraction` (v + dt S a) + (1 - `fraction`) S v.
     ///
     /// Brackbill, Ruppel, "FLIP: a method for adaptively zoned, particle-in-cell calculations of fluid
     /// flows in two dimensions", J. Comput. Phys. 65 (1986).
@@ -23,7 +23,7 @@ pub enum Transfer {
         /// From 0, which is PIC, to 1, which loses nothing to the grid.
         fraction: f64,
     },
-    /// v = S v. What the grid cannot represent is gone after one step: of first order in time.
+    /// v = S v. The part of the velocity that the grid cannot represent is lost after one step: of first order in time.
     ///
     /// Harlow, "The particle-in-cell computing method for fluid dynamics", Methods Comput. Phys. 3 (1964).
     Pic,
@@ -33,8 +33,8 @@ pub enum Transfer {
     /// 34 (2015). C is the velocity gradient for shape functions of degree 1 and
     /// (sum w v (x) (x_i - x_p)) (sum w (x_i - x_p) (x) (x_i - x_p))^-1 for splines.
     Apic,
-    /// FLIP without that part of the velocity which m maps to the grid and back do not leave standing:
-    /// v = v - (I - S S+)^m v + dt S a. Of order 1 it is PIC, but for the acceleration on the boundary.
+    /// FLIP without the part of the velocity that m maps to the grid and back remove: v = v - (I - S S+)^m v + dt S a. If m =
+    /// 1, it is PIC except for the acceleration on the boundary.
     ///
     /// Hammerquist, Nairn, "A new method for material point method particle updates that reduces noise and
     /// enhances stability", Comput. Methods Appl. Mech. Engrg. 318 (2017), doi 10.1016/j.cma.2017.01.035.
@@ -45,10 +45,10 @@ pub enum Transfer {
 }
 
 impl Transfer {
-    /// FLIP that loses nothing, the default.
+    /// FLIP with the fraction 1, the default.
     pub const FLIP: Self = Transfer::Flip { fraction: 1.0 };
 
-    /// What particles read of the nodes beside v_i after its kick.
+    /// The nodal data that particles read beside v_i after its kick.
     #[inline(always)]
     pub(crate) fn reads(self) -> Reads {
         match self {
@@ -58,7 +58,7 @@ impl Transfer {
         }
     }
 
-    /// What a solver takes it for: itself, but for a defect.
+    /// The transfer that a solver uses: itself, unless a defect is selected.
     pub(crate) fn taken(self) -> Self {
         match self {
             Transfer::Flip { .. } if on(Defect::FlipIsPic) => Transfer::Pic,
@@ -77,7 +77,7 @@ impl Transfer {
         &["flip", "pic", "apic", "xpic2", "xpic3", "xpic4", "xpic5"];
 }
 
-/// What particles read of the nodes beside v_i after its kick.
+/// The nodal data that particles read beside v_i after its kick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reads {
     Nothing,

@@ -1,4 +1,4 @@
-//! Boxes full of boxes.
+//! Boxes filled with boxes.
 
 use super::{Filling, Piece};
 use crate::field::Face;

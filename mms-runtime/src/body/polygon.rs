@@ -25,12 +25,12 @@ impl Polygon<'_> {
         Face::Edge(first, self.names.get(first).copied().unwrap_or("edge"))
     }
 
-    /// The faces that it has.
+    /// The faces of the polygon.
     pub fn faces(&self) -> Vec<Face> {
         (0..self.vertices.len()).map(|first| self.face(first)).collect()
     }
 
-    /// Lower and upper corner of the smallest box around it.
+    /// Lower and upper corner of the smallest box around the polygon.
     pub fn bounding_box<const D: usize>(&self) -> [Vector<f64, D>; 2] {
         let mut corners = [f64::INFINITY, f64::NEG_INFINITY].map(Vector::<f64, D>::repeat);
         for vertex in &self.vertices {
@@ -47,7 +47,7 @@ impl Polygon<'_> {
         })
     }
 
-    /// The parts of quadrilaterals, cut into about equal ones along both of their sides.
+    /// Fills the polygon with parts of quadrilaterals, cut into about equal parts along both of their sides.
     pub fn fill_fitted<const D: usize>(&self, spacing: &Vector<f64, D>) -> Filling<D> {
         let mut filling = Filling::default();
         let spacing = spacing.iter().copied().fold(f64::INFINITY, f64::min);

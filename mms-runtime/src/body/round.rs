@@ -1,8 +1,8 @@
 //! Rings, cylinders and spheres around the origin, and sectors of them, cut along radius and angles.
 //!
-//! Layers have equal thickness. Around the axis all of them are cut by the same rays, and spheres by the same cones,
-//! each band with as many rays as its circumference takes; a body whose inner radius is 0 has in each layer of its own as
-//! many as that takes, so that particles do not crowd about the axis or the centre.
+//! Layers have equal thickness. If the inner radius is positive, the same rays cut all layers around the axis, the same cones
+//! cut all layers of a sphere, and each band has as many rays as its circumference needs. If the inner radius is 0, each layer
+//! has as many as it needs, so that particles do not crowd about the axis or the centre.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -17,20 +17,21 @@ use crate::real::{Matrix, Vector};
 pub struct Block {
     /// The coordinates.
     pub system: System,
-    /// Their bounds, one pair per dimension.
+    /// The bounds of the coordinates, one pair per dimension.
     pub bounds: Vec<[f64; 2]>,
 }
 
-/// Single precision makes of an angle what differs from it by this.
+/// Single precision changes an angle by up to this.
 const ROUNDING: f64 = 1e-6;
 
 impl Block {
-    /// Whether it has no first and last angle theta: it goes all around, but for the round-off of single precision.
+    /// Whether the block goes all around and so has no first and last angle theta. Allows for the round-off of single
+    /// precision.
     pub fn is_ring(&self) -> bool {
         self.bounds[1][1] - self.bounds[1][0] > TAU * (1.0 - ROUNDING)
     }
 
-    /// The faces that it has.
+    /// The faces of the block.
     pub fn faces(&self) -> Vec<Face> {
         let mut faces = Vec::new();
         faces.extend((self.bounds[0][0] > 0.0).then_some(Face::Inner));
@@ -64,7 +65,7 @@ impl Block {
         }
     }
 
-    /// X of coordinates.
+    /// X at the given coordinates.
     pub fn place<const D: usize>(&self, at: &[f64; 3]) -> Vector<f64, D> {
         let place = self.system.position(&mut Numbers::new(), at);
         Vector::from_fn(|axis, _| place[axis])
@@ -95,7 +96,7 @@ impl Block {
         within(0) && (self.is_ring() || turned <= last) && (D < 3 || within(2))
     }
 
-    /// Layers of equal thickness, cut along the angles and, of a cylinder, the height.
+    /// Layers of equal thickness, cut along the angles and, for a cylinder, the height.
     pub fn fill_fitted<const D: usize>(&self, spacing: &Vector<f64, D>) -> Filling<D> {
         let [inner, outer] = self.bounds[0];
         let layers = parts(outer - inner, spacing[0], 1);
@@ -104,7 +105,7 @@ impl Block {
         let mut cells = Vec::new();
         for layer in 0..layers {
             let radii = part(self.bounds[0], layer, layers);
-            // The radius that says how many parts there are.
+            // The radius that determines how many parts there are.
             let arm = if inner > 0.0 { (inner + outer) / 2.0 } else { middle(radii) };
             let bands = match (self.system, D) {
                 (_, 0..=2) => 1,
@@ -163,7 +164,7 @@ impl Block {
         }
         let particle = filling.position.len();
         let mut half_edges = Matrix::<f64, D>::zeros();
-        // Radius, theta and phi are left-handed: a domain takes them the other way round.
+        // Radius, theta and phi are left-handed: the columns of a domain have theta and phi exchanged.
         let order = if self.system == System::Spherical { [0, 2, 1] } else { [0, 1, 2] };
         for (column, axis) in order.into_iter().take(D).enumerate() {
             half_edges.set_column(column, &(directions[axis] * (edges[axis] / 2.0)));
@@ -195,19 +196,19 @@ fn middle([from, to]: [f64; 2]) -> f64 {
     (from + to) / 2.0
 }
 
-/// How many parts of about such a length there are, at least so many.
+/// The number of parts of about the length `spacing`, and at least `least`.
 fn parts(length: f64, spacing: f64, least: usize) -> usize {
     (length / spacing).round().max(least as f64) as usize
 }
 
-/// A part of so many equal ones between two ends.
+/// Part `at` of `count` equal parts between two ends.
 fn part([from, to]: [f64; 2], at: usize, count: usize) -> [f64; 2] {
     let end =
         |at: usize| if at == count { to } else { from + (to - from) * at as f64 / count as f64 };
     [end(at), end(at + 1)]
 }
 
-/// How many quarters of a turn there are at least: a part is never wider, or its box would be no likeness of it.
+/// The least number of parts of an angle: a part of more than a quarter of a turn would not resemble its box.
 fn quarters([first, last]: [f64; 2]) -> usize {
     ((last - first) / FRAC_PI_2 * (1.0 - ROUNDING)).ceil().max(1.0) as usize
 }

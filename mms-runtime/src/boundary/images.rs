@@ -5,9 +5,9 @@ use crate::real::Real;
 
 /// Pairs of a node outside and one inside, in layers from the face outward.
 ///
-/// A grid goes on for as many layers as any particle might need; mass is seldom in more than the first. What lies
-/// beyond is left alone: no particle sees it. Layers are taken whole, so that at edges, where the image of a node is
-/// beyond another face, that one is taken too.
+/// A grid extends for as many layers as any particle might need; mass is seldom in more than the first. The images skip layers
+/// beyond the last one with mass: no particle reads them. They use whole layers, so that at edges, where the image of a node is
+/// beyond another face, that node is included too.
 pub struct Images {
     pairs: Vec<(usize, usize)>,
     /// How many pairs there are up to each layer.
@@ -17,7 +17,7 @@ pub struct Images {
 }
 
 impl Images {
-    /// The pairs of layers, which are counted from 0.
+    /// Pairs of nodes, each with the number of its layer, counted from 0.
     pub fn new(pairs: impl IntoIterator<Item = (usize, (usize, usize))>) -> Self {
         let mut layered: Vec<Vec<(usize, usize)>> = Vec::new();
         for (layer, pair) in pairs {
@@ -31,7 +31,7 @@ impl Images {
         Self { layers: layers.collect(), pairs: layered.concat(), reached: 0 }
     }
 
-    /// Finds the layers with mass, before any is folded.
+    /// Finds the layers with mass. To be called before any is folded.
     pub fn reach<T: Real>(&mut self, momentum: &[Nodal<T>]) {
         let heavy = |pair: &(usize, usize)| momentum[pair.0].last() != T::zero();
         let last = self.pairs.iter().rposition(heavy);
@@ -41,7 +41,7 @@ impl Images {
         });
     }
 
-    /// q_inside += the image of q_outside, which leaves the nodes outside empty.
+    /// q_inside += the image of q_outside; empties the nodes outside.
     pub fn fold<T: Real>(&self, extensive: &mut [Nodal<T>], image: impl Fn(Nodal<T>) -> Nodal<T>) {
         for &(outside, inside) in &self.pairs[..self.reached] {
             let folded = std::mem::replace(&mut extensive[outside], Nodal::zero());

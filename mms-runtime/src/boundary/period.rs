@@ -1,7 +1,7 @@
 //! A periodic axis: nodes one period apart are the same node.
 //!
-//! Weights reach past both ends of the period. What nodes outside it receive goes to those inside, and
-//! nodes outside move like them.
+//! Weights reach past both ends of the period. Sums at nodes outside it are added to the nodes inside, and nodes outside move
+//! like the nodes inside.
 
 use super::images::Images;
 use crate::defect::{Defect, on};
@@ -9,11 +9,11 @@ use crate::lattice::Lattice;
 use crate::nodal::Nodal;
 use crate::real::Real;
 
-/// The nodes outside a period, and those inside that they repeat.
+/// The nodes outside a period, and the nodes inside that they repeat.
 pub struct Period(Images);
 
 impl Period {
-    /// That of an axis, if it is periodic: a whole number of cells.
+    /// The period of an axis, which is a whole number of cells; `None` if the axis is not periodic.
     pub fn new<T: Real, const D: usize>(lattice: &Lattice<T, D>, axis: usize) -> Option<Self> {
         lattice.period[axis]?;
         let [from, to] = lattice.axes[axis].body.map(|knot| knot.ceil() as usize);
@@ -33,7 +33,7 @@ impl Period {
         self.0.reach(momentum);
     }
 
-    /// q_inside += q_outside, for mass, momentum and force, which leaves the nodes outside empty.
+    /// q_inside += q_outside, for mass, momentum and force; empties the nodes outside.
     pub fn fold<T: Real>(&self, extensive: &mut [Nodal<T>]) {
         self.0.fold(extensive, |outside| outside);
     }

@@ -1,11 +1,10 @@
-//! Nodes at a face where the field prescribes the motion: they take the field's velocity and acceleration.
+//! Nodes at a face where the field prescribes the motion: they follow the field's velocity and acceleration.
 //!
-//! Held are the nodes on and beyond the face, and those nearer to it than their weights are wide: the balance of
-//! momentum of such a node misses the traction on the part of the face inside its support. Where the face runs
-//! along a plane of nodes at which splines end, these are just the nodes on it. A node's reference position comes
-//! from inverting x = X + u(X, t) by Newton's method, from the nearest sample of the face; in the total
-//! formulation it is where it is. Beyond a face at rest a node moves opposite to its mirror image inside, for the
-//! field may be wild beyond its body.
+//! The face prescribes the nodes on and beyond it, and the nodes nearer to it than their weights are wide: the balance of
+//! momentum of such a node misses the traction on the part of the face inside its support. Where the face runs along a plane of
+//! nodes at which splines end, only the nodes on it are prescribed. Newton's method, started at the nearest sample of the face,
+//! inverts x = X + u(X, t) for a node's reference position; in the total formulation it is the node's position. Beyond a face
+//! at rest a node moves opposite to its mirror image inside, for the field may be wild beyond its body.
 
 use super::surface::Surface;
 use crate::defect::{Defect, on};
@@ -19,32 +18,31 @@ use crate::tensor::{components, inverse_deformation_gradient, is_finite};
 
 const NEWTON_ITERATIONS: usize = 30;
 
-/// How many nodes along an axis, to either side of a sample of a face, it may hold: as far as particles
-/// inside give them mass.
+/// How many nodes along an axis, to either side of a sample, a face may prescribe: as far as particles inside give them mass.
 const NEIGHBOURS: usize = 2;
 
-/// The prescribed faces, and the nodes that they hold at the present time. Without faces it is empty.
+/// The prescribed faces, and the nodes that they prescribe at the present time. Empty if no face is prescribed.
 pub struct Prescribed<T, const D: usize> {
     moves: bool,
     /// The faces, and whether each is at rest.
     faces: Vec<(Surface<T>, bool)>,
     /// Points on all faces, one for every cell.
     samples: Vec<Vector<T, D>>,
-    /// Where they are.
+    /// The present positions of the samples.
     present: Vec<Vector<T, D>>,
-    /// Per node: its distance from the nearest sample, and which that is.
+    /// Per node: the distance from its nearest sample, and the number of that sample.
     nearest: Vec<Option<(T, usize)>>,
-    /// The nodes that are held.
+    /// The prescribed nodes.
     nodes: Vec<usize>,
-    /// Where they are, or their images in faces at rest.
+    /// The positions of the nodes, or of their images in faces at rest.
     target: Vec<Vector<T, D>>,
     /// 1, or -1 for an image.
     sign: Vec<T>,
-    /// The reference positions there.
+    /// The reference positions of the targets.
     reference: Vec<Vector<T, D>>,
-    /// Their nearest points on a face.
+    /// The nearest points of a face to the reference positions.
     foot: Vec<Vector<T, D>>,
-    /// The reference normals there.
+    /// The reference normals at the feet.
     normal: Vec<Vector<T, D>>,
     held: Vec<bool>,
     value: Vec<Vector<T, D>>,
@@ -52,7 +50,7 @@ pub struct Prescribed<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Prescribed<T, D> {
-    /// No face; `moves` says whether the body moves through the grid.
+    /// No face; `moves` tells whether the body moves through the grid.
     pub fn new(moves: bool) -> Self {
         Self {
             moves,
@@ -72,7 +70,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
         }
     }
 
-    /// Prescribes the motion of a face, which may be at rest. There is a sample of it for every cell.
+    /// Prescribes the motion of a face, which may be at rest, with one sample for every cell.
     pub fn add_face(
         &mut self,
         surface: Surface<T>,
@@ -98,7 +96,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
         self.present.resize(self.samples.len(), Vector::zeros());
     }
 
-    /// Finds the nodes with mass that the faces hold at `time`, and their reference positions.
+    /// Finds the nodes with mass that the faces prescribe at `time`, and their reference positions.
     ///
     /// # Errors
     /// The motion cannot be inverted at a node.
@@ -134,7 +132,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
         Ok(())
     }
 
-    /// The nodes with mass that are near a sample, and which is the nearest.
+    /// Finds the nodes with mass that are near a sample, and the nearest sample of each.
     fn find_nodes_nearby<F>(&mut self, field: &F, time: T, grid: &Grid<T, D>)
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -173,7 +171,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
         }
     }
 
-    /// Newton's method for x = X + u(X, t), all nodes at once, with x the targets.
+    /// Newton's method for x = X + u(X, t), all nodes at once; x is the targets.
     fn invert_motion<F>(&mut self, field: &F, time: T, grid: &Grid<T, D>) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -217,8 +215,8 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
 
     /// Drops the nodes whose weights are 0 on all faces.
     ///
-    /// A node is held by a face if the face's nearest point, where it is at present, is behind the node or
-    /// nearer along the present normal than the node's weights reach.
+    /// A face prescribes a node if the present position of the face's nearest point is behind the node, or nearer along the
+    /// present normal than the node's weights reach.
     fn keep_held_nodes<F>(&mut self, field: &F, time: T, grid: &Grid<T, D>)
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -262,7 +260,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
         self.value.truncate(kept);
     }
 
-    /// Writes the field's `exact` values to the nodes that are held.
+    /// Writes the field's `exact` values to the prescribed nodes.
     pub fn impose(
         &mut self,
         nodal: &mut [Nodal<T>],

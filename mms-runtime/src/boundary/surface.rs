@@ -11,39 +11,39 @@ use crate::real::{Real, Vector};
 
 /// A face of the reference body.
 pub enum Surface<T> {
-    /// Of a box.
+    /// A face of a box.
     Plane {
-        /// The axis that it stands on.
+        /// The normal axis of the plane.
         axis: usize,
         /// Whether the body is below.
         upper: bool,
-        /// Its coordinate.
+        /// The plane's coordinate.
         position: T,
     },
     /// A circle, a cylinder about the axis Z, or a sphere.
     Round {
-        /// In how many coordinates the radius is.
+        /// The number of coordinates that the radius is computed from.
         among: usize,
         /// Whether the body is inside.
         outer: bool,
         /// The radius.
         radius: T,
     },
-    /// Of a sector: a ray, or a half plane that ends in the axis Z.
+    /// A face of a sector: a ray, or a half plane that ends in the axis Z.
     Ray {
         /// Whether the body is at smaller angles.
         last: bool,
-        /// Cosine and sine of its angle.
+        /// Cosine and sine of the angle.
         direction: [T; 2],
     },
-    /// Of a sphere: a cone about the axis Z.
+    /// A face of a part of a sphere: a cone about the axis Z.
     Cone {
         /// Whether the body is at smaller angles from +Z.
         last: bool,
-        /// Cosine and sine of its angle from +Z.
+        /// Cosine and sine of the angle from +Z.
         direction: [T; 2],
     },
-    /// Of a polygon: the edge between two points.
+    /// A face of a polygon: the edge between two points.
     Edge {
         /// The points.
         ends: [[T; 2]; 2],
@@ -114,7 +114,7 @@ impl<T: Real> Surface<T> {
             Surface::Ray { last, direction: [cosine, sine] } => {
                 let along = Vector::from_fn(|a, _| [cosine, sine, T::zero()][a.min(2)]);
                 let around = Vector::from_fn(|a, _| [-sine, cosine, T::zero()][a.min(2)]);
-                // What is left along the axis Z stays.
+                // The component along the axis Z is unchanged.
                 let rest = Vector::from_fn(|a, _| if a == 2 { foot[a] } else { T::zero() });
                 foot = along * foot.dot(&along) + rest;
                 normal = if last { around } else { -around };
@@ -140,7 +140,7 @@ impl<T: Real> Surface<T> {
                 let clamped = part.max(T::zero()).min(T::one());
                 let nearest = from + along * clamped;
                 normal = place(outward);
-                // Beside the edge the way to its end counts, whichever side of its line that is on.
+                // Beside the edge, the direction to its end is the normal, whichever side of the edge's line that is on.
                 let away = nearest - foot;
                 if clamped != part && away.norm() > T::zero() {
                     normal = away.normalize();
@@ -187,10 +187,10 @@ mod tests {
                 let [foot, normal] = surface.foot(&inside);
                 let depth = (foot - inside).norm();
                 assert!(depth > 0.1 && (normal.norm() - 1.0).abs() < 1e-15, "{face}");
-                // The nearest point is straight ahead, and its own nearest one.
+                // The nearest point is straight ahead, and is its own nearest point.
                 assert!((inside + normal * depth - foot).norm() < 1e-15, "{face}");
                 assert!((surface.foot(&foot)[0] - foot).norm() < 1e-15, "{face}");
-                // An image is as far on the other side, and there is none of what is not beyond.
+                // An image is as far on the other side, and points that are not beyond have none.
                 let beyond = foot + normal * 0.125;
                 let image = surface.image(&beyond).expect("the point is beyond");
                 assert!((image - (foot - normal * 0.125)).norm() < 1e-15, "{face}");

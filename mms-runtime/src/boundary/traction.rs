@@ -1,10 +1,10 @@
 //! Tractions of the field on the faces of the body.
 //!
-//! f_i += sum over the pieces of a face of w_i(x_s) sigma n a, with sigma the stress that the material has
-//! at the field's H at X_s. In the updated formulation a piece is carried by the particle next to it, to
-//! x_s = x_p + F_p (X_s - X_p), and n a = cof(F_p) N A0 (Nanson): a load that turns with the surface. On a meridian cof(F_p)
-//! is that of the plane times F_tt. Loads P N A0, whose directions are given, let a body under pressure on all sides turn
-//! over. In the total formulation F_p is the field's, and they are just that.
+//! f_i += sum over the pieces of a face of w_i(x_s) sigma n a, with sigma the stress of the material at the field's H at X_s.
+//! In the updated formulation a piece is carried by the particle next to it, to x_s = x_p + F_p (X_s - X_p), and n a = cof(F_p)
+//! N A0 (Nanson): a load that turns with the surface. On a meridian cof(F_p) is the cofactor matrix in the plane times F_tt.
+//! Loads P N A0 of given direction would let a body under pressure on all sides turn over. In the total formulation F_p is the
+//! field's, and the loads are P N A0.
 
 use mms_math::machine::Plain;
 
@@ -20,24 +20,25 @@ use crate::real::{Matrix, Real, Vector};
 use crate::stencil::{Carried, Stencil as _, Tensor};
 use crate::tensor::{cofactor, components, jacobian};
 
-/// Where a piece of a face is at present.
+/// The present position of a piece of a face.
 pub struct Place<T, const D: usize> {
     /// x_s, where its force acts.
     pub position: Vector<T, D>,
-    /// H of the particle that carries it, and F_tt or 1, unless the field's.
+    /// H of the particle that carries the piece, and F_tt or 1; `None` if the field's H is used.
     pub carrier: Option<(Matrix<T, D>, T)>,
 }
 
-/// The grid's geometry, and the nodes and weights of a point on it ([`Shape::point`](crate::shape::Shape::point)).
+/// The grid's geometry, and a function that finds the nodes and weights of a point
+/// ([`Shape::point`](crate::shape::Shape::point)).
 #[derive(Clone, Copy)]
 pub struct Point<'a, T: Real, const D: usize> {
     /// The nodes.
     pub lattice: &'a Lattice<T, D>,
-    /// Finds those of a point, and its weights.
+    /// Finds the nodes and weights of a point.
     pub stencil: StencilOf<T, D>,
 }
 
-/// What finds the nodes and weights of a point of a grid.
+/// A function that finds the nodes and weights of a point of a grid.
 pub type StencilOf<T, const D: usize> =
     fn(&Lattice<T, D>, &Vector<T, D>) -> Result<Tensor<T, D>, Cause>;
 
@@ -64,10 +65,10 @@ impl<T: Real, const D: usize> Traction<T, D> {
         }
     }
 
-    /// Takes the pieces of a face.
+    /// Adds the pieces of a face.
     ///
     /// # Errors
-    /// There are none: particles do not lie along the face.
+    /// The face has no pieces: particles do not lie along it.
     pub fn add_face(&mut self, face: Face, pieces: &[Piece<D>]) -> Result<(), Refusal> {
         let before = self.particle.len();
         for piece in pieces.iter().filter(|piece| piece.face == face) {
@@ -84,8 +85,8 @@ impl<T: Real, const D: usize> Traction<T, D> {
         Ok(())
     }
 
-    /// Adds this `share` of the forces at `time`. `place` says where the piece of a face at X, carried by a
-    /// particle, is, and `point` which nodes a place has.
+    /// Adds this `share` of the forces at `time`. `place` computes where the piece of a face at X that a particle carries is,
+    /// and `point` the nodes of a place.
     ///
     /// # Errors
     /// A piece is off the grid, or the field's F is singular there.

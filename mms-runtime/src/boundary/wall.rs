@@ -1,9 +1,8 @@
 //! A wall at rest on a plane of grid nodes, by the method of images.
 //!
-//! Particle domains and weights reach past the wall. The body is continued there by its mirror image, moving
-//! antisymmetrically. What ghost nodes receive is folded, reflected, onto the nodes inside, for mass, momentum and
-//! force alike; then ghost nodes get the reflected velocity and acceleration of the nodes inside. Splines that end
-//! at the wall have no ghost nodes.
+//! Particle domains and weights reach past the wall. The body is continued there by its mirror image, moving antisymmetrically.
+//! Mass, momentum and force at ghost nodes are reflected and added to the nodes inside; then ghost nodes get the reflected
+//! velocity and acceleration of the nodes inside. Splines that end at the wall have no ghost nodes.
 
 use super::images::Images;
 use crate::defect::{Defect, on};
@@ -16,11 +15,11 @@ use crate::real::Real;
 /// A wall: which nodes are on it, which are behind it, and which components it reflects.
 pub struct Wall {
     on_wall: Vec<usize>,
-    /// Ghost nodes, and the nodes inside that they are the images of.
+    /// Ghost nodes, and the nodes inside that they are images of.
     images: Images,
     /// The wall's normal.
     axis: usize,
-    /// Whether the tangential components are held as well.
+    /// Whether the wall constrains the tangential components as well.
     fixed: bool,
 }
 
@@ -28,7 +27,7 @@ impl Wall {
     /// The wall at a `face` of a box.
     ///
     /// # Errors
-    /// The face lies between planes of nodes, or is none of a box.
+    /// The face lies between planes of nodes, or is not a face of a box.
     pub fn new<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         face: Face,
@@ -71,7 +70,7 @@ impl Wall {
         self.images.reach(momentum);
     }
 
-    /// q_inside += reflected q_ghost, for mass, momentum and force, which leaves the ghost nodes empty.
+    /// q_inside += reflected q_ghost, for mass, momentum and force; empties the ghost nodes.
     pub fn fold<T: Real>(&self, extensive: &mut [Nodal<T>]) {
         self.images.fold(extensive, |ghost| self.reflect(ghost));
     }

@@ -1,4 +1,4 @@
-//! Formulations: in which configuration the grid lives.
+//! Formulations: the configuration in which the grid lies.
 
 use crate::column::Matrices;
 use crate::extension::extension_list;
@@ -11,26 +11,26 @@ extension_list! {
     total::Total,
 }
 
-/// In which configuration weights and stresses are taken.
+/// The configuration in which weights and stresses are evaluated.
 pub trait Formulation: Send + Sync + 'static {
-    /// Whether weights follow the present positions, and dF/dt = L F with L = sum_i v_i (x) grad w;
-    /// otherwise weights are those of the reference positions, and dF/dt is that sum.
+    /// Whether weights follow the present positions, and dF/dt = L F with L = sum_i v_i (x) grad w. Otherwise weights are
+    /// evaluated at the reference positions, and dF/dt is that sum.
     const MOVES: bool;
 
-    /// From tau and H of some bunches of particles the stresses that work on grad w per reference volume.
+    /// Computes, from tau and H of some bunches of particles, the stresses that multiply grad w per reference volume.
     ///
     /// # Errors
-    /// The first particle where F is singular.
+    /// The index of the first particle where F is singular.
     fn stress<T: Real, const D: usize>(
         displacement_gradient: &[Matrices<T, D>],
         stress: &mut [Matrices<T, D>],
     ) -> Result<(), usize>;
 }
 
-/// From H of some bunches, and what is tau before, the stresses; or where F is singular.
+/// A function that replaces tau of some bunches by the stresses, given H; or returns where F is singular.
 type StressOf<M> = fn(&[M], &mut [M]) -> Result<(), usize>;
 
-/// A formulation as a value: solvers are compiled once for all.
+/// A formulation as a value, so that solvers are compiled once for all formulations.
 #[derive(Clone, Copy)]
 pub(crate) struct Configuration<T, const D: usize> {
     /// [`Formulation::MOVES`].
@@ -46,7 +46,7 @@ impl FormulationName {
     }
 }
 
-/// Makes a value of a formulation.
+/// Visitor that makes a value of a formulation.
 struct Configure<T, const D: usize>(std::marker::PhantomData<T>);
 
 impl<T: Real, const D: usize> FormulationVisitor for Configure<T, D> {

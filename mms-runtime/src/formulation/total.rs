@@ -1,9 +1,8 @@
 //! The total Lagrangian formulation: the grid is in the reference configuration.
 //!
-//! de Vaucorbeil, Nguyen, Hutchinson, "A Total-Lagrangian Material Point Method for solid mechanics
-//! problems involving large deformations", Comput. Methods Appl. Mech. Engrg. 360 (2020), doi
-//! 10.1016/j.cma.2019.112783. Weights are those of the reference positions, once and for all:
-//! f_i = - sum_p V0 P grad0 w, and dF/dt = sum_i v_i (x) grad0 w.
+//! de Vaucorbeil, Nguyen, Hutchinson, "A Total-Lagrangian Material Point Method for solid mechanics problems involving large
+//! deformations", Comput. Methods Appl. Mech. Engrg. 360 (2020), doi 10.1016/j.cma.2019.112783. Weights are evaluated once, at
+//! the reference positions: f_i = - sum_p V0 P grad0 w, and dF/dt = sum_i v_i (x) grad0 w.
 
 use super::Formulation;
 use crate::column::BUNCH;
@@ -12,7 +11,7 @@ use crate::defect::{Defect, on};
 use crate::real::Real;
 use crate::tensor::inverse_deformation_gradient;
 
-/// Particles stay where they are in the grid; nothing crosses a cell.
+/// The total formulation: particles stay where they are in the grid, and nothing crosses a cell.
 pub struct Total;
 
 impl Formulation for Total {

@@ -1,8 +1,8 @@
 //! The updated Lagrangian formulation: the grid is in space.
 //!
-//! Sulsky, Chen, Schreyer, "A particle method for history-dependent materials", Comput. Methods Appl.
-//! Mech. Engrg. 118 (1994) 179-196. Weights are those of the present positions, and change with them:
-//! f_i = - sum_p V0 tau grad w, since V sigma = V0 tau, and dF/dt = L F.
+//! Sulsky, Chen, Schreyer, "A particle method for history-dependent materials", Comput. Methods Appl. Mech. Engrg. 118 (1994)
+//! 179-196. Weights are evaluated at the present positions, in every step: f_i = - sum_p V0 tau grad w, since V sigma = V0 tau,
+//! and dF/dt = L F.
 
 use super::Formulation;
 use crate::column::BUNCH;
@@ -11,7 +11,7 @@ use crate::defect::{Defect, on};
 use crate::real::Real;
 use crate::tensor::jacobian;
 
-/// Particles move through the grid.
+/// The updated formulation: particles move through the grid.
 pub struct Updated;
 
 impl Formulation for Updated {

@@ -1,4 +1,4 @@
-//! Leapfrog: USL with velocities that live half a step between the positions.
+//! Leapfrog: USL with velocities half a step between the positions.
 //!
 //! Wallstedt, Guilkey, "An evaluation of explicit time integration schemes for use with the generalized
 //! interpolation material point method", J. Comput. Phys. 227 (2008), doi

@@ -1,11 +1,10 @@
-//! Explicit time integrators: the order in which one step does its sums and updates.
+//! Explicit time integrators: the order of a step's sums and updates.
 //!
-//! To add one, write `integrator/name.rs` with a type that implements [`Integrator`] in terms of [`Operations`],
-//! and its source, and add `name::Type` to the list below. The property tests and the `mms` command then find it
-//! by itself.
+//! To add one, write `integrator/name.rs` with a type that implements [`Integrator`] in terms of [`Operations`], and its
+//! source, and add `name::Type` to the list below. The property tests and the `mms` command then find it automatically.
 //!
-//! All map mass m_i = sum w m and momentum (mv)_i = sum w m v to the grid, and evaluate the body force at the
-//! beginning of the step, b(X, t^n). They differ in when the deformation follows, and from which velocity.
+//! All map mass m_i = sum w m and momentum (mv)_i = sum w m v to the grid, and evaluate the body force at the beginning of the
+//! step, b(X, t^n). They differ in when the deformation is updated, and from which velocity.
 //!
 //! | integrator | order in time | |
 //! |---|---|---|
@@ -27,17 +26,16 @@ extension_list! {
 
 /// A time integrator.
 pub trait Integrator: 'static {
-    /// Order of the displacement in time, by theory; a test measures it.
+    /// Theoretical order of the displacement in time; a test measures it.
     const FORMAL_ORDER: i32;
 
     /// How many time steps the particles' velocities are behind their positions, once the first step is
     /// done.
     const LAG: f64 = 0.0;
 
-    /// Whether a step asks for weights after it has moved or deformed the particles, which it does one after the other, by
-    /// different velocities: they are those at t^n, and
-    /// so what they follow has to be kept. Weights themselves are computed where they are used, which takes less
-    /// time than to read them.
+    /// Whether a step uses weights after it has moved or deformed the particles, which it does one after the other, by
+    /// different velocities. Weights are evaluated at t^n throughout a step, so the solver then keeps the data that they depend
+    /// on. It computes weights where they are used, which takes less time than to read them.
     const KEEPS_WEIGHTS: bool = false;
 
     /// Advances particles and grid from t^n = `solver.time()` by one time step dt.
@@ -45,12 +43,12 @@ pub trait Integrator: 'static {
     /// The solver has checked the state before, and checks it afterwards.
     ///
     /// # Errors
-    /// A particle that the grid does not hold.
+    /// A particle is outside the grid.
     fn step<T: Real>(solver: &mut dyn Operations<T>) -> Result<(), Failure>;
 }
 
-/// What is found for the nodes, of sums over particles; w = w_ip and grad w = grad w_ip are those at t^n
-/// throughout a step.
+/// A quantity of the nodes, computed from sums over particles; w = w_ip and grad w = grad w_ip are evaluated at t^n throughout
+/// a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sum<T> {
     /// m_i = sum_p w m_p, with weights at the present positions.
@@ -60,15 +58,15 @@ pub enum Sum<T> {
     /// a_i = (- sum_p V0 S grad w + sum_p w m_p b(X_p, t) + tractions) / m_i at this time, with the boundary's
     /// acceleration; S is tau(H), or P(H) in the total formulation.
     Acceleration(T),
-    /// v_i += dt a_i, with this dt and then the boundary's velocity at this time; a_i and v_i are those found along
-    /// with it, or before. Where particles read neither v_i before the kick nor a_i, all are one sum.
+    /// v_i += dt a_i, with this dt and then the boundary's velocity at this time; a_i and v_i are computed along with it, or
+    /// before. Where particles read neither v_i before the kick nor a_i, all are one sum.
     Kick(T, T),
 }
 
 /// A change of the particles' state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Update<T> {
-    /// v += dt sum_i w a_i, or what the transfer has instead.
+    /// v += dt sum_i w a_i, or the transfer's own update.
     Velocity(T),
     /// d += dt sum_i w v_i.
     Position(T),
@@ -76,9 +74,9 @@ pub enum Update<T> {
     Deformation(T),
 }
 
-/// What integrators are made of.
+/// The operations that integrators consist of.
 ///
-/// It does not depend on dimension, shape function or field: an integrator is compiled once.
+/// The trait does not depend on dimension, shape function or field: an integrator is compiled once.
 pub trait Operations<T> {
     /// The present time t^n.
     fn time(&self) -> T;
@@ -86,18 +84,18 @@ pub trait Operations<T> {
     /// dt.
     fn time_step(&self) -> T;
 
-    /// How many steps have been made.
+    /// The number of completed steps.
     fn step_number(&self) -> usize;
 
-    /// These sums, in one pass over the particles.
+    /// Computes these quantities of the nodes, in one pass over the particles.
     ///
     /// # Errors
-    /// A particle, or a piece of a face, that the grid does not hold; a particle without stress.
+    /// A particle, or a piece of a face, is outside the grid; a particle has no stress.
     fn map(&mut self, sums: &[Sum<T>]) -> Result<(), Failure>;
 
-    /// These changes, in one pass over the particles.
+    /// Applies these changes, in one pass over the particles.
     ///
     /// # Errors
-    /// A particle that the grid does not hold.
+    /// A particle is outside the grid.
     fn advance(&mut self, updates: &[Update<T>]) -> Result<(), Failure>;
 }

@@ -8,7 +8,7 @@ use super::{Integrator, Operations, Sum, Update};
 use crate::failure::Failure;
 use crate::real::Real;
 
-/// USL, but the deformation follows the particles' new velocities, mapped to the grid once more.
+/// USL, except that the deformation follows the particles' new velocities, mapped to the grid once more.
 pub struct Musl;
 
 impl Integrator for Musl {

@@ -7,7 +7,7 @@ use super::{Integrator, Operations, Sum, Update};
 use crate::failure::Failure;
 use crate::real::Real;
 
-/// The deformation from the grid's velocity at t^n, then forces from the stress at t^(n+1).
+/// Updates the deformation from the grid's velocity at t^n, then computes forces from the stress at t^(n+1).
 pub struct Usf;
 
 impl Integrator for Usf {

@@ -1,15 +1,15 @@
 //! Update stress last.
 //!
-//! Sulsky, Zhou, Schreyer, "Application of a particle-in-cell method to solid mechanics", Comput. Phys.
-//! Commun. 87 (1995) 236-252; named and compared with USF by Bardenhagen, "Energy conservation error in
-//! the material point method for solid mechanics", J. Comput. Phys. 180 (2002) 383-403. First order in time: particle
-//! velocities are those of the exact initial time, one half step off where the scheme is centred.
+//! Sulsky, Zhou, Schreyer, "Application of a particle-in-cell method to solid mechanics", Comput. Phys. Commun. 87 (1995)
+//! 236-252; named and compared with USF by Bardenhagen, "Energy conservation error in the material point method for solid
+//! mechanics", J. Comput. Phys. 180 (2002) 383-403. First order in time: particle velocities start at the exact initial time,
+//! half a step off from where the scheme is centred.
 
 use super::{Integrator, Operations, Sum, Update};
 use crate::failure::Failure;
 use crate::real::Real;
 
-/// Forces from the stress at t^n, then the deformation from the grid's new velocity.
+/// Computes forces from the stress at t^n, then updates the deformation from the grid's new velocity.
 pub struct Usl;
 
 impl Integrator for Usl {

@@ -30,10 +30,10 @@ pub struct Cpdi;
 /// The corners of a parallelepiped in three dimensions.
 const MOST_CORNERS: usize = 8;
 
-/// Every corner's hat functions, and what their gradient is along: a number for each particle of a bunch.
+/// Every corner's hat functions, and the directions of their gradients: a number for each particle of a bunch.
 #[derive(Clone, Debug)]
 pub struct Corners<T, const D: usize> {
-    /// The first 2^D mean something.
+    /// The hat functions at the corners; only the first 2^D are used.
     hats: [Tensor<T, D>; MOST_CORNERS],
     /// 2^-D R^-T s_c.
     direction: [[[T; BUNCH]; D]; MOST_CORNERS],
@@ -107,7 +107,7 @@ impl<T: Real, const D: usize> Default for Corners<T, D> {
 }
 
 impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
-    // As fast by AVX2, as measured.
+    // AVX2 is as fast, as measured.
     const GAINS_BY_AVX512: bool = false;
 
     fn each(&self, particle: usize, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
@@ -123,8 +123,8 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         hats.filter_map(|hats| hats.beyond(members, nodes)).min()
     }
 
-    /// Corner by corner: hat functions have moments around the corner that they are taken at, and the corner
-    /// has its own from the particle.
+    /// Scatters corner by corner: the moments of hat functions are about their corner, and the corner adds its own moment about
+    /// the particle.
     #[inline(always)]
     fn scatter<M: Machine<T>>(
         &self,

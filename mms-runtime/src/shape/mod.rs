@@ -4,16 +4,16 @@
 //! |---|---|
 //! | `linear`, `quadratic_bspline`, `cubic_bspline` | a point |
 //! | `ugimp` | a box of its initial size |
-//! | `cpgimp` | a box that follows the diagonal of U, F = R U, so that neighbours keep touching if nothing shears |
+//! | `cpgimp` | a box that follows the diagonal of U, F = R U, so that neighbours stay in contact if nothing shears |
 //! | `cpdi` | a parallelepiped that follows F |
 //!
-//! Splines of degree p have p more nodes than cells along an axis, each at the mean of its inner knots, so that
-//! sum w x_i = x. Where a body's face rests on a knot, at a wall or in the total formulation, knots end there with
-//! full multiplicity: then one spline alone is not 0 on the face, and a wall holds its node.
+//! Splines of degree p have p more nodes than cells along an axis, each at the mean of its inner knots, so that sum w x_i = x.
+//! Where a body's face rests on a knot, at a wall or in the total formulation, knots end there with full multiplicity: then
+//! only one spline is not 0 on the face, and a wall constrains its node.
 //!
-//! To add one, write `shape/name.rs` with a type that implements [`Shape`] (the weights, their source, and what of
-//! a particle's domain they need), and add `name::Type` to the list below. The property tests and the `mms`
-//! command then find it by itself.
+//! To add one, write `shape/name.rs` with a type that implements [`Shape`] (the weights, their source, and the data of a
+//! particle's domain that they need), and add `name::Type` to the list below. The property tests and the `mms` command then
+//! find it automatically.
 
 use mms_math::machine::{Machine, Plain};
 
@@ -41,37 +41,37 @@ extension_list! {
 /// The weights of one particle add up to 1, and reproduce linear functions of its position: sum_i w_ip
 /// = 1, sum_i w_ip x_i = x_p.
 pub trait Shape: Sized + 'static {
-    /// The degree of the splines on the grid: 1 has its nodes on the corners of cells.
+    /// The degree of the splines on the grid: if it is 1, nodes are the corners of cells.
     const DEGREE: usize = 1;
 
-    /// Whether a particle's domain follows its deformation. Such a shape function is none in the total
-    /// formulation, where nothing moves.
+    /// Whether a particle's domain follows its deformation. If so, the total formulation refuses the shape function, since
+    /// nothing moves there.
     const FOLLOWS: bool = false;
 
-    /// Whether a stencil reaches no further than from one node before a particle's cell to one beyond
-    /// the cell after it, along every axis.
+    /// Whether a stencil reaches no further than from one node before a particle's cell to one beyond the cell after it, along
+    /// every axis.
     const NEAR: bool = true;
 
-    /// Where positions with the same nodes begin, in cells from a node: particles stand in this order.
+    /// The offset, in cells from a node, of the regions where all positions have the same nodes: particles are sorted by these.
     const ORIGIN: f64 = 0.0;
 
-    /// What is kept of a particle's undeformed domain.
+    /// The stored data of a bunch of undeformed particle domains.
     type Domain<T: Real, const D: usize>: Bunch;
 
     /// The nodes of a bunch of particles.
     type Stencil<T: Real, const D: usize>: Stencil<T, D>;
 
-    /// What is kept of the undeformed domain X_p + sum_a xi_a r_a, |xi_a| <= 1; r_a are the columns.
+    /// The stored data of the undeformed domain X_p + sum_a xi_a r_a, |xi_a| <= 1; r_a are the columns of `half_edges`.
     fn domain<T: Real, const D: usize>(
         half_edges: &Matrix<T, D>,
     ) -> <Self::Domain<T, D> as Bunch>::One;
 
-    /// Writes the nodes and weights of a bunch of particles to `stencil`. They are at these positions (lengths), of which
-    /// the components along each axis are given, and have these domains and displacement gradients H.
+    /// Writes the nodes and weights of a bunch of particles to `stencil`. `position` has the components along each axis
+    /// (lengths); `domain` and `displacement_gradient` (H) are the particles' too.
     ///
     /// # Errors
-    /// A domain does not fit on the grid, or is too large for the stencil: the cause that the first of particles
-    /// that are alike would have.
+    /// A domain does not fit on the grid, or is too large for the stencil. The cause is right if all particles of the bunch are
+    /// equal; otherwise it is the first particle's.
     fn place<T: Real, M: Machine<T>, const D: usize>(
         machine: M,
         stencil: &mut Self::Stencil<T, D>,
@@ -81,10 +81,10 @@ pub trait Shape: Sized + 'static {
         displacement_gradient: &Matrices<T, D>,
     ) -> Result<(), Cause>;
 
-    /// The nodes and weights of a bunch of particles that are alike; see [`place`](Shape::place).
+    /// The nodes and weights of a bunch of equal particles; see [`place`](Shape::place).
     ///
     /// # Errors
-    /// Likewise.
+    /// The errors of [`place`](Shape::place).
     fn stencil<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
@@ -98,7 +98,7 @@ pub trait Shape: Sized + 'static {
         Ok(stencil)
     }
 
-    /// The nodes and weights of a bunch of points that are alike: of a piece of a face, say.
+    /// The nodes and weights of a bunch of equal points, for instance of a piece of a face.
     ///
     /// # Errors
     /// The point is off the grid.
@@ -108,10 +108,11 @@ pub trait Shape: Sized + 'static {
     ) -> Result<Tensor<T, D>, Cause>;
 }
 
-/// [`Shape::place`] with the instructions of every processor, as a function of its own, so that it is compiled once.
+/// Calls [`Shape::place`] with the instructions of every processor, as a function that is not inlined, so that it is compiled
+/// once.
 ///
 /// # Errors
-/// Likewise.
+/// The errors of [`Shape::place`].
 #[inline(never)]
 pub(crate) fn place_alone<T: Real, const D: usize, S: Shape>(
     stencil: &mut S::Stencil<T, D>,
@@ -125,7 +126,7 @@ pub(crate) fn place_alone<T: Real, const D: usize, S: Shape>(
     S::place(machine, stencil, lattice, &position, domain, displacement_gradient)
 }
 
-/// What becomes of a bunch at these positions that is off the grid; of its first particle.
+/// The failure of a bunch off the grid, at the position of its first particle.
 #[cold]
 pub(crate) fn lost<T: Real, const D: usize>(position: &Vectors<T, D>) -> Cause {
     Cause::lost(&position.get(0))

@@ -10,68 +10,68 @@ use crate::method::{Division, Method};
 use crate::real::Real;
 use crate::shape::{Shape, ShapeVisitor};
 
-/// A solver of a [`Method`], whatever its shape function and its integrator are. Those of
-/// [`Solve`](crate::Solve) are compiled in this crate: who takes steps with them compiles none.
+/// A solver of a [`Method`] with any shape function and integrator. The solvers of [`Solve`](crate::Solve) are compiled in this
+/// crate, so that callers compile none.
 pub trait AnySolver<'f, T: Real, const D: usize>: Send {
     /// Advances by one time step and checks the new state.
     ///
     /// # Errors
-    /// What the step led to, or could not do.
+    /// The step failed, or led to an invalid state.
     fn step(&mut self) -> Result<(), Failure>;
 
     /// Checks the state, as [`Solver::check`] does.
     ///
     /// # Errors
-    /// The first particle that is not sound.
+    /// The first invalid particle.
     fn check(&self) -> Result<(), Failure>;
 
-    /// Whether a wave of this speed crosses no edge of a cell in a time step.
+    /// Tests that a wave of this speed crosses no edge of a cell in a time step.
     ///
     /// # Errors
-    /// It does.
+    /// The wave crosses an edge.
     fn check_time_step(&self, fastest_wave: f64) -> Result<(), Failure>;
 
-    /// The state, as measurements see it.
+    /// The state, for measurements.
     fn present(&self) -> Present<'_, T, D, dyn ManufacturedField<T, D> + 'f>;
 
-    /// The grid, as the last step left it.
+    /// The grid after the last step.
     fn grid(&self) -> &Grid<T, D>;
 
-    /// How many steps the time window takes.
+    /// The number of steps of the time window.
     fn steps(&self) -> usize;
 
-    /// How many time steps the particles' velocities are behind their positions, once the first step is done.
+    /// The number of time steps by which the particles' velocities are behind their positions, once the first step is done.
     fn lag(&self) -> f64;
 
-    /// sum m v.v/2 of the nodes, as the last step moved particles with it.
+    /// sum m v.v/2 of the nodes, with the v_i that the last step moved particles by.
     fn kinetic_energy(&self) -> f64;
 
-    /// Halts every particle where it is.
+    /// Sets the velocities of all particles to 0.
     fn halt(&mut self);
 
-    /// How far the body is from equilibrium where it is now.
+    /// The distance of the body from equilibrium in its present state.
     ///
     /// # Errors
-    /// As of a step.
+    /// The errors of a step.
     fn out_of_balance(&mut self) -> Result<Residual, Failure>;
 
-    /// What the parts of the steps so far have taken.
+    /// The times of the parts of all steps so far.
     fn seconds(&self) -> Seconds;
 
-    /// The state after the last step, to go on from.
+    /// The state after the last step, from which a run can be resumed.
     fn state(&self) -> State<'_, T, D>;
 
-    /// Goes on from a state of the same scene.
+    /// Resumes from a state of the same scene.
     ///
     /// # Errors
-    /// It is one of another scene.
+    /// The state is of another scene.
     fn restore(&mut self, state: State<'_, T, D>) -> Result<(), Refusal>;
 }
 
 /// The solver of a method, with the body divided into `cells`.
 ///
 /// # Errors
-/// A scene that cannot be started.
+/// The scene cannot be started.
 pub(crate) fn of_method<'f, T: Real, const D: usize>(
     field: &'f dyn ManufacturedField<T, D>,
     method: &Method,

@@ -1,4 +1,4 @@
-//! The clock of a run: its time, computed from the step number, and the processor time that its parts take.
+//! The clock of a run: its time, computed from the step number, and the processor time of its parts.
 
 use std::time::Instant;
 
@@ -7,21 +7,21 @@ use serde::{Deserialize, Serialize};
 use crate::failure::Refusal;
 use crate::failure::{at_most, positive};
 
-/// More steps than this are refused.
+/// The largest supported number of steps.
 const STEP_LIMIT: f64 = u32::MAX as f64;
 
-/// Times are computed from the step number, never accumulated.
+/// The time of a run. It is computed from the step number, never accumulated.
 pub(super) struct Clock {
     pub start: f64,
     pub time_step: f64,
     pub steps: usize,
     pub step: usize,
-    /// How many time steps the velocities are behind.
+    /// The number of time steps by which velocities are behind.
     pub lag: f64,
 }
 
 impl Clock {
-    /// As many steps as fill the window, none longer than `time_step`, as many in each of some parts.
+    /// Divides the window into steps not longer than `time_step`, the same number in each of the parts.
     pub fn new(window: [f64; 2], time_step: f64, parts: usize) -> Result<Self, Refusal> {
         let duration = positive("the length of the time window", window[1] - window[0])?;
         let target = positive("the time step", time_step)?;
@@ -42,8 +42,8 @@ impl Clock {
     }
 }
 
-/// Wall-clock seconds of the parts of all steps. Where threads work on two of them, or one after the other many times,
-/// they share the time as a sample of it was shared.
+/// Wall-clock seconds of the parts of all steps. Where threads work on two parts at once, or parts alternate many times, they
+/// share the elapsed time in the proportions of a timed sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seconds {
     /// The field's body force and tractions.
@@ -57,7 +57,7 @@ pub struct Seconds {
 }
 
 impl Seconds {
-    /// Both together.
+    /// The sum of both.
     pub(super) fn sum(self, other: Self) -> Self {
         Self {
             forcing: self.forcing + other.forcing,
@@ -67,7 +67,7 @@ impl Seconds {
         }
     }
 
-    /// The parts of so many seconds that had these shares.
+    /// Scales these shares so that they sum to `elapsed` seconds.
     pub(super) fn within(self, elapsed: f64) -> Self {
         let all = self.forcing + self.transfer + self.grid + self.stress;
         let share = if all > 0.0 { elapsed / all } else { 0.0 };
@@ -80,7 +80,7 @@ impl Seconds {
     }
 }
 
-/// Runs a part of a step, and adds what it takes.
+/// Runs a part of a step, and adds its time to `seconds`.
 pub(super) fn timed<R>(seconds: &mut f64, part: impl FnOnce() -> R) -> R {
     let start = Instant::now();
     let result = part();
@@ -94,12 +94,12 @@ pub(super) struct Laps {
 }
 
 impl Laps {
-    /// The first part begins; if they are not `timed`, nothing is ever added.
+    /// Starts the first part; measures nothing unless `timed`.
     pub fn start(timed: bool) -> Self {
         Self { since: timed.then(Instant::now) }
     }
 
-    /// A part ends: adds what it took.
+    /// Ends a part: adds its time to `seconds`.
     pub fn end(&mut self, seconds: &mut f64) {
         if let Some(since) = &mut self.since {
             let now = Instant::now();

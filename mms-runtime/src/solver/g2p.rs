@@ -18,7 +18,7 @@ use crate::threads::Parts as _;
 use crate::transfer::Reads;
 use crate::transfer::Transfer;
 
-/// What of the particles' state follows the nodes, and how far.
+/// The parts of the particles' state that are updated from the nodes, each with its time step.
 #[derive(Clone, Copy)]
 pub(super) struct Steps<T> {
     pub velocity: Option<T>,
@@ -26,7 +26,7 @@ pub(super) struct Steps<T> {
     pub deformation: Option<T>,
 }
 
-/// The updates of some particles.
+/// The update of some particles.
 pub(super) struct Advance<'a, 'p, T: Real, const D: usize> {
     pub scene: Scene<'a, T, D>,
     pub particles: Columns<'p, T, D>,
@@ -37,11 +37,11 @@ pub(super) struct Advance<'a, 'p, T: Real, const D: usize> {
     pub acceleration: &'a [Nodal<T>],
 }
 
-/// Whether all numbers are finite and J > 0, or might not be.
+/// Whether all new numbers are finite and J > 0. May be false for sound numbers.
 pub(super) type Sound = bool;
 
 impl<T: Real, const D: usize> Advance<'_, '_, T, D> {
-    /// Makes them, with these weights.
+    /// Updates the particles with these weights.
     pub fn with<St: Stencil<T, D>>(
         self,
         weights: &dyn Weigh<T, D, St>,
@@ -50,7 +50,7 @@ impl<T: Real, const D: usize> Advance<'_, '_, T, D> {
     }
 }
 
-/// A pass with the weights of a kind of stencils.
+/// A pass with the weights of one kind of stencils.
 struct Weighted<'a, P, T: Real, const D: usize, St> {
     pass: P,
     weights: &'a dyn Weigh<T, D, St>,
@@ -69,7 +69,7 @@ where
         let Advance { scene, mut particles, steps, velocity, acceleration } = self.pass;
         let nodes = Nodes { scene, steps, velocity, acceleration };
         let mut room = Room::<St>::default();
-        // Zero times all new numbers: zero, if these are finite.
+        // Zero times all new numbers: zero, if all are finite.
         let mut rest = machine.splat(T::zero());
         let mut sound = true;
         let count = particles.len();
@@ -87,7 +87,7 @@ where
     }
 }
 
-/// What particles are updated by.
+/// The data of the nodes that particles are updated from.
 struct Nodes<'a, T: Real, const D: usize> {
     scene: Scene<'a, T, D>,
     steps: Steps<T>,
@@ -96,7 +96,7 @@ struct Nodes<'a, T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Nodes<'_, T, D> {
-    /// Whether all J > 0. To `rest` is added zero times all new numbers.
+    /// Updates a bunch, and returns whether all J > 0. Adds zero times all new numbers to `rest`.
     #[inline(always)]
     fn update<M: Machine<T>>(
         &self,
@@ -110,7 +110,7 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
         let degree = scene.lattice.degree;
         let zero = machine.splat(T::zero());
         let wanted = match (steps.velocity, steps.deformation) {
-            // For hat functions the nearest linear velocity is the one between the nodes.
+            // For hat functions the nearest linear velocity is the interpolant between the nodes.
             (Some(_), _) if scene.transfer == Transfer::Apic && degree == 1 => Wanted::Gradient,
             (Some(_), _) if scene.transfer == Transfer::Apic => Wanted::Slopes,
             (_, Some(_)) => Wanted::Gradient,
@@ -175,7 +175,7 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
         sound & machine.all_at_most(least, determinants(machine, &next))
     }
 
-    /// The velocities after a kick, of particles where that of the nodes is `mapped`.
+    /// The velocities of particles after a kick; `mapped` is the interpolated velocity of the nodes.
     #[inline(always)]
     fn kicked<M: Machine<T>>(
         &self,
@@ -216,7 +216,8 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
     }
 }
 
-/// The first component of the nodes' vector as particles see it: a function of its own, for it is compiled for one machine.
+/// The first component of the nodes' vector, interpolated to particles. A function that is not inlined, compiled for one
+/// machine.
 #[inline(never)]
 fn along_first<T: Real, const D: usize>(
     lattice: &Lattice<T, D>,
@@ -255,16 +256,16 @@ fn deformed<T: Real, M: Machine<T>, const D: usize>(
     next
 }
 
-/// What a residual is left of.
+/// The input of a residual's update.
 #[derive(Clone, Copy)]
 pub(super) enum Source {
     /// v.
     Velocity,
-    /// The residual before.
+    /// The previous residual.
     Residual,
 }
 
-/// What the grid does not represent of the velocities of some particles.
+/// The computation of the residual velocities of some particles: the part that the grid does not represent.
 pub(super) struct Residual<'a, 'p, T: Real, const D: usize> {
     pub scene: Scene<'a, T, D>,
     pub particles: Columns<'p, T, D>,
@@ -273,7 +274,7 @@ pub(super) struct Residual<'a, 'p, T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Residual<'_, '_, T, D> {
-    /// Finds it, with these weights.
+    /// Computes the residuals with these weights.
     pub fn with<St: Stencil<T, D>>(
         self,
         weights: &dyn Weigh<T, D, St>,

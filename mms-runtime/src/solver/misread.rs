@@ -1,5 +1,5 @@
-//! Fault injection: what a defect takes for a quantity of a step. Without the feature `defects` each function
-//! returns the right one.
+//! Fault injection: the quantities of a step that defects replace. Without the feature `defects` each function returns the
+//! right one.
 
 use mms_math::machine::Machine;
 
@@ -26,13 +26,13 @@ pub(super) fn velocity_gradient<T: Real, M: Machine<T>, const D: usize>(
     gradient
 }
 
-/// The velocities that move the particles of a bunch: those of the nodes.
+/// The velocities that move the particles of a bunch: the interpolated velocities of the nodes.
 #[inline(always)]
 pub(super) fn carrier<F: Copy, const D: usize>(mapped: [F; D], own: [F; D]) -> [F; D] {
     if on(Defect::OwnVelocity) { own } else { mapped }
 }
 
-/// The linear velocities of APIC, of splines of this degree.
+/// The linear velocities of APIC for splines of this degree.
 #[inline(always)]
 pub(super) fn affine<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
@@ -53,7 +53,7 @@ fn transposed<F: Copy, const D: usize>(columns: [[F; D]; D]) -> [[F; D]; D] {
     std::array::from_fn(|j| std::array::from_fn(|i| columns[i][j]))
 }
 
-/// The columns of the stress, each of which works on the gradient along its axis.
+/// The columns of the stress, each of which multiplies the gradient along its axis.
 #[inline(always)]
 pub(super) fn stress<F: Copy, const D: usize>(mut columns: [F; D]) -> [F; D] {
     if on(Defect::StressIndex) {

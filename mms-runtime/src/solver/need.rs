@@ -1,5 +1,5 @@
-//! An estimate of the memory that a run takes: it is refused before its particles or nodes are allocated. The
-//! command sets the bound to what is free.
+//! An estimate of the memory of a run, which is refused before its particles or nodes are allocated. The command sets the bound
+//! to the free memory.
 
 use crate::column::BUNCH;
 use crate::column::{Matrices, Vectors};
@@ -7,7 +7,7 @@ use crate::failure::Refusal;
 use crate::nodal::Nodal;
 use crate::real::{Matrix, Real, Vector};
 
-/// Bytes of a particle and of a node, and those that there are.
+/// The number of bytes of a particle and of a node, and the available bytes.
 pub(super) struct Need {
     particle: usize,
     node: usize,
@@ -15,32 +15,31 @@ pub(super) struct Need {
 }
 
 impl Need {
-    /// What is kept in this scene, with so many bytes of a bunch's domains, if so many are `available`.
+    /// Estimates the memory of this scene; `domain` is the number of bytes of a bunch's domains.
     pub fn new<T: Real, const D: usize>(domain: usize, available: Option<u64>) -> Self {
         let (number, vector) = (size_of::<T>(), size_of::<Vector<T, D>>());
         let matrix = size_of::<Matrix<T, D>>();
-        // Id, X, d, v, H, C, m, V0 and the domain.
-        // d and v, H and C: of a bunch, they are padded.
+        // Id, X, d, v, H, C, m, V0 and the domain. d, v, H and C of a bunch are padded.
         let bunch = 2 * size_of::<Vectors<T, D>>() + 2 * size_of::<Matrices<T, D>>();
         let bunch = (bunch + domain) / BUNCH;
-        // Some integrators keep d and H of the beginning of a step. An order is found with three numbers more.
+        // Some integrators keep d and H of the beginning of a step. Sorting needs three numbers more.
         let kept = (size_of::<Vectors<T, D>>() + size_of::<Matrices<T, D>>()) / BUNCH;
         let state = 4 * size_of::<u32>() + vector + bunch + kept + 2 * number;
-        // Measured are vectors, tensors and a number; bodies are filled with X, V0 and half edges.
+        // Measurements need vectors, tensors and a number; filling a body needs X, V0 and half edges.
         let measured = 3 * vector + 3 * matrix + number;
         let filling = size_of::<f64>() * (D + 1 + D * D);
         Self {
             particle: state + measured + filling,
-            // Momentum, force, velocity and acceleration, and how many particles there are.
+            // Momentum, force, velocity and acceleration, and the number of particles.
             node: 4 * size_of::<Nodal<T>>() + size_of::<u32>(),
             available,
         }
     }
 
-    /// Refuses what there is no memory for.
+    /// Refuses scenes that need more memory than is available.
     ///
     /// # Errors
-    /// So many particles and nodes.
+    /// The particles and nodes need too much memory.
     pub fn check(&self, particles: f64, nodes: f64) -> Result<(), Refusal> {
         let needed = particles * self.particle as f64 + nodes * self.node as f64;
         match self.available {

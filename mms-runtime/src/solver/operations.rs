@@ -1,4 +1,4 @@
-//! The operations that integrators are made of.
+//! The operations that integrators consist of.
 
 use std::time::Instant;
 
@@ -25,7 +25,7 @@ use crate::threads::{each_node, each_part};
 use crate::transfer::Reads;
 use crate::transfer::Transfer;
 
-/// Bunches that are updated by one thread at a time.
+/// The number of bunches that one thread updates at a time.
 const PART: usize = 2048 / BUNCH;
 
 impl<T: Real, const D: usize, F> Operations<T> for Solver<'_, T, D, F>
@@ -119,10 +119,10 @@ where
     }
 }
 
-/// The forces at nodes that are asked for.
+/// The forces at nodes whose norm is computed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Forces {
-    /// All that act on a component which nothing holds.
+    /// All forces, on components without a constraint.
     Free,
     /// The forces of the stress alone.
     OfStress,
@@ -139,7 +139,7 @@ impl<T: Real, const D: usize, F> Solver<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
 {
-    /// Keeps what the weights follow, if the integrator asks for them once more when that has changed.
+    /// Keeps displacements and gradients, if the integrator uses weights again after they have changed.
     fn keep(&mut self) {
         let Self { particles, kept, seconds, .. } = self;
         kept.clear();
@@ -151,7 +151,7 @@ where
         }
     }
 
-    /// The sums onto nodes, which hold nothing else afterwards. Particles are sorted if one has left its slab.
+    /// Sums onto nodes, whose previous values are lost. Sorts particles if one has left its slab.
     fn add_to_nodes(&mut self, added: Added<T>) -> Result<(), Failure> {
         let mut sorted = false;
         loop {
@@ -171,7 +171,7 @@ where
         }
     }
 
-    /// Puts the particles in the order of the cells they are in now. What was kept of them is gone.
+    /// Sorts the particles by the cells that they are in now. Drops the kept displacements and gradients.
     pub(super) fn sort(&mut self, when: When) {
         let Self { grid, particles, kind, domains, kept, slabs, seconds, .. } = self;
         let moves = self.formulation.moves;
@@ -211,7 +211,8 @@ where
         Ok(())
     }
 
-    /// v_i after a kick where nobody reads it before: with a_i if that is read; else momentum and force are one sum.
+    /// Computes v_i after a kick if nothing reads it before: with a_i if that is read, otherwise with momentum and force as one
+    /// sum.
     fn map_kicked(
         &mut self,
         mass: bool,
@@ -237,7 +238,7 @@ where
         Ok(())
     }
 
-    /// (mv)_i with that of images, and if there are new masses, what the boundary has to know of them.
+    /// Folds (mv)_i of images; and if masses are new, informs the boundary.
     fn complete_momentum(&mut self, mass: bool) -> Result<(), Failure> {
         let time = self.time();
         let Self { grid, boundary, field, seconds, .. } = self;
@@ -248,7 +249,7 @@ where
         })
     }
 
-    /// v_i, and what XPIC has to know of it.
+    /// Computes v_i, and the residual of XPIC.
     fn find_velocity(&mut self, time: T) -> Result<(), Failure> {
         let Self { grid, boundary, field, seconds, .. } = self;
         timed(&mut seconds.grid, || {
@@ -346,7 +347,7 @@ where
         });
     }
 
-    /// The norm of forces at the nodes, of the particles where they are now.
+    /// The norm of forces at the nodes, with the particles in their present state.
     pub(super) fn forces(&mut self, asked: Forces) -> Result<f64, Failure> {
         if asked == Forces::OfStress {
             self.add_to_nodes(Added::Stress)?;

@@ -1,5 +1,5 @@
-//! Sorts particles by the cells that they are in. In a slab those come first that make a bunch with others of
-//! their cell, then those that make half of one, then the others.
+//! Sorts particles by the cells that they are in. In a slab, particles that fill a bunch with others of their cell are first,
+//! then particles that fill half of one, then the others.
 
 use mms_math::machine::{Machine as _, Plain};
 
@@ -12,36 +12,36 @@ use crate::particle::Particles;
 use crate::real::Real;
 use crate::threads::each;
 
-/// Bunches that are located by one thread at a time.
+/// The number of bunches that one thread locates at a time.
 const PART: usize = 512;
 
-/// An order is worth finding when so many bunches and halves of a hundred could be of one cell and are not: that is lost
-/// again every step, and to find an order takes about as long as one step.
+/// Sorting pays if this percentage of the bunches and halves that could be of one cell are not: that time is lost in every
+/// step, and sorting takes about as long as one step.
 const LOOSE: usize = 5;
 
-/// When particles are put in order.
+/// The condition for sorting particles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum When {
-    /// Whatever their order is.
+    /// Always.
     Now,
     /// If many bunches are of several cells that could be of one.
     Loose,
 }
 
-/// Who stands where.
+/// The order of the particles.
 pub(super) struct Order {
-    /// Where each particle is, by its number; empty if they stay in their first order.
+    /// The place of each particle, by its number; empty if particles stay in their first order.
     place: Vec<u32>,
-    /// Which particle comes to each place, while an order is found.
+    /// The particle that moves to each place, while an order is computed.
     from: Vec<u32>,
-    /// The cell of every particle, as they stand; sorted once an order is found.
+    /// The cell of every particle, in their present order; sorted after an order is computed.
     cell: Vec<[u32; BUNCH]>,
-    /// How many particles each cell has; where those of it end, once an order is found.
+    /// The number of particles of each cell; after an order is computed, the end of the cell's particles.
     count: Vec<u32>,
 }
 
 impl Order {
-    /// Of particles in as many cells as there are nodes; they stay as they are if there are none.
+    /// An order of particles in as many cells as there are nodes; fixed if `particles` is 0.
     pub fn new(particles: usize, nodes: usize) -> Self {
         Self {
             place: (0..particles as u32).collect(),
@@ -51,7 +51,7 @@ impl Order {
         }
     }
 
-    /// Of particles in these cells.
+    /// An order of particles in these cells.
     #[cfg(test)]
     pub fn of_cells(cell: &[u32]) -> Self {
         let mut order = Self::new(cell.len(), 0);
@@ -64,24 +64,25 @@ impl Order {
         self.place.is_empty()
     }
 
-    /// Where the particle of that number is.
+    /// The place of the particle with the number `id`.
     pub fn place_of(&self, id: usize) -> usize {
         self.place.get(id).map_or(id, |&place| place as usize)
     }
 
-    /// Remembers where each particle stands, where they do not stay in their first order.
+    /// Records the place of each particle, unless particles stay in their first order.
     pub fn stand(&mut self, ids: &[u32]) {
         if !self.is_fixed() {
             ids.iter().zip(0..).for_each(|(&id, p)| self.place[id as usize] = p);
         }
     }
 
-    /// The cell of each particle, sorted once an order is found.
+    /// The cell of each particle, sorted after an order is computed.
     pub fn cells(&self) -> &[u32] {
         &self.cell.as_flattened()[..self.place.len()]
     }
 
-    /// Finds the cells of the particles, which begin at an origin, in cells: at present, or of X if nothing `moves`.
+    /// Finds the cells of the particles, of the present positions, or of X if nothing `moves`. Cells begin at `origin`, in
+    /// cells.
     pub fn locate<T: Real, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
@@ -115,18 +116,18 @@ impl Order {
         }
     }
 
-    /// Whether fewer bunches and halves are of one cell than could be, of particles that are located.
+    /// Whether too few bunches and halves of located particles are of one cell, compared with how many could be.
     pub fn is_loose(&self) -> bool {
         let could: usize = self.count.iter().map(|&count| wholes(count as usize)).sum();
         let are = of_one_cell::<HALF>(self.cells()) + of_one_cell::<BUNCH>(self.cells());
         100 * are < (100 - LOOSE) * could
     }
 
-    /// Finds the order of the cells; particles of one cell stay in the order they are in.
+    /// Computes the order by cells; particles of one cell stay in their present order.
     pub fn arrange(&mut self) {
         let Self { place, from, cell, count } = self;
         let cell = &mut cell.as_flattened_mut()[..place.len()];
-        // Where the next particle of each cell comes.
+        // The next place of each cell's particles.
         let mut first = 0;
         for next in &mut *count {
             first += std::mem::replace(next, first);
@@ -143,7 +144,7 @@ impl Order {
         }
     }
 
-    /// Puts the particles, with their `domains`, in the order that was found, bunches of a slab's cells first.
+    /// Sorts the particles and their `domains` in the computed order, whole bunches of a slab's cells first.
     pub fn apply<T: Real, const D: usize>(
         &mut self,
         slabs: &[Slab],
@@ -162,28 +163,30 @@ impl Order {
     }
 }
 
-/// How many halves and whole bunches so many particles of a cell make.
+/// The number of halves and whole bunches that `count` particles of a cell fill.
 fn wholes(count: usize) -> usize {
     count / HALF + count / BUNCH
 }
 
-/// How many groups of `N` particles beside each other are in one cell.
+/// The number of groups of `N` adjacent particles in one cell.
 fn of_one_cell<const N: usize>(cell: &[u32]) -> usize {
     let groups = cell.as_chunks::<N>().0.iter();
     groups.filter(|group| group.iter().all(|cell| *cell == group[0])).count()
 }
 
-/// Puts those of each cell that make a bunch first, then those that make half of one, then the others, so that most
-/// bunches are of one cell, and most halves. The first place has the number `start`; bunches begin at every eighth.
+/// Orders particles so that most bunches are of one cell, and most halves: first the particles of each cell that fill whole
+/// bunches, then particles that fill half of one, then the others. The first place has the number `start`; bunches begin at
+/// every eighth place.
 fn bunch(order: &mut [u32], cell: &[u32], start: usize, scratch: &mut [u32]) {
-    /// How many of a cell's particles make bunches, halves of bunches, and neither.
+    /// The numbers of a cell's particles that fill bunches, halves of bunches, and neither.
     fn shares(count: usize) -> [usize; 3] {
         let [bunched, halved] = [count / BUNCH * BUNCH, count / HALF * HALF];
         [bunched, halved - bunched, count - halved]
     }
     let cells = || cell.chunk_by(|a, b| a == b).map(|cell| shares(cell.len()));
     let mut whole = [0, 1, 2].map(|share| cells().map(|shares| shares[share]).sum::<usize>());
-    // Before the first bunch stands what there is, others first. The rest of what that breaks goes to the end.
+    // The places before the first bunch are filled with others first, then with halves, then with bunches. The rest of a group
+    // that this breaks moves to the end.
     let mut lead = start.next_multiple_of(BUNCH) - start;
     let (mut front, mut back) = (0, order.len());
     let mut places = [const { [0..0, 0..0, 0..0] }; 3];
@@ -270,13 +273,13 @@ mod tests {
                 let mut order: Vec<u32> = (0..cell.len() as u32).collect();
                 let sorted = order.clone();
                 bunch(&mut order, &cell, start, &mut vec![0; cell.len()]);
-                // As they stand, after a number of particles of another slab.
+                // The places in a row, after a number of particles of another slab.
                 let others = u32::MAX - start as u32;
                 let stand: Vec<u32> =
                     (others..).take(start).chain(order.iter().map(|p| of(*p))).collect();
                 let could: usize = counts.iter().map(|&count| wholes(count)).sum();
                 let are = of_one_cell::<HALF>(&stand) + of_one_cell::<BUNCH>(&stand);
-                // What is before the first bunch breaks at most one bunch of a cell, with its halves.
+                // The particles before the first bunch break at most one bunch of a cell, with its halves.
                 assert!(are + 3 >= could, "{start}, {counts:?}: {are} of {could}");
                 order.sort_unstable();
                 assert_eq!(order, sorted);

@@ -23,16 +23,16 @@ use crate::real::{Real, Vector};
 use crate::stencil::{Carried, Members, Stencil, Tensor};
 use crate::tensor::matrix_is_finite;
 
-/// Particles whose stresses are computed together: so few that their stresses stay near.
+/// The number of particles whose stresses are computed together: so few that their stresses stay in the cache.
 const PART: usize = 256;
 
-/// Particles whose body forces are computed together: so many that it is nothing to begin with a time.
+/// The number of particles whose body forces are computed together: so many that the terms of the time alone cost little.
 const FORCED: usize = 2048;
 
-/// One in so many of those is asked where its time goes: the processor stops to look at the clock.
+/// One batch in this number is timed, since the processor stops to read the clock.
 const TIMED: usize = 8;
 
-/// What is added to the nodes.
+/// The quantity that is added to the nodes.
 #[derive(Clone, Copy)]
 pub(super) enum Added<T> {
     /// m, and m v with the linear velocity on each particle.
@@ -43,20 +43,20 @@ pub(super) enum Added<T> {
     Force,
     /// - V0 S grad w.
     Stress,
-    /// Momentum without a linear velocity, and force, each to nodes of its own.
+    /// Momentum without a linear velocity, and force, as two separate sums.
     Both,
-    /// Momentum, and force times this time, in one sum.
+    /// Momentum plus force times this time, as one sum.
     Kicked(T),
 }
 
 impl<T> Added<T> {
-    /// Whether forces are.
+    /// Whether the quantity includes forces.
     fn has_force(&self) -> bool {
         !matches!(self, Added::Momentum | Added::Residual)
     }
 }
 
-/// Why sums are not complete.
+/// The reason why sums are not complete.
 pub(super) enum Stop {
     /// A particle has left the nodes of its slab.
     Strayed(usize),
@@ -78,7 +78,7 @@ pub(super) struct Map<'a, T: Real, const D: usize, F: ?Sized> {
     pub field: &'a F,
     pub added: Added<T>,
     pub formulation: Configuration<T, D>,
-    /// When the body force is evaluated.
+    /// The time at which the body force is evaluated.
     pub time: T,
 }
 
@@ -86,7 +86,7 @@ impl<T: Real, const D: usize, F> Map<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
 {
-    /// Adds to momentum and force of the nodes in the slab's window. Returns what the parts of it took of a sample.
+    /// Adds to momentum and force of the nodes in the slab's window. Returns the times of the parts of a sample.
     pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, Stop> {
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();
@@ -94,7 +94,7 @@ where
         let mut hoop_stress = [[T::zero(); BUNCH]; PART / BUNCH];
         let mut body_force = [[Vector::zeros(); BUNCH]; FORCED / BUNCH];
         let has_force = self.added.has_force();
-        // Bunches are the same whatever the slabs are: the first and the last one may have others' particles.
+        // Bunches do not depend on the slabs: the first and the last one may contain particles of other slabs.
         let Range { start, end } = slab.particles;
         for forced in parts(start / BUNCH..end.div_ceil(BUNCH), FORCED / BUNCH) {
             let mut laps = Laps::start((forced.start * BUNCH / FORCED).is_multiple_of(TIMED));
@@ -129,7 +129,7 @@ where
         Ok(seconds)
     }
 
-    /// The stress that works on grad w, of every particle of a part, and on a meridian the one around the axis.
+    /// Computes the stress that multiplies grad w, of every particle of a part, and on a meridian the stress around the axis.
     fn find_stress(
         &self,
         part: Range<usize>,
@@ -162,7 +162,7 @@ where
         Ok((self.formulation.stress)(gradients, stress).map_err(singular)?)
     }
 
-    /// b of every particle of a part.
+    /// Computes b of every particle of a part.
     fn find_body_force(&self, part: Range<usize>, body_force: &mut [[Vector<T, D>; BUNCH]]) {
         let all = self.particles;
         let reference = &all.reference_position.bunches()[part.clone()];
@@ -172,19 +172,19 @@ where
     }
 }
 
-/// A range in parts of so many.
+/// Splits a range into parts of `count`.
 fn parts(range: Range<usize>, count: usize) -> impl Iterator<Item = Range<usize>> {
     let end = range.end;
     range.step_by(count).map(move |first| first..end.min(first + count))
 }
 
-/// The sums of some particles, whose stress and body force are known.
+/// The sums of some particles with known stress and body force.
 pub(super) struct Sums<'a, T: Real, const D: usize> {
     scene: Scene<'a, T, D>,
     particles: &'a Particles<T, D>,
     added: Added<T>,
     bunches: Range<usize>,
-    /// From the first one of these on.
+    /// The stresses, from the first of the `bunches` on.
     stress: &'a [Matrices<T, D>],
     hoop_stress: Option<&'a [[T; BUNCH]]>,
     body_force: &'a [[Vector<T, D>; BUNCH]],
@@ -194,13 +194,13 @@ pub(super) struct Sums<'a, T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Sums<'_, T, D> {
-    /// Adds them, with these weights.
+    /// Adds to the nodes with these weights.
     pub fn with<St: Stencil<T, D>>(self, weights: &dyn Weigh<T, D, St>) -> Result<(), Stop> {
         best(Scatter { sums: self, weights })
     }
 }
 
-/// Sums with the weights of a kind of stencils.
+/// Sums with the weights of one kind of stencils.
 struct Scatter<'a, T: Real, const D: usize, St> {
     sums: Sums<'a, T, D>,
     weights: &'a dyn Weigh<T, D, St>,
@@ -250,13 +250,13 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Work<T> for Scatter<'_, T, D, S
     }
 }
 
-/// P_tt = tau_tt/F_tt in the place of tau_tt.
+/// Replaces tau_tt by P_tt = tau_tt/F_tt.
 fn first_piola_kirchhoff<T: Real>(hoop_strain: &[[T; BUNCH]], hoop_stress: &mut [[T; BUNCH]]) {
     let strains = hoop_strain.as_flattened().iter();
     strains.zip(hoop_stress.as_flattened_mut()).for_each(|(&h, stress)| *stress /= T::one() + h);
 }
 
-/// Adds forces along the first axis to the nodes: a function of its own, for it is compiled for one machine.
+/// Adds forces along the first axis to the nodes. A function that is not inlined, compiled for one machine.
 #[inline(never)]
 fn add_along_first<T: Real, const D: usize>(
     lattice: &Lattice<T, D>,
@@ -272,7 +272,7 @@ fn add_along_first<T: Real, const D: usize>(
     stencil.scatter(machine, lattice, &carried, members, nodes);
 }
 
-/// The particles that are added, bunch by bunch.
+/// The data of the added particles, bunch by bunch.
 struct Arrays<'a, T: Real, const D: usize> {
     displacement: &'a [Vectors<T, D>],
     velocity: &'a [Vectors<T, D>],
@@ -281,11 +281,11 @@ struct Arrays<'a, T: Real, const D: usize> {
     mass: &'a [[T; BUNCH]],
     reference_volume: &'a [[T; BUNCH]],
     stress: &'a [Matrices<T, D>],
-    /// On a meridian.
+    /// On a meridian only.
     hoop_stress: Option<&'a [[T; BUNCH]]>,
-    /// With APIC.
+    /// With APIC only.
     affine: Option<&'a [Matrices<T, D>]>,
-    /// With XPIC.
+    /// With XPIC only.
     residual: Option<&'a [Vectors<T, D>]>,
 }
 
@@ -312,7 +312,7 @@ impl<'a, T: Real, const D: usize> Arrays<'a, T, D> {
     }
 }
 
-/// Some particles beside each other.
+/// One bunch of added particles.
 struct Carrier<'a, T: Real, const D: usize, St> {
     bunches: &'a Arrays<'a, T, D>,
     k: usize,
@@ -321,7 +321,7 @@ struct Carrier<'a, T: Real, const D: usize, St> {
 }
 
 impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
-    /// Adds to momentum and force of the nodes; and to `rest` zero times the stress.
+    /// Adds to momentum and force of the nodes, and adds zero times the stress to `rest`.
     #[inline(always)]
     fn add<M: Machine<T>>(
         self,
@@ -333,7 +333,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
     ) {
         let Self { bunches, k, members, stencil } = self;
         let Arrays { velocity, affine, residual, .. } = bunches;
-        // There is one sum of values alone, and one of all else, so that each is compiled once.
+        // Sums of values alone are one function, and all other sums another, so that each is compiled once.
         let alone = match (added, residual, affine) {
             (Added::Residual, Some(residual), _) => Some(&residual[k]),
             (Added::Momentum | Added::Both, _, None) => Some(&velocity[k]),
@@ -346,7 +346,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
         let (share, with_momentum) = match added {
             Added::Force | Added::Stress | Added::Both => (T::one(), false),
             Added::Kicked(time_step) => (time_step, true),
-            // Its slopes are 0.
+            // Momentum with zero slopes.
             Added::Momentum if affine.is_some() => (T::zero(), true),
             Added::Momentum | Added::Residual => return,
         };
@@ -399,8 +399,8 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
         }
     }
 
-    /// Adds this `share` of - V0 S_tt / r to the force along R: to the `numbers`, or to the nodes if the weights of the strain
-    /// around the axis are others.
+    /// Adds this `share` of - V0 S_tt / r to the force along R: to the `numbers`, or to the nodes if the strain around the axis
+    /// has other weights.
     #[inline(always)]
     fn add_hoop_stress<M: Machine<T>>(
         &self,
@@ -427,7 +427,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
         }
     }
 
-    /// This `share` of - V0 S; to `rest` is added zero times that: zero, if it is finite.
+    /// Computes this `share` of - V0 S. Adds zero times it to `rest`, which stays zero if it is finite.
     #[inline(always)]
     fn stress<M: Machine<T>>(
         &self,

@@ -1,5 +1,5 @@
-//! A solver's state as measurements see it. It knows neither shape function nor formulation, so measurements are
-//! compiled once per dimension and precision, however many solvers there are.
+//! A solver's state for measurements. It depends on neither shape function nor formulation, so measurements are compiled once
+//! per dimension and precision for all solvers.
 
 use crate::failure::{Cause, Failure};
 use crate::particle::Particles;
@@ -13,11 +13,11 @@ pub struct Present<'a, T, const D: usize, F: ?Sized> {
     pub field: &'a F,
     /// The particles.
     pub particles: &'a Particles<T, D>,
-    /// How many steps have been made.
+    /// The number of completed steps.
     pub step: usize,
     /// The time t^n of the particles' positions.
     pub time: f64,
-    /// The time of their velocities.
+    /// The time of the particles' velocities.
     pub time_of_velocity: f64,
     /// The time that the body force was last evaluated at.
     pub time_of_force: T,
@@ -39,13 +39,13 @@ impl<T: Real, const D: usize, F: ?Sized> Present<'_, T, D, F> {
         }
     }
 
-    /// A failure of nobody in particular, now.
+    /// A failure of no particular particle, now.
     pub(crate) fn failed(&self, cause: Cause) -> Failure {
         let (step, time) = (self.step, self.time);
         Failure { step, time, particle: None, reference_position: Vec::new(), cause }
     }
 
-    /// A run that somebody stopped, now.
+    /// A run that an observer stopped, now.
     pub(crate) fn stopped(&self, reason: String) -> Failure {
         self.failed(Cause::Stopped { reason })
     }

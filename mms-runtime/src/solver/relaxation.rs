@@ -1,32 +1,33 @@
-//! Dynamic relaxation: the way to an equilibrium, for a field that does not move.
+//! Dynamic relaxation: the computation of an equilibrium, for a field that does not move.
 //!
 //! # Loads
 //!
-//! The body starts undeformed and at rest. Along a ramp the field is g(t) u(X), with g = t/T: faces move to their exact
-//! places at constant speeds, so that their particles arrive there in any number of steps; b is g b, and tractions are those
-//! of g H. T is the time in which the fastest wave crosses the longest edge of the body. From then on the loads stay, and
-//! forces out of balance alone move the body. A body that follows its loads overshoots little. That matters in the updated
-//! formulation, where an error on the way remains at the end.
+//! The body starts undeformed and at rest. Along a ramp the field is g(t) u(X), with g = t/T: faces move to their exact places
+//! at constant speeds, so that their particles arrive there in any number of steps; the body force is g b, and tractions are
+//! computed from g H. T is the time in which the fastest wave crosses the longest edge of the body. After that the loads are
+//! constant, and only forces out of balance move the body. A body that follows its loads overshoots little. That matters in the
+//! updated formulation, where an error on the way remains at the end.
 //!
 //! # Damping
 //!
-//! Kinetic: wherever the kinetic energy of the nodes has passed a peak, all particles are halted (Cundall 1976; Barnes, "Form
+//! Kinetic: whenever the kinetic energy of the nodes has passed a peak, all particles are halted (Cundall 1976; Barnes, "Form
 //! finding and analysis of tension structures by dynamic relaxation", Int. J. Space Struct. 14 (1999) 89-104). Viscous damping
-//! needs a coefficient that follows the lowest frequency (Underwood 1983), which has to be estimated of every body as it
-//! stiffens, and misleads where it is wrong. Peaks need no number, are found for every shape function and transfer alike, and
-//! halting acts on particles alone: it is one place, between two steps. Integrators that move particles by one velocity and
-//! deform them by another are refused: each halt would part u from F.
+//! needs a coefficient that follows the lowest frequency (Underwood 1983), which has to be estimated for every body as it
+//! stiffens, and damps badly if the estimate is wrong. Peaks need no parameter and occur with every shape function and
+//! transfer, and halting acts on particles alone: it is one place, between two steps. Integrators that move particles by one
+//! velocity and deform them by another are refused: each halt would make u inconsistent with F.
 //!
 //! # Mass
 //!
-//! It is fictitious, for an equilibrium has none: rho0 of the field, or 1 where it gives none, with b = -Div P/rho0 by the same
-//! number. The time step is that of the Courant number with it, so that a wave needs as many steps for a cell as ever.
+//! The mass is fictitious, for an equilibrium does not depend on it: rho0 of the field, or 1 if the field has none, with b =
+//! -Div P/rho0 by the same number. The Courant number determines the time step with this mass, so that a wave needs the usual
+//! number of steps for a cell.
 //!
 //! # The end
 //!
-//! The residual is the norm of the forces that are out of balance at the nodes, over that of the forces of the stress.
-//! Held components have none: their reactions are whatever they have to be. The run ends below [`SMALL`], far below what a
-//! grid leaves; or where the rounding of H, and in the updated formulation that of x, is all that is out of balance.
+//! The residual is the norm of the forces out of balance at the nodes over the norm of the forces of the stress. Constrained
+//! components have none: their reactions balance them. The run ends below [`SMALL`], far below the error of a grid; or when
+//! only the rounding of H, and in the updated formulation of x, is out of balance.
 
 use super::Solver;
 use super::operations::Forces;
@@ -43,13 +44,13 @@ use crate::real::{Matrix, Real, Vector};
 /// The residual at which a run ends.
 const SMALL: f64 = 1e-9;
 
-/// As much as this of the rounding that is expected may be out of balance.
+/// The multiple of the expected rounding that may be out of balance.
 const ROUNDINGS: f64 = 4.0;
 
-/// At so many places along each edge of a body it is asked for its fastest wave.
+/// The number of places along each edge of a body where its wave speed is sampled.
 const SAMPLES: f64 = 8.0;
 
-/// A field whose loads grow from nothing to all along a ramp, its time window.
+/// A field whose loads grow from 0 to their full values along a ramp, its time window.
 pub struct Ramp<'f, T: Real, const D: usize> {
     field: &'f dyn ManufacturedField<T, D>,
     /// T.
@@ -57,10 +58,10 @@ pub struct Ramp<'f, T: Real, const D: usize> {
 }
 
 impl<'f, T: Real, const D: usize> Ramp<'f, T, D> {
-    /// Of a field that does not move.
+    /// A ramp of a field that does not move.
     ///
     /// # Errors
-    /// A body without extent; a wave speed that is none.
+    /// The body has no extent; a wave speed is not positive and finite.
     pub fn new(field: &'f dyn ManufacturedField<T, D>) -> Result<Self, Refusal> {
         let body = field.domain().body;
         let [lower, upper] = bounding_box(&body)?;
@@ -76,7 +77,7 @@ impl<'f, T: Real, const D: usize> Ramp<'f, T, D> {
         if time < self.length { time / self.length } else { T::one() }
     }
 
-    /// dg/dt, for steps that end at a time; integrators ask for it at the end of a step, or half a step before.
+    /// dg/dt, for steps that end at a time; integrators evaluate it at the end of a step, or half a step before.
     fn rate(&self, time: T) -> T {
         let round_off = self.length * T::of(1e-6);
         let is_on = time > round_off && time < self.length + round_off;
@@ -137,7 +138,7 @@ impl<T: Real, const D: usize> Material<T, D> for Ramp<'_, T, D> {
 }
 
 impl<T: Real, const D: usize> Ramp<'_, T, D> {
-    /// The field as one of a body of revolution, which it is where this is asked for.
+    /// The axisymmetric material of the field. Only called for axisymmetric fields.
     fn revolved(&self) -> &dyn Axisymmetric<T, D> {
         self.field.axisymmetric().expect("an axisymmetric field")
     }
@@ -212,24 +213,25 @@ impl<T: Real, const D: usize> ManufacturedField<T, D> for Ramp<'_, T, D> {
     }
 }
 
-/// How far a body is from equilibrium.
+/// The distance of a body from equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
-    /// The norm of the forces that are out of balance over that of the forces of the stress.
+    /// The norm of the forces out of balance over the norm of the forces of the stress.
     pub relative: f64,
-    /// Below this a run ends.
+    /// The residual at which a run ends.
     pub tolerance: f64,
 }
 
 impl Residual {
-    /// Of the norms of all forces at free components, of those of the stress, and of what rounding makes of them.
+    /// Computes the residual from the norms of all forces at free components, of the forces of the stress, and of the forces of
+    /// rounding.
     fn of(force: f64, internal: f64, rounding: f64) -> Self {
-        // Where there is no stress, as of a body that is not deformed, all of what is there is out of balance.
+        // If there is no stress, as in an undeformed body, all forces are out of balance.
         let relative = |norm: f64| if norm == 0.0 { 0.0 } else { norm / internal };
         Self { relative: relative(force), tolerance: SMALL.max(ROUNDINGS * relative(rounding)) }
     }
 
-    /// Whether nothing is out of balance but what a run may leave.
+    /// Whether the residual is within the tolerance.
     pub fn is_small(&self) -> bool {
         self.relative <= self.tolerance
     }
@@ -239,7 +241,7 @@ impl<T: Real, const D: usize, F> Solver<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
 {
-    /// sum m v.v/2 of the nodes, as the last step moved particles with it.
+    /// sum m v.v/2 of the nodes, with the v_i that the last step moved particles by.
     pub fn kinetic_energy(&self) -> f64 {
         let Grid { momentum, velocity, .. } = &self.grid;
         let of = |(momentum, v): (&Nodal<T>, &Nodal<T>)| {
@@ -248,7 +250,7 @@ where
         momentum.iter().zip(velocity).map(of).sum()
     }
 
-    /// Halts every particle where it is.
+    /// Sets the velocities of all particles to 0.
     pub fn halt(&mut self) {
         let count = self.particles.len();
         let affine = self.particles.affine.len();
@@ -256,17 +258,17 @@ where
         self.particles.affine = std::iter::repeat_n(Matrix::zeros(), affine).collect();
     }
 
-    /// How far the body is from equilibrium where it is now.
+    /// The distance of the body from equilibrium in its present state.
     ///
     /// # Errors
-    /// A particle, or a piece of a face, that the grid does not hold; a particle without stress.
+    /// A particle, or a piece of a face, is outside the grid; a particle has no stress.
     pub fn out_of_balance(&mut self) -> Result<Residual, Failure> {
         let force = self.forces(Forces::Free)?;
         let internal = self.forces(Forces::OfStress)?;
         Ok(Residual::of(force, internal, self.rounding()))
     }
 
-    /// The norm of the forces that one rounding of H of each particle makes, and of x where weights follow it.
+    /// The norm of the forces due to one rounding of H of each particle, and of x if weights depend on it.
     fn rounding(&self) -> f64 {
         let particles = &self.particles;
         let mut speeds = vec![T::zero(); particles.len()];

@@ -1,4 +1,4 @@
-//! The state that a run starts from.
+//! The initial state of a run.
 
 use super::Solver;
 use super::clock::{Clock, Seconds};
@@ -25,21 +25,21 @@ use crate::shape::Shape;
 use crate::stencil::MOST;
 use crate::tensor::{components, is_finite, jacobian, matrix_is_finite};
 
-/// At how many times, at most, the field's motion is sampled to find the extent of the grid.
+/// The largest number of times at which the field's motion is sampled to find the extent of the grid.
 const MOTION_SAMPLES: usize = 64;
 
-/// Cells around the body's motion, on top of what its particles' stencils reach.
+/// The number of cells around the body's motion, in addition to the reach of its particles' stencils.
 const MARGIN: f64 = 2.0;
 
 impl<'f, T: Real, const D: usize, F> Solver<'f, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
 {
-    /// The field's body at the start of its time window, divided into `cells`, with the shape function `S`: displacement,
-    /// velocity and H are the field's.
+    /// Creates the field's body at the start of its time window, divided into `cells`, with the shape function `S`:
+    /// displacement, velocity and H are the field's.
     ///
     /// # Errors
-    /// What cannot be started, and why.
+    /// The scene cannot be started.
     pub fn new<S: Shape>(
         field: &'f F,
         formulation: FormulationName,
@@ -49,7 +49,7 @@ where
         Self::of_kind(Kind::of::<S>(), field, formulation, setup, cells)
     }
 
-    /// Likewise, with a shape function of this kind.
+    /// Creates the body with a shape function of this kind.
     fn of_kind(
         kind: Kind<T, D>,
         field: &'f F,
@@ -100,7 +100,7 @@ where
         let lattice = Lattice::new(std::array::from_fn(axis), kind.degree, periodic)?;
         let lattice = Lattice { is_meridian, ..lattice };
         need.check(particles.len() as f64, lattice.len() as f64)?;
-        // A period of the grid is a whole number of its cells.
+        // A period of the grid has to be a whole number of its cells.
         repeats(field, setup, &filling.pieces, &lattice, clock.window())?;
         let boundary = Boundary::new(&domain, &lattice, &filling.pieces, moves)?;
         let count = particles.len();
@@ -132,14 +132,15 @@ where
         })
     }
 
-    /// Whether a wave of this speed crosses no edge of a cell in a time step.
+    /// Tests that a wave of this speed crosses no edge of a cell in a time step.
     ///
     /// # Errors
-    /// It does; at the particle where waves are fastest at F = I, which the Courant number is about.
+    /// The wave crosses an edge. The failure is at the particle where waves are fastest at F = I, which the Courant number
+    /// refers to.
     pub fn check_time_step(&self, fastest_wave: f64) -> Result<(), Failure> {
         let (time_step, edge) = (self.clock.time_step, self.grid.lattice.cell_size.min().to_f64());
         let stable = edge / fastest_wave;
-        // Round-off of the edge must not refuse the very step that is advised.
+        // Round-off of the edge must not refuse the advised step itself.
         if time_step <= stable * (1.0 + 1e-6) {
             return Ok(());
         }
@@ -152,10 +153,10 @@ where
     }
 }
 
-/// The edges of a cell, of a grid for a body whose bounding box has these.
+/// The edges of a cell, for a body whose bounding box has these `edges`.
 ///
 /// # Errors
-/// A number of cells that is 0, or is given for other axes than there are.
+/// A number of cells is 0, or the number of axes is wrong.
 pub fn cell_size<const D: usize>(
     edges: &Vector<f64, D>,
     cells: &Division,
@@ -172,10 +173,11 @@ pub fn cell_size<const D: usize>(
     }
 }
 
-/// The particles that a run with this grid starts from, in the reference configuration; of a body of revolution its `rings`.
+/// The particles that a run with this grid starts from, in the reference configuration; the `rings` if the body is a body of
+/// revolution.
 ///
 /// # Errors
-/// A body or a grid that cannot be filled.
+/// A body or a grid cannot be filled.
 pub fn filling<T: Real, const D: usize>(
     body: &Body<T, D>,
     setup: &Setup,
@@ -187,7 +189,7 @@ pub fn filling<T: Real, const D: usize>(
     fill(body, setup, &spacing::<D>(setup, &cell_size)?, rings)
 }
 
-/// Refuses a method that rings have no weights for.
+/// Refuses methods without weights for rings.
 fn of_rings(is_product: bool, setup: &Setup) -> Result<(), Refusal> {
     let what = if !is_product {
         "the corners of `cpdi` have no weights of rings: use `cpgimp`"
@@ -218,7 +220,7 @@ fn spacing<const D: usize>(
     Ok(Vector::from_fn(|a, _| cell_size[a] / per_cell.along(a) as f64))
 }
 
-/// The body full of particles; of a body of revolution its `rings`.
+/// The body filled with particles; with the `rings` if it is a body of revolution.
 fn fill<T: Real, const D: usize>(
     body: &Body<T, D>,
     setup: &Setup,
@@ -256,7 +258,7 @@ fn cells_along(
     }
     let first = before + padding + setup.offset[a];
     let last = first + (body[1] - body[0]) / cell_size;
-    // Far too many are refused when they are counted; a conversion saturates.
+    // Far too many cells are refused when they are counted; a conversion saturates.
     let cells = (last.ceil() + after + padding).min(f64::from(u32::MAX)) as usize;
     let ends = |face: Face, knot: f64, else_at: i64| {
         let on_knot = (knot - knot.round()).abs() < 1e-4;
@@ -272,8 +274,8 @@ fn cells_along(
     }
 }
 
-/// Whether the field repeats itself along the periodic axes, at three times, wherever particles lie along
-/// a face; and whether the grid does.
+/// Tests that the field repeats itself along the periodic axes, at three times, wherever particles lie along a face; and that
+/// the grid does.
 fn repeats<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field: &F,
     setup: &Setup,
@@ -309,7 +311,7 @@ fn repeats<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     Ok(())
 }
 
-/// c0, the largest at some X.
+/// The largest c0 at all X.
 pub(super) fn largest_wave_speed<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field: &F,
     reference: &[Vector<T, D>],
@@ -323,10 +325,10 @@ pub(super) fn largest_wave_speed<T: Real, const D: usize, F: ManufacturedField<T
     Ok(largest)
 }
 
-/// The mass of nodes that are taken as empty: with any more, 1/m is finite.
+/// The mass up to which nodes count as empty: for larger masses, 1/m is finite.
 ///
 /// # Errors
-/// A particle of which nodes with a round-off of its mass would be empty.
+/// A particle is so light that nodes with a round-off of its mass would count as empty.
 fn mass_floor<T: Real, const D: usize>(
     particles: &Particles<T, D>,
     lattice: &Lattice<T, D>,
@@ -341,7 +343,7 @@ fn mass_floor<T: Real, const D: usize>(
         return Err(Refusal::TooLight { mass: smallest.to_f64(), least: least.to_f64() });
     }
     let widest = lattice.count.iter().fold(0, |a, &b| a.max(b));
-    // A domain that overlaps a node by the round-off of its position gives it that, squared.
+    // A domain that overlaps a node by the round-off of its position adds the square of that to the node.
     let round_off = T::default_epsilon() * T::of(4.0 * widest as f64);
     Ok((smallest * round_off * round_off).max(invertible))
 }
@@ -369,7 +371,7 @@ fn extent_of_motion<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized
     Ok(extent)
 }
 
-/// Mass, displacement, velocity and H at the time `start`.
+/// Sets mass, displacement, velocity and H at the time `start`.
 fn initialise<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field: &F,
     particles: &mut Particles<T, D>,

@@ -1,11 +1,10 @@
-//! Slabs: the order of the particles, and which of them may be added to the nodes at the same time.
+//! Slabs: the order of the particles, and the sets of particles that may be added to the nodes at the same time.
 //!
-//! Particles stand in the order of the cells they were in when they were sorted. The layers of cells along the
-//! last axis are cut into slabs with about as many particles each, also within a layer; they stand together, and
-//! the nodes that they can reach are a window of the grid's arrays. Windows of every other slab do not overlap,
-//! and so those are worked on at the same time: first the even ones, then the odd ones, of which there are as
-//! many. Nodes and particles that are updated are cut into parts. Sums onto nodes have one order whatever the
-//! number of threads is.
+//! Particles are ordered by the cells they were in when they were sorted. The layers of cells along the last axis are cut into
+//! slabs with about as many particles each, also within a layer. The particles of a slab are adjacent, and the nodes that they
+//! can reach are a window of the grid's arrays. Windows of every other slab do not overlap, and so threads process these slabs
+//! at the same time: first the even ones, then the odd ones, of which there are as many. Updates of nodes and particles are cut
+//! into parts. Sums onto nodes have one order for any number of threads.
 
 use std::ops::Range;
 
@@ -21,19 +20,19 @@ use crate::real::Real;
 use crate::stencil::{ALL, Members};
 use crate::threads::both;
 
-/// Layers of nodes before and after a layer of cells that a particle in it may reach, wherever cells begin.
+/// Layers of nodes before and after a layer of cells that a particle in it may reach, for any origin of cells.
 const REACH: [usize; 2] = [2, 3];
 
-/// Layers that particles may at least drift before they have to be sorted.
+/// The number of layers that particles may at least drift before they have to be sorted.
 const DRIFT: usize = 1;
 
-/// At least so many layers that an inner slab has alone, and ...
+/// The least number of whole layers of an inner slab.
 const FEWEST_LAYERS: usize = REACH[0] + REACH[1] + 2 * DRIFT;
 
-/// ... at most so many slabs.
+/// The largest number of slabs.
 const MOST_SLABS: usize = 64;
 
-/// Fewer particles than this are one slab, and stand as they are.
+/// Fewer particles than this are one slab, and are not sorted.
 const FEWEST_PARTICLES: usize = 4096;
 
 /// Particles, and the nodes that they may reach.
@@ -44,7 +43,7 @@ pub(super) struct Slab {
 }
 
 impl Slab {
-    /// Which particles of a bunch are its own, by the first one of the bunch.
+    /// The particles of a bunch that belong to the slab; `first` is the bunch's first particle.
     #[inline(always)]
     pub fn members(&self, first: usize) -> Members {
         let Range { start, end } = self.particles;
@@ -55,34 +54,33 @@ impl Slab {
     }
 }
 
-/// Where a slab ends and the next one begins.
+/// The cut between a slab and the next one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Cut {
-    /// The layer of the first particle after it.
+    /// The layer of the first particle after the cut.
     from: usize,
-    /// Behind the layer of the last particle before it: another one if the cut is within a layer.
+    /// One layer beyond the layer of the last particle before the cut. It differs from `from` if the cut is within a layer.
     until: usize,
-    /// How many particles are before it.
+    /// The number of particles before the cut.
     particle: usize,
 }
 
-/// What is done for a slab, with its part of two arrays of nodes.
+/// The work for a slab, with its part of two arrays of nodes.
 type Work<'a, T, R, E> = dyn Fn(&Slab, [Window<'_, T>; 2]) -> Result<R, E> + Sync + 'a;
 
 /// All slabs, and the order of the particles.
 pub(super) struct Slabs {
     pub all: Vec<Slab>,
-    /// What each slab but the first one begins with. There is room for the most slabs.
+    /// The cuts before each slab except the first one. Has capacity for the largest number of slabs.
     cuts: Vec<Cut>,
-    /// Nodes of a layer, and how many layers there are.
+    /// The number of nodes of a layer, and the number of layers.
     layer: usize,
     layers: usize,
     pub order: Order,
 }
 
 impl Slabs {
-    /// One slab, of particles that are not yet sorted, and never are if there are few or if their stencils are not
-    /// `near`.
+    /// One slab, of particles that are not yet sorted. They never are if there are few or if their stencils are not `near`.
     pub fn new<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         particles: usize,
@@ -100,12 +98,12 @@ impl Slabs {
         slabs
     }
 
-    /// What slabs begin with, but for the first one.
+    /// The cuts between the slabs.
     pub fn cuts(&self) -> &[Cut] {
         &self.cuts
     }
 
-    /// Takes the slabs that these cuts make of so many particles, if there may be such.
+    /// Makes slabs of `particles` by these cuts, if they are valid; returns whether they are.
     pub fn accept(&mut self, cuts: &[Cut], particles: usize) -> bool {
         let apart = |pair: &[Cut]| {
             pair[0].until.checked_add(FEWEST_LAYERS).is_some_and(|least| least <= pair[1].from)
@@ -127,11 +125,11 @@ impl Slabs {
         true
     }
 
-    /// Makes slabs of so many particles.
+    /// Makes slabs of `particles` by the cuts.
     fn cut(&mut self, particles: usize) {
         let Self { all, cuts, layer, layers, .. } = self;
         let last = cuts.len();
-        // How far the particles of the neighbours of an inner slab may drift into it.
+        // The layers by which the particles of the neighbours of an inner slab may drift into it.
         let drift = |s: usize| (cuts[s].from - cuts[s - 1].until - REACH[0] - REACH[1]) / 2;
         let slab = |s: usize| {
             let before = if s > 1 { cuts[s - 1].from - REACH[0] - drift(s - 1) } else { 0 };
@@ -146,8 +144,8 @@ impl Slabs {
         all.extend((0..=last).map(slab));
     }
 
-    /// Sorts the particles, with their `domains`, by their cells, which begin at an origin, in cells: at present, or of X
-    /// if nothing `moves`.
+    /// Sorts the particles, with their `domains`, by their cells, of the present positions, or of X if nothing `moves`. Cells
+    /// begin at `origin`, in cells.
     pub fn sort<T: Real, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
@@ -168,7 +166,7 @@ impl Slabs {
         }
     }
 
-    /// Makes an even number of slabs with as many particles each, to a cell where there are layers enough; three, where
+    /// Makes an even number of slabs with equal numbers of particles, to a cell if there are enough layers; three slabs if
     /// there are too few.
     fn cut_evenly(&mut self) {
         let Self { cuts, order, layer: nodes, .. } = self;
@@ -207,7 +205,7 @@ impl Slabs {
     /// Does `work` for every slab, with its part of the nodes.
     ///
     /// # Errors
-    /// What the first slab that has an error has.
+    /// The error of the first slab that has one.
     pub fn each<T, R, E>(
         &self,
         nodes: [&mut [Nodal<T>]; 2],
@@ -279,7 +277,7 @@ mod tests {
     use super::super::order::Order;
     use super::{Cut, REACH, Slabs};
 
-    /// Of layers with so many particles each, beginning with layer 5, in rows of ten cells with as many.
+    /// Slabs of layers with these numbers of particles, beginning with layer 5, in rows of ten cells with equal numbers.
     fn slabs(particles_of_layers: &[usize]) -> Slabs {
         let cells = particles_of_layers.iter().zip(5_u32..);
         let layer =

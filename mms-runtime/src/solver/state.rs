@@ -1,8 +1,8 @@
-//! The state of a solver, from which a run goes on with the bits of one that never stopped.
+//! The state of a solver, from which a resumed run computes the same bits as an uninterrupted run.
 //!
-//! It holds what changes and does not follow from the scene: the particles' state in the order in which they are
-//! added to the nodes (sums depend on it), where slabs end, the step, how far velocities are behind. What follows
-//! from the scene alone, or from the state at the beginning of every step, is left out, and made anew.
+//! It contains the data that change and do not follow from the scene: the particles' state in the order in which they are added
+//! to the nodes (sums depend on it), the ends of slabs, the step, and the lag of velocities. Data that follow from the scene
+//! alone, or from the state at the beginning of every step, are recomputed.
 
 use std::borrow::Cow;
 
@@ -14,24 +14,24 @@ use super::slabs::Cut;
 use crate::failure::Refusal;
 use crate::real::{Matrix, Real, Vector};
 
-/// What changes in a run: what a solver of the same scene goes on from, to the bit.
+/// The data that change in a run: a solver of the same scene resumes from them, to the bit.
 #[derive(Serialize, Deserialize)]
 #[serde(bound = "T: Real")]
 pub struct State<'a, T: Real, const D: usize> {
-    /// How many steps have been made.
+    /// The number of completed steps.
     step: usize,
-    /// How many time steps the velocities are behind.
+    /// The number of time steps by which velocities are behind.
     lag: f64,
     /// The particles' numbers, in their order.
     id: Cow<'a, [u32]>,
     displacement: Vec<Vector<T, D>>,
     velocity: Vec<Vector<T, D>>,
     displacement_gradient: Vec<Matrix<T, D>>,
-    /// The hoop strains; empty unless the body is one of revolution.
+    /// The hoop strains; empty unless the body is a body of revolution.
     hoop_strain: Cow<'a, [T]>,
     /// C, with APIC only.
     affine: Vec<Matrix<T, D>>,
-    /// Where slabs begin.
+    /// The cuts between slabs.
     cuts: Cow<'a, [Cut]>,
     seconds: Seconds,
 }
@@ -54,10 +54,10 @@ impl<T: Real, const D: usize, F: ?Sized> Solver<'_, T, D, F> {
         }
     }
 
-    /// Goes on from a state of the same scene.
+    /// Resumes from a state of the same scene.
     ///
     /// # Errors
-    /// It is one of another scene.
+    /// The state is of another scene.
     pub fn restore(&mut self, state: State<'_, T, D>) -> Result<(), Refusal> {
         let fits = |fits: bool, what: &str| match fits {
             true => Ok(()),
@@ -88,7 +88,7 @@ impl<T: Real, const D: usize, F: ?Sized> Solver<'_, T, D, F> {
     }
 }
 
-/// Whether there is every number below `count`, once.
+/// Whether `ids` has every number below `count` once.
 fn is_order(ids: &[u32], count: usize) -> bool {
     let mut seen = vec![false; count];
     let fresh =

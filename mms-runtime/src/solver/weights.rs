@@ -1,8 +1,8 @@
-//! The weights of the particles: the only place in a solver that knows the shape function.
+//! The weights of the particles: the only place in a solver that depends on the shape function.
 //!
-//! The weights of four bunches are found before their sums are done, so that there is something to do while
-//! numbers are awaited. A pass over the particles is compiled once for stencils that are products of weights along
-//! the axes, whatever the weights, and once for the corners of `cpdi`.
+//! The weights of four bunches are computed before their sums, so that there is work to do while loads are pending. A pass over
+//! the particles is compiled once for all stencils that are products of weights along the axes, and once for the corners of
+//! `cpdi`.
 
 use mms_math::dispatch::{Work, best};
 use mms_math::machine::Machine;
@@ -21,18 +21,17 @@ use crate::shape::{Shape, place_alone};
 use crate::stencil::Stencil as _;
 use crate::transfer::Transfer;
 
-/// How many bunches ahead of the one that is worked on the state of a bunch is brought near: with large bodies it has
-/// left the caches since the last pass.
+/// The distance, in bunches, by which data are prefetched: in large bodies the data have left the caches since the last pass.
 pub(super) const AHEAD: usize = 3;
 
-/// Bunches whose weights are found together, and then their sums: so that a call is little beside them, and there is
-/// something to do while numbers are awaited.
+/// The number of bunches whose weights are computed together, and then their sums: so that a call costs little beside them, and
+/// there is work to do while loads are pending.
 pub(super) const TOGETHER: usize = 4;
 
-/// Room for their weights.
+/// Storage for the weights of these bunches.
 pub(super) type Room<St> = [St; TOGETHER];
 
-/// The grid's geometry, and what the particles' weights follow.
+/// The grid's geometry, and the data that the particles' weights depend on.
 #[derive(Clone, Copy)]
 pub(super) struct Scene<'a, T: Real, const D: usize> {
     pub lattice: &'a Lattice<T, D>,
@@ -40,17 +39,17 @@ pub(super) struct Scene<'a, T: Real, const D: usize> {
     pub moves: bool,
     pub transfer: Transfer,
     pub reference_position: &'a [[Vector<T, D>; BUNCH]],
-    /// What weights follow of every bunch, if that is not its present state.
+    /// The displacement and gradient of every bunch that weights depend on, if these are not the present ones; otherwise empty.
     pub kept: &'a [Kept<T, D>],
 }
 
 /// The displacements and the displacement gradients of some bunches.
 pub(super) type Moved<'a, T, const D: usize> = (&'a [Vectors<T, D>], &'a [Matrices<T, D>]);
 
-/// Those of a bunch at another time.
+/// The displacements and the displacement gradients of a bunch at another time.
 pub(super) type Kept<T, const D: usize> = (Vectors<T, D>, Matrices<T, D>);
 
-/// What a solver knows of its shape function.
+/// A shape function as a value: the properties that a solver reads.
 #[derive(Clone, Copy)]
 pub(super) struct Kind<T: Real, const D: usize> {
     /// [`Shape::DEGREE`].
@@ -61,11 +60,11 @@ pub(super) struct Kind<T: Real, const D: usize> {
     pub is_product: bool,
     /// [`Shape::ORIGIN`].
     pub origin: f64,
-    /// Bytes of the domains of a bunch.
+    /// The number of bytes of the domains of a bunch.
     pub domain: usize,
     /// [`Shape::point`].
     pub point: StencilOf<T, D>,
-    /// The undeformed domains of particles, by their half edges.
+    /// Creates the undeformed domains of particles from their half edges.
     pub domains: DomainsOf<T, D>,
 }
 
@@ -87,15 +86,15 @@ impl<T: Real, const D: usize> Kind<T, D> {
         }
     }
 
-    /// The points of a grid.
+    /// The geometry and stencils of points of a grid.
     pub fn points<'a>(&self, lattice: &'a Lattice<T, D>) -> Point<'a, T, D> {
         Point { lattice, stencil: self.point }
     }
 }
 
-/// The particles' undeformed domains, and the passes that find weights of them.
+/// The particles' undeformed domains, and the passes that compute weights from them.
 pub(super) trait Domains<T: Real, const D: usize>: Send + Sync {
-    /// Puts that of particle `order[p]` in place `p`.
+    /// Moves the domain of particle `order[p]` to place `p`.
     fn reorder(&mut self, order: &mut [u32]);
 
     /// P2G of some particles.
@@ -104,16 +103,16 @@ pub(super) trait Domains<T: Real, const D: usize>: Send + Sync {
     /// G2P of some particles.
     fn advance(&self, advance: Advance<'_, '_, T, D>) -> Result<Sound, (usize, Cause)>;
 
-    /// What the grid does not represent of the velocities of some particles.
+    /// Computes the residual velocities of some particles: the part that the grid does not represent.
     fn residual(&self, residual: Residual<'_, '_, T, D>) -> Result<Sound, (usize, Cause)>;
 }
 
-/// Finds weights.
+/// Computes weights.
 pub(super) trait Weigh<T: Real, const D: usize, St> {
-    /// Finds the weights of the bunches from `first` on, in this state if none was kept.
+    /// Computes the weights of the bunches from `first` on, in the `present` state if none was kept.
     ///
     /// # Errors
-    /// A particle has none.
+    /// A particle has no weights.
     fn weigh(
         &self,
         scene: &Scene<'_, T, D>,
@@ -161,7 +160,7 @@ impl<T: Real, const D: usize, S: Shape> Weigh<T, D, S::Stencil<T, D>> for Shaped
 /// The weights of some bunches.
 struct Weights<'a, T: Real, const D: usize, S: Shape> {
     scene: &'a Scene<'a, T, D>,
-    /// Of all bunches.
+    /// The domains of all bunches.
     domains: &'a [S::Domain<T, D>],
     first: usize,
     present: Moved<'a, T, D>,
@@ -213,7 +212,7 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
     }
 }
 
-/// Refuses particles that do not lie beyond the axis of revolution.
+/// Refuses particles whose distance from the axis of revolution is not positive.
 #[inline(always)]
 fn off_the_axis<T: Real, M: Machine<T>>(
     machine: M,
@@ -229,7 +228,7 @@ fn off_the_axis<T: Real, M: Machine<T>>(
     Err((p, Cause::BeyondAxis { radius: radius[p].to_f64() }))
 }
 
-/// Which of a bunch could not be placed alone, and why; the first one, if each could.
+/// The first particle of a bunch that cannot be placed alone, and the cause; the first particle of the bunch if each can be.
 #[cold]
 fn blamed<T: Real, const D: usize, S: Shape>(
     lattice: &Lattice<T, D>,

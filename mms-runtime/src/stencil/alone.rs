@@ -1,6 +1,6 @@
-//! The sums of one particle after the other, where a machine has no registers for more: as loops over nodes that are
-//! compiled once for all widths, for what is not fast there anyway need not be large. Each particle's numbers are
-//! multiplied in the order in which [`scatter`](super::scatter) and [`gather`](super::gather) multiply those of one.
+//! The sums of one particle after the other, for machines without larger registers: loops over nodes that are compiled once for
+//! all widths, since code for these slow machines should be small. Each particle's numbers are multiplied in the same order as
+//! in [`scatter`](super::scatter) and [`gather`](super::gather).
 
 use super::gather::{Summed, Sums};
 use super::tensor::{Along, Tensor};
@@ -8,10 +8,10 @@ use super::{BUNCH, Carried, HALF, Members};
 use crate::nodal::{Nodal, Window};
 use crate::real::Real;
 
-/// The most axes; along those that a stencil has not there is one node, of weight 1.
+/// The largest number of axes; along axes that a stencil does not have there is one node, of weight 1.
 const AXES: usize = 3;
 
-/// The most asides: slopes and moments.
+/// The largest number of asides: slopes and moments.
 const ASIDES: usize = 2;
 
 impl<T: Real, const D: usize> Tensor<T, D> {
@@ -29,7 +29,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         self.first[particle].wrapping_add(apart)
     }
 
-    /// Adds to the nodes of the `members`, with the moments of the weights where such are carried.
+    /// Adds to the nodes of the `members`, with the moments of the weights if the data have moments.
     pub(super) fn scatter_alone(
         &self,
         carried: &Carried<[T; BUNCH], D>,
@@ -38,7 +38,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         mut nodes: Window<'_, T>,
     ) {
         for p in from..to {
-            // What stands in place of the weight of node `k` along an axis.
+            // The factor that replaces the weight of node `k` along an axis.
             let aside = |a: usize, k: usize| {
                 let mut aside = [T::zero(); HALF];
                 for c in 0..if a < D { D } else { 0 } {
@@ -80,7 +80,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
 }
 
 impl<T: Real, const D: usize> Tensor<T, D> {
-    /// Those, with so many asides.
+    /// The sums over the nodes of every particle, with these asides.
     fn gather_alone(
         &self,
         asides: &[&Along<T, D>],
@@ -136,7 +136,7 @@ struct Sum<T> {
 }
 
 impl<T: Real> Sum<T> {
-    /// To -0 a product is added without an addition.
+    /// The initial value is -0, to which a product is added without an addition.
     fn nothing() -> Self {
         Self { value: -T::zero(), asides: [[-T::zero(); AXES]; ASIDES] }
     }

@@ -1,5 +1,4 @@
-//! The sums over the nodes of a bunch (G2P, gather): of all its particles together, all components of a node after
-//! each other.
+//! The sums over the nodes of a bunch (G2P, gather): of all its particles together, all components of a node after each other.
 
 use mms_math::dispatch::Work;
 use mms_math::machine::Machine;
@@ -9,15 +8,15 @@ use super::{BUNCH, HALF, eights, numbers};
 use crate::nodal::Nodal;
 use crate::real::Real;
 
-/// What is summed, over which nodes.
+/// The sums to compute, and the nodes.
 pub(super) struct Sums<'a, T, const D: usize, const K: usize> {
     pub stencil: &'a Tensor<T, D>,
-    /// What comes, in `K` sums for every axis, in place of the weights along that axis: slopes, moments.
+    /// The `K` factors for every axis that replace the weights along that axis: slopes, moments.
     pub asides: [&'a Along<T, D>; K],
     pub nodes: &'a [Nodal<T>],
 }
 
-/// The sums of a vector: with weights, and of each of the `K` asides for every axis.
+/// The sums of a vector: with weights, and with each of the `K` asides for every axis.
 #[derive(Clone, Copy)]
 pub(super) struct Summed<F, const D: usize, const K: usize> {
     pub value: [F; D],
@@ -34,7 +33,7 @@ struct Axis<F, const W: usize, const K: usize> {
 /// A row of nodes along the first axis, for each half.
 type Row<'a, T, const W: usize> = [&'a [Nodal<T>; W]; 2];
 
-/// Those over `W` nodes along every axis.
+/// The sums over `W` nodes along every axis.
 struct Over<'a, T, const D: usize, const K: usize, const W: usize>(Sums<'a, T, D, K>);
 
 impl<T: Real, const D: usize, const K: usize, const W: usize> Work<T> for Over<'_, T, D, K, W> {
@@ -56,8 +55,8 @@ impl<T: Real, const D: usize, const K: usize, const W: usize> Work<T> for Over<'
 }
 
 impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
-    /// The sums over `W` nodes along every axis: by a function of their own, so that they are compiled once, whatever
-    /// the shape function is and whoever asks for them. Those of hat functions are done before a call is.
+    /// Computes the sums over `W` nodes along every axis in a function that is not inlined, so that they are compiled once for
+    /// all shape functions and callers. Sums of hat functions are inlined, since they take less time than a call.
     #[inline(always)]
     pub fn over<M: Machine<T>, const W: usize>(self, machine: M) -> Summed<M::Eight, D, K> {
         if M::ALONE {
@@ -69,7 +68,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
         Self::eights(machine, &machine.apart(Over::<T, D, K, W>(self)))
     }
 
-    /// Sums of numbers as such of eights.
+    /// Loads sums of numbers as registers.
     #[inline(always)]
     fn eights<M: Machine<T>>(
         machine: M,
@@ -86,7 +85,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
         all
     }
 
-    /// All sums over `W` nodes along every axis: those of particles that share their nodes together.
+    /// Computes all sums over `W` nodes along every axis; particles that share their nodes are summed together.
     #[inline(always)]
     fn all<M: Machine<T>, const W: usize>(&self, machine: M) -> Summed<M::Eight, D, K> {
         let along = self.axis::<M, W>(machine, 0);
@@ -97,16 +96,16 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
         }
         let nothing = machine.splat(T::zero());
         let mut summed = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
-        // A bit of every particle whose nodes have not been seen.
+        // A bit of every particle whose nodes have not been visited.
         let mut left = (1_u32 << BUNCH) - 1;
         while left != 0 {
-            // The first ones that are left, if there are such, of each half.
+            // The first remaining particle of each half.
             let next = [left % (1 << HALF), left >> HALF];
             let at = std::array::from_fn(|half| {
                 firsts[half * HALF + next[half].trailing_zeros() as usize % HALF]
             });
             let mut own = along;
-            // Halves that share their nodes are one round, of whole weights: the sums are compiled once for both.
+            // Halves that share their nodes take one round, with whole weights: the sums are compiled once for both.
             if sharing == Sharing::Apart {
                 let mut share = [T::zero(); BUNCH];
                 for p in 0..BUNCH {
@@ -115,7 +114,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
                         left &= !(1 << p);
                     }
                 }
-                // Every product has a factor of the first axis: those of others are 0.
+                // Every product has a factor of the first axis: it is 0 for the other particles.
                 let share = machine.eight(&share);
                 for k in 0..W {
                     own.weight[k] = machine.times(own.weight[k], share);
@@ -166,7 +165,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
         })
     }
 
-    /// The sums over the nodes from `first` on, which are the `SAME` for both halves or not: of planes.
+    /// The sums over the nodes from `first` on, which are the `SAME` for both halves or not: the sum of planes.
     #[inline(always)]
     fn space<M: Machine<T>, const W: usize, const SAME: bool>(
         &self,
@@ -187,7 +186,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
         space
     }
 
-    /// The sums over the nodes of a plane: of rows.
+    /// The sums over the nodes of a plane: the sum of rows.
     #[inline(always)]
     fn plane<M: Machine<T>, const W: usize, const SAME: bool>(
         &self,
@@ -232,7 +231,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
         row
     }
 
-    /// Adds to sums what comes of those along the axes before axis `a`, at node `k` along that one.
+    /// Adds to sums the sums along the axes before axis `a`, at node `k` along axis `a`.
     #[inline(always)]
     fn accumulate<M: Machine<T>>(
         &self,

@@ -1,13 +1,12 @@
 //! The sums of a bunch onto its nodes (P2G, scatter).
 //!
-//! A node takes w0 w1 w2 q. Of the terms along the axes (slopes of the weights for forces, moments for APIC) it
-//! takes A0 w1 w2 + w0 A1 w2 + w0 w1 A2, where the aside A_a of a node is all that stands in place of the weight
-//! along axis a: Q_a times the slope of the weight, M_a times its moment. So there is one sum, whatever asides are
-//! made of.
+//! A node receives w0 w1 w2 q. Of the terms along the axes (slopes of the weights for forces, moments for APIC) it receives A0
+//! w1 w2 + w0 A1 w2 + w0 w1 A2, where the aside A_a of a node is the sum of all factors that replace the weight along axis a:
+//! Q_a times the slope of the weight, M_a times its moment. So there is one sum for all kinds of asides.
 //!
-//! Along an axis with three nodes one cell apart, weights sum to 1 and asides to 0, and the middle node has the
-//! largest weight. So the sum over all three takes no product, and the middle node gets what the outer two leave
-//! of it: a third fewer multiply-adds.
+//! Along an axis with three nodes one cell apart, weights sum to 1 and asides to 0, and the middle node has the largest weight.
+//! So the sum over all three needs no product, and the middle node receives it minus the outer two: a third fewer
+//! multiply-adds.
 
 use mms_math::machine::Machine;
 
@@ -16,22 +15,22 @@ use super::{ALL, Carried, HALF, Members};
 use crate::nodal::Window;
 use crate::real::Real;
 
-/// What is added to the nodes, with asides or without.
+/// The data to add to the nodes, with asides or without.
 pub(super) struct Scatter<'a, M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> {
     pub machine: M,
     pub stencil: &'a Tensor<T, D>,
     pub carried: &'a Carried<M::Eight, D>,
-    /// Moments of the weights, where such are carried.
+    /// Moments of the weights, if the data have moments.
     pub moment: Option<&'a Along<T, D>>,
     pub members: Members,
 }
 
-/// Where what the two halves of a bunch carry goes.
+/// The nodes that the data of the two halves of a bunch are added to.
 #[derive(Clone, Copy)]
 enum Goal {
-    /// Both to the nodes from one on.
+    /// Both halves to the same nodes, from this one on.
     Together(u32),
-    /// Each to nodes of its own, but for those that are not meant.
+    /// Each half to its own nodes; `None` skips a half whose particle is not a member.
     Apart([Option<u32>; 2]),
 }
 
@@ -39,8 +38,8 @@ enum Goal {
 type Asides<F, const D: usize, const W: usize> = [[[F; HALF]; W]; D];
 
 impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, D, ASIDES> {
-    /// Adds to `W` nodes along every axis: for the particles of each half together where they share their nodes, else
-    /// for one of each half after the other.
+    /// Adds to `W` nodes along every axis: for the particles of each half together if they share their nodes, otherwise for one
+    /// particle of each half after the other.
     #[inline(always)]
     pub fn add<const W: usize>(&self, mut nodes: Window<'_, T>) {
         let Tensor { first, .. } = self.stencil;
@@ -71,10 +70,10 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
         }
     }
 
-    /// The asides of all nodes; those that take the `REST` have none.
+    /// The asides of all nodes; nodes that receive the `REST` have none.
     #[inline(always)]
     fn asides<const W: usize, const REST: bool>(&self) -> Asides<M::Eight, D, W> {
-        // A question that is asked once, and not for every node.
+        // Tested once, not for every node.
         match (ASIDES, self.moment) {
             (true, Some(_)) => self.asides_with::<W, REST, true>(),
             (true, None) => self.asides_with::<W, REST, false>(),
@@ -82,7 +81,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
         }
     }
 
-    /// Those, with `MOMENTS` or without.
+    /// The asides of all nodes, with `MOMENTS` or without.
     #[inline(always)]
     fn asides_with<const W: usize, const REST: bool, const MOMENTS: bool>(
         &self,
@@ -98,7 +97,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
             }
         }
         if REST && D > 2 {
-            // No plane is left over: the middle one has its aside, which makes their sum 0.
+            // Planes have no rest: the middle one has its aside, which makes the sum of asides 0.
             for p in 0..HALF {
                 let outer = machine.plus(asides[2 % D][0][p], asides[2 % D][W - 1][p]);
                 asides[2 % D][1][p] = machine.minus(nothing, outer);
@@ -128,7 +127,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
         machine.transposed(rows)
     }
 
-    /// Adds for `P` particles of each half from `from` on; whether the middle ones of three nodes take the `REST`.
+    /// Adds for `P` particles of each half from `from` on; with `REST`, the middle one of three nodes receives the rest.
     #[inline(always)]
     fn of<const W: usize, const P: usize, const REST: bool>(
         &self,
@@ -171,8 +170,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
         }
     }
 
-    /// The weights of node `k` along an axis, of `P` particles of each half from `from` on, each in all places of its
-    /// half.
+    /// The weights of node `k` along an axis, of `P` particles of each half from `from` on, each in all places of its half.
     #[inline(always)]
     fn weights<const P: usize>(&self, from: usize, axis: usize, k: usize) -> [M::Eight; P] {
         let Self { machine, stencil: Tensor { weight, .. }, .. } = self;
@@ -188,7 +186,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
         weights
     }
 
-    /// What a plane takes.
+    /// Computes the data of a plane.
     #[inline(always)]
     fn plane<const W: usize, const P: usize>(
         &self,
@@ -218,7 +216,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
         plane
     }
 
-    /// The sums that the nodes of a row of a plane take, with its number and weights, or those of all rows together.
+    /// The sums for the nodes of one row of a plane, given its number and weights, or of all rows together if `None`.
     #[inline(always)]
     fn sums<const W: usize, const P: usize, const REST: bool>(
         &self,
@@ -258,7 +256,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
         sums
     }
 
-    /// Adds to the nodes of a row, so far from the first one.
+    /// Adds to the nodes of the row at the distance `apart` from the first one.
     #[inline(always)]
     fn put<const W: usize>(
         &self,
@@ -293,10 +291,10 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
     }
 }
 
-/// What a plane of nodes takes of `P` particles of each half, but for the weights along the first two axes.
+/// The data of `P` particles of each half for a plane of nodes, without the factors of the weights along the first two axes.
 #[derive(Clone, Copy)]
 struct Plane<F, const W: usize, const P: usize> {
     value: [F; P],
-    /// Those along the first two axes.
+    /// The asides along the first two axes.
     asides: [[[F; P]; W]; 2],
 }

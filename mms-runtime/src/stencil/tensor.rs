@@ -1,7 +1,7 @@
 //! Stencils that are products of weights along the axes.
 //!
-//! The sums are factorised: what does not depend on the node along an axis is multiplied once for all of
-//! them, so that a node takes one product per number, and one more where there are slopes.
+//! The sums are factorised: factors that do not depend on the node along an axis are multiplied once for all of them, so that a
+//! node needs one product per number, and one more if there are slopes.
 
 use std::ops::Range;
 
@@ -16,41 +16,41 @@ use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
 use crate::real::{Real, Vector};
 
-/// For every axis, and the first, second, .. node along it, a number for each particle of a bunch.
+/// A number for each particle of a bunch, for every axis and the first, second, .. node along it.
 pub(super) type Along<T, const D: usize> = [[[T; BUNCH]; MOST]; D];
 
-/// The most nodes along an axis.
+/// The largest number of nodes along an axis.
 pub const MOST: usize = 4;
 
-/// Which particles of a bunch have the same nodes.
+/// The particles of a bunch that have the same nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sharing {
-    /// All.
+    /// All particles.
     All,
-    /// Those of each half.
+    /// The particles of each half.
     Halves,
-    /// Not even those.
+    /// Not all particles of each half.
     Apart,
 }
 
-/// What is known of the weights along every axis.
+/// The known properties of the weights along every axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
     /// Nodes are one cell apart, and the weights are splines whose knots are too.
     Splines,
     /// Nodes are one cell apart, and weights sum to 1.
     Regular,
-    /// Nothing.
+    /// None.
     Nothing,
 }
 
-/// A stencil that is the product of the weights along the axes. The number of nodes along each is alike for all
-/// particles of a bunch; it is all that the sums depend on, whatever the shape function is.
+/// A stencil that is the product of the weights along the axes. The number of nodes along each axis is the same for all
+/// particles of a bunch; the sums depend on nothing else of the shape function.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub struct Tensor<T, const D: usize> {
     pub(super) weight: Along<T, D>,
-    /// Their derivatives, per length.
+    /// The derivatives of the weights, per length.
     pub(super) slope: Along<T, D>,
     /// Number of the first node along each axis.
     start: [[i32; BUNCH]; D],
@@ -58,21 +58,21 @@ pub struct Tensor<T, const D: usize> {
     pub(super) first: [u32; BUNCH],
     /// Distance in the grid's arrays between neighbours along each axis.
     pub(super) stride: [u32; D],
-    /// Sum of those.
+    /// The sum of the strides.
     strides: u32,
-    /// Whether all of each half have the same nodes.
+    /// Whether all particles of each half have the same nodes.
     shared: bool,
-    /// How many nodes along each axis have a weight, at most: 2, 3 or 4. Beyond those nothing means anything.
+    /// How many nodes along each axis have a weight, at most: 2, 3 or 4. Entries at index >= `width` are unused.
     pub(super) width: usize,
     known: Known,
-    /// On a meridian, how far the particles are from the axis, for the weights w/r of the strain around it.
+    /// On a meridian, the particles' distances from the axis, for the weights w/r of the strain around it.
     radius: [T; BUNCH],
-    /// On a meridian, the w of those weights along the first axis, if they are not [`weight`](Self::weight).
+    /// On a meridian, the w of the weights w/r along the first axis, if they differ from [`weight`](Self::weight).
     around: Option<[[T; BUNCH]; MOST]>,
 }
 
 impl<T: Real, const D: usize> Tensor<T, D> {
-    /// A stencil that has no nodes yet.
+    /// A stencil without nodes.
     #[inline(always)]
     pub fn new() -> Self {
         Self {
@@ -90,8 +90,8 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         }
     }
 
-    /// Takes the distances r from the axis, and the w of the weights w/r along the first axis if they are others than those
-    /// that [`set`](Self::set) took.
+    /// Sets the distances r from the axis, and the w of the weights w/r along the first axis if they differ from the weights of
+    /// [`set`](Self::set).
     #[inline(always)]
     pub fn set_around<M: Machine<T>, const W: usize>(
         &mut self,
@@ -114,7 +114,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         &self.radius
     }
 
-    /// The stencil with the weights w of w/r, if they are others than those of sums without a division by r.
+    /// The stencil with the weights w of w/r, if they differ from the stencil's own weights.
     pub fn around(&self) -> Option<Self> {
         self.around.map(|weights| {
             let mut stencil = *self;
@@ -123,7 +123,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         })
     }
 
-    /// Begins to take `W` weights along each axis.
+    /// Begins a stencil of `W` weights along each axis.
     #[inline(always)]
     pub fn begin<const W: usize>(&mut self, lattice: &Lattice<T, D>, known: Known) {
         const { assert!(W >= 2 && W <= MOST) };
@@ -134,8 +134,8 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         (self.width, self.known) = (W, known);
     }
 
-    /// Takes the weights along an axis, and their derivatives per cell, of the nodes from `first` on; if these are not
-    /// all on the grid, the stencil may not be used.
+    /// Sets the weights along an axis, and their derivatives per cell, of the nodes from `first` on. If these are not all on
+    /// the grid, the stencil must not be used.
     #[inline(always)]
     pub fn set<M: Machine<T>, const W: usize>(
         &mut self,
@@ -165,7 +165,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         }
     }
 
-    /// Which particles have the same nodes.
+    /// The particles that have the same nodes.
     #[inline(always)]
     pub(super) fn sharing(&self) -> Sharing {
         if !self.shared {
@@ -209,7 +209,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
                 moment[a][k] = machine.numbers(weight[k]);
             }
             per_spread[a] = if W > 2 && self.known == Known::Splines {
-                // The variance of W lengths that are evenly distributed over a cell: their sum is a B-spline's.
+                // The variance of the sum of W uniform distributions over a cell, whose density is a B-spline.
                 let h = lattice.cell_size[a];
                 machine.splat(T::ratio(12, W as i32) / (h * h))
             } else {
@@ -219,7 +219,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         (moment, per_spread)
     }
 
-    /// How far a node is from the first one along an axis.
+    /// The distance of a node from the first one along an axis.
     #[inline(always)]
     fn beyond_first<M: Machine<T>>(
         &self,
@@ -234,26 +234,26 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         let coordinate = &lattice.coordinate[axis];
         let apart = std::array::from_fn(|p| {
             let start = self.start[axis][p] as usize;
-            // Past the width weights are 0, and nodes may not be there.
+            // Beyond the width weights are 0, and nodes may not exist.
             coordinate.get(start + k).map_or(T::zero(), |&there| there - coordinate[start])
         });
         machine.eight(&apart)
     }
 
-    /// How far the last node is behind the first one, in the grid's arrays.
+    /// The distance between the first and the last node in the grid's arrays.
     #[inline(always)]
     fn extent(&self) -> usize {
         (self.width - 1) * self.strides as usize
     }
 
-    /// The first of the `members` whose first node is not among the `room` ones from `start` on.
+    /// The first of the `members` whose first node is not among the `room` nodes from `start` on.
     #[cold]
     #[inline(never)]
     fn first_beyond(&self, [from, to]: Members, start: u32, room: u32) -> Option<usize> {
         (from..to).find(|&p| self.first[p].wrapping_sub(start) >= room)
     }
 
-    /// As [`Stencil::scatter`], for stencils of `W` nodes along each axis.
+    /// Does [`Stencil::scatter`] for stencils of `W` nodes along each axis.
     #[inline(always)]
     pub(crate) fn scatter_to<M: Machine<T>, const W: usize>(
         &self,
@@ -275,7 +275,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         }
     }
 
-    /// Likewise, where there is something of the kind with `ASIDES`. Sums of hat functions are done before a call is.
+    /// Adds to the nodes, with `ASIDES` or without. Sums of hat functions are inlined, since they take less time than a call.
     #[inline(always)]
     fn onto<M: Machine<T>, const W: usize, const ASIDES: bool>(
         &self,
@@ -315,7 +315,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         sums.add::<W>(nodes);
     }
 
-    /// As [`Stencil::gather`], for stencils of `W` nodes along each axis.
+    /// Does [`Stencil::gather`] for stencils of `W` nodes along each axis.
     #[inline(always)]
     pub(crate) fn gather_from<M: Machine<T>, const W: usize>(
         &self,
@@ -352,7 +352,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
     }
 }
 
-/// The sums onto `W` nodes along every axis, as a function of their own, so that they are compiled once.
+/// The sums onto `W` nodes along every axis, in a function that is not inlined, so that they are compiled once.
 struct Onto<'a, T: Real, const D: usize, const W: usize, const ASIDES: bool> {
     stencil: &'a Tensor<T, D>,
     lattice: &'a Lattice<T, D>,
@@ -381,7 +381,7 @@ impl<T: Real, const D: usize> Default for Tensor<T, D> {
 }
 
 impl<T: Real, const D: usize> Stencil<T, D> for Tensor<T, D> {
-    // A register of AVX2 holds eight numbers of single precision, and a single row of nodes is soon summed.
+    // A register of AVX2 holds eight numbers of single precision, and a single row of nodes has little to sum.
     const GAINS_BY_AVX512: bool = D > 1 && size_of::<T>() == size_of::<f64>();
 
     fn each(&self, particle: usize, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
@@ -405,7 +405,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Tensor<T, D> {
 
     #[inline(always)]
     fn beyond(&self, members: Members, nodes: &Range<usize>) -> Option<usize> {
-        // How many nodes may come first; there are fewer than 2^32.
+        // The number of possible first nodes; there are fewer than 2^32.
         let room = nodes.len().saturating_sub(self.extent()) as u32;
         let mut farthest = 0;
         for first in self.first {

@@ -1,4 +1,4 @@
-//! What the body force and the faces do to a body: the balance of momentum and that of energy.
+//! The balances of momentum and energy: the effect of the body force and the faces on a body.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,31 +7,31 @@ use crate::field::ManufacturedField;
 use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
 
-/// What drove the body, in double precision.
+/// The balances of momentum and energy, in double precision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Balance {
-    /// The time that energies and work are of: the last that has a velocity at it, or on both sides of it.
+    /// The time of energies and work: the last time at which a velocity is known, or velocities on both sides are.
     pub time: f64,
-    /// sum m v.v/2 then, of velocities half a step apart the mean.
+    /// sum m v.v/2 at `time`; of velocities half a step apart the mean.
     pub kinetic_energy: f64,
-    /// sum V0 W then, if the material offers W.
+    /// sum V0 W at `time`, if the material supports W.
     pub strain_energy: Option<f64>,
-    /// The work of b until then.
+    /// The work of b until `time`.
     pub body_work: f64,
-    /// The work of given fields until then, that is the change of W with time at fixed F; only of a material that changes
+    /// The work of given fields until `time`, which is the change of W with time at fixed F; `None` unless the material changes
     /// with time.
     pub given_work: Option<f64>,
-    /// Kinetic and strain energy then, less what they were at the start, less the work of b and of given fields: what the
-    /// faces did, and what the method gained or lost. Faces that rest, are free or joined by a period do nothing.
+    /// Kinetic and strain energy at `time`, minus their values at the start, minus the work of b and of given fields. It is the
+    /// work of the faces plus the gain or loss of the method. Faces at rest, free faces and periodic faces do no work.
     pub energy_residual: Option<f64>,
-    /// The force of the faces on the body in the last step, reactions and tractions together: the rate of
-    /// momentum less sum m b. `D` components.
+    /// The force of the faces on the body in the last step, reactions and tractions together: the rate of momentum minus sum m
+    /// b. `D` components.
     pub surface_force: Vec<f64>,
 }
 
-/// Keeps account of a run, step by step.
+/// Computes the balances of a run, step by step.
 pub(super) struct Account<T, const D: usize> {
-    /// v by the particles' numbers, the time where it lives, and sum m v.v/2.
+    /// v by the particles' numbers, its time, and sum m v.v/2.
     velocity: Vec<Vector<T, D>>,
     time_of_velocity: f64,
     kinetic_energy: f64,
@@ -40,7 +40,7 @@ pub(super) struct Account<T, const D: usize> {
     /// H and W of each particle.
     displacement_gradient: Vec<Matrix<T, D>>,
     energy: Vec<T>,
-    /// The particles after the last step, of a material that changes with time.
+    /// The particles after the last step, if the material changes with time.
     earlier: Option<Strained<T, D>>,
     tally: Tally,
 }
@@ -55,7 +55,7 @@ struct Strained<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Strained<T, D> {
-    /// The particles of a state, if its material changes with time.
+    /// The particles of a state, if the material changes with time.
     fn of<F>(present: &Present<'_, T, D, F>) -> Option<Self>
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -70,7 +70,7 @@ impl<T: Real, const D: usize> Strained<T, D> {
         })
     }
 
-    /// By how much sum V0 W changes between two times at these H.
+    /// The change of sum V0 W between two times at these H.
     fn change<F>(&self, field: &F, times: [f64; 2], energy: &mut [T]) -> f64
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -85,7 +85,7 @@ impl<T: Real, const D: usize> Strained<T, D> {
     }
 }
 
-/// What does not follow from the state.
+/// The sums that do not follow from the state.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Tally {
     /// The work of b until the time of the velocities.
@@ -98,7 +98,7 @@ pub(super) struct Tally {
 }
 
 impl<T: Real, const D: usize> Account<T, D> {
-    /// Of the state that a run starts from, or goes on from with what was tallied before.
+    /// Begins at the first state of a run, or resumes with the sums of a checkpoint.
     pub fn new<F>(present: &Present<'_, T, D, F>, before: Option<Tally>) -> Self
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -125,12 +125,12 @@ impl<T: Real, const D: usize> Account<T, D> {
         account
     }
 
-    /// What does not follow from the state.
+    /// The sums that do not follow from the state.
     pub fn tally(&self) -> &Tally {
         &self.tally
     }
 
-    /// After each step.
+    /// Updates the sums. To be called after each step.
     pub fn step<F>(&mut self, present: &Present<'_, T, D, F>)
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -153,20 +153,20 @@ impl<T: Real, const D: usize> Account<T, D> {
         let Tally { work: until_now, given: given_until_now, balance, .. } = &mut self.tally;
         balance.surface_force = force.as_slice().to_vec();
         let is_behind = present.time > self.time_of_velocity;
-        // The positions of the step's start lie between the velocities before and after it.
+        // The positions at the step's start lie between the velocities before and after it.
         (balance.kinetic_energy, balance.body_work) = match is_behind {
             true => ((before + self.kinetic_energy) / 2.0, *until_now + work / 2.0),
             false => (self.kinetic_energy, *until_now + work),
         };
         *until_now += work;
-        // The energies of a step whose velocities are behind are of its start.
+        // The energies of a step whose velocities are behind belong to the step's start.
         let start = *given_until_now;
         *given_until_now += given.unwrap_or(0.0);
         balance.given_work = given.map(|_| if is_behind { start } else { *given_until_now });
         balance.time = present.time - if is_behind { present.time_step } else { 0.0 };
     }
 
-    /// The change of W with time at fixed F in a step: the mean of those at the H of its ends.
+    /// The change of W with time at fixed F in a step: the mean of the changes at the H of its ends.
     fn work_of_given<F>(&mut self, present: &Present<'_, T, D, F>) -> Option<f64>
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -179,7 +179,7 @@ impl<T: Real, const D: usize> Account<T, D> {
         Some(work)
     }
 
-    /// Before a step, if velocities are behind, or after it: the strain energy.
+    /// Computes the strain energy. To be called before a step if velocities are behind, otherwise after it.
     pub fn look<F>(&mut self, present: &Present<'_, T, D, F>)
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -187,7 +187,7 @@ impl<T: Real, const D: usize> Account<T, D> {
         self.tally.balance.strain_energy = self.strain_energy(present);
     }
 
-    /// The balance, after a step that was looked at.
+    /// The balance, after a step whose strain energy was computed.
     pub fn balance(&self) -> Balance {
         let Tally { start, balance, .. } = &self.tally;
         let known = balance.strain_energy.zip(*start);

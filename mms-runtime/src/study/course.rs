@@ -1,4 +1,4 @@
-//! The course of a run: what is measured of it, step by step, and kept in checkpoints.
+//! The course of a run: its measurements, step by step, and its checkpoints.
 
 use std::borrow::Cow;
 use std::io::{self, Read, Write};
@@ -14,7 +14,7 @@ use crate::field::ManufacturedField;
 use crate::real::Real;
 use crate::solver::{Present, Residual, State};
 
-/// What is known of a run so far, the solver's state among it.
+/// The contents of a checkpoint: the solver's state and the measurements so far.
 #[derive(Serialize, Deserialize)]
 #[serde(bound = "T: Real")]
 pub(super) struct Saved<'a, T: Real, const D: usize> {
@@ -22,7 +22,7 @@ pub(super) struct Saved<'a, T: Real, const D: usize> {
     pub course: SavedCourse<'a>,
 }
 
-/// What was measured so far and does not follow from the state.
+/// The measurements so far that do not follow from the state.
 #[derive(Serialize, Deserialize)]
 pub(super) struct SavedCourse<'a> {
     step: usize,
@@ -34,7 +34,7 @@ pub(super) struct SavedCourse<'a> {
     pub elapsed: f64,
 }
 
-/// Wall-clock time of a run, that before a checkpoint included.
+/// Wall-clock time of a run, including the time before its checkpoint.
 #[derive(Clone, Copy)]
 pub(super) struct Stopwatch {
     start: Instant,
@@ -55,14 +55,14 @@ impl Stopwatch {
     }
 }
 
-/// A checkpoint's bytes that were read at once.
+/// The number of bytes of a checkpoint that are read at once.
 const BUFFER: usize = 1 << 16;
 
 impl<T: Real, const D: usize> Saved<'_, T, D> {
-    /// Reads what [`Checkpoint::write`] has written.
+    /// Reads a checkpoint that [`Checkpoint::write`] has written.
     ///
     /// # Errors
-    /// Bytes that mean nothing.
+    /// The bytes are no checkpoint.
     pub fn read(from: Box<dyn Read + '_>) -> Result<Self, Refusal> {
         let mut buffer = vec![0; BUFFER];
         let read = postcard::from_io((from, &mut buffer));
@@ -78,7 +78,7 @@ impl<T: Real, const D: usize> Checkpoint for Saved<'_, T, D> {
     }
 
     fn write(&self, to: &mut dyn Write) -> io::Result<()> {
-        // The error of a writer is in the chain of what it is given.
+        // `postcard` drops the error of a writer, so the writer is wrapped.
         let mut to = Remember { to, error: None };
         match postcard::to_io(self, &mut to) {
             Ok(_) => Ok(()),
@@ -87,7 +87,7 @@ impl<T: Real, const D: usize> Checkpoint for Saved<'_, T, D> {
     }
 }
 
-/// Keeps the error that a writer has, for formats that have one of their own.
+/// Keeps the error of a writer, for formats with their own error type.
 struct Remember<'a> {
     to: &'a mut dyn Write,
     error: Option<io::Error>,
@@ -107,7 +107,7 @@ impl Write for Remember<'_> {
     }
 }
 
-/// Measures a run, and tells who follows it.
+/// Measures a run, and reports to its observer.
 pub(super) struct Course<'a, T, const D: usize> {
     watch: Watch,
     watcher: Watcher<T, D>,
@@ -122,10 +122,10 @@ pub(super) struct Course<'a, T, const D: usize> {
 }
 
 impl<'a, T: Real, const D: usize> Course<'a, T, D> {
-    /// Of a run from its first state, or from one that was `saved` along with what was measured.
+    /// Begins at the first state of a run, or resumes from a checkpoint with the `saved` measurements.
     ///
     /// # Errors
-    /// An error that is not finite; an observer that cannot go on.
+    /// An error is not finite; the observer cannot continue.
     pub fn begin<F>(
         watch: Watch,
         present: &Present<'_, T, D, F>,
@@ -169,21 +169,21 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         Ok(course)
     }
 
-    /// Before each step; velocities will be `behind` positions.
+    /// To be called before each step; `behind` tells whether velocities will be behind positions.
     pub fn before_step<F>(&mut self, present: &Present<'_, T, D, F>, behind: bool)
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
-        // Where velocities are behind, the last time that has one on both sides is before the last step.
+        // If velocities are behind, the last time with velocities on both sides is before the last step.
         if behind && self.looks_at(present.step + 1) {
             self.account.iter_mut().for_each(|account| account.look(present));
         }
     }
 
-    /// After each step.
+    /// Measures the state after each step.
     ///
     /// # Errors
-    /// An error that is not finite; an observer that cannot go on.
+    /// An error is not finite; the observer cannot continue.
     pub fn after_step<F>(
         &mut self,
         present: &Present<'_, T, D, F>,
@@ -216,15 +216,15 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         self.show(present)
     }
 
-    /// After each step of a run whose way does not matter.
+    /// Reports a step of a run without measurements along the way.
     pub fn pass<F: ?Sized>(&mut self, present: &Present<'_, T, D, F>) {
         self.observer.step(present.step, self.steps);
     }
 
-    /// Measures a run whose end alone matters: the errors there, with this residual.
+    /// Measures the end of a run that is only measured there: its errors, with this residual.
     ///
     /// # Errors
-    /// An error that is not finite; an observer that cannot go on.
+    /// An error is not finite; the observer cannot continue.
     pub fn settle<F>(
         mut self,
         present: &Present<'_, T, D, F>,
@@ -239,17 +239,17 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         self.largest = self.last;
         self.observer.step(self.steps, self.steps);
         self.show(present)?;
-        // Forces that are out of balance displace a body by about as much of its displacement.
+        // The relative displacement due to forces out of balance is about the residual.
         let left = residual.relative * self.watcher.size();
         let (details, snapshots) = self.close(present);
         let round_off = details.round_off.hypot(left);
         Ok((Details { residual: Some(residual), round_off, ..details }, snapshots))
     }
 
-    /// Lets an observer keep a checkpoint, if it wants one after this step.
+    /// Lets the observer write a checkpoint, if it wants one after this step.
     ///
     /// # Errors
-    /// An observer that cannot go on.
+    /// The observer cannot continue.
     pub fn keep<'s, F>(
         &mut self,
         present: &Present<'_, T, D, F>,
@@ -273,7 +273,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         self.observer.keep(&saved).map_err(|reason| present.stopped(reason))
     }
 
-    /// What was measured.
+    /// The measurements of the run.
     pub fn close<F>(self, present: &Present<'_, T, D, F>) -> (Details, Snapshots)
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -292,7 +292,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         Diagnostics::of(present.particles, self.account.as_ref().map(Account::balance))
     }
 
-    /// Shows the state to an observer that wants it.
+    /// Passes the state to the observer, if it wants it.
     fn show<F>(&mut self, present: &Present<'_, T, D, F>) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,

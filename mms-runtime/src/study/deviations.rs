@@ -11,16 +11,16 @@ use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
 use crate::tensor::inverse_deformation_gradient;
 
-/// The errors of a state against the field's. Those that are not measured are 0.
+/// The errors of a state against the field's. Errors that are not measured are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Deviations {
-    /// Of u.
+    /// The error of u.
     pub displacement: Errors,
-    /// Of v, at the time where it lives.
+    /// The error of v, at the time of the velocities.
     pub velocity: Errors,
-    /// Of F; the norm of a tensor is that of Frobenius.
+    /// The error of F, in the Frobenius norm.
     pub deformation_gradient: Errors,
-    /// Of P.
+    /// The error of P.
     pub first_piola_kirchhoff: Errors,
 }
 
@@ -36,19 +36,19 @@ impl Deviations {
     }
 }
 
-/// Measures states, in arrays that it keeps.
+/// Measures states, in reused arrays.
 pub(super) struct Watcher<T, const D: usize> {
     watch: Watch,
     vector: Vec<Vector<T, D>>,
-    /// Those of the particles, and the field's.
+    /// The gradients of the particles, and of the field.
     gradients: [Vec<Matrix<T, D>>; 2],
     stress: [Vec<Matrix<T, D>>; 2],
-    /// The largest so far of what rounding is relative to: of d, and of |x| |H| where weights follow x.
+    /// The largest value so far of the size that rounding is relative to: of d, and of |x| |H| if weights depend on x.
     size: f64,
 }
 
 impl<T: Real, const D: usize> Watcher<T, D> {
-    /// For so many particles.
+    /// A watcher for `count` particles.
     pub fn new(watch: Watch, count: usize) -> Self {
         let tensors = if watch == Watch::Displacement { 0 } else { count };
         let matrices = || vec![Matrix::zeros(); tensors];
@@ -61,25 +61,25 @@ impl<T: Real, const D: usize> Watcher<T, D> {
         }
     }
 
-    /// The error of d that rounding alone is expected to leave after so many steps: each adds a rounding of
-    /// one unit in the last place, of variance 1/12, to d, and all of them are a random walk (Higham, Accuracy
-    /// and Stability of Numerical Algorithms, 2002, section 2.8). In the updated formulation weights know x
-    /// no better than that, and the stress of a strain H acts as far from its place.
+    /// The error of d that is expected from rounding alone after this number of steps: each adds a rounding of one unit in the
+    /// last place, of variance 1/12, to d, and all of them are a random walk (Higham, Accuracy and Stability of Numerical
+    /// Algorithms, 2002, section 2.8). In the updated formulation weights have the same rounding of x, and the stress of a
+    /// strain H acts at a place that is off by it.
     pub fn round_off(&self, steps: usize) -> f64 {
         T::default_epsilon().to_f64() * (steps as f64 / 12.0).sqrt() * self.size
     }
 
-    /// What rounding is relative to, so far.
+    /// The largest size so far that rounding is relative to.
     pub fn size(&self) -> f64 {
         self.size
     }
 
-    /// Goes on from there.
+    /// Resumes from a saved size.
     pub fn resume(&mut self, size: f64) {
         self.size = size;
     }
 
-    /// Looks at what rounding is relative to.
+    /// Updates the size that rounding is relative to.
     fn weigh(&mut self, particles: &Particles<T, D>, moves: bool) {
         let squares = particles.displacement.iter().enumerate().map(|(p, d)| {
             let own = d.map(Real::to_f64).norm_squared();
@@ -93,10 +93,10 @@ impl<T: Real, const D: usize> Watcher<T, D> {
         self.size = self.size.max(mean.sqrt());
     }
 
-    /// The errors, now.
+    /// Measures the errors of the present state.
     ///
     /// # Errors
-    /// An error that is not finite.
+    /// An error is not finite.
     pub fn measure<F>(&mut self, present: &Present<'_, T, D, F>) -> Result<Deviations, Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::real::{Matrix, Real, Vector};
 
-/// Norms over the particles of the distance between a computed and an exact value, such as delta_p =
-/// |d_p - u(X_p, t)|; of a run, the largest over its steps. In the unit of the quantity, computed in double precision whatever the
-/// solver's. Of a body of revolution means are weighted with the volumes of the rings.
+/// Norms over the particles of the distance between a computed and an exact value, such as delta_p = |d_p - u(X_p, t)|; for a
+/// run, the largest over its steps. In the unit of the quantity, computed in double precision for all solvers. Means over a
+/// body of revolution are weighted with the volumes of the rings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// mean_p delta_p.
@@ -18,8 +18,8 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The norms of `computed` against `exact` vectors, both with one entry per particle; or the first
-    /// particle whose error is not finite. Without `weights` particles count alike.
+    /// The norms of `computed` against `exact` vectors, both with one entry per particle; or the first particle whose error is
+    /// not finite. Without `weights`, all particles have the same weight.
     pub fn of<T: Real, const D: usize>(
         computed: impl ExactSizeIterator<Item = Vector<T, D>>,
         exact: &[Vector<T, D>],
@@ -31,7 +31,7 @@ impl Errors {
         Self::of_squares(computed.zip(exact).map(square), weights)
     }
 
-    /// The norms of the errors of tensors, in the norm of Frobenius; each with its component around the axis, if there are such.
+    /// The norms of the errors of tensors, in the Frobenius norm, including the component around the axis if there is one.
     pub fn of_tensors<T: Real, const D: usize>(
         (computed, computed_hoop): (&[Matrix<T, D>], &[T]),
         (exact, exact_hoop): (&[Matrix<T, D>], &[T]),

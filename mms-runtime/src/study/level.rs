@@ -13,11 +13,11 @@ pub struct Level {
     pub cell_size: f64,
     /// Time step dt.
     pub time_step: f64,
-    /// Steps that the time window takes.
+    /// The number of steps of the time window.
     pub steps: usize,
-    /// Particles.
+    /// The number of particles.
     pub particles: usize,
-    /// The errors, or why the run stopped.
+    /// The errors, or the reason why the run stopped.
     pub errors: Result<Errors, Failure>,
     /// Wall-clock seconds, everything included.
     pub seconds: f64,

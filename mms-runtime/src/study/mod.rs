@@ -34,7 +34,7 @@ use crate::method::{Division, Method};
 /// Runs one level: the whole time window, with the body divided into `cells`; see [`Solve::run`].
 ///
 /// # Errors
-/// A scene that cannot be started.
+/// The scene cannot be started.
 pub fn run_level<T: Solve<D>, const D: usize>(
     field: &dyn ManufacturedField<T, D>,
     method: &Method,

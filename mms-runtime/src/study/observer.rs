@@ -1,4 +1,4 @@
-//! Who follows a run: its progress, and its states.
+//! Observers of a run: its progress, and its states.
 
 use std::io::{self, Read, Write};
 
@@ -9,68 +9,67 @@ use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
 use crate::tensor::{deformation_gradient, inverse};
 
-/// Follows a run. A closure does, if it wants no states, and `()` looks away.
+/// Observes a run. A closure receives only the steps, and `()` ignores all.
 pub trait Observer: Send {
-    /// Before the first step: how many particles and steps there are.
+    /// Called before the first step, with the number of particles and of steps.
     fn begin(&mut self, _particles: usize, _steps: usize) {}
 
-    /// After each step: its number, from 1, and the number of steps.
+    /// Called after each step, with its number, from 1, and the number of steps.
     fn step(&mut self, step: usize, steps: usize);
 
-    /// Whether the state after this step is wanted; 0 is the initial one.
+    /// Whether to call [`see`](Observer::see) after this step; 0 is the initial state.
     fn wants(&self, _step: usize, _steps: usize) -> bool {
         false
     }
 
-    /// A state that was wanted.
+    /// Receives a state.
     ///
     /// # Errors
-    /// Why the run should stop.
+    /// The reason why the run should stop.
     fn see(&mut self, _frame: &Frame) -> Result<(), String> {
         Ok(())
     }
 
-    /// Whether [`record`](Observer::record) wants what every step led to. It takes the time of the material's
-    /// strain energy.
+    /// Whether to call [`record`](Observer::record) after every step. That costs an evaluation of the material's strain energy.
     fn records(&self) -> bool {
         false
     }
 
-    /// What a step led to.
+    /// Receives the results of a step.
     fn record(&mut self, _record: &Record) {}
 
-    /// A checkpoint of the same scene, to go on from instead of starting.
+    /// A checkpoint of the same scene, to resume from instead of starting.
     fn resume(&mut self) -> Option<Box<dyn Read + '_>> {
         None
     }
 
-    /// Whether there shall be a checkpoint after this step, or the run shall stop.
+    /// Whether to call [`keep`](Observer::keep) after this step, which writes a checkpoint or stops the run.
     fn keeps(&self, _step: usize, _steps: usize) -> bool {
         false
     }
 
-    /// A checkpoint that was wanted.
+    /// Receives a checkpoint.
     ///
     /// # Errors
-    /// Why the run should stop.
+    /// The reason why the run should stop.
     fn keep(&mut self, _checkpoint: &dyn Checkpoint) -> Result<(), String> {
         Ok(())
     }
 }
 
-/// What a run goes on from, to the bit.
+/// A state of a run, from which it can be resumed to the bit.
 pub trait Checkpoint {
-    /// After this step.
+    /// The step after which the checkpoint was made.
     fn step(&self) -> usize;
 
-    /// Writes it.
+    /// Writes the checkpoint.
     ///
     /// # Errors
-    /// What cannot be written.
+    /// The checkpoint cannot be written.
     fn write(&self, to: &mut dyn Write) -> io::Result<()>;
 }
 
-/// What a step led to.
+/// The results of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     /// The step, from 1.
@@ -93,11 +92,11 @@ impl<F: FnMut(usize, usize) + Send> Observer for F {
     }
 }
 
-/// All particles at a time, in double precision and in the order of their numbers. Of vectors there are `dimension`
-/// components for each, of tensors their square, by rows.
+/// All particles at a time, in double precision and in the order of their numbers. Vectors have `dimension` components for
+/// each, tensors the square of that, by rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// After this step; 0 is the initial state.
+    /// The step; 0 is the initial state.
     pub step: usize,
     /// The time of positions, F and stress.
     pub time: f64,
@@ -109,13 +108,13 @@ pub struct Frame {
     pub displacement: Vec<f64>,
     /// d less the field's u(X, t).
     pub displacement_error: Vec<f64>,
-    /// v; some integrators have it half a step earlier.
+    /// v; half a step earlier with some integrators.
     pub velocity: Vec<f64>,
     /// F.
     pub deformation_gradient: Vec<f64>,
     /// The Cauchy stress tau/J; P at small strain.
     pub cauchy_stress: Vec<f64>,
-    /// F_tt of a body of revolution; empty otherwise.
+    /// F_tt if the body is a body of revolution; empty otherwise.
     pub hoop_stretch: Vec<f64>,
     /// The component of the Cauchy stress around the axis; empty otherwise.
     pub hoop_stress: Vec<f64>,
@@ -181,7 +180,7 @@ impl Frame {
     }
 }
 
-/// `width` components of each particle, which `write` gives, in the order of their numbers.
+/// Collects `width` components of each particle, which `write` computes, in the order of their numbers.
 fn by_number(ids: &[u32], width: usize, write: impl Fn(usize, &mut [f64])) -> Vec<f64> {
     let mut values = vec![0.0; width * ids.len()];
     for (p, &id) in ids.iter().enumerate() {

@@ -1,32 +1,33 @@
-//! Whether a run stays in phase with a motion that repeats itself.
+//! The phase error of a run of a periodic motion.
 
 use std::f64::consts::TAU;
 
 use super::{Checkpoint, Frame, Observer};
 
-/// How the computed motion differs from the exact one over a period, at the frequency of the period.
+/// The differences of amplitude and phase between the computed and the exact motion over a period, at the frequency of the
+/// period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Phase {
-    /// The computed amplitude over the exact one, less 1.
+    /// The computed amplitude over the exact one, minus 1.
     pub amplitude_error: f64,
     /// The angle by which the computed motion is behind, in radians, from -pi to pi.
     pub phase_lag: f64,
 }
 
-/// A motion whose part at the frequency of the period is smaller, in squares, has no phase.
+/// The least part of a motion, in squares, at the frequency of the period: a smaller part has no phase.
 const LEAST_PART: f64 = 1e-6;
 
-/// Fewer steps per period than this do not tell a frequency from others.
+/// The least number of steps per period that separate a frequency from others.
 const LEAST_STEPS: usize = 3;
 
-/// The parts of two motions at the frequency of the period: sums over its steps of each component times cosine
-/// and sine. Over a whole period all else that repeats itself with it, a mean too, drops out, so that a motion
-/// A u(t - delta) has A and delta exactly, whatever u is (the shift theorem of discrete Fourier sums).
+/// The parts of two motions at the frequency of the period: sums over its steps of each component times cosine and sine. Over a
+/// whole period all other periodic parts, and the mean, drop out, so that a motion A u(t - delta) has A and delta exactly for
+/// any u (the shift theorem of discrete Fourier sums).
 #[derive(Clone, Debug, Default)]
 struct Projection {
-    /// Of each component of each particle: computed, exact.
+    /// For each component of each particle: computed, exact.
     sums: Vec<[[f64; 2]; 2]>,
-    /// The sum of squares of the exact motion, and how many steps are in it.
+    /// The sum of squares of the exact motion, and the number of steps in it.
     squares: f64,
     steps: usize,
 }
@@ -47,8 +48,8 @@ impl Projection {
         }
     }
 
-    /// The complex number z of least squares |D - z U| over all components, D and U being the computed and the
-    /// exact part: its size is the ratio of amplitudes, its angle how far the computed motion is ahead.
+    /// The complex number z of least squares |D - z U| over all components, D and U being the computed and the exact part: its
+    /// size is the ratio of amplitudes, its angle the lead of the computed motion.
     fn phase(&self) -> Option<Phase> {
         let (mut real, mut imaginary, mut whole) = (0.0, 0.0, 0.0);
         for [[d_cos, d_sin], [u_cos, u_sin]] in &self.sums {
@@ -64,22 +65,22 @@ impl Projection {
     }
 }
 
-/// Follows a run through a whole number of periods, and measures amplitude and phase in some of them. The number
-/// of steps has to be a multiple of that of the periods: see [`Setup::parts`](crate::Setup::parts).
+/// Follows a run through a whole number of periods, and measures amplitude and phase in some of them. The number of steps has
+/// to be a multiple of the number of periods: see [`Setup::parts`](crate::Setup::parts).
 pub struct Phases<'a> {
     /// The periods that are measured, the first being 1.
     wanted: Vec<usize>,
-    /// How many periods the run has.
+    /// The number of periods of the run.
     periods: usize,
     steps: usize,
     now: Projection,
     found: Vec<Option<Phase>>,
-    /// Who is told how far the run is.
+    /// The observer of the run's progress.
     progress: &'a mut dyn Observer,
 }
 
 impl<'a> Phases<'a> {
-    /// Of a run that ends with the last of the periods that are wanted, which are in order.
+    /// Follows a run that ends with the last of the `wanted` periods, which are in ascending order.
     pub fn new(wanted: &[usize], progress: &'a mut dyn Observer) -> Self {
         Self {
             wanted: wanted.to_vec(),
@@ -91,12 +92,13 @@ impl<'a> Phases<'a> {
         }
     }
 
-    /// Of each period that was reached: `None` where the motion has no part of that frequency, or too few steps.
+    /// The phase in each `wanted` period that was reached: `None` if the motion has no part of that frequency, or the period
+    /// too few steps.
     pub fn found(self) -> Vec<Option<Phase>> {
         self.found
     }
 
-    /// Steps of a period.
+    /// The number of steps of a period.
     fn length(&self) -> usize {
         (self.steps / self.periods).max(1)
     }
@@ -140,7 +142,7 @@ impl Observer for Phases<'_> {
 mod tests {
     use super::*;
 
-    /// A motion of three components that is no sine: each has a mean, harmonics and a phase of its own.
+    /// A motion of three components that are no sines: each has a mean, harmonics and its own phase.
     fn exact(turns: f64) -> [f64; 3] {
         [0.0, 0.3, 1.1].map(|phase| {
             let angle = TAU * turns + phase;
@@ -148,7 +150,7 @@ mod tests {
         })
     }
 
-    /// What is found in the periods 1 and 3 of a run of so many steps per period.
+    /// The phases in the periods 1 and 3 of a run with this number of steps per period.
     fn found(length: usize, computed: impl Fn(f64) -> [f64; 3]) -> Vec<Option<Phase>> {
         let mut progress = ();
         let mut phases = Phases::new(&[1, 3], &mut progress);
@@ -193,7 +195,7 @@ mod tests {
         }
     }
 
-    /// Of a motion that is slower by a little, and decays, each period shows what it has come to.
+    /// A motion that is slightly slower, and decays, shows its accumulated errors in each period.
     #[test]
     fn a_drift_grows_from_period_to_period() {
         let (slow, decay) = (1e-4, 1e-3);

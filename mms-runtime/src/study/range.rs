@@ -1,4 +1,4 @@
-//! Numbers beyond the range of a precision: a run that stops for them looks like an unstable one, and is none.
+//! Numbers beyond the range of a precision: a run that stops for them looks unstable, but is not.
 
 use crate::axisymmetric::{hoop_strain, kirchhoff_stress};
 use crate::failure::{Cause, Failure};
@@ -6,7 +6,7 @@ use crate::field::ManufacturedField;
 use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
 
-/// What stopped a run, with what leaves the range of its precision in the place of what that led to.
+/// Replaces the cause of a failure by a number beyond the range of the precision, if there is one.
 pub(super) fn explained<T: Real, const D: usize>(
     present: &Present<'_, T, D, dyn ManufacturedField<T, D> + '_>,
     cell_size: f64,
@@ -28,10 +28,10 @@ fn range<T: Real>() -> [f64; 2] {
     [4.0 / most, most]
 }
 
-/// A number that steps compute with, the largest of all particles; and whether it cannot be 0.
+/// The largest value, over all particles, of a number that steps compute with, and whether it cannot be 0.
 type Size = (&'static str, f64, bool);
 
-/// The first that has no number of that range.
+/// The cause for the first size outside the range.
 fn beyond(sizes: &[Size], [least, most]: [f64; 2]) -> Option<Cause> {
     let is_beyond = |&&(_, value, is_positive): &&Size| {
         value > most || (value < least && (value > 0.0 || is_positive))
@@ -40,7 +40,7 @@ fn beyond(sizes: &[Size], [least, most]: [f64; 2]) -> Option<Cause> {
     Some(Cause::OutOfRange { quantity, value, least, most })
 }
 
-/// The sizes of a scene as the field has it now.
+/// The sizes of the field's values at the present time.
 fn sizes<T: Real, const D: usize>(
     present: &Present<'_, T, D, dyn ManufacturedField<T, D> + '_>,
     cell_size: f64,
@@ -74,7 +74,7 @@ fn sizes<T: Real, const D: usize>(
     ]
 }
 
-/// The largest magnitude; not a number, if one is none.
+/// The largest magnitude; NaN if one number is NaN.
 fn largest<'a, T: Real>(numbers: impl Iterator<Item = &'a T>) -> f64 {
     let magnitudes = numbers.map(|number| number.to_f64().abs());
     magnitudes.fold(0.0, |most, it| if it > most || it.is_nan() { it } else { most })
@@ -97,7 +97,7 @@ mod tests {
             let named = |cause| matches!(cause, Cause::OutOfRange { quantity: "size", .. });
             assert!(of(value, false).is_some_and(named), "{value}");
         }
-        // What is no number is another cause.
+        // NaN has another cause.
         assert_eq!([of(0.0, false), of(f64::NAN, false)], [None, None]);
         assert!(of(0.0, true).is_some());
     }

@@ -1,4 +1,4 @@
-//! What is refined from level to level, and the series of errors that follow.
+//! The quantity that is refined from level to level, and the resulting series of errors.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::{Deviations, Errors, Level, Point, Run, Series};
 use crate::extension::UnknownName;
 
-/// What is refined.
+/// The quantity that is refined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Refinement {
     /// h, and dt with it.
@@ -19,13 +19,13 @@ pub enum Refinement {
 }
 
 impl Refinement {
-    /// All of them.
+    /// All refinements.
     pub const ALL: [Refinement; 3] = [Refinement::Both, Refinement::Space, Refinement::Time];
 
     /// The names that users write.
     pub const NAMES: &'static [&'static str] = &["both", "space", "time"];
 
-    /// Its name.
+    /// The name of the refinement.
     pub fn name(self) -> &'static str {
         Self::NAMES[self as usize]
     }
@@ -38,13 +38,13 @@ impl Refinement {
         }
     }
 
-    /// The error of one quantity in a run, the largest over time. Its floor is not known.
+    /// The error of one quantity in a run, the largest over time. Its floor is unknown.
     pub fn point(self, run: &Run, quantity: fn(&Deviations) -> Errors) -> Point {
         let errors = run.details.as_ref().map(|details| quantity(&details.largest));
         Point { length: self.length(&run.level), errors, floor: 0.0 }
     }
 
-    /// The error of the displacement in a run, and what round-off alone leaves of it.
+    /// The error of the displacement in a run, and the part due to round-off.
     pub fn displacement(self, run: &Run) -> Point {
         let floor = run.details.as_ref().map_or(0.0, |details| details.round_off);
         Point { floor, ..self.point(run, |errors| errors.displacement) }
@@ -70,9 +70,9 @@ impl FromStr for Refinement {
     }
 }
 
-/// How far the displacement of each run is from that of the next finer one, from coarse to fine, of runs with
-/// [`Watch::Parts`](super::Watch::Parts) on one grid: the error of time is then all that is left, and these
-/// differences shrink as it does. The finest run has none.
+/// The distance of each run's displacement from the displacement of the next finer run, from coarse to fine, for runs with
+/// [`Watch::Parts`](super::Watch::Parts) on one grid: the differences contain only the error of time, and shrink with it. The
+/// finest run has none.
 pub fn differences(runs: &[&Run]) -> Series {
     let mut sorted = runs.to_vec();
     sorted.sort_by(|a, b| b.level.time_step.total_cmp(&a.level.time_step));

@@ -1,5 +1,5 @@
-//! A run to the equilibrium of a field that does not move, by dynamic relaxation: how is said where
-//! [`Ramp`](crate::solver::Ramp) is.
+//! A run to the equilibrium of a field that does not move, by dynamic relaxation; see [`Ramp`](crate::solver::Ramp) for the
+//! method.
 
 use super::course::{Course, Stopwatch};
 use super::run::Ended;
@@ -8,13 +8,13 @@ use crate::failure::{Cause, Failure};
 use crate::real::Real;
 use crate::solver::{AnySolver, Residual};
 
-/// A run has so many times the steps of its ramp, at most.
+/// The largest number of steps of a run, in multiples of the steps of its ramp.
 const MOST: usize = 1000;
 
-/// The residual is looked at after so many steps.
+/// The number of steps between evaluations of the residual.
 const BETWEEN: usize = 32;
 
-/// Takes a solver along its ramp, and on until the body is in equilibrium. Errors are those of the end.
+/// Advances a solver along its ramp, and on until the body is in equilibrium. Errors are measured at the end.
 pub(super) fn relax<T: Real, const D: usize>(
     solver: &mut dyn AnySolver<'_, T, D>,
     watch: Watch,
@@ -42,7 +42,7 @@ pub(super) fn relax<T: Real, const D: usize>(
     Ok((details, solver.seconds(), snapshots))
 }
 
-/// Takes so many steps, and halts the body wherever its kinetic energy falls below that of the step before.
+/// Advances by this number of steps, and halts the body whenever its kinetic energy falls below its value of the step before.
 fn advance<T: Real, const D: usize>(
     solver: &mut dyn AnySolver<'_, T, D>,
     steps: usize,

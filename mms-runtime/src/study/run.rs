@@ -1,4 +1,4 @@
-//! One run of a method on a field, and what is said of it.
+//! One run of a method on a field, and its results.
 
 use super::course::{Course, Saved, SavedCourse, Stopwatch};
 use super::range::explained;
@@ -11,42 +11,42 @@ use crate::particle::Particles;
 use crate::real::{Real, Vector};
 use crate::solver::{AnySolver, Ramp, Residual, Seconds, of_method};
 
-/// Which errors are measured in a run.
+/// The errors that are measured in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Watch {
-    /// Those of the displacement.
+    /// The errors of the displacement.
     Displacement,
-    /// Those of displacement, velocity, F and P; more work than a step in some scenes.
+    /// The errors of displacement, velocity, F and P; more work than a step in some scenes.
     Everything,
-    /// The same, and the displacements at the ends of so many equal parts of the time window; the number of
-    /// steps has to be a multiple of it, see [`Setup::parts`](crate::Setup::parts).
+    /// All errors, and the displacements at the ends of this number of equal parts of the time window; the number of steps has
+    /// to be a multiple of it, see [`Setup::parts`](crate::Setup::parts).
     Parts(usize),
 }
 
-/// A run and, if it reached its end, what it ended with.
+/// A run, and its results if it reached its end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The run as one level of a study.
     pub level: Level,
-    /// What was measured, unless the run stopped.
+    /// The measurements; `None` if the run stopped.
     pub details: Option<Details>,
-    /// What the parts of its steps took.
+    /// The times of the parts of all steps.
     pub seconds: Seconds,
-    /// The displacements at the times that were asked for; none of a run that stopped.
+    /// The displacements at the times of [`Watch::Parts`]; empty if the run stopped.
     pub snapshots: Snapshots,
 }
 
-/// What was measured in a run.
+/// The measurements of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Details {
     /// The largest of each error norm over all steps, the initial state included.
     pub largest: Deviations,
     /// The errors at the end.
     pub last: Deviations,
-    /// The predicted part of round-off in the l2 error of the displacement. If the run goes to an equilibrium, its
-    /// residual adds to it.
+    /// The predicted part of round-off in the l2 error of the displacement. If the run computes an equilibrium, its residual is
+    /// included.
     pub round_off: f64,
-    /// The residual at the end of a run that goes to an equilibrium.
+    /// The residual at the end of a run that computes an equilibrium.
     pub residual: Option<Residual>,
     /// The state at the end.
     pub diagnostics: Diagnostics,
@@ -66,7 +66,7 @@ pub struct Diagnostics {
     pub kinetic_energy: f64,
     /// The least and the greatest J.
     pub jacobian: [f64; 2],
-    /// What drove the body; only where everything is watched.
+    /// The balance of the body, with [`Watch::Everything`] and [`Watch::Parts`] only.
     pub balance: Option<Balance>,
 }
 
@@ -94,14 +94,14 @@ impl Diagnostics {
     }
 }
 
-/// A precision that there is a solver for in `D` dimensions. It is compiled in this crate, once: who calls
-/// it through this trait compiles none.
+/// A precision in which solvers exist in `D` dimensions. They are compiled in this crate, once: callers of this trait compile
+/// none.
 pub trait Solve<const D: usize>: Real {
-    /// The solver of a method, with the body divided into `cells`, to be taken through its steps one by one: on the
-    /// threads of the pool that they are taken in, whatever number of them the method has.
+    /// The solver of a method, with the body divided into `cells`, whose steps the caller makes one by one: on the threads of
+    /// the pool that the caller is in. The method's number of threads is ignored.
     ///
     /// # Errors
-    /// A scene that cannot be started.
+    /// The scene cannot be started.
     fn solver<'f>(
         field: &'f dyn ManufacturedField<Self, D>,
         method: &Method,
@@ -110,10 +110,10 @@ pub trait Solve<const D: usize>: Real {
 
     /// Runs a method through the time window, with the body divided into `cells`.
     ///
-    /// A run that stops has a [`Failure`].
+    /// A run that stops returns its [`Failure`] in the level's errors.
     ///
     /// # Errors
-    /// A scene that cannot be started.
+    /// The scene cannot be started.
     fn run(
         field: &dyn ManufacturedField<Self, D>,
         method: &Method,
@@ -213,13 +213,13 @@ fn run<T: Solve<D>, const D: usize>(
     Ok(run)
 }
 
-/// Threads for the passes over particles.
+/// A thread pool for the passes over particles.
 fn pool(threads: usize) -> Result<rayon::ThreadPool, Refusal> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(|error| Refusal::NoThreads { threads, reason: error.to_string() })
 }
 
-/// Takes a solver through its steps, from where it is.
+/// Makes the remaining steps of a solver.
 fn take_steps<T: Real, const D: usize>(
     solver: &mut dyn AnySolver<'_, T, D>,
     watch: Watch,

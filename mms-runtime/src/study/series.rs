@@ -1,4 +1,4 @@
-//! The errors of one quantity on levels of refinement, and what they say together.
+//! The errors of one quantity on levels of refinement, and their common verdict.
 
 use mms_convergence::{Expected, Judgement, Sample, Sequence, observed_order};
 
@@ -8,34 +8,34 @@ use super::{Errors, Level};
 /// A norm of errors.
 type Norm = fn(&Errors) -> f64;
 
-/// The norms by their names.
+/// The norms with their names.
 pub const NORMS: [(&str, Norm); 3] =
     [("l1", |errors| errors.l1), ("l2", |errors| errors.l2), ("linf", |errors| errors.linf)];
 
 /// The errors of one quantity on one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// What is refined: h or dt.
+    /// The refined length: h or dt.
     pub length: f64,
-    /// The errors; none of a run that stopped.
+    /// The errors; `None` if the run stopped.
     pub errors: Option<Errors>,
-    /// What round-off alone leaves of an error; 0 where that is not known.
+    /// The part of an error due to round-off; 0 if it is unknown.
     pub floor: f64,
 }
 
 impl Point {
-    /// Of the displacement on a level, refined in space.
+    /// The errors of the displacement on a level, refined in space.
     pub fn of(level: &Level) -> Self {
         let errors = level.errors.as_ref().ok().copied();
         Point { length: level.cell_size, errors, floor: 0.0 }
     }
 
-    /// Whether its error may be nothing but round-off.
+    /// Whether the error may be entirely round-off.
     pub fn is_noise(&self) -> bool {
         self.errors.is_some_and(|errors| errors.l2 < self.floor)
     }
 
-    /// The observed orders from a coarser point to this; none if a run stopped.
+    /// The observed orders from a coarser point to this one; `None` if a run stopped.
     pub fn orders_from(&self, coarse: &Point) -> Orders {
         let (Some(e1), Some(e2)) = (&coarse.errors, &self.errors) else {
             return Orders::default();
@@ -54,14 +54,14 @@ pub struct Series {
 }
 
 impl Series {
-    /// Of points in any sequence.
+    /// A series of points in any sequence.
     pub fn new(points: impl IntoIterator<Item = Point>) -> Self {
         let mut points: Vec<Point> = points.into_iter().collect();
         points.sort_by(|a, b| b.length.total_cmp(&a.length));
         Self { points }
     }
 
-    /// Of the displacement, refined in space.
+    /// The series of the displacement, refined in space.
     pub fn of(levels: &[Level]) -> Self {
         Self::new(levels.iter().map(Point::of))
     }
@@ -89,10 +89,10 @@ impl Series {
         Judgement::of(norms).expect("three norms")
     }
 
-    /// How far the order of l2 on the finest pair may be from that of the limit: the distance to the order of the pair
-    /// before over r - 1, r being the ratio of lengths (Richardson's extrapolation; Roache, Verification and Validation
-    /// in Computational Science and Engineering, 1998, chapter 5). Round-off of the finest error comes on top. `None`
-    /// with fewer than three levels above round-off.
+    /// How far the order of l2 on the finest pair may be from the limit's order: the distance to the order of the pair before
+    /// over r - 1, r being the ratio of lengths (Richardson's extrapolation; Roache, Verification and Validation in
+    /// Computational Science and Engineering, 1998, chapter 5), plus the round-off of the finest error. `None` with fewer than
+    /// three levels above round-off.
     pub fn uncertainty(&self) -> Option<f64> {
         let sound = self.points.iter().position(Point::is_noise).unwrap_or(self.points.len());
         let [.., first, second, third] = &self.points[..sound] else { return None };
@@ -122,7 +122,7 @@ mod tests {
 
     const SECOND: Expected = Expected::new(2.0, 0.15);
 
-    /// Points at h = 1, 1/2, 1/4, .. with these errors, of which linf is a multiple.
+    /// Points at h = 1, 1/2, 1/4, .. with these errors; linf is a multiple of them.
     fn series(errors: impl Fn(f64) -> f64, levels: i32, floor: f64) -> Series {
         Series::new((0..levels).map(|k| {
             let length = 0.5f64.powi(k);
@@ -131,7 +131,7 @@ mod tests {
         }))
     }
 
-    /// e = h^2 (1 + K h): the limit lies within the uncertainty of the finest pair's order, by not much.
+    /// For e = h^2 (1 + K h), the uncertainty of the finest pair's order covers the limit, and is not much larger than needed.
     #[test]
     fn the_uncertainty_covers_what_levels_are_away_from_the_limit() {
         assert!(series(|h| 3.0 * h * h, 4, 0.0).uncertainty().unwrap() < 1e-12);
@@ -159,8 +159,8 @@ mod tests {
         assert_eq!(series(|_| 0.0, 4, 0.0).error_constant(2.0), None);
     }
 
-    /// Errors that stall where round-off takes over fail without the floor, and pass above it. A norm is left out with
-    /// l2, which the floor is of.
+    /// Errors that stall where round-off dominates fail without the floor, and pass above it. A level below the floor of l2 is
+    /// left out in every norm.
     #[test]
     fn what_is_below_the_floor_is_not_judged() {
         let errors = |h: f64| (h * h).max(1e-3);

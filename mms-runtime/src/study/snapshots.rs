@@ -16,7 +16,7 @@ pub struct Snapshots {
 }
 
 impl Snapshots {
-    /// Appends those of now. A solver may have changed the order of its particles.
+    /// Appends the present displacements. A solver may have changed the order of its particles.
     pub(super) fn take<T: Real, const D: usize>(&mut self, particles: &Particles<T, D>) {
         (self.dimension, self.particles) = (D, particles.len());
         let start = self.values.len();
@@ -27,8 +27,8 @@ impl Snapshots {
         }
     }
 
-    /// How far two runs are apart: of each norm the largest over the times. `None` unless both have the same
-    /// particles and as many times.
+    /// The distance of two runs: the largest of each norm over the times. `None` unless both have the same particles and the
+    /// same number of times.
     pub fn distance(&self, other: &Self) -> Option<Errors> {
         let size = |it: &Self| (it.dimension, it.particles, it.values.len());
         if size(self) != size(other) || self.values.is_empty() {
