@@ -40,7 +40,7 @@ pub enum Refusal {
     /// A shape function whose domains follow the deformation, in a formulation where nothing moves.
     #[error(
         "shape function `{shape}` follows the deformation, but in the total formulation no particle's \
-         domain moves; the nearest is `ugimp`, whose domains are those of the reference configuration"
+         domain moves; the nearest is `ugimp`, whose domains stay in the reference configuration"
     )]
     NothingToFollow {
         /// The name of the shape function.

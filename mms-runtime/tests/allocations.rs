@@ -1,5 +1,5 @@
-//! A step allocates nothing, whether particles are sorted in it or not, and particles hold what they say. One test
-//! alone, since it counts what the whole process does.
+//! A step allocates nothing, whether it sorts particles or not, and particles have the stated memory. The test has its own
+//! program, since it counts the allocations of the whole process.
 
 mod common;
 
@@ -12,7 +12,7 @@ use peak_alloc::PeakAlloc;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// Bytes that are allocated in some steps, at the peak and for good.
+/// Bytes that some steps allocate, at the peak and permanently.
 fn allocated(
     shape: ShapeName,
     integrator: IntegratorName,
@@ -24,14 +24,14 @@ fn allocated(
     let setup = Setup { transfer, courant: 0.1, ..Setup::default() };
     let method = Method { shape, integrator, formulation, setup };
     let mut solver = <f64 as Solve<2>>::solver(&wave, &method, &40.into()).unwrap();
-    solver.step().unwrap(); // what is kept has a place from now on
+    solver.step().unwrap(); // allocates the kept data
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();
     for _ in 0..40 {
         solver.step().unwrap();
     }
     let seen = (MEMORY.peak_usage() - before, MEMORY.current_usage() - before);
-    // The memory of the particles is what they say; their number is one of whole bunches.
+    // Particles need the stated memory; their number is a multiple of a bunch.
     let particles = solver.present().particles;
     let before = MEMORY.current_usage();
     let copy = particles.clone();
@@ -52,7 +52,7 @@ fn a_step_allocates_nothing_and_particles_hold_what_they_say() {
     ] {
         assert_eq!(allocated(shape, integrator, formulation, transfer), (0, 0), "{shape}");
     }
-    // The count sees what is allocated and given back.
+    // The count includes memory that is allocated and freed.
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();
     drop(vec![0_u8; 4096]);

@@ -15,7 +15,7 @@ use mms_runtime::{
 type Point = Vector<f64, 2>;
 type Tensor = Matrix<f64, 2>;
 
-/// A rod or a tube that is stretched alike in all directions, at rest: u = e (R, Z). Its stress is a pressure, the same
+/// A rod or a tube that is stretched equally in all directions, at rest: u = e (R, Z). Its stress is a pressure, the same
 /// everywhere, so that b = 0.
 #[derive(Clone)]
 struct Swollen {
@@ -163,7 +163,7 @@ fn a_uniform_pressure_moves_no_node_inside() {
                 }
                 seen += 1;
                 let force = grid.force[node].vector::<2>();
-                // Nodes on the axis are held along R.
+                // Nodes on the axis are constrained along R.
                 let along = if x[0] < 0.5 * h { 0.0 } else { force[0] };
                 assert!(
                     along.abs().max(force[1].abs()) < 1e-12 * scale,

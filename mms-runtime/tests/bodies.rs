@@ -1,4 +1,4 @@
-//! Bodies full of particles: volumes, faces and domains.
+//! Bodies filled with particles: volumes, faces and domains.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -18,7 +18,7 @@ fn fill<const D: usize>(body: &Body<f64, D>, fill: Fill, spacing: [f64; 3]) -> F
     Filling::new(body, fill, &Vector::from_fn(|a, _| spacing[a])).unwrap()
 }
 
-/// Of one face: how many pieces, their total area, and the sum of their areas times normals.
+/// The number of pieces of a face, their total area, and the sum of their areas times normals.
 fn face<const D: usize>(filling: &Filling<D>, face: Face) -> (usize, f64, Vector<f64, D>) {
     let pieces = filling.pieces.iter().filter(|piece| piece.face == face);
     pieces.fold((0, 0.0, Vector::zeros()), |(count, area, sum), piece| {
@@ -35,7 +35,7 @@ fn closed_surface<const D: usize>(filling: &Filling<D>, tolerance: f64) {
     assert!((flux - D as f64 * volume).abs() < 1e-12, "{flux} {volume}");
 }
 
-/// Every array has one entry per particle, and a domain the volume of its edges.
+/// Tests that every array has one entry per particle, and a domain the volume of its edges.
 fn domains<const D: usize>(filling: &Filling<D>) {
     assert!(!filling.is_empty());
     for length in [filling.len(), filling.volume.len(), filling.half_edges.len()] {
@@ -47,13 +47,13 @@ fn domains<const D: usize>(filling: &Filling<D>) {
     }
     for piece in &filling.pieces {
         assert!(piece.particle < filling.len());
-        // It is on its particle's domain, outwards of its middle.
+        // The piece is on its particle's domain, outwards of the domain's middle.
         let outward = piece.position - filling.position[piece.particle];
         assert!(outward.dot(&piece.area) > 0.0, "{piece:?}");
     }
 }
 
-/// Both fills of a box are the same; as many particles as leave no gap, whatever the spacing.
+/// Both fills of a box are equal; the number of particles leaves no gap for any spacing.
 fn full_box<const D: usize>() {
     let (lower, upper) = ([-0.3, 0.1, 2.0], [0.7, 0.65, 2.3]);
     let body = cuboid::<D>(lower, upper);
@@ -110,7 +110,7 @@ fn fitted_annuli_are_full() {
             let (_, area, _) = face(&filling, name);
             assert!((area - length).abs() < 1e-12, "{name}: {area}");
         }
-        // An arc's length times its middle's normal, for the chord: longer by turn^2/24 of one piece.
+        // An arc's length times the normal at its middle, instead of the chord: longer by turn^2/24 of one piece.
         let rays = face(&filling, Face::Outer).0 as f64;
         closed_surface(&filling, 1.1 * turn * (turn / rays).powi(2) / 20.0);
         let outward = |piece: &&mms_runtime::body::Piece<2>| match piece.face {
@@ -211,8 +211,8 @@ fn polygons_are_full() {
     }
 }
 
-/// The order of what particles and pieces integrate, on three meshes each: the trace of the second moment of volume, the flux
-/// of X^3 through the faces beside its divergence, and what is left of the sum of all areas.
+/// The orders of integrals over particles and pieces, on three meshes each: the trace of the second moment of volume, the
+/// difference between the flux of X^3 through the faces and its divergence, and the sum of all areas, which should be 0.
 fn orders<const D: usize>(body: &Body<f64, D>, second_moment: f64) {
     let errors = |spacing: f64| {
         let filling = fill(body, Fill::Fitted, [spacing; 3]);
@@ -228,7 +228,7 @@ fn orders<const D: usize>(body: &Body<f64, D>, second_moment: f64) {
     let meshes = [0.08, 0.04, 0.02].map(errors);
     for what in 0..3 {
         let [coarse, _, fine] = meshes.map(|errors| errors[what]);
-        // Numbers of parts are rounded, so that a mesh is not exactly twice as fine; the order is that of both steps.
+        // Numbers of parts are rounded, so that a mesh is not exactly twice as fine; the order is computed over both steps.
         let order = (coarse / fine).log2() / 2.0;
         assert!(fine < 1e-13 || (1.7..2.6).contains(&order), "{what}: {order}, {meshes:?}");
     }
@@ -236,24 +236,24 @@ fn orders<const D: usize>(body: &Body<f64, D>, second_moment: f64) {
 
 #[test]
 fn fitted_fills_integrate_with_second_order() {
-    // Of a cylinder between R and r: (R^4 - r^4)/4 theta h + (R^2 - r^2)/2 theta (b^3 - a^3)/3.
+    // For a cylinder between R and r: (R^4 - r^4)/4 theta h + (R^2 - r^2)/2 theta (b^3 - a^3)/3.
     let tube = |inner: f64, turn: f64| {
         (1.1f64.powi(4) - inner.powi(4)) / 4.0 * turn * 0.8
             + (1.1f64.powi(2) - inner.powi(2)) / 2.0 * turn * (0.125 + 0.027) / 3.0
     };
     orders(&cylinder(0.4, [0.2, 2.1]), tube(0.4, 1.9));
     orders(&cylinder(0.0, [0.0, TAU]), tube(0.0, TAU));
-    // Of a sphere: (R^5 - r^5)/5 times its solid angle.
+    // For a sphere: (R^5 - r^5)/5 times its solid angle.
     let shell = |inner: f64, angle: f64| (1.1f64.powi(5) - inner.powi(5)) / 5.0 * angle;
     orders(&sphere(0.4, [0.2, 2.1], [0.5, 2.0]), shell(0.4, 1.9 * (0.5f64.cos() - 2f64.cos())));
     orders(&sphere(0.0, [0.0, TAU], [0.0, PI]), shell(0.0, 2.0 * TAU));
-    // Of the L: two boxes; of the triangle a, b, c: A/6 (a.a + b.b + c.c + a.b + b.c + c.a).
+    // For the L: two boxes; for the triangle a, b, c: A/6 (a.a + b.b + c.c + a.b + b.c + c.a).
     let [(angle, ..), (triangle, ..)] = polygons();
     orders(&angle, 2.0 * (4.0 / 3.0 + 1.0 / 3.0) + (1.0 / 3.0 + 7.0 / 3.0));
     orders(&triangle, 0.54 / 6.0 * (0.9 + 1.44 + 0.36));
 }
 
-/// A Cartesian fill in space and of a polygon: ragged, without faces, and right in the limit.
+/// A Cartesian fill in space and of a polygon: ragged, without faces, and exact in the limit.
 #[test]
 fn cartesian_fills_converge() {
     let error = |spacing: f64| {
@@ -268,7 +268,7 @@ fn cartesian_fills_converge() {
     assert!((filled.volume.iter().sum::<f64>() - 3.0).abs() < 1e-12, "cells fit the L");
 }
 
-/// The sum of areas of a ring's pieces is zero; of a sector's, up to O(h^2).
+/// The sum of areas of a ring's pieces is zero; of a sector's pieces, up to O(h^2).
 #[test]
 fn the_surface_of_a_sector_closes_with_second_order() {
     let gap = |spacing: f64| {
@@ -281,8 +281,8 @@ fn the_surface_of_a_sector_closes_with_second_order() {
     closed_surface(&ring, 1e-13);
 }
 
-/// A Cartesian fill is ragged: it has no faces, and its volume is right only in the limit, with a random
-/// share of each cell on the rim: the relative error is some h^1.5, and no more than the rim's cells.
+/// A Cartesian fill is ragged: it has no faces, and its volume is exact only in the limit, with a random share of each cell on
+/// the rim: the relative error is about h^1.5, and at most the rim's cells.
 #[test]
 fn a_cartesian_annulus_converges() {
     let theta = [0.2, 2.0];
@@ -303,7 +303,7 @@ fn a_cartesian_annulus_converges() {
     }
 }
 
-/// Particles move within their domains, at most half an edge times the fraction; all else stays.
+/// Particles move within their domains, at most half an edge times the fraction; all other data are unchanged.
 fn jitters<const D: usize>(body: &Body<f64, D>) {
     let still = fill(body, Fill::Fitted, [0.07; 3]);
     let moved = |fraction: f64, seed: u64| {
@@ -342,7 +342,7 @@ fn jitter_stays_in_the_domains_and_repeats_itself() {
     jitters(&annulus([0.3, 1.9]));
 }
 
-/// The box around a sector: its corners, and where it crosses an axis.
+/// The box around a sector is determined by its corners, and by the points where it crosses an axis.
 #[test]
 fn boxes_around_sectors() {
     let around = |theta: [f64; 2]| bounding_box(&annulus(theta)).unwrap();
@@ -391,7 +391,7 @@ fn fitted_fills_turn_with_their_sector() {
     }
 }
 
-/// Particles per cell along each axis, of cells that are not cubes.
+/// The number of particles per cell along each axis, in cells that are not cubes.
 #[test]
 fn particles_per_cell_along_each_axis() {
     use mms_runtime::{Division, Method, Setup, Solve};

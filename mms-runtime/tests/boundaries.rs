@@ -27,7 +27,7 @@ where
     run_level(field, method, &cells.parse().unwrap(), &mut ()).unwrap()
 }
 
-/// Between two levels, l2 has an order within these bounds, and linf one of at least the lower, less 0.1.
+/// Tests that between two levels, l2 has an order within these bounds, and linf one of at least the lower bound minus 0.1.
 fn check_order<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
     method: &Method,
@@ -50,7 +50,7 @@ fn check_order<const D: usize>(
 /// The order is 2, in meshes fine enough to show it.
 const SECOND: std::ops::Range<f64> = 1.9..2.1;
 
-/// Particles cross the ends of the period, the wave's motion and a slide of more than a period alike.
+/// Particles cross the ends of the period, both by the wave's motion and by a slide of more than a period.
 #[test]
 fn waves_on_a_periodic_axis_are_of_second_order() {
     let setup = Setup { periodic: [true, false, false], ..Setup::default() };
@@ -72,7 +72,7 @@ fn waves_on_a_periodic_axis_are_of_second_order() {
     }
 }
 
-/// The stress at the far end of the bar is exactly zero: a traction there is none.
+/// The stress at the far end of the bar is exactly zero, so a traction there is zero too.
 #[test]
 fn a_traction_of_zero_is_a_free_face() {
     let free = Bar::default();
@@ -105,7 +105,7 @@ fn tractions_are_of_second_order() {
     }
 }
 
-/// On all sides of a plate; meshes this coarse show 1.8 in l2, and less at the corners.
+/// Tractions on all sides of a plate; meshes this coarse show 1.8 in l2, and less at the corners.
 #[test]
 fn tractions_in_the_plane_converge() {
     let wave = Wave { end: 0.3, ..Wave::on_box([1.0, 0.5]) };
@@ -148,8 +148,8 @@ fn walls_in_the_total_formulation_are_of_second_order() {
     }
 }
 
-/// Two particles per cell do not integrate the cubic splines next to a wall, which are not symmetric: a
-/// lower order, still a better one than the first.
+/// Two particles per cell do not integrate the cubic splines next to a wall, which are not symmetric: the order is lower, but
+/// still above 1.
 #[test]
 fn cubic_splines_converge_at_walls() {
     let method = with(CubicBspline, Total, &Setup::default());
@@ -158,7 +158,7 @@ fn cubic_splines_converge_at_walls() {
     check_order::<2>(&cube, &method, ["8", "16"], 1.4..2.1);
 }
 
-/// Rollers as splines move along them in space.
+/// Rollers when splines move along them in space.
 #[test]
 fn rollers_hold_splines_that_move() {
     let cube = AxisAligned { amplitude: 0.05, lower: 0.0 };
@@ -166,7 +166,7 @@ fn rollers_hold_splines_that_move() {
     check_order::<2>(&cube, &method, ["8", "16"], 1.7..2.1);
 }
 
-/// A free face needs no node, and a prescribed one none either.
+/// A free face needs no node, and a prescribed face none either.
 #[test]
 fn the_offset_of_the_grid_does_not_matter_to_free_faces() {
     let faces = vec![(Face::Max(0), Condition::Free)];
@@ -203,7 +203,7 @@ fn an_annulus_with_prescribed_faces_converges() {
     }
 }
 
-/// An L, whose faces meet in a corner that looks inward.
+/// An L, whose faces meet in a re-entrant corner.
 fn angle() -> Body<f64, 2> {
     let vertices = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]];
     Body::Polygon { vertices, names: EDGES.to_vec() }
@@ -222,7 +222,7 @@ fn shell() -> Body<f64, 3> {
     Body::Sphere { inner: 0.5, outer: 1.0, theta, phi }
 }
 
-/// Bodies that follow a wave on all their faces, with an axis or a centre in them too. Boxes are left out, as on the annulus.
+/// Bodies that follow a wave on all their faces, also with an axis or a centre in them. Boxes are left out, as on the annulus.
 #[test]
 fn bodies_with_prescribed_faces_converge() {
     let turn = std::f64::consts::TAU;
@@ -236,7 +236,7 @@ fn bodies_with_prescribed_faces_converge() {
     }
 }
 
-/// Loads on curved and on slanted faces, beside faces that follow the wave: where both meet, the largest error is of a lower
+/// Loads on curved and on slanted faces, beside faces that follow the wave: where both meet, the largest error has a lower
 /// order.
 #[test]
 fn bodies_with_loads_on_their_faces_converge() {
@@ -262,7 +262,7 @@ fn bodies_with_loads_on_their_faces_converge() {
     assert!(orders.iter().all(|order| (1.5..2.1).contains(order)), "{orders:?}");
 }
 
-/// A field without a body is refused by its name.
+/// A field without a body is refused by name.
 #[test]
 fn a_field_without_a_body_is_refused() {
     let nowhere = Wave::on(Body::Nothing);

@@ -29,7 +29,7 @@ fn verdict(levels: &[Level]) -> Verdict {
     judgement.verdict()
 }
 
-/// Aligned contiguous particles are of order 2 in space, leapfrog is in time.
+/// Aligned contiguous particles are of order 2 in space, leapfrog in time.
 #[test]
 fn contiguous_particles_and_leapfrog_are_of_second_order() {
     let levels = study(ShapeName::Cpgimp, IntegratorName::Leapfrog, 0.4);
@@ -61,7 +61,7 @@ fn integrators_without_the_half_step_are_of_first_order() {
     }
 }
 
-/// A force of the wrong time level costs an order, whatever the shape functions and the formulation are.
+/// A force of the wrong time level costs an order for all shape functions and formulations.
 #[test]
 fn a_body_force_one_step_late_is_of_first_order() {
     for (shape, formulation) in [
@@ -119,7 +119,7 @@ fn stiffness_changes_neither_steps_nor_errors() {
     }
 }
 
-/// Single precision follows double precision down to its round-off, and stays there.
+/// Single precision follows double precision down to its round-off, and does not rise again.
 #[test]
 fn single_precision_reaches_its_floor() {
     let double = levels::<f64, 1>(&Bar::default(), &Method::default(), &CELLS);
@@ -141,12 +141,12 @@ fn a_sliding_bar_with_prescribed_faces_is_of_second_order() {
         let bar = Bar { slide: 0.3, faces, ..Bar::default() };
         let levels = levels::<f64, 1>(&bar, &Method::default(), &CELLS);
         println!("{:?}", levels.iter().map(|level| errors(level).linf).collect::<Vec<_>>());
-        // On coarser levels orders are still on their way, from 1.9.
+        // On coarser levels orders still increase, from 1.9.
         assert_eq!(verdict(&levels[2..]), Verdict::Pass, "{:?}", finest_orders(&levels));
     }
 }
 
-/// A wall at rest and the field's own motion there are the same, as long as nothing passes the wall.
+/// A wall at rest and the field's own motion there give the same run, as long as nothing passes the wall.
 #[test]
 fn a_prescribed_face_at_rest_is_a_fixed_one() {
     use mms_runtime::{Condition, Face};

@@ -29,8 +29,9 @@ fn axis_aligned_motion_converges_in_three_dimensions() {
     assert!(orders.iter().all(|order| (1.7..2.1).contains(order)), "{orders:?}");
 }
 
-/// The motion is odd in every X_i: the cube from -1 to 1 without inner walls, and one of its 2^D parts with
-/// rollers, are the same; splines end at the walls instead. With fixed domains and compression at the walls, weights do reach past them.
+/// The motion is odd in every X_i: the cube from -1 to 1 without inner walls, and one of its 2^D parts with rollers, give the
+/// same errors. Splines are left out, since they end at the walls. With fixed domains and compression at the walls, weights
+/// reach past the walls.
 fn parts_and_whole<const D: usize>(cells: usize)
 where
     f64: Solve<D>,

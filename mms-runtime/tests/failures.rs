@@ -1,4 +1,4 @@
-//! Scenes that are refused, and runs that stop: never a wrong number, always where, when and why.
+//! Scenes that are refused, and runs that stop: never a wrong number, always with place, time and cause.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -14,11 +14,11 @@ use mms_runtime::{
 struct Spoilt {
     bar: Bar,
     domain: fn(&mut Domain<f64, 1>),
-    /// From the evaluation of this number on, counted from 0, the body force is this.
+    /// From the evaluation with this number on, counted from 0, the body force has the value `body_force`.
     spoilt_from: usize,
     body_force: f64,
     evaluations: AtomicUsize,
-    /// Waves are faster by this times X.
+    /// Multiplied by X, the relative increase of the wave speed.
     faster: f64,
 }
 
@@ -87,12 +87,12 @@ fn refusal(domain: fn(&mut Domain<f64, 1>)) -> Refusal {
     run(&Spoilt::domain(domain), &Method::default(), 8).unwrap_err()
 }
 
-/// The default method with these numbers.
+/// The default method with this setup.
 fn with(setup: Setup) -> Method {
     Method { setup, ..Method::default() }
 }
 
-/// Why the default method with these numbers is refused.
+/// The refusal of the default method with this setup.
 fn refused<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
     setup: Setup,
@@ -114,7 +114,7 @@ fn sector(face: Face, condition: Condition) -> Wave<2> {
     Wave::on(Body::Annulus { inner: 0.5, outer: 1.0, theta }).with_faces(&[(face, condition)])
 }
 
-/// By about what a run takes: a square of 10^6 particles takes more than 10^7 bytes, and less than 10^9.
+/// The estimate is about right: a square of 10^6 particles needs more than 10^7 bytes, and less than 10^9.
 #[test]
 fn what_memory_cannot_hold_is_refused_before_it_is_taken() {
     let square = Wave::on_box([1.0, 1.0]);
@@ -131,7 +131,7 @@ fn what_memory_cannot_hold_is_refused_before_it_is_taken() {
 
 #[test]
 fn a_body_too_light_for_the_precision_is_refused_and_a_light_one_moves_as_a_heavy_one() {
-    // Moduli go with the density, and so the motion is the same.
+    // Moduli are proportional to the density, and so the motion is the same.
     let bar = |rho0: f64| Bar { rho0, young: 1e3 * rho0, ..Bar::default() };
     let errors = |rho0: f64| {
         let bar: &dyn ManufacturedField<f64, 1> = &bar(rho0);
@@ -140,7 +140,7 @@ fn a_body_too_light_for_the_precision_is_refused_and_a_light_one_moves_as_a_heav
     let (light, heavy) = (errors(2_f64.powi(-950)), errors(2_f64.powi(10)));
     assert!((light - heavy).abs() <= 1e-12 * heavy, "{light:e} and {heavy:e}");
     match refused(&bar(2_f64.powi(-980)), Setup::default(), &8.into()) {
-        // 1/16 of that is a particle's.
+        // A particle has 1/16 of that mass.
         Refusal::TooLight { mass, least } => assert!(mass == 2_f64.powi(-984) && mass < least),
         other => panic!("{other:?}"),
     }
@@ -186,7 +186,7 @@ fn claims_about_faces_that_the_body_lacks_are_refused() {
     assert_eq!(missing, Refusal::NoSuchFace { face, dimension: 2 });
 }
 
-/// Where nothing moves, a domain has nothing to follow; everything else goes together.
+/// In a formulation where nothing moves, a domain has nothing to follow; all other combinations are valid.
 #[test]
 fn a_domain_that_follows_is_refused_in_the_total_formulation() {
     for &shape in ShapeName::ALL {
@@ -231,7 +231,7 @@ fn fractions_outside_their_range_are_refused() {
     }
 }
 
-/// A period is a whole number of cells, of a box; and the field has to repeat itself.
+/// A period has to be a whole number of cells of a box, and the field has to repeat itself.
 #[test]
 fn axes_that_are_not_periodic_are_refused() {
     let periodic =
@@ -241,13 +241,13 @@ fn axes_that_are_not_periodic_are_refused() {
     let refusal = refused(&Wave::on_box([1.0, 0.55]), periodic(1), &8.into());
     assert!(matches!(refusal, Refusal::NoPeriod { axis: 1, is_box: true, .. }), "{refusal}");
     assert!(refusal.to_string().starts_with("axis y cannot be periodic"), "{refusal}");
-    // Between two knots, wherever the grid begins.
+    // Between two knots, for any origin of the grid.
     let offset = Setup { offset: [0.25; 3], ..periodic(1) };
     let refusal = refused(&Wave::on_box([1.0, 0.5]), offset, &1.into());
     assert!(matches!(refusal, Refusal::NoPeriod { axis: 1, is_box: true, .. }), "{refusal}");
     let refusal = refused(&Wave::on_box([1.0, 0.5]), periodic(1), &8.into());
     assert_eq!(refusal, Refusal::NotPeriodic { axis: 1 });
-    // sin p = sin(q + p) at the start alone.
+    // sin p = sin(q + p) at the start only.
     let phase = Vector::repeat((std::f64::consts::PI - 1.0) / 2.0);
     let once = Wave { vectors: Matrix::repeat(1.0), phase, ..Wave::bar() };
     assert_eq!(refused(&once, periodic(0), &8.into()), Refusal::NotPeriodic { axis: 0 });
@@ -334,7 +334,7 @@ fn a_particle_that_leaves_the_grid_is_lost() {
     assert!(failure.to_string().contains("left the grid"));
 }
 
-/// The bar is fastest at its far end.
+/// Waves are fastest at the far end of the bar.
 #[test]
 fn a_step_above_the_stable_one_is_blamed_on_the_fastest_particle() {
     let field = Spoilt { faster: 1.0, ..Spoilt::domain(|_| ()) };
@@ -347,7 +347,7 @@ fn a_step_above_the_stable_one_is_blamed_on_the_fastest_particle() {
     assert_eq!(failure.particle, Some(last));
 }
 
-/// Far above every method's largest stable Courant number.
+/// The Courant number is far above every method's largest stable one.
 #[test]
 fn an_unstable_run_stops() {
     for mut method in methods() {
@@ -367,7 +367,7 @@ fn a_domain_wider_than_the_stencil_stops_the_run() {
     assert!(failure.to_string().contains("more particles per cell"));
 }
 
-/// A wall has to be on a plane of nodes, whether the number of cells or the grid's offset puts it there.
+/// A wall has to be on a plane of nodes, due to the number of cells or to the grid's offset.
 #[test]
 fn a_wall_between_nodes_is_refused() {
     let field = Affine { upper: [1.0, 0.55, 1.0], ..Affine::flight([0.0; 3]) };

@@ -11,13 +11,13 @@ use mms_runtime::{
 
 const EIGHT: Division = Division::Uniform(8);
 
-/// Every transfer: those with a name, and one that takes half of the grid's velocity.
+/// Every transfer: the named ones, and FLIP with the fraction 0.5.
 fn transfers() -> Vec<Transfer> {
     let named = Transfer::NAMES.iter().map(|name| name.parse().unwrap());
     named.chain([Transfer::Flip { fraction: 0.5 }]).collect()
 }
 
-/// A uniform velocity is what all transfers give back; nothing may be left but round-off.
+/// All transfers reproduce a uniform velocity up to round-off.
 fn free_flight<T: Solve<D>, const D: usize>(cells: usize, methods: &[Method]) {
     let field = Affine::flight([0.7, -0.4, 0.3]);
     for method in methods {
@@ -47,7 +47,7 @@ fn free_flight_is_exact() {
     free_flight::<f32, 2>(3, &methods());
 }
 
-/// A step of FLIP with a fraction is that much of a step of FLIP, and the rest one of PIC.
+/// A step of FLIP with a fraction is the weighted mean of a step of FLIP and one of PIC.
 #[test]
 fn flip_with_a_fraction_lies_between_flip_and_pic() {
     let wave = Wave::stretched_bar();
@@ -66,7 +66,7 @@ fn flip_with_a_fraction_lies_between_flip_and_pic() {
     }
 }
 
-/// Here every transfer, with each shape function in each formulation, and one integrator.
+/// Tests every transfer, with each shape function in each formulation, and one integrator.
 #[test]
 fn free_flight_is_exact_in_three_dimensions() {
     let mut leapfrog = methods();
@@ -75,9 +75,9 @@ fn free_flight_is_exact_in_three_dimensions() {
     free_flight::<f32, 3>(2, &leapfrog);
 }
 
-/// d/dt sum m v = sum m b + sum P N A0, tractions at both ends: internal forces add up to nothing. Any first
-/// step may be a half. In space a point may have passed no weight yet to a node that the face beyond it
-/// has reached, so there points have no tractions here.
+/// d/dt sum m v = sum m b + sum P N A0, tractions at both ends: internal forces add up to 0. The first step may be a half. In
+/// the updated formulation a node that the face beyond a point has reached may have no weight from that point yet, so points
+/// have no tractions here.
 fn balance(method: Method, faces: Condition) {
     let wave = Wave::stretched_bar().with_all_faces(faces);
     let field: &dyn ManufacturedField<f64, 1> = &wave;
@@ -136,8 +136,8 @@ fn momentum_balances() {
     }
 }
 
-/// Rigid motion with v, a != 0 at the start, at fixed cells: only the integrator's error is left, and it
-/// shrinks at its formal order.
+/// Rigid motion with v, a != 0 at the start, at fixed cells: the only error is the integrator's, and it shrinks at its formal
+/// order.
 #[test]
 fn temporal_order_is_the_formal_order() {
     struct FormalOrder;
@@ -161,8 +161,8 @@ fn temporal_order_is_the_formal_order() {
     }
 }
 
-/// Whether a method leaves no internal force in a uniform stress: contiguous domains do not, nor do points
-/// in the reference configuration, unless the slopes of their splines are more than linear in a cell.
+/// Whether a method has no internal force in a uniform stress: contiguous domains have none, nor have points in the reference
+/// configuration, unless the slopes of their splines are more than linear in a cell.
 fn is_contiguous(method: &Method) -> bool {
     match method.shape {
         ShapeName::Cpgimp | ShapeName::Cpdi => true,
@@ -192,7 +192,7 @@ fn uniform_stretch_is_in_equilibrium() {
     }
 }
 
-/// The expected failure: domains that do not follow the stretch, or are points, leave a force.
+/// The expected failure: points, and domains that do not follow the stretch, have a force.
 #[test]
 fn uniform_stretch_is_not_in_equilibrium_without_contiguous_domains() {
     let field = Affine::patch(0.13);
@@ -203,8 +203,8 @@ fn uniform_stretch_is_not_in_equilibrium_without_contiguous_domains() {
     }
 }
 
-/// F(t) = F0 + H1 t with L and F that do not commute and are not symmetric: a transposed L, or F L for L F,
-/// gives a wrong H by 10 % and more. Without stress, so that the motion is that of free particles.
+/// F(t) = F0 + H1 t with L and F that do not commute and are not symmetric: a transposed L, or F L for L F, gives an H that is
+/// wrong by 10 % and more. Without stress, so that particles move freely.
 fn sheared_flow(method: &Method) {
     let h0 = [[0.1, 0.3, 0.0], [0.0, -0.1, 0.0], [0.0, 0.1, 0.0]];
     let h1 = [[0.0, 0.1, 0.0], [0.2, 0.0, 0.1], [0.0, 0.0, 0.1]];
@@ -243,13 +243,13 @@ fn runs_repeat_bit_for_bit() {
     }
 }
 
-/// A reflected scene runs as the reflection of its run: nothing prefers a direction.
+/// A reflected scene runs as the reflection of its run: no direction is preferred.
 fn reflections<const D: usize>(wave: &Wave<D>, cells: usize, transfers: &[Transfer])
 where
     f64: Solve<D>,
 {
     for mut method in methods() {
-        method.setup.end_time = Some(0.2); // before linear weights have gone wild
+        method.setup.end_time = Some(0.2); // before linear weights become unstable
         for &transfer in transfers {
             method.setup.transfer = transfer;
             let [one, other] = [wave, &wave.reflected()]
@@ -269,7 +269,7 @@ fn reflections_run_alike() {
     reflections(&Wave::on_box([1.0, 0.75]), 4, &transfers[..1]);
 }
 
-/// The same where the corners of cells are not exact in binary: weights of round-off must not matter.
+/// Reflections also run alike where the corners of cells are not exact in binary: weights of round-off must not matter.
 #[test]
 fn reflections_run_alike_off_binary_fractions() {
     let transfers = [Transfer::FLIP];

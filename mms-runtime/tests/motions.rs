@@ -6,7 +6,7 @@ use mms_runtime::{
     AnySolver, FormulationName, IntegratorName, ManufacturedField, Method, Setup, ShapeName, Solve,
 };
 
-/// What is measured of a run that reaches its end.
+/// The measurements of a run that reaches its end.
 fn details<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
     method: &Method,
@@ -22,8 +22,8 @@ where
 const STRETCH: [[f64; 3]; 3] = [[0.3, 0.0, 0.0], [0.0, -0.2, 0.0], [0.0, 0.0, 0.1]];
 const SHEAR: [[f64; 3]; 3] = [[0.3, 0.4, 0.0], [-0.1, -0.2, 0.1], [0.0, 0.0, 0.1]];
 
-/// x = (I + t H1) X: velocities that stay as they are and are linear in X. In the reference configuration hat
-/// functions represent them, particles lie alike on both sides of a node, and every integrator is exact.
+/// x = (I + t H1) X: velocities that are constant in time and linear in X. In the reference configuration hat functions
+/// represent them, particles are symmetric about nodes, and every integrator is exact.
 fn uniform_rates<const D: usize>()
 where
     f64: Solve<D>,
@@ -40,7 +40,7 @@ where
                     errors.deformation_gradient,
                     errors.first_piola_kirchhoff,
                 ] {
-                    // 20 steps or so, each with sums over the nodes.
+                    // About 20 steps, each with sums over the nodes.
                     assert!(errors.linf < 1e3 * f64::EPSILON, "{method:?}: {errors:?}");
                 }
             }
@@ -55,9 +55,9 @@ fn uniform_rates_of_deformation_are_exact_in_the_total_formulation() {
     uniform_rates::<3>();
 }
 
-/// In space, particles do not lie alike on both sides of a node, so that a grid's velocity is off by O(h).
-/// Errors are small and shrink if domains follow: boxes in a stretch, parallelepipeds in any F. The expected
-/// failure: boxes leave gaps in a shear, and errors of F grow.
+/// In the updated formulation, particles are not symmetric about nodes, so that the grid's velocity has an error of O(h).
+/// Errors are small and shrink if domains follow: boxes in a stretch, parallelepipeds in any F. The expected failure: boxes
+/// leave gaps in a shear, and errors of F grow.
 #[test]
 fn uniform_rates_of_deformation_need_domains_that_follow() {
     let errors = |shape: ShapeName, rate: [[f64; 3]; 3]| {
@@ -79,8 +79,8 @@ fn uniform_rates_of_deformation_need_domains_that_follow() {
     assert!(fine.1 > 2.0 * coarse.1 && fine.0 > 3e-4, "{coarse:?} {fine:?}");
 }
 
-/// Half a turn without strain or stress, free on all sides: domains and particles turn with the body. The
-/// error is that of the velocity's map to nodes at free faces, and large in meshes this coarse.
+/// Half a turn without strain or stress, free on all sides: domains and particles turn with the body. The error is due to the
+/// velocity's map to nodes at free faces, and large in meshes this coarse.
 #[test]
 fn bodies_turn() {
     let spin = Spin { frequency: 1.0, mu: 0.5, end: std::f64::consts::PI };
@@ -100,8 +100,8 @@ fn bodies_turn() {
     }
 }
 
-/// The greatest drift of kinetic and strain energy of a wave on a ring that nothing drives, relative to what
-/// there was. Velocities half a step apart are averaged.
+/// The largest drift of kinetic plus strain energy of a wave on a ring without forcing, relative to the initial energy.
+/// Velocities half a step apart are averaged.
 fn energy_drift(shape: ShapeName, formulation: FormulationName, cells: usize) -> f64 {
     let wave = Wave { forced: false, ..Wave::bar() };
     let field: &dyn ManufacturedField<f64, 1> = &wave;
@@ -131,8 +131,8 @@ fn energy_drift(shape: ShapeName, formulation: FormulationName, cells: usize) ->
     drift
 }
 
-/// Maps between particles and grid lose what the grid does not represent, which vanishes faster than h^2
-/// in a smooth motion.
+/// Maps between particles and grid lose the part that the grid does not represent, which vanishes faster than h^2 in a smooth
+/// motion.
 #[test]
 fn energy_stays() {
     let (updated, total) = (FormulationName::Updated, FormulationName::Total);

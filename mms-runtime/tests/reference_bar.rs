@@ -1,5 +1,5 @@
-//! A second opinion: the bar with contiguous-particle GIMP and leapfrog as one plain 1-D program that shares
-//! nothing with the runtime, giving the same errors.
+//! A second opinion: the bar with contiguous-particle GIMP and leapfrog as one plain 1-D program that shares no code with the
+//! runtime, and computes the same errors.
 
 use crate::common::{Bar, levels};
 use mms_runtime::Method;

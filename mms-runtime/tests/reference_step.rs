@@ -1,5 +1,5 @@
 //! A step of the material point method, a particle and a node at a time. Read it before the solver, which does the same with
-//! bunches of particles, any weights and any integrator. It shares nothing with the solver but the contract of a field.
+//! bunches of particles, any weights and any integrator. It shares only the traits of a field with the solver.
 //!
 //! Linear weights, updated formulation, FLIP, leapfrog, and rollers on all faces of a box, in any dimension. Sulsky, Chen,
 //! Schreyer, Comput. Methods Appl. Mech. Eng. 118 (1994) 179, doi 10.1016/0045-7825(94)90112-0, with the stress of the
@@ -45,7 +45,7 @@ impl Grid {
         std::array::from_fn(|axis| node / (self.cells + 1).pow(axis as u32) % (self.cells + 1))
     }
 
-    /// The corners of the cell that holds x: number, weight w and grad w.
+    /// The corners of the cell that contains x: number, weight w and grad w.
     fn corners<const D: usize>(&self, x: &Vector<f64, D>) -> Vec<(usize, f64, Vector<f64, D>)> {
         let h = self.size();
         let first = x.map(|x| (x / h).floor().clamp(0.0, self.cells as f64 - 1.0));
@@ -129,7 +129,7 @@ fn particles<const D: usize>(field: &AxisAligned, grid: &Grid) -> Vec<Particle<D
     (0..along.pow(D as u32)).map(particle).collect()
 }
 
-/// The solver after a fifth of a period has the particles of the plain steps.
+/// Tests that after a fifth of a period the solver has the particles of the plain steps.
 fn hold<const D: usize>(cells: usize)
 where
     f64: Solve<D>,

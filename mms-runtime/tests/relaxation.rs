@@ -7,7 +7,7 @@ use mms_runtime::{
     Real, ShapeName, Transfer, Vector,
 };
 
-/// A field that stays where another one is at a time.
+/// A field that is constantly in the state of another field at a time.
 struct Still<F> {
     moving: F,
     time: f64,
@@ -115,13 +115,13 @@ fn an_equilibrium_is_of_second_order() {
     let near = |orders: [f64; 3], least: [f64; 3]| {
         assert!(orders.iter().zip(least).all(|(it, least)| *it > least), "{orders:?}");
     };
-    // F is interpolated by hat functions, and as exact as u in the middle of their cells alone.
+    // F is interpolated by hat functions, and is as exact as u only in the middle of their cells.
     let linear = relaxing(Total, ShapeName::Linear);
     near(finest_orders::<f64, 1>(&bar(), &linear, [32, 64]), [1.95, 0.95, 0.95]);
     near(finest_orders::<f64, 2>(&block(), &linear, [16, 32]), [1.9, 0.95, 0.95]);
     near(finest_orders::<f64, 3>(&block(), &linear, [4, 8]), [1.8, 0.9, 0.9]);
     let spline = relaxing(Total, ShapeName::QuadraticBspline);
-    // At the free end, where the spline ends, F is of first order, which takes half an order of l2.
+    // At the free end, where the spline ends, F is of first order, which reduces the order of l2 by a half.
     near(finest_orders::<f64, 1>(&bar(), &spline, [32, 64]), [1.95, 1.45, 1.45]);
     let mut domains = relaxing(Updated, ShapeName::Cpgimp);
     near(finest_orders::<f64, 1>(&bar(), &domains, [16, 32]), [1.9, 0.95, 0.95]);
@@ -160,17 +160,17 @@ fn forces_at_the_nodes_balance_at_the_end() {
         }
     }
     let norm = |forces: &[f64]| forces.iter().map(|it| it * it).sum::<f64>().sqrt();
-    // The first node is held.
+    // The first node is constrained.
     let left: Vec<f64> = stress.iter().zip(&body).skip(1).map(|(a, b)| a + b).collect();
     let relative = norm(&left) / norm(&stress);
     assert!(relative < 1e-9, "{relative:e}");
     let told = found.details.and_then(|it| it.residual).expect("a residual").relative;
-    // It is the same number, but for rounding.
+    // Both are the same number up to rounding.
     assert!((relative - told).abs() < 1e-3 * told + 1e-13, "{relative:e} {told:e}");
 }
 
-/// Faces that are moved arrive where they belong, in any number of steps, and all that hangs on them. The outermost cubic
-/// splines are not where their nodes are.
+/// Prescribed faces arrive at their exact places in any number of steps, and with them the whole body. Cubic splines are left
+/// out: the outermost ones are not where their nodes are.
 #[test]
 fn a_uniform_stretch_comes_out_to_round_off() {
     let relaxes = |mut method: Method| {

@@ -1,4 +1,4 @@
-//! Runs that stop and go on from a checkpoint: they end with the same bits as runs that do not.
+//! Runs that stop and resume from a checkpoint: they end with the same bits as uninterrupted runs.
 
 use std::io::Read;
 
@@ -9,7 +9,7 @@ use mms_runtime::{
     Solve, Transfer,
 };
 
-/// Goes on from a checkpoint, keeps another, stops there, and notes every step.
+/// Resumes from a checkpoint, writes another, stops there, and records every step.
 #[derive(Default)]
 struct Keeper {
     from: Option<Vec<u8>>,
@@ -40,12 +40,12 @@ impl Observer for Keeper {
     fn keep(&mut self, checkpoint: &dyn Checkpoint) -> Result<(), String> {
         assert_eq!(self.stop, Some(checkpoint.step()));
         checkpoint.write(&mut self.kept).map_err(|error| error.to_string())?;
-        Err("as it was told".into())
+        Err("as requested".into())
     }
 }
 
 fn method(shape: ShapeName, formulation: FormulationName, transfer: Transfer) -> Method {
-    // So many steps that particles are put in order again before and after a stop.
+    // So many steps that particles are sorted again before and after a stop.
     let setup = Setup { transfer, end_time: Some(0.45), ..Setup::default() };
     Method { shape, formulation, setup, ..Method::default() }
 }
@@ -58,7 +58,7 @@ fn details(run: Run) -> Details {
     run.details.unwrap_or_else(|| panic!("{:?}", run.level.errors))
 }
 
-/// Two stops, each on another number of threads.
+/// Tests two stops, each on another number of threads.
 fn interrupted(faces: Condition, method: &Method) {
     let mut straight = Keeper::default();
     let whole = run(faces, method, &mut straight).unwrap();
@@ -76,7 +76,7 @@ fn interrupted(faces: Condition, method: &Method) {
         match stop {
             Some(stop) => {
                 let failure = run.level.errors.unwrap_err();
-                assert_eq!(failure.cause, Cause::Stopped { reason: "as it was told".into() });
+                assert_eq!(failure.cause, Cause::Stopped { reason: "as requested".into() });
                 assert_eq!(failure.step, stop);
             }
             None => assert_eq!(details(run), details(whole.clone()), "{method:?}"),
@@ -135,7 +135,7 @@ fn what_is_no_checkpoint_of_this_scene_is_refused() {
     assert_eq!(refused(checkpoint(&affine), &own), "it has other transfers");
 }
 
-/// With stencils that have no bound, particles stay as they were numbered.
+/// With stencils without a bound, particles stay in their first order.
 #[test]
 fn an_order_that_particles_cannot_be_in_is_refused() {
     let fixed = method(ShapeName::Cpdi, FormulationName::Updated, Transfer::FLIP);

@@ -1,4 +1,4 @@
-//! A program that runs one scene holds the code of that scene and of no other: what its symbols say.
+//! A program that runs one scene contains the code of that scene and of no other: a test of its symbols.
 
 mod common;
 
@@ -17,9 +17,9 @@ fn functions() -> Vec<(String, u64)> {
     symbols.filter_map(|it| Some((it.name().ok()?.to_owned(), it.size()))).collect()
 }
 
-/// One dimension, one precision, one shape function: its weights, P2G, G2P and the residual of XPIC, and the sums over
-/// three and four nodes (onto them with slopes and without; of values, gradients and slopes), each for the processor's
-/// registers, while without such there is one sum onto nodes and one over them; and no spline or parallelogram.
+/// One dimension, one precision, one shape function: its weights, P2G, G2P and the residual of XPIC, and the sums over three
+/// and four nodes (onto them with slopes and without; of values, gradients and slopes), each for the processor's registers;
+/// without such registers there is one sum onto nodes and one over them. No spline or parallelogram.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_bar_needs_the_solver_of_a_bar() {
@@ -36,7 +36,7 @@ fn a_bar_needs_the_solver_of_a_bar() {
         names.filter(|name| parts.iter().all(|part| name.contains(part))).collect()
     };
     assert!(!named(&["mms_runtime"]).is_empty(), "names are there");
-    // In names as linkers have them, the length of a part is before it.
+    // In the names of symbols, the length of a part is before it.
     let (passes, sums) = (4, 2 * (2 + 3));
     let kernels = named(&["8dispatch8baseline"]);
     assert_eq!(kernels.len(), passes, "{kernels:?}");
@@ -48,14 +48,15 @@ fn a_bar_needs_the_solver_of_a_bar() {
         let kernels = named(&["7stencil5alone", "_alone"]);
         assert_eq!(kernels.len(), 2, "{kernels:?}");
     }
-    // What is not inlined under the dispatch is compiled without the processor's instructions, and calls each of them.
+    // Closures that are not inlined under the dispatch are compiled without the processor's instructions, and call each of
+    // them.
     for numbers in ["_pd", "_ps"] {
         let called = named(&["core_arch", "_mm", numbers]);
         assert!(called.is_empty(), "{called:?}");
     }
     for other in ["set_near_ends", "cpdi", "Musl", "Usf"] {
         let mut found = named(&["mms_runtime", other]);
-        // Functions that are alike are one, which has the name of any of them.
+        // Identical functions are merged, under the name of any of them.
         found.retain(|name| !name.contains("drop_in_place"));
         assert!(found.is_empty(), "{found:?}");
     }

@@ -1,4 +1,4 @@
-//! Properties that every shape function has: new ones are found here by themselves.
+//! Properties of every shape function: new ones are tested automatically.
 
 use std::collections::BTreeMap;
 
@@ -13,8 +13,8 @@ use proptest::prelude::*;
 /// differences over a domain, divided by its width.
 const NARROWEST: f64 = 0.02;
 
-/// Positions in cells go up to `CELLS`, and are off by half a unit of round-off of that; a weight is a
-/// product of D factors, and a sum of it goes over up to 64 nodes.
+/// Positions in cells go up to `CELLS`, and have an error of half a unit of round-off of that; a weight is a product of D
+/// factors, and a sum has up to 64 nodes.
 fn round_off<T: Real>() -> f64 {
     8.0 * CELLS as f64 * T::default_epsilon().to_f64()
 }
@@ -22,7 +22,7 @@ fn round_off<T: Real>() -> f64 {
 /// sum w = 1, sum w x_i = x, sum grad w = 0, sum x_i (x) grad w = I, and 0 <= w <= 1 where w reaches.
 struct Reproduction<'a, T, const D: usize> {
     particle: Particle<D>,
-    /// Where splines end.
+    /// The knots at which splines end.
     ends: [[i64; 2]; D],
     precision: std::marker::PhantomData<&'a T>,
 }
@@ -51,7 +51,7 @@ impl<T: Real, const D: usize> ShapeVisitor for Reproduction<'_, T, D> {
     }
 }
 
-/// Lengths in units of a cell's edges.
+/// Tests sums of lengths in units of a cell's edges.
 fn check_sums<T: Real, const D: usize>(
     stencil: &impl Stencil<T, D>,
     lattice: &Lattice<T, D>,
@@ -79,7 +79,7 @@ fn check_sums<T: Real, const D: usize>(
     }
 }
 
-/// At a particle between the walls at the cells 3 and 9, if splines end there, or anywhere.
+/// Tests a particle between the walls at the cells 3 and 9, if splines end there, or anywhere.
 fn check_reproduction<T: Real, const D: usize>(
     shape: ShapeName,
     cells: [f64; 3],
@@ -110,17 +110,17 @@ fn the_measure_of_slopes_is_of_fourth_order() {
     assert!((quartic - 0.7).abs() < 1e-14, "{quartic}");
 }
 
-/// The gradient is that of the weights, wherever no kink is within `STEP`.
+/// Tests that the gradient is the slope of the weights, wherever no kink is within `STEP`.
 struct Slope<const D: usize> {
     particle: Particle<D>,
     ends: [[i64; 2]; D],
 }
 
-/// In cells.
+/// The step of differences, in cells.
 const STEP: f64 = 0.01;
 
 impl<const D: usize> ShapeVisitor for Slope<D> {
-    /// Along how many axes there was something to compare.
+    /// The number of axes that were compared.
     type Output = usize;
 
     fn visit<S: Shape>(self) -> usize {
@@ -186,7 +186,7 @@ proptest! {
         }
     }
 
-    /// Of all shape functions but CPDI, whose gradient is that of an interpolant, by definition.
+    /// Tests all shape functions except CPDI, whose gradient is defined as an interpolant's.
     #[test]
     fn gradients_are_those_of_the_weights(
         cells in prop::array::uniform3(3.1..8.9f64),
@@ -206,7 +206,7 @@ proptest! {
         }
     }
 
-    /// Nowhere else than where Bardenhagen, Kober and the textbooks have them.
+    /// The splines are as in Bardenhagen, Kober and the textbooks, and 0 elsewhere.
     #[test]
     fn textbook_splines(cells in 3.0..9.0f64) {
         let quadratic = |r: f64| if r < 0.5 {
@@ -231,8 +231,7 @@ proptest! {
         }
     }
 
-    /// Open splines in the first cell, by the polynomials that the recurrence leads to there, and in the last
-    /// one by symmetry.
+    /// Open splines in the first cell, by the polynomials of the recurrence, and in the last one by symmetry.
     #[test]
     fn textbook_splines_at_a_wall(x in 0.0..1.0f64) {
         let quadratic = vec![(1.0 - x).powi(2), 2.0 * x - 1.5 * x * x, x * x / 2.0];
@@ -323,7 +322,7 @@ impl ShapeVisitor for Periods {
     }
 }
 
-/// Kinks are rare enough that most slopes are compared.
+/// Kinks are so rare that most slopes are compared.
 #[test]
 fn most_slopes_are_compared() {
     let mut compared = 0;
@@ -398,8 +397,8 @@ fn gimp_weights_of_the_literature() {
     }
 }
 
-/// The expected failure: where nodes behind a wall are cut off, splines without ended knots lose a part
-/// of the particle; with ended knots there is nothing behind it.
+/// The expected failure: where nodes behind a wall are cut off, splines without ended knots lose a part of the particle; with
+/// ended knots there is nothing behind the wall.
 #[test]
 fn splines_have_to_end_at_a_wall() {
     for shape in [ShapeName::QuadraticBspline, ShapeName::CubicBspline] {
@@ -413,8 +412,7 @@ fn splines_have_to_end_at_a_wall() {
     }
 }
 
-/// The expected failure of linear weights: gradients jump at the border of a cell. Those of GIMP and of
-/// splines do not.
+/// The expected failure of linear weights: gradients jump at the border of a cell. Gradients of GIMP and of splines do not.
 #[test]
 fn only_gradients_of_linear_weights_jump() {
     for &shape in ShapeName::ALL {
@@ -436,14 +434,14 @@ fn only_gradients_of_linear_weights_jump() {
     }
 }
 
-/// Contiguous domains leave no gaps under stretch: sum_p V grad w = 0, so that a uniform stress leaves no
-/// force inside. Fixed domains and points, the expected failures, do leave one.
+/// Contiguous domains leave no gaps under stretch: sum_p V grad w = 0, so that a uniform stress has no force inside. Fixed
+/// domains and points, the expected failures, have one.
 #[test]
 fn domains_that_follow_leave_no_gaps() {
     struct Imbalance;
     impl ShapeVisitor for Imbalance {
         type Output = f64;
-        /// The worst |sum_p V grad w| of a row of particles, two per cell at first, stretched by 1.3.
+        /// The worst |sum_p V grad w| of a row of particles, two per undeformed cell, stretched by 1.3.
         fn visit<S: Shape>(self) -> f64 {
             let lattice = lattice::<f64, 1, S>([[0, CELLS as i64]]);
             let mut sum = vec![0.0; lattice.len()];
@@ -492,7 +490,7 @@ fn a_particle_off_the_grid_is_lost() {
     }
 }
 
-/// GIMP's stencil holds domains of up to two cells; a parallelepiped needs an inside.
+/// GIMP's stencil fits domains of up to two cells; a parallelepiped needs an inside.
 #[test]
 fn a_domain_that_does_not_fit_has_no_stencil() {
     let stretched = |half: f64, h: f64| Particle::<1>::new([5.3; 3], [half; 3], [h; 9], false);
@@ -500,7 +498,7 @@ fn a_domain_that_does_not_fit_has_no_stencil() {
         let cause = ShapeName::Ugimp.visit(Placed(stretched(half, 0.0)));
         assert!(matches!(cause, Some(Cause::HalfWidth { .. })), "{half}: {cause:?}");
     }
-    // An inverted domain is as long as its mirror image; J > 0 is asked of the state.
+    // An inverted domain is as long as its mirror image; the check of the state refuses J <= 0.
     assert!(ShapeName::Cpgimp.visit(Placed(stretched(0.25, -1.5))).is_none());
     for h in [-1.0, 3.0] {
         let cause = ShapeName::Cpgimp.visit(Placed(stretched(0.25, h)));
@@ -515,7 +513,7 @@ fn a_domain_that_does_not_fit_has_no_stencil() {
     }
 }
 
-/// An unlisted file would silently not be compiled.
+/// An unlisted file would not be compiled, without any message.
 #[test]
 fn every_file_is_listed() {
     let listed = [

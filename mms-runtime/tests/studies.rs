@@ -1,5 +1,5 @@
-//! What a study says beside its orders in space: orders in time, the floor of round-off, the balances of a
-//! run, and the time step that is refused.
+//! The results of a study beside its orders in space: orders in time, the floor of round-off, the balances of a run, and the
+//! time step that is refused.
 
 use crate::common::{AxisAligned, Bar, method};
 use mms_runtime::convergence::Expected;
@@ -10,7 +10,7 @@ use mms_runtime::{
 
 const PARTS: usize = 8;
 
-/// A run that is watched at the ends of eight parts.
+/// A run that is measured at the ends of eight parts.
 fn run<T: Solve<D>, const D: usize>(
     field: &dyn ManufacturedField<T, D>,
     method: &Method,
@@ -36,8 +36,8 @@ fn in_time(method: &Method, levels: u32) -> Series {
     differences(&runs.iter().collect::<Vec<_>>())
 }
 
-/// At a fixed grid errors hardly change with the time step, for they are those of space; differences between
-/// runs do. Leapfrog is of second order, and integrators that start half a step off are of first.
+/// At a fixed grid errors hardly change with the time step, for they are errors of space; differences between runs do. Leapfrog
+/// is of second order, and integrators that start half a step off are of first.
 #[test]
 fn differences_show_the_order_in_time() {
     let order = |integrator: IntegratorName| {
@@ -55,9 +55,9 @@ fn differences_show_the_order_in_time() {
     assert!((first - 1.0).abs() < 0.05, "{first}");
 }
 
-/// The expected failure: positions follow v_i + dt a_i, of which particles keep S a, and S+ S a differs from a
-/// by O(h^2). That leaves an error K h^2 dt, which particles that cross cells make large: in time steps far
-/// below h^2 leapfrog is of first order.
+/// The expected failure: positions follow v_i + dt a_i, of which particles keep S a, and S+ S a differs from a by O(h^2). The
+/// resulting error is K h^2 dt, which is large if particles cross cells: in time steps far below h^2 leapfrog is of first
+/// order.
 #[test]
 fn the_map_to_the_grid_and_back_leaves_an_error_of_first_order_in_time() {
     let series = in_time(&method(ShapeName::Cpgimp, IntegratorName::Leapfrog), 7);
@@ -68,7 +68,7 @@ fn the_map_to_the_grid_and_back_leaves_an_error_of_first_order_in_time() {
     assert!(share < 0.1, "{share}");
 }
 
-/// Runs with other particles, or watched at other times, have no distance.
+/// Runs with other particles, or measured at other times, have no distance.
 #[test]
 fn only_runs_of_the_same_particles_and_times_are_compared() {
     let method = total(ShapeName::Linear, IntegratorName::Leapfrog);
@@ -80,8 +80,8 @@ fn only_runs_of_the_same_particles_and_times_are_compared() {
     assert_eq!(Snapshots::default().distance(&own), None);
 }
 
-/// What single precision changes in a run is within a factor of five of what is predicted, from 80 steps to
-/// 5000, from strains of 2 % to 40 %, in one dimension and in two.
+/// The difference of a run in single precision is within a factor of five of the prediction, from 80 steps to 5000, from
+/// strains of 2 % to 40 %, in one dimension and in two.
 #[test]
 fn round_off_is_predicted() {
     fn check<const D: usize>(
@@ -134,15 +134,15 @@ fn a_study_in_single_precision_stops_at_its_floor() {
     assert!((judged - 2.0).abs() < 0.06, "{judged}");
 }
 
-/// What drove the bar.
+/// The balance of the bar.
 fn balance(method: &Method, cells: usize, end: f64) -> Balance {
     let setup = Setup { end_time: Some(end), ..method.setup.clone() };
     let run = run::<f64, 1>(&Bar::default(), &Method { setup, ..method.clone() }, cells);
     run.details.unwrap().diagnostics.balance.unwrap()
 }
 
-/// The wall and the free end of the bar do no work: its energy changes by the work of b, and by what the
-/// method loses, which vanishes as h^2 does, or as h where velocities are half a step off.
+/// The wall and the free end of the bar do no work: its energy changes by the work of b, and by the loss of the method, which
+/// vanishes as h^2, or as h if velocities are half a step off.
 #[test]
 fn the_work_of_the_body_force_is_the_change_of_energy() {
     let end = 0.7 * 2.0 / 1e3_f64.sqrt();
@@ -165,7 +165,7 @@ fn the_work_of_the_body_force_is_the_change_of_energy() {
     }
 }
 
-/// The force of the wall is -P at X = 0, and there is no other face that holds the bar.
+/// The force of the wall is -P at X = 0, and no other face constrains the bar.
 #[test]
 fn the_wall_holds_the_bar_by_its_stress() {
     let bar = Bar::default();
@@ -174,7 +174,7 @@ fn the_wall_holds_the_bar_by_its_stress() {
         total(ShapeName::Linear, IntegratorName::Leapfrog),
         total(ShapeName::Linear, IntegratorName::Usl),
     ] {
-        // Forces are those at the beginning of the last step.
+        // The forces belong to the beginning of the last step.
         let error = |cells: usize| {
             let end = 1.7 / 1e3_f64.sqrt();
             let balance = balance(&method, cells, end);
@@ -189,7 +189,7 @@ fn the_wall_holds_the_bar_by_its_stress() {
     }
 }
 
-/// A material that offers no W has no balance of energy, and all the rest.
+/// A material without W has no balance of energy, but all other results.
 #[test]
 fn without_a_strain_energy_there_is_no_residual() {
     let cube = AxisAligned { amplitude: 0.05, lower: 0.0 };
@@ -199,7 +199,7 @@ fn without_a_strain_energy_there_is_no_residual() {
     assert!(balance.body_work != 0.0 && balance.surface_force.len() == 2);
 }
 
-/// A wave may cross a cell in the time step: nothing has run, and the message says what would.
+/// A wave may cross a cell in the time step: nothing runs, and the message advises a stable step.
 #[test]
 fn a_time_step_above_the_stable_one_stops_the_run() {
     let bar = Bar::default();

@@ -1,5 +1,5 @@
-//! The sums between the particles of a bunch and their nodes, which are factorised and may be done together, against
-//! their definitions, particle by particle and node by node; with every machine of the processor.
+//! The sums between the particles of a bunch and their nodes, which are factorised and may be computed together, against their
+//! definitions, particle by particle and node by node; with every instruction set of the processor.
 
 use crate::common::weights::{CELLS, Particle, lattice};
 use mms_runtime::column::{BUNCH, HALF};
@@ -11,10 +11,10 @@ use mms_runtime::stencil::{ALL, Carried, Gathered, Members, Stencil, Wanted};
 use mms_runtime::{Lattice, Real, ShapeName, Vector};
 use proptest::prelude::*;
 
-/// What a particle carries: a value, and vectors for slopes and for moments along up to three axes.
+/// The number of vectors that a particle adds: a value, and vectors for slopes and for moments along up to three axes.
 const EACH: usize = 1 + 2 * 3;
 
-/// Any numbers, no two alike.
+/// Arbitrary numbers, all different.
 fn numbers<T: Real>(count: usize) -> Vec<Nodal<T>> {
     let number = |index: usize| T::of((1.7 * index as f64 + 0.3).sin());
     (0..count).map(|node| Nodal(std::array::from_fn(|k| number(4 * node + k)))).collect()
@@ -26,15 +26,15 @@ struct Sums<'a, T, const D: usize, S> {
     stencil: &'a S,
     lattice: &'a Lattice<T, D>,
     nodes: &'a [Nodal<T>],
-    /// For each particle a value, then what slopes and what moments have along the axes.
+    /// For each particle a value, then the slopes and the moments along the axes.
     carried: &'a [Nodal<T>],
     members: Members,
 }
 
 impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
-    /// The sums of nodes for every particle, and those to nodes: of values, with slopes, with moments, and with both. Then
-    /// the slopes of the linear functions that are nearest to the nodes. What is wanted is no constant, so that sums are
-    /// compiled once.
+    /// Computes the sums of nodes for every particle, and the sums to nodes: of values, with slopes, with moments, and with
+    /// both. Then computes the slopes of the linear functions nearest to the nodes. `wanted` is not a constant, so that sums
+    /// are compiled once.
     fn by<M: Machine<T>>(&self, machine: M) -> [Vec<T>; 2] {
         let Self { stencil, lattice, nodes, carried, members } = *self;
         let (mut all, mut nearest) = (Vec::new(), Vec::new());
@@ -67,7 +67,7 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
         [all, nearest]
     }
 
-    /// The same by their definitions.
+    /// Computes the sums by their definitions.
     fn by_definition(&self, positions: &[Vector<T, D>; BUNCH]) -> Vec<T> {
         let Self { stencil, lattice, nodes, carried, members } = *self;
         let mut gathered = vec![[[T::zero(); BUNCH]; D]; 1 + D];
@@ -112,8 +112,8 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Work<T> for &Sums<'_, T, D, S> {
     }
 }
 
-/// How far the particles of a bunch are apart along each axis, in cells: all share their nodes, those of each half do
-/// (almost always), those of one half do, or they do not.
+/// The distances of the particles of a bunch along each axis, in cells. All share their nodes; the particles of each half do
+/// (almost always); the particles of one half do; or none do.
 const APART: [[f64; BUNCH]; 5] = [
     [0.0; BUNCH],
     [0.0, 0.02, 0.01, 0.03, 0.02, 0.0, 0.01, 0.03],
@@ -135,7 +135,7 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
     fn visit<S: Shape>(self) {
         let lattice = lattice::<T, D, S>([self.ends; D]);
         let name = std::any::type_name::<S>();
-        // Domains may be narrow, and gradients then large differences of small numbers.
+        // Domains may be narrow, and gradients then are large differences of small numbers.
         let tolerance = T::default_epsilon() * T::of(2e4);
         let close = |found: &[T], expected: &[T]| {
             assert_eq!(found.len(), expected.len());
@@ -154,8 +154,8 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
                 close(&found, &expected);
             }
 
-            // q_i = x_i, of which the slopes are 1. Of hat functions nobody asks for them: at a node they are
-            // quotients of numbers that vanish.
+            // q_i = x_i, whose slopes are 1. Hat functions are skipped: at a node their slopes are quotients of numbers that
+            // vanish.
             if S::DEGREE == 1 {
                 continue;
             }
@@ -181,7 +181,7 @@ proptest! {
 
     #[test]
     fn sums_are_those_of_their_definitions(
-        // Others of the bunch are up to 1.7 further.
+        // Other particles of the bunch are up to 1.7 further.
         cells in prop::array::uniform3(3.1..7.2f64),
         half in prop::array::uniform3(0.1..0.7f64),
         h in prop::array::uniform9(-0.1..0.1f64),

@@ -1,4 +1,4 @@
-//! Runs on several threads, and with particles that are sorted: nothing depends on either.
+//! Runs on several threads, and with sorted particles: results depend on neither.
 
 use crate::common::wave::Wave;
 use crate::sampled::sampled;
@@ -10,7 +10,7 @@ use mms_runtime::{
 fn run(faces: Condition, method: &Method, threads: usize) -> Run {
     let mut method = method.clone();
     method.setup.threads = threads;
-    // Particles are put in order again on the way.
+    // Particles are sorted again on the way.
     method.setup.end_time = Some(0.45);
     f64::run(&Wave::sliding(faces), &method, &40.into(), Watch::Everything, &mut ()).unwrap()
 }
@@ -42,7 +42,7 @@ fn any_number_of_threads_gives_the_same_bits() {
     }
 }
 
-/// The states that are to be seen.
+/// The first and the last state.
 struct Ends(Vec<Frame>);
 
 impl Observer for Ends {
@@ -56,7 +56,7 @@ impl Observer for Ends {
     }
 }
 
-/// However particles are sorted, those of a state are in the order of their numbers: each has the X that it had.
+/// In every state particles are in the order of their numbers, however the solver sorts them: each has its initial X.
 #[test]
 fn states_have_their_particles_in_the_first_order() {
     let setup = Setup { end_time: Some(0.45), ..Setup::default() };
@@ -73,7 +73,7 @@ fn states_have_their_particles_in_the_first_order() {
     assert!(before.iter().zip(&after).all(|(before, after)| (before - after).abs() < 1e-15));
 }
 
-/// Errors go on falling where slabs begin.
+/// Errors continue to fall where slabs begin.
 #[test]
 fn slabs_do_not_change_the_order() {
     let level = |cells: usize| -> Level {

@@ -1,4 +1,4 @@
-//! Fields typed by hand for the runtime's tests.
+//! Hand-written fields for the runtime's tests.
 #![allow(dead_code)]
 
 pub mod spin;
@@ -26,7 +26,7 @@ pub struct Bar {
     /// Sign of the term E/rho0 in b: +1, or -1 as printed.
     pub sign: f64,
     pub slide: f64,
-    /// How long ago b is that of.
+    /// The delay of the time at which b is evaluated.
     pub delay: f64,
     pub faces: Vec<(Face, Condition)>,
 }
@@ -55,7 +55,7 @@ impl Bar {
         self.speed() * std::f64::consts::PI / self.length
     }
 
-    /// The derivative of A of this order, and that of s.
+    /// The derivatives of A and s of this order.
     fn amplitudes<T: Real>(&self, time: T, derivative: i32) -> (T, T) {
         let w = self.frequency();
         let quarter = std::f64::consts::FRAC_PI_2 * f64::from(derivative);
@@ -164,7 +164,7 @@ impl<T: Real> ManufacturedField<T, 1> for Bar {
 /// u = (H0 + H1 t) X + V t with tau = mu (F F^T - I): uniform F and stress, and b = 0.
 #[derive(Clone)]
 pub struct Affine {
-    /// The body is the box from 0 to here.
+    /// The upper corner; the lower corner of the box is 0.
     pub upper: [f64; 3],
     pub h0: [[f64; 3]; 3],
     pub h1: [[f64; 3]; 3],
@@ -174,7 +174,7 @@ pub struct Affine {
 }
 
 impl Affine {
-    /// Uniformly stretched and at rest, held on all faces.
+    /// A uniformly stretched body at rest, prescribed on all faces.
     pub fn patch(stretch: f64) -> Self {
         let h0 =
             std::array::from_fn(|i| std::array::from_fn(|j| if i == j { stretch } else { 0.0 }));
@@ -182,7 +182,7 @@ impl Affine {
         Self { upper, h0, h1: [[0.0; 3]; 3], velocity, mu: 1.0, faces: Vec::new() }
     }
 
-    /// Unstretched, with nothing on its faces.
+    /// An undeformed body with free faces.
     pub fn flight(velocity: [f64; 3]) -> Self {
         let free = |a| [(Face::Min(a), Condition::Free), (Face::Max(a), Condition::Free)];
         Self { velocity, faces: (0..3).flat_map(free).collect(), ..Self::patch(0.0) }
@@ -382,12 +382,12 @@ impl Observer for Last {
     }
 }
 
-/// A method with the command's defaults for what is not given.
+/// A method with the command's defaults for all other settings.
 pub fn method(shape: ShapeName, integrator: IntegratorName) -> Method {
     Method { shape, integrator, ..Method::default() }
 }
 
-/// Every formulation, shape function and integrator that go together.
+/// Every valid combination of formulation, shape function and integrator.
 pub fn methods() -> Vec<Method> {
     let mut methods = Vec::new();
     for &formulation in FormulationName::ALL {

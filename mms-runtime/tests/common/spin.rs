@@ -1,4 +1,4 @@
-//! A body that turns.
+//! A rotating body.
 
 use mms_runtime::{Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Vector};
 

@@ -23,7 +23,7 @@ pub struct Wave<const D: usize> {
     pub slide: Vector<f64, D>,
     pub mu: f64,
     pub end: f64,
-    /// Whether the body force keeps the wave going; else it is zero, and only the start is exact.
+    /// Whether the body force maintains the wave; if not, it is zero, and only the start is exact.
     pub forced: bool,
 }
 
@@ -45,7 +45,7 @@ impl Wave<1> {
         }
     }
 
-    /// Less than a wavelength on the bar, so that its ends are under stress, and not the same.
+    /// Less than a wavelength on the bar, so that its ends have stresses, and different ones.
     pub fn stretched_bar() -> Self {
         Self { vectors: Matrix::repeat(4.0), frequency: 4.0, ..Self::bar() }
     }
@@ -68,12 +68,12 @@ impl Wave<2> {
         }
     }
 
-    /// The same on a box from the origin.
+    /// A wave in each component, neither along an axis, on a box from the origin.
     pub fn on_box(upper: [f64; 2]) -> Self {
         Self::on(Body::Box { lower: Vector::zeros(), upper: Vector::from(upper) })
     }
 
-    /// In a box that slides by some cells: enough particles on 40 cells for several slabs, and they change
+    /// A wave in a box that slides by some cells: 40 cells have enough particles for several slabs, and the particles change
     /// places.
     pub fn sliding(faces: Condition) -> Self {
         let slide = Vector::repeat(1.0);
@@ -100,12 +100,12 @@ impl Wave<3> {
 }
 
 impl<const D: usize> Wave<D> {
-    /// With these claims about its faces.
+    /// The wave with these claims about its faces.
     pub fn with_faces(self, faces: &[(Face, Condition)]) -> Self {
         Self { faces: faces.to_vec(), ..self }
     }
 
-    /// With one claim about every face of a box.
+    /// The wave with one claim about every face of a box.
     pub fn with_all_faces(self, condition: Condition) -> Self {
         let both = |a| [(Face::Min(a), condition), (Face::Max(a), condition)];
         Self { faces: (0..D).flat_map(both).collect(), ..self }

@@ -34,16 +34,16 @@ pub fn lattice<T: Real, const D: usize, S: Shape>(ends: [[i64; 2]; D]) -> Lattic
 #[derive(Clone, Debug)]
 pub struct Particle<const D: usize> {
     pub cells: Vector<f64, D>,
-    /// The columns are half the edges of its undeformed domain.
+    /// The columns are half the edges of the undeformed domain.
     half_edges: Matrix<f64, D>,
     displacement_gradient: Matrix<f64, D>,
 }
 
-/// The nodes of a bunch of particles, and where they are.
+/// The nodes of a bunch of particles, and the particles' positions.
 pub type Placed<T, const D: usize, S> = (<S as Shape>::Stencil<T, D>, [Vector<T, D>; BUNCH]);
 
 impl<const D: usize> Particle<D> {
-    /// With the half edges `half` along the axes, or turned by 0.7 in the first two of them.
+    /// A particle with the half edges `half` along the axes, or turned by 0.7 in the first two of them.
     pub fn new(cells: [f64; 3], half: [f64; 3], h: [f64; 9], turned: bool) -> Self {
         let mut half_edges = Matrix::from_diagonal(&Vector::from_fn(|a, _| half[a]));
         if turned && D > 1 {
@@ -63,22 +63,22 @@ impl<const D: usize> Particle<D> {
         }
     }
 
-    /// Where it is.
+    /// The position of the particle.
     pub fn position<T: Real>(&self, lattice: &Lattice<T, D>) -> Vector<T, D> {
         self.cells.map(T::of).component_mul(&lattice.cell_size) + lattice.lower
     }
 
-    /// Half the edges of its undeformed domain, as lengths.
+    /// Half the edges of the undeformed domain, as lengths.
     fn lengths<T: Real>(&self, lattice: &Lattice<T, D>) -> Matrix<T, D> {
         Matrix::from_fn(|i, j| T::of(self.half_edges[(i, j)]) * lattice.cell_size[i])
     }
 
-    /// Half the edges of its domain at present, as lengths.
+    /// Half the edges of the present domain, as lengths.
     pub fn present_half_edges<T: Real>(&self, lattice: &Lattice<T, D>) -> Matrix<T, D> {
         deformation_gradient(&self.displacement_gradient.map(T::of)) * self.lengths(lattice)
     }
 
-    /// Its nodes.
+    /// The nodes of the particle.
     pub fn stencil<T: Real, S: Shape>(
         &self,
         lattice: &Lattice<T, D>,
@@ -88,7 +88,7 @@ impl<const D: usize> Particle<D> {
         S::stencil(lattice, &self.position(lattice), &domain, &h)
     }
 
-    /// The nodes of a bunch of its like that are so many cells from it along each axis, and where they are.
+    /// The nodes of a bunch of equal particles at these distances in cells along each axis, and their positions.
     pub fn bunch<T: Real, S: Shape>(
         &self,
         lattice: &Lattice<T, D>,
@@ -105,7 +105,7 @@ impl<const D: usize> Particle<D> {
         Ok((stencil, positions))
     }
 
-    /// How far its domain reaches along each axis, whatever a shape function makes of it, in cells.
+    /// The reach of the domain along each axis, for any shape function, in cells.
     pub fn reach(&self) -> Vector<f64, D> {
         let edges = |a: usize| Vector::<f64, D>::from_fn(|i, _| EDGES[i] / EDGES[a]);
         let h = self.displacement_gradient;
@@ -119,8 +119,8 @@ impl<const D: usize> Particle<D> {
         })
     }
 
-    /// How far the borders of its domain, and its middle, are from a knot along an axis, in cells, if H is
-    /// diagonal: the kinks of points and of GIMP.
+    /// The distance of the borders of the domain, and of its middle, from a knot along an axis, in cells, if H is diagonal: the
+    /// kinks of points and of GIMP.
     pub fn distance_from_kinks(&self, axis: usize) -> f64 {
         let half = self.half_edges[(axis, axis)];
         let stretched = half * (1.0 + self.displacement_gradient[(axis, axis)]);
@@ -130,7 +130,7 @@ impl<const D: usize> Particle<D> {
     }
 }
 
-/// The weights and gradients of a particle by node, summed where a node comes more than once.
+/// The weights and gradients of a particle by node, summed if a node is visited more than once.
 pub fn weights<T: Real, const D: usize>(
     stencil: &impl Stencil<T, D>,
 ) -> BTreeMap<usize, (f64, Vector<f64, D>)> {
