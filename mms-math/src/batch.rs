@@ -1,34 +1,31 @@
 //! Evaluation at many points: a kernel in one scalar, and a loop that the compiler turns into vector instructions.
 //!
-//! Points go through in blocks of fixed length, 64 in double precision and 128 in single, which is 512 bytes a
-//! number in both. So the loop over a block has no branch and no remainder; the last block is filled up with
-//! copies of its first point. A [`Lane`] stands for the number. There is one loop for AVX-512 (but not with debug
-//! assertions, where nothing need be fast and everything would be compiled once more), one for AVX2 with fused
-//! multiply-add and one for everything else. [`crate::dispatch`] asks the processor when the program runs: nothing
-//! depends on how it was compiled.
+//! Points are processed in blocks of fixed length, 64 in double precision and 128 in single, which is 512 bytes per number in
+//! both. So the loop over a block has no branch and no remainder; the last block is padded with copies of its first point. A
+//! [`Lane`] replaces the number in a loop. There is one loop for AVX-512 (but not with debug assertions, where nothing need be
+//! fast and everything would be compiled once more), one for AVX2 with fused multiply-add and one for everything else.
+//! [`crate::dispatch`] detects the processor when the program runs: nothing depends on how it was compiled.
 //!
 //! # Vector path and scalar fallback
 //!
-//! The quick functions of [`Lane`] return either a correct result or NaN; they have neither branch nor call. NaN
-//! stands for what they do not handle: angles beyond 2^20, or beyond 1.57 where they were proved near zero,
-//! subnormal arguments of logarithms, and what is outside a domain. A block with a NaN result is computed again,
-//! number by number, with the careful functions of the scalar itself, so that nothing is lost but time. Whether an
-//! argument is within range is seen by comparing integers, as the multipliers are busy.
+//! The branch-free functions of [`Lane`] return either a correct result or NaN; they have neither branch nor call. They return
+//! NaN for arguments that they do not handle: angles beyond 2^20, or beyond 1.57 where they were proved near zero, subnormal
+//! arguments of logarithms, and arguments outside a domain. A block with a NaN result is computed again, number by number, with
+//! the scalar's own functions, so that only time is lost. The range of an argument is tested by comparing integers, as the
+//! multipliers are busy.
 //!
-//! # What keeps the loop fast
+//! # Why the loop is fast
 //!
-//! Everything between the dispatched function and a lane is inlined always: one call would end all vectors.
-//! Nothing is called between two blocks either, neither what copies nor `map` of an array, which is not inlined
-//! from another unit of the compilation: after a call the constants of a kernel are loaded one by one where they
-//! are used.
+//! Everything between the dispatched function and a lane is always inlined: a single call would prevent all vectors. Nothing is
+//! called between two blocks either, neither copies nor `map` of an array, which is not inlined from another unit of the
+//! compilation: after a call the constants of a kernel are loaded one by one where they are used.
 //!
-//! How long operations wait for each other decides the speed, and how often numbers are copied. So what needs X
-//! alone and what needs t as well are two loops over a block (`Points::each_then`). Where the first one divides or
-//! takes roots, and calls no function, both are one loop, in which it is a block ahead: a division of eight
-//! numbers takes as long as ten products of as many, and is done beside those of the second. With functions there
-//! would be more coefficients than registers. Divisions and square roots are the processor's: beside
-//! multiplications they take less time than the products that would stand in for them, and are rounded once.
-//! `docs/speed.md` has what these decisions gain.
+//! The speed depends on how long operations wait for each other, and on how often numbers are copied. So terms of X alone and
+//! terms that also need t are two loops over a block (`Points::each_then`). If the first one divides or computes roots, and
+//! calls no function, both are one loop, in which the first is a block ahead: a division of eight numbers takes as long as ten
+//! products of eight, and runs beside the products of the second. With functions there would be more coefficients than
+//! registers. Divisions and square roots are the processor's: beside multiplications they take less time than equivalent
+//! products, and are rounded once. `docs/speed.md` lists the gains of these decisions.
 
 use crate::dispatch::{Work, best};
 use crate::machine::{self, Machine};
@@ -38,21 +35,21 @@ pub use crate::block::{Block, Blocked, Columns};
 pub use crate::kept::{Kept, KeptColumns};
 pub use crate::places::{Copied, Sink, Source};
 
-/// A scalar that stands for a number of type `T` in a loop over points.
+/// A scalar that represents a number of type `T` in a loop over points.
 pub trait Stand<T>: Real {
-    /// In place of the number.
+    /// Converts the number.
     fn standing_for(value: T) -> Self;
     /// The number.
     fn value(self) -> T;
 }
 
-/// A number that batches are made of: `f32` or `f64`.
+/// The number type of batches: `f32` or `f64`.
 pub trait Float: Real + Blocked + Stand<Self> + PartialOrd + Send + Sync {
-    /// Eight of it at a time where the processor has registers of 512 bits.
+    /// Eight numbers at a time on processors with registers of 512 bits.
     type WideMachine: Machine<Self> + From<machine::Wide>;
-    /// Where the processor multiplies and adds in one step.
+    /// Eight numbers at a time on processors that multiply and add in one step.
     type FusedMachine: Machine<Self> + From<machine::Fused>;
-    /// Elsewhere.
+    /// Eight numbers at a time on other processors.
     type PlainMachine: Machine<Self> + From<machine::Plain>;
 }
 
@@ -96,7 +93,7 @@ macro_rules! float {
     };
 }
 
-// Eight single ones fill a register of 256 bits.
+// Eight numbers of single precision fill a register of 256 bits.
 float!(f32, Fused);
 #[cfg(target_arch = "x86_64")]
 float!(f64, Wide);
@@ -105,11 +102,11 @@ float!(f64, Fused);
 
 /// A function of `I` numbers with `O` results.
 pub trait Function<S, const I: usize, const O: usize> {
-    /// Its results. To be inlined always: a call in the loop over points would end all vectors.
+    /// Computes the results. Always to be inlined: a call in the loop over points would prevent all vectors.
     fn at(&self, point: [S; I]) -> [S; O];
 }
 
-/// The same function in any stand-in of `T`.
+/// A function in any scalar that represents `T`.
 pub trait Kernel<T, const I: usize, const O: usize> {
     /// Passes the function to a loop over points.
     fn drive<S: Stand<T>>(&self, points: &mut impl Points<S, I, O>);
@@ -120,8 +117,8 @@ pub trait Points<S, const I: usize, const O: usize> {
     /// Applies the function to every point.
     fn each(&mut self, function: &impl Function<S, I, O>);
 
-    /// Applies the second function to what there is of every point then: its own numbers and, after them, what the
-    /// first function makes of it. It takes those that it `reads`.
+    /// Applies the first function to every point, and then the second one to the numbers that it `reads`: indices into the
+    /// point's own numbers followed by the results of the first function.
     fn each_then<const M: usize, const N: usize>(
         &mut self,
         first: &impl Function<S, I, M>,
@@ -131,18 +128,18 @@ pub trait Points<S, const I: usize, const O: usize> {
     );
 }
 
-/// How two functions of which one needs the other share the work on many points.
+/// How two functions, the second of which needs the first, share the work on many points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loops {
-    /// Each has a loop of its own over every block: the elements of a short loop wait less for each other, so that more
-    /// of them are under way at a time.
+    /// Each function has its own loop over every block: the operations of a short loop wait less for each other, so that more
+    /// of them overlap.
     Apart,
-    /// The second one has a block while the first one has the next, in one loop: so divisions and roots of the first
-    /// one, one of which takes as long as many products, are done beside the products of the second one.
+    /// One loop applies the second function to a block and the first one to the next block: so divisions and roots of the first
+    /// one, each of which takes as long as many products, run beside the products of the second one.
     Together,
 }
 
-/// Of a block's numbers, and of what a first function made of them, those that the second one `reads`.
+/// Selects the numbers that the second function `reads` from a block's numbers and the results of the first function.
 #[inline(always)]
 fn taken<'a, T: Float, const I: usize, const M: usize, const N: usize>(
     inputs: &Columns<'a, T, I>,
@@ -169,7 +166,7 @@ pub fn run<T: Float, const I: usize, const O: usize>(
     best(Drive { kernel, source, sink, count, scalar: core::marker::PhantomData::<T> });
 }
 
-/// A kernel, and what it is driven over.
+/// A kernel, and the points that it is applied to.
 struct Drive<'a, T, K, In, Out, const I: usize, const O: usize> {
     kernel: &'a K,
     source: &'a In,
@@ -222,9 +219,8 @@ where
     Out: Sink<T, O>,
     Careful: Fn(&Columns<'_, T, I>, &mut Block<T, O>),
 {
-    /// Stores the results of the block that begins there. If the quick functions did not know, they are computed again,
-    /// in a block of their own: once `results` has been passed on by reference, the compiler no longer knows that it
-    /// does not overlap the inputs.
+    /// Stores the results of the block that begins at `start`. If a result is NaN, the block is computed again, into another
+    /// block: once `results` has been passed by reference, the compiler no longer knows that it does not overlap the inputs.
     #[inline(always)]
     fn store(&mut self, start: usize, inputs: &Columns<'_, T, I>, results: &Block<T, O>) {
         if !self.sink.store(self.machine, start, results) {
@@ -234,7 +230,7 @@ where
         }
     }
 
-    /// Two functions one after the other at every block.
+    /// Applies two functions one after the other to every block.
     #[inline(always)]
     fn apart<S: Stand<T>, const B: usize, const N: usize>(
         &mut self,
@@ -244,8 +240,8 @@ where
     ) {
         let zero = T::from_f64(0.0);
         let (mut made, mut results) = (Block::of(zero), Block::of(zero));
-        // Two rooms in turn, as below: with one the compiler orders operations otherwise, and some fields take a
-        // twentieth longer in single precision.
+        // Two rooms in turn, as below: with one the compiler orders operations otherwise, and some fields take 5 % longer in
+        // single precision.
         let mut rooms = [Block::of(zero); 2];
         let [mut now, mut soon] = rooms.each_mut();
         let mut start = 0;
@@ -260,7 +256,7 @@ where
         }
     }
 
-    /// Two functions side by side, the first one a block ahead of the second.
+    /// Applies two functions in one loop, the first one a block ahead of the second.
     #[inline(always)]
     fn together<S: Stand<T>, const B: usize, const N: usize>(
         &mut self,
@@ -281,7 +277,7 @@ where
         while start < self.count {
             let inputs = self.source.columns(start, now);
             let next = start + T::BLOCK;
-            // The last block does not come after the loop: all the code that stores results would be there twice.
+            // The last block is not after the loop: otherwise all code that stores results would exist twice.
             if next < self.count {
                 self.source.bring(self.machine, next, soon);
                 let both = (&inputs, &self.source.columns(next, soon));
@@ -389,7 +385,7 @@ mod tests {
         }
     }
 
-    /// The distance r from a centre and ln y, and of them ln(x)/r and x r + ln y.
+    /// The distance r from a centre and ln y, and from them ln(x)/r and x r + ln y.
     struct Ring {
         loops: Loops,
         drives: Cell<usize>,
@@ -419,7 +415,7 @@ mod tests {
         }
     }
 
-    /// Two numbers as they are.
+    /// Returns its two inputs.
     struct Same;
 
     impl<S: Real> Function<S, 2, 2> for Same {
@@ -436,7 +432,7 @@ mod tests {
         }
     }
 
-    /// Writes the results, and says how many blocks were computed again.
+    /// Writes the results, and returns how many blocks were computed again.
     fn ring<T: Float>(
         loops: Loops,
         source: &impl Source<T, 2>,
@@ -448,8 +444,8 @@ mod tests {
         ring.drives.get() - 1
     }
 
-    /// Holds both loops, over points from each place, to the functions themselves. The quick logarithm does not know
-    /// that of a `subnormal` number, which x or y is in every other block: these are computed again, and no other ones.
+    /// Compares both loops, over points from each source, with the functions themselves. The branch-free logarithm returns NaN
+    /// for a `subnormal` number, which x or y is in every other block: only these are computed again.
     fn loops_agree<T: Float + Into<f64> + Debug>(unknown: usize, subnormal: T, epsilon: f64) {
         let block = T::BLOCK;
         for count in [0, 1, block - 1, block, block + 1, 2 * block, 3 * block + 5] {
@@ -493,7 +489,7 @@ mod tests {
 
     #[test]
     fn loops_together_give_what_loops_apart_do() {
-        // Of x the second function takes the logarithm, of y the first, which is a block ahead.
+        // The second function uses the logarithm of x, and the first, which is a block ahead, the logarithm of y.
         for unknown in [0, 1] {
             loops_agree::<f64>(unknown, 1e-310, f64::EPSILON);
             loops_agree::<f32>(unknown, 1e-40, f32::EPSILON.into());

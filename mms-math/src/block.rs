@@ -1,54 +1,52 @@
-//! A block of points: as many as a loop takes at a time, and the loops over them.
+//! A block of points: the number of points that a loop processes at a time, and the loops over them.
 
 use core::fmt::Debug;
 
 use crate::batch::{Function, Stand};
 
-/// The values of `N` numbers at the points of a block, in whole lines of the cache: a vector that is in two takes
-/// twice as long.
+/// The values of `N` numbers at the points of a block, aligned to cache lines: a load that crosses a line takes twice as long.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Block<T: Blocked, const N: usize>(pub(crate) [T::Column; N]);
 
 impl<T: Blocked, const N: usize> Block<T, N> {
-    /// The same value everywhere.
+    /// A block with one value everywhere.
     pub(crate) fn of(value: T) -> Self {
         Self([T::column_of(value); N])
     }
 }
 
-/// The same, wherever they are.
+/// The values of `N` numbers at the points of a block, stored anywhere.
 pub type Columns<'a, T, const N: usize> = [&'a <T as Blocked>::Column; N];
 
-/// A number of which there are blocks.
+/// A number type that has blocks.
 pub trait Blocked: Copy {
-    /// How many points go through a kernel at a time: what eight registers of 512 bits hold. With fewer points the
-    /// compiler unrolls the whole loop, and divisions no longer overlap products; with more, it copies a column by a
-    /// call. The blocks of all inputs and outputs stay in the first cache.
+    /// The number of points that a kernel processes at a time: eight registers of 512 bits. With fewer points the compiler
+    /// unrolls the whole loop, and divisions no longer overlap products; with more, it copies a column by a call. The blocks of
+    /// all inputs and outputs stay in the first cache.
     const BLOCK: usize;
-    /// So many numbers.
+    /// An array of `BLOCK` numbers.
     type Column: Copy + Debug;
-    /// The same number everywhere.
+    /// A column with one number everywhere.
     fn column_of(number: Self) -> Self::Column;
-    /// The first numbers of many, if there are as many.
+    /// The first `BLOCK` numbers of a slice; `None` if it is shorter.
     fn first_of(numbers: &[Self]) -> Option<&Self::Column>;
-    /// The same, to write to.
+    /// The first `BLOCK` numbers of a mutable slice; `None` if it is shorter.
     fn first_of_mut(numbers: &mut [Self]) -> Option<&mut Self::Column>;
-    /// The numbers.
+    /// The numbers of a column.
     fn numbers(column: &Self::Column) -> &[Self];
-    /// The same, to write to.
+    /// The mutable numbers of a column.
     fn numbers_mut(column: &mut Self::Column) -> &mut [Self];
 
-    /// A function at all points of a block.
+    /// Applies a function at all points of a block.
     fn on_block<S: Stand<Self>, const I: usize, const O: usize>(
         function: &impl Function<S, I, O>,
         inputs: &Columns<'_, Self, I>,
         results: &mut Block<Self, O>,
     );
 
-    /// Two functions in one loop: the second one at all points of a block, from what the first one `made` of them, and
-    /// the first one at those of the block that is `coming`. What it makes of a point takes the place of what was just
-    /// read.
+    /// Applies two functions in one loop: the second one at all points of a block, to the results that the first one `made` of
+    /// them, and the first one at the points of the next block. Its results overwrite the results that were just read.
     fn side_by_side<S, const I: usize, const M: usize, const N: usize, const O: usize>(
         functions: (&impl Function<S, I, M>, &impl Function<S, N, O>),
         blocks: (&Columns<'_, Self, I>, &Columns<'_, Self, I>),

@@ -1,4 +1,4 @@
-//! Points in bunches of eight, whose numbers are kept number by number (array of structures of arrays).
+//! Points in bunches of eight, whose values are adjacent for each number (array of structures of arrays).
 
 use crate::batch::{Block, Columns, Copied, Float, Sink, Source};
 use crate::machine::Machine;
@@ -6,9 +6,9 @@ use crate::places::are_numbers;
 
 /// A bunch of eight points with `N` numbers each.
 pub trait Numbers<T, const N: usize> {
-    /// Of each number the eight.
+    /// For each number, the values of the eight points.
     fn numbers(&self) -> [&[T; 8]; N];
-    /// As [`numbers`](Numbers::numbers), to write to.
+    /// For each number, the mutable values of the eight points.
     fn numbers_mut(&mut self) -> [&mut [T; 8]; N];
 }
 
@@ -24,7 +24,7 @@ impl<T, const N: usize> Numbers<T, N> for [[T; 8]; N] {
     }
 }
 
-/// Some bunches, as a place to read points from or to write them to.
+/// A slice of bunches, as a source of points or as a sink for results.
 pub struct Bunched<B, const N: usize>(pub B);
 
 impl<T: Float, B: Numbers<T, N>, const N: usize> Source<T, N> for Bunched<&[B], N> {

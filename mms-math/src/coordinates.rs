@@ -1,5 +1,5 @@
-//! Systems of coordinates between whose bounds a body is a box: those of space, radius and angle, and radius and two
-//! angles. Solver, proofs and emitted code take positions, directions and areas from here.
+//! Systems of coordinates in which a body is a box: Cartesian coordinates, radius and angle, and radius and two angles. Solver,
+//! proofs and emitted code share these positions, directions and areas.
 
 /// A system of coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub trait Arithmetic {
 pub struct Numbers<T>(core::marker::PhantomData<T>);
 
 impl<T> Numbers<T> {
-    /// The arithmetic of that type.
+    /// Creates the arithmetic.
     pub fn new() -> Self {
         Numbers(core::marker::PhantomData)
     }
@@ -56,7 +56,7 @@ impl<T: crate::Scalar> Arithmetic for Numbers<T> {
 }
 
 impl System {
-    /// X of coordinates; a body of fewer dimensions has 0 in place of the others.
+    /// X at the given coordinates; further coordinates of a body of fewer dimensions are 0.
     pub fn position<A: Arithmetic>(self, with: &mut A, at: &[A::Value; 3]) -> [A::Value; 3] {
         match self {
             System::Cartesian => at.clone(),
@@ -106,7 +106,7 @@ impl System {
         }
     }
 
-    /// How far X moves with each coordinate: 1, or R, or R sin phi.
+    /// The derivative of X by each coordinate, in length: 1, or R, or R sin phi.
     pub fn scales<A: Arithmetic>(self, with: &mut A, at: &[A::Value; 3]) -> [A::Value; 3] {
         let one = with.number(1);
         match self {
@@ -143,15 +143,15 @@ impl System {
         }
     }
 
-    /// Lower and upper corner of the smallest box around what lies between bounds; a body of fewer dimensions has 0 in
-    /// place of the others.
+    /// Lower and upper corner of the smallest box around the body between bounds; further coordinates of a body of fewer
+    /// dimensions are 0.
     pub fn bounding_box(self, bounds: &[[f64; 2]]) -> [[f64; 3]; 2] {
         use core::f64::consts::FRAC_PI_2;
         let axis = |axis: usize| bounds.get(axis).copied().unwrap_or([0.0; 2]);
-        // The ends, and of an angle the quarters of a turn between them.
+        // The ends, and for an angle the quarters of a turn between them.
         let places = |own: usize| {
             let [first, last] = axis(own);
-            // A length has none, however large it is.
+            // A length has no quarters, however large it is.
             let [from, to] = if self.is_angle(own) { [first, last] } else { [0.5, 0.0] };
             let quarters = (from / FRAC_PI_2).ceil() as i64..=(to / FRAC_PI_2).floor() as i64;
             quarters.map(|k| k as f64 * FRAC_PI_2).chain([first, last])
@@ -163,7 +163,7 @@ impl System {
                     let at = [first, second, third];
                     let point = self.position(&mut Numbers::<f64>::new(), &at);
                     for k in 0..3 {
-                        // Round-off of a sine must not put a corner beside a knot.
+                        // Round-off of a sine must not move a corner beside a knot.
                         let is_round = self != System::Cartesian;
                         let is_zero = is_round && point[k].abs() < 1e-12 * axis(0)[1];
                         let x = if is_zero { 0.0 } else { point[k] };
@@ -176,7 +176,7 @@ impl System {
         corners
     }
 
-    /// The volume between bounds of all coordinates; where one of them is a number, the area between those of the
+    /// The volume between bounds of all coordinates; if one coordinate is a fixed number, the area between the bounds of the
     /// others.
     pub fn measure(self, sides: &[Side]) -> f64 {
         let ranges = |axis: usize| matches!(sides.get(axis), Some(Side::Between(_)));

@@ -1,14 +1,14 @@
-//! Deliberate mistakes (fault injection), to prove that a verification finds them.
+//! Deliberate mistakes (fault injection), to prove that a verification detects them.
 //!
-//! `defects!` makes the list of a crate's mistakes, and a place that can be wrong asks `on(Defect::Name)`. Without
-//! the feature `defects` that is the constant `false`, and nothing of it is in a program. With it, one mistake at
-//! a time is selected for the whole process.
+//! `defects!` makes the list of a crate's mistakes, and code that can be wrong tests `on(Defect::Name)`. Without the feature
+//! `defects` that is the constant `false`, and no program contains any of the list. With the feature, one mistake at a time is
+//! selected for the whole process.
 
 /// Makes the list of a crate's deliberate mistakes: `Variant, "name", "what is wrong";` for each.
 ///
-/// A place that can be wrong asks `on(Defect::Variant)`. Unless the crate that calls the macro is built with its
-/// feature `defects`, that is the constant `false`, and nothing of the list is left in a program. With the
-/// feature, `select` names the mistake that the whole process makes.
+/// Code that can be wrong tests `on(Defect::Variant)`. Unless the crate that calls the macro is built with its feature
+/// `defects`, that is the constant `false`, and no program contains any of the list. With the feature, `select` selects the
+/// mistake that the whole process makes.
 #[macro_export]
 macro_rules! defects {
     ($($variant:ident, $name:literal, $what:literal;)+) => {
@@ -37,7 +37,7 @@ macro_rules! defects {
         static SELECTED: ::core::sync::atomic::AtomicUsize =
             ::core::sync::atomic::AtomicUsize::new(usize::MAX);
 
-        /// Makes the process make this mistake from now on, or none.
+        /// Selects the mistake that the process makes from now on; `None` for no mistake.
         #[cfg(feature = "defects")]
         pub fn select(defect: Option<Defect>) {
             let number = defect.map_or(usize::MAX, |defect| defect as usize);
@@ -46,7 +46,7 @@ macro_rules! defects {
 
         #[cfg(feature = "defects")]
         impl Defect {
-            /// All of them.
+            /// All mistakes.
             pub const ALL: &[Self] = &[$(Self::$variant,)+];
 
             /// The name that users write.
@@ -56,7 +56,7 @@ macro_rules! defects {
                 }
             }
 
-            /// What is wrong.
+            /// A description of the mistake.
             pub fn what(self) -> &'static str {
                 match self {
                     $(Self::$variant => $what,)+

@@ -1,8 +1,8 @@
-//! Compiles work for several instruction sets, and dispatches to the best one that the processor has.
+//! Compiles work for several instruction sets, and dispatches to the best one of the processor.
 //!
-//! A function is called that was compiled for what was just found to be there. That is `unsafe`, as the
-//! instructions in `machine/registers/` are. The environment variable `MMS_INSTRUCTIONS` limits what is found:
-//! `baseline`, `avx2` or `avx512`.
+//! The dispatcher calls a function that was compiled for the detected instructions. That is `unsafe`, as the instructions in
+//! `machine/registers/` are. The environment variable `MMS_INSTRUCTIONS` limits the instructions: `baseline`, `avx2` or
+//! `avx512`.
 
 use core::fmt;
 use core::sync::atomic::{AtomicU8, Ordering};
@@ -14,28 +14,29 @@ use crate::machine::{Fused, Machine, Plain};
 
 /// Work on many numbers of type `T`, in versions of the same code.
 pub trait Work<T> {
-    /// What comes of it.
+    /// The result.
     type Output;
 
-    /// Whether AVX-512 gains over AVX2: else there is no version for it, and that for AVX2 is taken.
+    /// Whether the work is faster with AVX-512 than with AVX2. If not, there is no version for AVX-512, and the one for AVX2 is
+    /// used.
     const GAINS_BY_AVX512: bool = true;
 
-    /// Does it, with loops over `M::Lane` and eight numbers at a time. Everything that is called has to be inlined, or
-    /// is not compiled for the instruction set.
+    /// Does the work, with loops over `M::Lane` and eight numbers at a time. All called functions have to be inlined, or they
+    /// are not compiled for the instruction set.
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output;
 }
 
-/// Does work with the most that the processor has.
+/// Does work with the best instructions of the processor.
 #[inline]
 pub fn best<T: Float, W: Work<T>>(work: W) -> W::Output {
     Instructions::best().run(work)
 }
 
-/// The environment variable that limits [`Instructions::best`]: `baseline`, `avx2` or `avx512`. What the processor
-/// does not have is not used in any case, and another word is no limit.
+/// The environment variable that limits [`Instructions::best`]: `baseline`, `avx2` or `avx512`. Instructions that the processor
+/// lacks are never used, and other words set no limit.
 pub const LIMIT: &str = "MMS_INSTRUCTIONS";
 
-/// Instructions that the processor has: there is a value of this type for no others.
+/// Instructions that the processor has: there are no values of this type for other instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Instructions(Level);
 
@@ -59,8 +60,9 @@ impl Level {
         }
     }
 
-    /// Whether the processor has it, and this crate was compiled for it. With debug assertions there is no version for
-    /// AVX-512: every batch and every step of a solver would be compiled once more, for programs that need not be fast.
+    /// Whether the processor has the instructions, and this crate was compiled for them. With debug assertions there is no
+    /// version for AVX-512: every batch and every step of a solver would be compiled once more, for programs that need not be
+    /// fast.
     fn is_here(self) -> bool {
         match self {
             Level::Baseline => true,
@@ -88,29 +90,29 @@ impl fmt::Display for Instructions {
 }
 
 impl Instructions {
-    /// What every processor of this kind has.
+    /// The instructions that every processor of this kind has.
     pub const BASELINE: Instructions = Instructions(Level::Baseline);
 
-    /// All that the processor has, from the least to the most.
+    /// All instructions that the processor has, from the least to the most.
     pub fn all() -> impl Iterator<Item = Instructions> {
         LEVELS.into_iter().filter(|level| level.is_here()).map(Instructions)
     }
 
-    /// The words for instructions, from the least to the most.
+    /// The names of instructions, from the least to the most.
     pub fn names() -> impl Iterator<Item = &'static str> {
         LEVELS.into_iter().map(Level::name)
     }
 
-    /// What the environment variable [`LIMIT`] says where that is none of the words for instructions.
+    /// The value of the environment variable [`LIMIT`], if it is not one of the names of instructions.
     pub fn unknown_limit() -> Option<std::string::String> {
         let limit = std::env::var_os(LIMIT)?.to_string_lossy().into_owned();
         (!Instructions::names().any(|name| name == limit)).then_some(limit)
     }
 
-    /// The most that the processor has, and that the environment variable [`LIMIT`] allows. It is read once.
+    /// The best instructions that the processor has and the environment variable [`LIMIT`] allows. The variable is read once.
     #[inline]
     pub fn best() -> Instructions {
-        // A position in `LEVELS`; none at first.
+        // An index into `LEVELS`; initially invalid.
         static FOUND: AtomicU8 = AtomicU8::new(u8::MAX);
         let found = FOUND.load(Ordering::Relaxed);
         match LEVELS.get(usize::from(found)) {
@@ -127,11 +129,11 @@ impl Instructions {
     #[inline]
     pub fn run<T: Float, W: Work<T>>(self, work: W) -> W::Output {
         match self.0 {
-            // Safety: the processor has what the function is compiled for, or there would be no such value.
+            // Safety: the processor has the instructions that the function is compiled for, or there would be no such value.
             #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
             #[allow(unsafe_code)]
             Level::Avx512 if W::GAINS_BY_AVX512 => unsafe { avx512(work) },
-            // Safety: likewise; AVX2 is there where AVX-512 is.
+            // Safety: likewise; a processor with AVX-512 has AVX2.
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
             Level::Avx2 | Level::Avx512 => unsafe { avx2(work) },
@@ -139,12 +141,12 @@ impl Instructions {
         }
     }
 
-    /// Does work with these instructions, up to AVX2, and rounds products before they are added to something: the
-    /// results are the same bits on all processors.
+    /// Does work with these instructions, up to AVX2, and rounds products before additions: the results are the same bits on
+    /// all processors.
     #[inline]
     pub fn run_plainly<T: Float, W: Work<T>>(self, work: W) -> W::Output {
         match self.0 {
-            // Safety: as above; AVX-512 is there where AVX2 is.
+            // Safety: as above; a processor with AVX-512 has AVX2.
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
             Level::Avx2 | Level::Avx512 => unsafe { plain_avx2(work) },
@@ -161,7 +163,7 @@ fn found_with(limit: Option<std::string::String>) -> Level {
 }
 
 fn baseline<T: Float, W: Work<T>>(work: W) -> W::Output {
-    // Every processor of these multiplies and adds in one step.
+    // Every processor of this kind multiplies and adds in one step.
     if cfg!(target_arch = "aarch64") {
         work.on(T::FusedMachine::from(Fused::known()))
     } else {

@@ -1,5 +1,4 @@
-//! [`Scalar`] for the two IEEE formats: the quick functions, and where they do not know, the
-//! standard library.
+//! [`Scalar`] for the two IEEE formats: the branch-free functions, and the standard library where they return NaN.
 
 use crate::lane::Lane;
 use crate::quick::number::Float;
@@ -35,10 +34,10 @@ macro_rules! scalar {
             }
             #[inline]
             fn ln_1p_rest(self) -> Self {
-                // Unknown are numbers so large that nothing cancels, and those without a value.
+                // NaN results from numbers so large that nothing cancels, and from numbers outside the domain.
                 known(Lane::<_, false>(self).ln_1p_rest(), || self - $float::ln_1p(self))
             }
-            // Not inlined: it would make programs longer than the call of a plain sine does.
+            // Not inlined: that would make programs longer than the call of a plain sine.
             fn sin_near_zero(self) -> Self {
                 known(Lane::<_, false>(self).sin_near_zero(), || Scalar::sin(self))
             }
@@ -92,7 +91,7 @@ scalar!(
     cbrt exp exp_m1 ln ln_1p sin cos tan sinh cosh tanh asin acos atan
 );
 
-/// What the quick function says, or the careful one where that is not a number.
+/// The branch-free result, or `careful` if that is NaN.
 #[inline(always)]
 fn known<T: Float>(quick: Lane<T, false>, careful: impl FnOnce() -> T) -> T {
     if quick.0.is_nan() { careful() } else { quick.0 }

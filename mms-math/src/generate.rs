@@ -1,5 +1,5 @@
-//! What generated code would otherwise repeat for every quantity. Not meant for other callers: the
-//! macros name the structs of a generated module.
+//! Macros for code that generated modules would otherwise repeat for every quantity. Not meant for other callers: the macros
+//! name the structs of a generated module.
 
 /// A function of a point in the scalar of a loop: a struct around the prepared field.
 #[doc(hidden)]
@@ -8,7 +8,7 @@ macro_rules! kernel {
     ($name:ident<$scalar:ident>, $inputs:tt -> $results:tt, |$at:ident, $point:pat_param| $result:block) => {
         struct $name<'a, T: $crate::Real>(&'a AtTime<'a, T>);
 
-        // Coordinates and normals are called as they are in mathematics.
+        // Coordinates and normals are named as in mathematics.
         #[allow(non_snake_case)]
         impl<$scalar: $crate::Real> $crate::batch::Function<$scalar, $inputs, $results>
             for $name<'_, $scalar>
@@ -33,8 +33,8 @@ macro_rules! kernel {
     };
 }
 
-/// A kernel that is one after another, with as many numbers in between, in loops of their own or in one together. The
-/// second one takes, of the inputs and then of these numbers, those with the indices that are given.
+/// A kernel of two functions, with numbers in between, in separate loops or in one. The second function reads the numbers with
+/// the given indices, from the inputs followed by the numbers in between.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! kernels {
@@ -59,8 +59,8 @@ macro_rules! kernels {
     };
 }
 
-/// A quantity at many points: from positions in either layout, and from what was kept of them. With
-/// `normals`, a unit normal at each point comes with the position.
+/// A quantity at many points: from positions in either layout, and from precomputed values. With `normals`, each position has a
+/// unit normal.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! batches {

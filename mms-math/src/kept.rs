@@ -1,8 +1,6 @@
-//! Values that are kept of many points, to be read again and again: a column for each number, in whole lines of
-//! the cache.
+//! Values at many points that are stored to be read again and again: a column for each number, aligned to cache lines.
 //!
-//! From slices that begin anywhere every vector would be read in two pieces. Slices of whole blocks are read where
-//! they are.
+//! In slices that begin anywhere, every vector would be read in two pieces. Slices of whole blocks are read in place.
 
 use std::vec;
 use std::vec::Vec;
@@ -14,25 +12,25 @@ use crate::places::are_numbers;
 /// `N` numbers of each of many points.
 #[derive(Clone, Debug)]
 pub struct Kept<T: Float, const N: usize> {
-    /// Column after column. The block with the last points of one goes on with copies of its first point.
+    /// Column after column. The block with the last points of a column is padded with copies of its first point.
     blocks: Vec<Block<T, 1>>,
-    /// How many points there are.
+    /// The number of points.
     count: usize,
 }
 
-/// From which block of a column the next column is. It is odd: columns that begin at the same place of their pages would
+/// The number of blocks from a column to the next one. It is odd: columns that begin at the same place of their pages would
 /// compete for the same lines of the first cache.
 fn stride<T: Float>(count: usize) -> usize {
     count.div_ceil(T::BLOCK) | 1
 }
 
 impl<T: Float, const N: usize> Kept<T, N> {
-    /// Room for so many points.
+    /// Allocates storage for `count` points.
     pub fn room_for(count: usize) -> Self {
         Kept { blocks: vec![Block::of(T::from_f64(0.0)); N * stride::<T>(count)], count }
     }
 
-    /// How many points there are.
+    /// The number of points.
     pub fn len(&self) -> usize {
         self.count
     }
@@ -67,7 +65,7 @@ impl<T: Float, const N: usize> Sink<T, N> for Kept<T, N> {
     }
 }
 
-/// Some of the numbers that are kept.
+/// Some of the stored numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct KeptColumns<'a, T: Float, const K: usize> {
     columns: [&'a [Block<T, 1>]; K],

@@ -1,4 +1,4 @@
-//! The scalar of a vectorised loop: a number whose functions have neither branch nor call, and which says whether
+//! The scalar of a vectorised loop: a number whose functions have neither branch nor call, and whose type tells whether
 //! products are fused with sums.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -7,22 +7,21 @@ use crate::Scalar;
 use crate::quick::number::Float;
 use crate::quick::{exponential, inverse, logarithm, power, trigonometric};
 
-/// One number of a loop that the compiler may turn into vector instructions: the functions have
-/// neither branches nor calls, and are not a number where they do not know.
+/// A number of a loop that the compiler may turn into vector instructions: the functions have neither branches nor calls, and
+/// return NaN for arguments that they do not handle.
 ///
-/// `FUSED` says that `mul_add` rounds once. The code must then be compiled for a processor that
-/// does so in one instruction, or every operation becomes a call; elsewhere it is a product and a
-/// sum.
+/// `FUSED` tells that `mul_add` rounds once. The code must then be compiled for a processor with one instruction for it, or
+/// every operation becomes a call; otherwise it is a product and a sum.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 #[repr(transparent)]
 pub struct Lane<T, const FUSED: bool>(pub T);
 
-/// The largest magnitude of which a [`Lane`] knows [`Scalar::sin_near_zero`] and [`Scalar::cos_near_zero`]: just
-/// less than a quarter turn.
+/// The largest magnitude for which a [`Lane`] computes [`Scalar::sin_near_zero`] and [`Scalar::cos_near_zero`]: just less than
+/// a quarter turn.
 pub const NEAR_ZERO: f64 = 1.57;
 
-/// The largest magnitude of which a [`Lane`] knows [`Scalar::sin_within_one`] and [`Scalar::cos_within_one`]: just
-/// more than 1.
+/// The largest magnitude for which a [`Lane`] computes [`Scalar::sin_within_one`] and [`Scalar::cos_within_one`]: just more
+/// than 1.
 pub const WITHIN_ONE: f64 = 1.0625;
 
 macro_rules! operators {

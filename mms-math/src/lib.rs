@@ -1,21 +1,21 @@
-//! The scalar trait that generated functions, the interpreter and the solver compute with.
+//! The scalar trait of generated functions, the interpreter and the solver.
 //!
-//! Generated code is written once, generic over [`Scalar`], and evaluated in `f32`, `f64`, twice the digits of
-//! `f64` ([`Double`]), dual numbers or arbitrary precision. The crate has no dependencies and needs no standard
-//! library unless the feature `std` (on by default) supplies the elementary functions of `f32` and `f64`, and with
-//! them evaluation at many points ([`batch`]).
+//! Generated code is written once, generic over [`Scalar`], and evaluated in `f32`, `f64`, twice the digits of `f64`
+//! ([`Double`]), dual numbers or arbitrary precision. The crate has no dependencies and needs no standard library unless the
+//! feature `std` (on by default) supplies the elementary functions of `f32` and `f64`, and with them evaluation at many points
+//! ([`batch`]).
 //!
-//! | module | holds |
+//! | module | contents |
 //! |---|---|
 //! | `quick` | elementary functions without branches, for both formats; bounds in the tests |
 //! | `lane` | the scalar of a loop: a number, and whether products are fused with sums |
-//! | `float` | `f32` and `f64`: the quick answer, or the standard library's where there is none |
+//! | `float` | `f32` and `f64`: branch-free functions, with the standard library's where these return NaN |
 //! | `double` | twice the digits of `f64` (double-double), without the standard library |
 //! | `coordinates` | systems of coordinates: positions, directions, volumes between bounds |
 //! | `polygon` | whether edges cross, triangles, distances |
 //! | `batch`, `dispatch` | many points, block by block, and which instructions may be used |
 //! | `block` | the numbers of a block, and the loops over it |
-//! | `machine` | eight numbers as one value, in registers where there are such (SIMD pack) |
+//! | `machine` | eight numbers as one value, in registers if the processor has them (SIMD pack) |
 #![no_std]
 
 #[cfg(feature = "std")]
@@ -58,19 +58,19 @@ pub use lane::{Lane, NEAR_ZERO, WITHIN_ONE};
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Up to so many half turns [`Scalar::within_turns_pi`] leaves an angle as it is: sums with it lose no digits that count.
+/// The largest number of half turns that [`Scalar::within_turns_pi`] does not change: sums with it lose no significant digits.
 pub const FEW_HALF_TURNS: f64 = 8.0;
 
-/// Up to so many radians [`Scalar::within_turns`] leaves an angle as it is.
+/// The largest number of radians that [`Scalar::within_turns`] does not change.
 pub const FEW_RADIANS: f64 = 25.0;
 
-/// Larger angles in radians, 2^50, are not reduced with twice the digits of an `f64`.
+/// The largest angle in radians, 2^50, that is reduced with twice the digits of an `f64`.
 pub const LARGEST_ANGLE: f64 = 1125899906842624.0;
 
 /// A real number in some precision: the arithmetic and the elementary functions of a field.
 ///
-/// `Clone` rather than `Copy`, so that arbitrary-precision numbers qualify. Outside a function's
-/// domain an implementation returns its own not-a-number or infinity; it never panics.
+/// `Clone` rather than `Copy`, so that arbitrary-precision numbers qualify. Outside a function's domain an implementation
+/// returns its own NaN or infinity; it never panics.
 pub trait Scalar:
     Clone
     + Debug
@@ -83,11 +83,10 @@ pub trait Scalar:
     /// The nearest value to `value`; exact where the type holds a 53-bit significand.
     fn from_f64(value: f64) -> Self;
 
-    /// What is computed once and used often is computed in this type, which has more digits where
-    /// there is such a type.
+    /// The type for values that are computed once and used often: it has more digits if there is such a type.
     type Wide: Scalar;
 
-    /// The same value with more digits.
+    /// Converts to the type with more digits.
     fn widen(self) -> Self::Wide;
 
     /// The nearest value to one with more digits.
@@ -131,25 +130,25 @@ pub trait Scalar:
     fn sin(self) -> Self;
     /// The cosine of an angle in radians.
     fn cos(self) -> Self;
-    /// The sine of an angle in radians that is expected to be less than a quarter turn: there an
-    /// implementation may leave out the reduction, and elsewhere it is right nevertheless.
+    /// The sine of an angle in radians that is expected to be less than a quarter turn: an implementation may omit the
+    /// reduction for such angles, and is correct for all others too.
     fn sin_near_zero(self) -> Self {
         self.sin()
     }
-    /// The cosine of such an angle.
+    /// The cosine of an angle in radians that is expected to be less than a quarter turn.
     fn cos_near_zero(self) -> Self {
         self.cos()
     }
-    /// The sine of an angle in radians that is expected to be at most 1, or a little more: as near zero, with fewer terms
-    /// of it or of its cosine.
+    /// The sine of an angle in radians that is expected to be at most slightly more than 1: like [`Self::sin_near_zero`], with
+    /// fewer terms.
     fn sin_within_one(self) -> Self {
         self.sin_near_zero()
     }
-    /// The cosine of such an angle.
+    /// The cosine of an angle in radians that is expected to be at most slightly more than 1.
     fn cos_within_one(self) -> Self {
         self.cos_near_zero()
     }
-    /// The sine of an angle in half turns, sin(pi self): whole turns are taken off without error.
+    /// The sine of an angle in half turns, sin(pi self): whole turns are subtracted without error.
     fn sin_pi(self) -> Self {
         (Self::pi() * self).sin()
     }
@@ -157,12 +156,13 @@ pub trait Scalar:
     fn cos_pi(self) -> Self {
         (Self::pi() * self).cos()
     }
-    /// An angle in radians that differs from this one by whole turns: of [`FEW_RADIANS`] at most, where a type takes
-    /// turns off with all its digits; else the same.
+    /// An angle in radians that differs from this one by whole turns: of [`FEW_RADIANS`] at most, if the type subtracts turns
+    /// with all its digits; otherwise this angle.
     fn within_turns(self) -> Self {
         self
     }
-    /// The same of an angle in half turns, of [`FEW_HALF_TURNS`] at most: whole turns are taken off without error.
+    /// An angle in half turns that differs from this one by whole turns, of [`FEW_HALF_TURNS`] at most: turns are subtracted
+    /// without error.
     fn within_turns_pi(self) -> Self {
         self
     }
@@ -186,7 +186,7 @@ pub trait Scalar:
     fn powf(self, exponent: Self) -> Self;
 }
 
-/// A scalar whose numbers are copied: what generated code computes with.
+/// A scalar that is `Copy`: the type that generated code computes with.
 pub trait Real: Scalar<Wide: Copy> + Copy {}
 
 impl<T: Scalar<Wide: Copy> + Copy> Real for T {}

@@ -1,10 +1,10 @@
-//! Eight numbers at a time (a SIMD pack), in one register where the processor has such.
+//! Eight numbers at a time (a SIMD pack), in one register if the processor has such registers.
 //!
-//! The compiler turns a loop over many numbers into vector instructions by itself ([`crate::batch`]); whether it
-//! does so with eight numbers that go through long code together is not certain. Here they are one value.
+//! The compiler turns a loop over many numbers into vector instructions by itself ([`crate::batch`]); it may not do so for
+//! eight numbers in long code. Here they are one value.
 //!
-//! Eight numbers are two halves of four. What moves numbers from place to place moves them within their half, for
-//! that is what registers do at once: so the two halves may belong to different things.
+//! Eight numbers are two halves of four. Operations that move numbers move them within their half, as registers do in one
+//! instruction: so the two halves may belong to different things.
 
 mod arrays;
 #[cfg(target_arch = "x86_64")]
@@ -13,44 +13,43 @@ mod registers;
 use crate::batch::Stand;
 use crate::dispatch::Work;
 
-/// A way to compute with eight numbers together.
+/// An instruction set that computes with eight numbers together.
 pub trait Machine<T>: Copy {
     /// Eight numbers.
     type Eight: Copy;
 
-    /// Whether it computes one number after the other, so that code for eight together is only longer.
+    /// Whether one number is computed after the other, so that code for eight together is only longer.
     const ALONE: bool = false;
 
-    /// One number of a loop that the compiler makes vector instructions of.
+    /// A number of a loop that the compiler turns into vector instructions.
     type Lane: Stand<T>;
 
-    /// These numbers.
+    /// Loads numbers.
     fn eight(self, numbers: &[T; 8]) -> Self::Eight;
 
-    /// The numbers of one half, and those of the other.
+    /// Loads the numbers of the first half, and of the second.
     fn halves(self, first: &[T; 4], second: &[T; 4]) -> Self::Eight;
 
-    /// Does work in a function of its own, compiled for the same instructions: once, for all that have it done. Nothing
-    /// of it is inlined, so it is for what takes long beside a call. Of [`Plain`] these are the instructions of every
-    /// processor.
+    /// Does work in a function that is not inlined, compiled for the same instructions: once, for all callers. It is for work
+    /// that takes long compared with a call. With [`Plain`] these are the instructions of every processor.
     fn apart<W: Work<T>>(self, work: W) -> W::Output;
 
-    /// The same number eight times.
+    /// One number in all eight places.
     fn splat(self, number: T) -> Self::Eight;
 
-    /// One number in all places of one half, and another one in those of the other.
+    /// One number in all places of the first half, and another in all places of the second.
     fn splat_halves(self, first: T, second: T) -> Self::Eight;
 
-    /// The numbers.
+    /// Stores the numbers.
     fn numbers(self, eight: Self::Eight) -> [T; 8];
 
-    /// Adds the first half.
+    /// Adds the first half to `to`.
     fn add_first(self, to: &mut [T; 4], eight: Self::Eight);
 
-    /// Adds the second half.
+    /// Adds the second half to `to`.
     fn add_second(self, to: &mut [T; 4], eight: Self::Eight);
 
-    /// Adds both halves.
+    /// Adds both halves to `to`.
     fn add_halves(self, to: &mut [T; 4], eight: Self::Eight);
 
     /// a + b.
@@ -68,66 +67,65 @@ pub trait Machine<T>: Copy {
     /// a / b.
     fn over(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
 
-    /// a where it is less than b, else b: so b where one is not a number.
+    /// a if it is less than b, else b: so b if one of them is NaN.
     fn least(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
 
-    /// a where it is greater than b, else b: so b where one is not a number.
+    /// a if it is greater than b, else b: so b if one of them is NaN.
     fn greatest(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
 
     /// The square roots.
     fn root(self, a: Self::Eight) -> Self::Eight;
 
-    /// The greatest whole numbers that are not greater than these.
+    /// The largest integers that are at most these numbers.
     fn floor(self, a: Self::Eight) -> Self::Eight;
 
     /// Whether a <= b for all eight.
     fn all_at_most(self, a: Self::Eight, b: Self::Eight) -> bool;
 
-    /// Whether all eight numbers of each lie between its two ends: one question, and one branch, for all.
+    /// Whether all eight numbers of each entry lie between its two ends: one test and one branch for all.
     fn all_between<const N: usize>(self, numbers: &[Self::Eight; N], ends: &[[T; 2]; N]) -> bool;
 
-    /// The whole numbers that these are, between -2^31 and 2^31; any number elsewhere.
+    /// The integers that these numbers are, between -2^31 and 2^31; any integers outside.
     fn whole(self, a: Self::Eight) -> [i32; 8];
 
-    /// For each place in a half: its number in all places of its half.
+    /// For each place in a half: the number there, in all places of its half.
     fn spread(self, a: Self::Eight) -> [Self::Eight; 4];
 
-    /// In each half, the first numbers of all four, then the second ones, and so on.
+    /// In each half, the first numbers of all four rows, then the second ones, and so on.
     fn transposed(self, rows: [Self::Eight; 4]) -> [Self::Eight; 4];
 
-    /// The first numbers of eight pairs, four of which are in each row, and the second ones.
+    /// The first numbers of eight pairs, four of which are in each row, and the second numbers.
     fn unzipped(self, rows: [Self::Eight; 2]) -> [Self::Eight; 2];
 
     /// Eight pairs of a first and a second number, four in each row.
     fn zipped(self, columns: [Self::Eight; 2]) -> [Self::Eight; 2];
 
-    /// Has the value in that place brought near, for it is soon needed; if there is none, nothing comes of it.
+    /// Prefetches the value in that place; does nothing if there is none.
     fn fetch<V>(self, values: &[V], place: usize);
 }
 
-/// One number after the other: every processor can do that.
+/// One number after the other: works on every processor.
 #[derive(Clone, Copy, Debug)]
 pub struct Plain;
 
-/// Multiply-adds that round once. There is one only where the processor is known to have them
-/// ([`crate::dispatch`]).
+/// Multiply-adds that round once. A value exists only if the processor is known to have them ([`crate::dispatch`]).
 #[derive(Clone, Copy, Debug)]
 pub struct Fused(());
 
 impl Fused {
-    /// Only for a processor with AVX2 and FMA, where there are such, in a function compiled for them.
+    /// To be called only on a processor with AVX2 and FMA, if its kind has such, in a function compiled for them.
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), allow(dead_code))]
     pub(crate) fn known() -> Self {
         Fused(())
     }
 }
 
-/// As [`Fused`], with registers that hold eight numbers of double precision.
+/// Multiply-adds that round once, with registers for eight numbers of double precision.
 #[derive(Clone, Copy, Debug)]
 pub struct Wide(());
 
 impl Wide {
-    /// Only for a processor with AVX-512, in a function compiled for it.
+    /// To be called only on a processor with AVX-512, in a function compiled for it.
     #[cfg_attr(any(not(target_arch = "x86_64"), debug_assertions), allow(dead_code))]
     pub(crate) fn known() -> Self {
         Wide(())
@@ -150,7 +148,7 @@ mod tests {
     use crate::batch::Float;
     use crate::dispatch::{Work, best};
 
-    /// Everything that a machine can do with some numbers, as numbers.
+    /// All operations of a machine with some numbers, as numbers.
     struct Everything<T>([[T; 8]; 4]);
 
     impl<T: Float> Everything<T> {
@@ -178,7 +176,7 @@ mod tests {
             let mut all: Vec<_> = all.into_iter().map(|eight| machine.numbers(eight)).collect();
             all.push(machine.whole(machine.floor(c)).map(|number| T::from_f64(number.into())));
             let compared = [(a, b), (c, d), (a, a)].map(|(a, b)| machine.all_at_most(a, b));
-            // Ends are within; a number of b is none.
+            // Ends are within; one number of b is NaN.
             let [wide, narrow] = [[-2e9, 2e9], [-7.5, 1e9]].map(|ends| ends.map(T::from_f64));
             let within =
                 [[a, c], [c, d], [a, b]].map(|it| machine.all_between(&it, &[wide, narrow]));
@@ -212,7 +210,7 @@ mod tests {
         ];
         let numbers = Everything(numbers.map(|row| row.map(T::from_f64)));
         let (found, expected) = (best(&numbers), numbers.by(T::PlainMachine::from(Plain)));
-        // Not a number is not equal to itself; its text is.
+        // NaN is not equal to itself; its text is.
         assert_eq!(format!("{found:?}"), format!("{expected:?}"));
     }
 

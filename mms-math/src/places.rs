@@ -1,26 +1,26 @@
-//! Where points come from, and where results go: in columns, beside each other, or in any other way that can be copied.
+//! Sources of points, and sinks for results: in columns, adjacent per point, or in any other layout that can be copied.
 
 use crate::batch::{Block, Columns, Float};
 use crate::machine::Machine;
 use crate::structures::{put_columns, take_columns};
 
-/// `N` numbers at each of some points, wherever they are stored.
+/// `N` numbers at each of some points, in any layout.
 pub trait Source<T: Float, const N: usize> {
-    /// How many points there are.
+    /// The number of points.
     fn count(&self) -> usize;
-    /// Brings the points from `start` on to a `room` for them, where they do not stand in columns. Where there are not as
-    /// many as a block has, the first one stands in for the others: it might be that nothing is defined elsewhere.
+    /// Copies the points from `start` on to a `room`, unless they are stored in columns. If there are fewer than a block has,
+    /// copies of the first one pad the block: other values might be outside the domain.
     fn bring<M: Machine<T>>(&self, machine: M, start: usize, room: &mut Block<T, N>);
-    /// The points from `start` on: where they stand, or in the `room` that they were brought to.
+    /// The points from `start` on: in place, or in the `room` that they were copied to.
     fn columns<'a>(&'a self, start: usize, room: &'a Block<T, N>) -> Columns<'a, T, N>;
 }
 
 /// A place for `N` numbers at each of some points.
 pub trait Sink<T: Float, const N: usize> {
-    /// How many points there is room for.
+    /// The number of points that can be stored.
     fn room(&self) -> usize;
-    /// Writes the points from `start` on, as many as there is room for. Whether all that is written are numbers, which is
-    /// asked of their sum: so it may be denied where infinite ones are among them.
+    /// Writes the points from `start` on, as many as can be stored. Returns false if any written value is NaN. May also return
+    /// false for infinities of both signs, since it tests the sum.
     fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool;
 }
 
@@ -45,7 +45,7 @@ impl<T: Float, const N: usize> Source<T, N> for [&[T]; N] {
     }
 }
 
-/// Copies numbers, as many as fit and are there, to a lane; the first one where there are no more.
+/// Copies numbers to a lane, as many as fit, and pads the rest with the first one.
 #[inline(always)]
 pub(crate) fn fill<T: Float>(lane: &mut T::Column, numbers: &[T]) {
     let count = numbers.len().min(T::BLOCK);
@@ -69,7 +69,7 @@ impl<T: Float, const N: usize> Copied<T> for [&[T]; N] {
     }
 }
 
-/// Array of structures: the numbers of a point beside each other.
+/// Array of structures: the numbers of a point are adjacent.
 impl<T: Float, const N: usize> Source<T, N> for &[[T; N]] {
     fn count(&self) -> usize {
         self.len()
@@ -86,14 +86,14 @@ impl<T: Float, const N: usize> Source<T, N> for &[[T; N]] {
     }
 }
 
-/// Points that do not stand in columns, and are copied to lanes.
+/// Points that are not stored in columns, and are copied to lanes.
 pub trait Copied<T: Float> {
-    /// How many numbers a point has.
+    /// The number of numbers of a point.
     const NUMBERS: usize;
-    /// How many points there are.
+    /// The number of points.
     fn points(&self) -> usize;
-    /// Copies the points from `start` on, as many as fit and are there, to lanes: one for each of their numbers; the first
-    /// one where there are no more.
+    /// Copies the points from `start` on to lanes, as many as fit: one lane for each of their numbers. Pads the rest with the
+    /// first point.
     fn copy<M: Machine<T>>(&self, machine: M, start: usize, lanes: &mut [T::Column]);
 }
 
@@ -110,7 +110,7 @@ impl<T: Float, const N: usize> Copied<T> for &[[T; N]] {
     }
 }
 
-/// The numbers of some points, and then others of the same points: positions, and what comes with them.
+/// The numbers of some points, and then other numbers of the same points: positions, and their normals.
 impl<T: Float, A: Copied<T>, B: Copied<T>, const N: usize> Source<T, N> for (A, B) {
     fn count(&self) -> usize {
         one_length([self.0.points(), self.1.points()].into_iter())
@@ -171,8 +171,8 @@ impl<T: Float, const N: usize> Sink<T, N> for &mut [[T; N]] {
     }
 }
 
-/// Whether all values are numbers, as [`Sink::store`] says it: past the last point there are copies of the first one,
-/// of which as much is known.
+/// Whether no value is NaN, with the restriction of [`Sink::store`]. Copies of the first point after the last one do not change
+/// the result.
 #[inline(always)]
 pub(crate) fn are_numbers<T: Float, M: Machine<T>, const N: usize>(
     machine: M,
@@ -185,7 +185,7 @@ pub(crate) fn are_numbers<T: Float, M: Machine<T>, const N: usize>(
     machine.all_at_most(sum, sum)
 }
 
-/// The sums of every eighth value of a lane. Lanes are summed apart, for a sum waits for the one before.
+/// The sums of every eighth value of a lane. Lanes are summed separately, for each sum waits for the previous one.
 #[inline(always)]
 fn sum_of<T: Float, M: Machine<T>>(machine: M, lane: &T::Column) -> M::Eight {
     let mut sum = machine.splat(T::from_f64(0.0));
@@ -195,8 +195,7 @@ fn sum_of<T: Float, M: Machine<T>>(machine: M, lane: &T::Column) -> M::Eight {
     sum
 }
 
-/// Copies points, as many as fit and are there, to lanes: one for each of their numbers; the first one where there
-/// are no more.
+/// Copies points to lanes, as many as fit: one lane for each of their numbers. Pads the rest with the first point.
 #[inline(always)]
 fn turn<T: Float, M: Machine<T>, const N: usize>(
     machine: M,
@@ -248,7 +247,7 @@ fn turn_back<T: Float, M: Machine<T>, const N: usize>(
     }
 }
 
-/// The length that all columns have.
+/// The common length of all columns.
 pub(crate) fn one_length(mut lengths: impl Iterator<Item = usize>) -> usize {
     let first = lengths.next().unwrap_or(0);
     for length in lengths {

@@ -1,4 +1,4 @@
-//! Polygons in the plane: whether their edges cross, their triangles, and how far points are from them.
+//! Polygons in the plane: tests for crossing edges, triangles, and distances of points.
 
 use std::vec;
 use std::vec::Vec;
@@ -6,32 +6,32 @@ use std::vec::Vec;
 /// A vertex.
 pub type Vertex = [f64; 2];
 
-/// Why vertices make no polygon.
+/// The reason why vertices make no polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mistake {
-    /// Two vertices, of these positions, are the same point.
+    /// Two vertices, with these indices, are the same point.
     Repeated(usize, usize),
-    /// Two edges, each named by the position of its first vertex, have a point in common that is no vertex of both.
+    /// Two edges, each named by the index of its first vertex, have a point in common that is no vertex of both.
     Crossing(usize, usize),
 }
 
-/// Twice the area of a triangle, positive where its corners are counter-clockwise.
+/// Twice the area of a triangle, positive if its corners are counter-clockwise.
 fn doubled([a, b, c]: [Vertex; 3]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
 }
 
-/// The area, positive where the vertices are counter-clockwise.
+/// The area, positive if the vertices are counter-clockwise.
 pub fn area(vertices: &[Vertex]) -> f64 {
     let Some(first) = vertices.first() else { return 0.0 };
     vertices.windows(2).map(|pair| doubled([*first, pair[0], pair[1]])).sum::<f64>() / 2.0
 }
 
-/// The ends of an edge, named by the position of its first vertex.
+/// The ends of an edge, named by the index of its first vertex.
 pub fn edge(vertices: &[Vertex], first: usize) -> [Vertex; 2] {
     [vertices[first], vertices[(first + 1) % vertices.len()]]
 }
 
-/// The first reason why vertices make no polygon; none where its edges meet in its vertices alone.
+/// The first reason why vertices make no polygon; `None` if its edges meet in its vertices only.
 pub fn mistake(vertices: &[Vertex]) -> Option<Mistake> {
     let count = vertices.len();
     let pairs = || (0..count).flat_map(|second| (0..second).map(move |first| (first, second)));
@@ -42,7 +42,7 @@ pub fn mistake(vertices: &[Vertex]) -> Option<Mistake> {
         let [a, b] = edge(vertices, *first);
         let [c, d] = edge(vertices, *second);
         let is_next = |first: usize, second: usize| (first + 1) % count == second;
-        // Neighbours share a vertex; the one must not fold back onto the other.
+        // Neighbours share a vertex; one must not fold back onto the other.
         match (is_next(*first, *second), is_next(*second, *first)) {
             (true, _) => is_on([a, b], d) || is_on([c, d], a),
             (_, true) => is_on([c, d], b) || is_on([a, b], c),
@@ -66,9 +66,9 @@ fn crosses([a, b]: [Vertex; 2], [c, d]: [Vertex; 2]) -> bool {
         || [a, b].into_iter().any(|end| is_on([c, d], end))
 }
 
-/// Triangles that fill a polygon without overlap, by the positions of their vertices: ears are cut off one by one
-/// (Meisters, Am. Math. Mon. 82 (1975) 648-651). Of two polygons with as many vertices, the same triangles cover
-/// either, since their signed areas add up to a winding number of 1 inside.
+/// Triangles that fill a polygon without overlap, by the indices of their vertices: ears are cut off one by one (Meisters, Am.
+/// Math. Mon. 82 (1975) 648-651). For two polygons with the same number of vertices, the triangles of one cover the other too,
+/// since their signed areas add up to a winding number of 1 inside.
 pub fn triangles(vertices: &[Vertex]) -> Vec<[usize; 3]> {
     let sign = area(vertices).signum();
     let (mut left, mut found): (Vec<usize>, _) = ((0..vertices.len()).collect(), Vec::new());
@@ -82,7 +82,7 @@ pub fn triangles(vertices: &[Vertex]) -> Vec<[usize; 3]> {
             let others = left.iter().filter(|other| !ear.contains(other));
             turn(ear) > 0.0 && !others.map(|it| vertices[*it]).any(|it| holds(corners, sign, it))
         };
-        // Of the ears that may be cut, the most compact, so that none is left as a needle; rounding may hide them all.
+        // The most compact of the ears that may be cut, so that no needle remains; due to rounding there may be none.
         let shape = |at: &usize| compactness(ear(*at).map(|corner| vertices[corner]));
         let best = (0..count).filter(is_whole).max_by(|a, b| shape(a).total_cmp(&shape(b)));
         let flattest =
@@ -97,12 +97,12 @@ pub fn triangles(vertices: &[Vertex]) -> Vec<[usize; 3]> {
     found
 }
 
-/// Whether a closed triangle of that orientation holds a point.
+/// Whether a closed triangle of that orientation contains a point.
 fn holds([a, b, c]: [Vertex; 3], sign: f64, point: Vertex) -> bool {
     [[a, b], [b, c], [c, a]].into_iter().all(|[from, to]| sign * doubled([from, to, point]) >= 0.0)
 }
 
-/// The area of a triangle over that of the square on its longest side.
+/// The area of a triangle over the area of the square on its longest side.
 fn compactness(corners: [Vertex; 3]) -> f64 {
     let [a, b, c] = corners;
     let squared = |a: Vertex, b: Vertex| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
@@ -118,7 +118,7 @@ pub fn contains(vertices: &[Vertex], [x, y]: Vertex) -> bool {
     (0..vertices.len()).filter(on_right).count() % 2 == 1
 }
 
-/// The point of an edge that is nearest to a point, and how far it is.
+/// The point of an edge that is nearest to a point, and the distance.
 pub fn nearest([a, b]: [Vertex; 2], point: Vertex) -> (Vertex, f64) {
     let along = [b[0] - a[0], b[1] - a[1]];
     let square = along[0] * along[0] + along[1] * along[1];
@@ -128,19 +128,19 @@ pub fn nearest([a, b]: [Vertex; 2], point: Vertex) -> (Vertex, f64) {
     (foot, (point[0] - foot[0]).hypot(point[1] - foot[1]))
 }
 
-/// The outward unit normal of an edge, whichever way the vertices run.
+/// The outward unit normal of an edge, for both orientations of the vertices.
 pub fn normal(vertices: &[Vertex], first: usize) -> Vertex {
     let [a, b] = edge(vertices, first);
     let length = (b[0] - a[0]).hypot(b[1] - a[1]) * area(vertices).signum();
     [(b[1] - a[1]) / length, (a[0] - b[0]) / length]
 }
 
-/// The quadrilaterals of a polygon, three from each of its triangles: a corner, the middles of its two sides, and the
-/// centroid. Their sides on the edges of the polygon are the first and the last one at its vertices.
+/// The quadrilaterals of a polygon, three from each of its triangles: a corner, the middles of its two sides, and the centroid.
+/// The first and the last of their sides may lie on edges of the polygon.
 pub fn quadrilaterals(vertices: &[Vertex]) -> Vec<Quadrilateral> {
     let count = vertices.len();
     let middle = |a: Vertex, b: Vertex| [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
-    // The edge of the polygon between two vertices that follow each other.
+    // The edge of the polygon between two consecutive vertices.
     let between = |a: usize, b: usize| match () {
         () if (a + 1) % count == b => Some(a),
         () if (b + 1) % count == a => Some(b),
@@ -174,8 +174,8 @@ pub fn quadrilaterals(vertices: &[Vertex]) -> Vec<Quadrilateral> {
 pub struct Quadrilateral {
     /// The corners in their order.
     pub corners: [Vertex; 4],
-    /// The edge of the polygon that the side between the first and the second corner lies on, and that of the side
-    /// between the first and the last one, if any.
+    /// The edge of the polygon that the side between the first and the second corner lies on, and the edge that the side
+    /// between the first and the last corner lies on, if any.
     pub edges: [Option<usize>; 2],
 }
 
@@ -191,7 +191,7 @@ impl Quadrilateral {
         })
     }
 
-    /// How far the point moves with each fraction.
+    /// The derivatives of the point by each fraction.
     pub fn slopes(&self, [s, t]: [f64; 2]) -> [Vertex; 2] {
         let [a, b, c, d] = self.corners;
         [
@@ -208,7 +208,7 @@ impl Quadrilateral {
     }
 }
 
-/// As many triangles as a power of two, the last ones repeated.
+/// Pads the triangles to a power of two, with copies of the last one.
 pub fn padded(mut triangles: Vec<[usize; 3]>) -> Vec<[usize; 3]> {
     let last = triangles.last().copied();
     let missing = triangles.len().next_power_of_two() - triangles.len();

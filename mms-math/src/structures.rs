@@ -1,14 +1,15 @@
-//! Transposes arrays of structures: the same number of eight structures goes into one register, and back.
+//! Transposes arrays of structures: a register holds the same component of eight structures. Transposes back, too.
 //!
-//! Four numbers of each of the eight go at a time. The compiler would take them one by one, from all over the
+//! Four numbers of each of the eight structures are moved at a time. The compiler would load them one by one, from all over the
 //! memory.
 
 use crate::machine::Machine;
 
-/// The columns of eight structures, whose `numbers` stand one structure behind the other: of each number the eight.
+/// Loads the columns of eight structures, whose `numbers` are stored one structure after the other: for each number, its values
+/// in the eight structures.
 ///
 /// # Panics
-/// If there are less numbers than in eight structures.
+/// If there are fewer numbers than in eight structures.
 #[inline(always)]
 pub fn take_columns<T: Copy, M: Machine<T>>(machine: M, numbers: &[T], columns: &mut [M::Eight]) {
     let n = columns.len();
@@ -41,10 +42,10 @@ pub fn take_columns<T: Copy, M: Machine<T>>(machine: M, numbers: &[T], columns: 
     }
 }
 
-/// Writes the `numbers` of eight structures with these columns.
+/// Stores columns as the `numbers` of eight structures.
 ///
 /// # Panics
-/// If there is no room for eight structures.
+/// If `numbers` is shorter than eight structures.
 #[inline(always)]
 pub fn put_columns<T: Copy, M: Machine<T>>(machine: M, columns: &[M::Eight], numbers: &mut [T]) {
     let n = columns.len();
@@ -61,7 +62,7 @@ pub fn put_columns<T: Copy, M: Machine<T>>(machine: M, columns: &[M::Eight], num
         let mut some = [columns[first]; 4];
         some[..n.min(4)].copy_from_slice(&columns[first..first + n.min(4)]);
         let rows = machine.transposed(some);
-        // Where a row is longer than a structure, the next one is written over what is too much.
+        // If a row is longer than a structure, the next one overwrites the excess.
         for half in 0..2 {
             for k in 0..4 {
                 let from = (4 * half + k) * n + first;
@@ -79,8 +80,8 @@ pub fn put_columns<T: Copy, M: Machine<T>>(machine: M, columns: &[M::Eight], num
     }
 }
 
-/// How many of `n` numbers go four at a time, the last four again where they are less: but for one that would be left
-/// over, which takes less time alone.
+/// How many of `n` numbers are moved four at a time; the last four overlap if `n` is no multiple of 4. A single remaining
+/// number is moved alone, which takes less time.
 #[inline(always)]
 const fn together(n: usize) -> usize {
     if n % 4 == 1 { n - 1 } else { n }
@@ -100,7 +101,7 @@ mod tests {
     use crate::dispatch::{Work, best};
     use crate::machine::{Machine, Plain};
 
-    /// The columns of eight structures of `N` numbers: they are 0, 1, 2, .. and so on; and what they make again.
+    /// Loads the columns of eight structures of `N` numbers, which are 0, 1, 2, .. and so on; and stores them again.
     struct ThereAndBack<const N: usize>;
 
     impl<const N: usize> ThereAndBack<N> {

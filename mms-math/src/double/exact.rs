@@ -1,7 +1,7 @@
 //! Operations on `f64` whose round-off is itself an `f64`, and sums of such parts.
 //!
-//! All of it is plain IEEE arithmetic without a fused multiply-add, so that results are the same on
-//! every machine; and constant functions, so that coefficients can be made by the compiler.
+//! All functions use plain IEEE arithmetic without a fused multiply-add, so that results are the same on every machine. They
+//! are constant functions, so that the compiler can compute coefficients.
 
 /// 2^`exponent`, for exponents of normal numbers.
 const fn power_of_two(exponent: i32) -> f64 {
@@ -35,22 +35,21 @@ pub(super) const fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - second)) + (b - second))
 }
 
-/// The same where |a| >= |b| or a = 0 (Dekker, 1971).
+/// The rounded sum and its error, for |a| >= |b| or a = 0 (Dekker, 1971).
 pub(super) const fn ordered_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     (sum, b - (sum - a))
 }
 
-/// Two parts of at most 26 bits each, the first rounded to nearest. In integers, where Dekker's
-/// multiplication by 2^27 + 1 would overflow; only the last 2^-27 below the largest number do.
+/// Two parts of at most 26 bits each, the first rounded to nearest. Uses integers, since Dekker's multiplication by 2^27 + 1
+/// would overflow; with integers only the last 2^-27 below the largest number overflow.
 const fn split(value: f64) -> (f64, f64) {
     const LOWER: u64 = (1 << 27) - 1;
     let upper = f64::from_bits((value.to_bits() + (1 << 26)) & !LOWER);
     (upper, value - upper)
 }
 
-/// The rounded product and its error (Dekker, 1971). Exact where the error is not subnormal, so for
-/// products from 2^-968 up.
+/// The rounded product and its error (Dekker, 1971). Exact unless the error is subnormal, that is for products from 2^-968 up.
 pub(super) const fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let (a_upper, a_lower) = split(a);

@@ -11,10 +11,10 @@ use super::series::{EXPONENTIAL, polynomial};
 pub(super) const LN_2_PARTS: [f64; 3] =
     [0.6931471805598903, 5.49792301870721e-14, 1.1612227229362532e-26];
 
-/// Beyond this magnitude of x, exp(x) is infinite or 0 whatever it is scaled by.
+/// Beyond this magnitude of x, exp(x) is infinite or 0 with any scale.
 pub(super) const ALL_OR_NOTHING: f64 = 800.0;
 
-/// Beyond this power of two, 1 or the power does not count beside the other.
+/// Beyond this power of two, one of 1 and the power is negligible beside the other.
 const NEGLIGIBLE_POWER: f64 = 110.0;
 
 /// Beyond this argument tanh is 1.
@@ -22,7 +22,7 @@ const LARGEST_OF_TANH: f64 = 40.0;
 
 /// exp(x) - 1, for |x| <= 0.35.
 fn near_zero(x: Double) -> Double {
-    // A zero keeps its sign, which sums lose.
+    // A zero keeps its sign, which sums would lose.
     if x.high == 0.0 {
         return x;
     }

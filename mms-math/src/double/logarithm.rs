@@ -1,4 +1,4 @@
-//! The logarithm, the power, and what a logarithm leaves of its argument.
+//! The logarithm, the power, and x - ln(1 + x).
 //!
 //! With x = 2^k m, m near 1, ln x = k ln 2 + 2 artanh((m - 1)/(m + 1)): the argument of the series
 //! is at most 0.172, and nothing cancels next to x = 1.
@@ -36,7 +36,7 @@ fn logarithm_of_sum(base: f64, x: Double) -> Double {
     if count == 0 { fraction } else { LN_2_DOUBLE * Double::of(f64::from(count)) + fraction }
 }
 
-/// ln x in three parts, for positive finite x: its error is about 2^-110 of it.
+/// ln x in three parts, for positive finite x: the relative error is about 2^-110.
 ///
 /// The first term of the series is carried to three parts; the others are smaller by 2^-6.
 fn logarithm_in_parts(x: Double) -> [f64; 3] {
@@ -104,7 +104,7 @@ impl Double {
         if self.high > 0.0 && self.high.is_finite() {
             return logarithm_of_sum(0.0, self);
         }
-        // Of an infinity, 0, a negative number and not a number, in this order.
+        // For an infinity, 0, a negative number and NaN, in this order.
         if self.high > 0.0 {
             self
         } else if self.high == 0.0 {
@@ -138,8 +138,7 @@ impl Double {
         ratio * (self - artanh_excess(ratio).scaled(1))
     }
 
-    /// As the power of `f64`: with anything to the power 0, and 1 to any power, equal to 1, and a
-    /// negative base for integer exponents only.
+    /// The power, as for `f64`: anything to the power 0, and 1 to any power, is 1, and a negative base needs integer exponents.
     pub(super) fn power(self, exponent: Self) -> Self {
         if exponent.high == 0.0 || self == Double::ONE {
             return Double::ONE;

@@ -13,13 +13,12 @@
 //! | ln_1p_rest | 3 |
 //! | powf | 7, reached where the power is near 2^900 or 2^-900 |
 //!
-//! Of angles that whole turns are taken off, what is left has an error of less than 2^-106 turns.
+//! After whole turns are subtracted from an angle, the error of the remainder is less than 2^-106 turns.
 //!
-//! They hold for any argument whose low part, and that of the result and of products on the way, is
-//! a normal number: for magnitudes from 2^-960 to 2^1020, say 1e-289 to 1e307. Below, digits fade
-//! until those of `f64` are left; above, up to the overflow, the low part of a product may be
-//! dropped. What is not finite has no low part, and follows the rules of `f64`. Of angles beyond
-//! 2^50, that is 1.1e15, sin, cos and tan are not a number; sin_pi and cos_pi have no such limit.
+//! The bounds hold if the low parts of the argument, of the result and of intermediate products are normal numbers: for
+//! magnitudes from 2^-960 to 2^1020, say 1e-289 to 1e307. Below, digits fade until only the digits of `f64` remain; above, up
+//! to the overflow, the low part of a product may be dropped. Infinities and NaN have no low part, and follow the rules of
+//! `f64`. For angles beyond 2^50, that is 1.1e15, sin, cos and tan are NaN; sin_pi and cos_pi have no such limit.
 
 mod exact;
 mod exponential;
@@ -60,19 +59,18 @@ impl Double {
         self.high
     }
 
-    /// What the nearest `f64` leaves out.
+    /// The difference from the nearest `f64`.
     pub const fn low(self) -> f64 {
         self.low
     }
 
-    /// The number that is `value`.
+    /// Converts `value`.
     const fn of(value: f64) -> Self {
         Double { high: value, low: 0.0 }
     }
 
-    /// `sum` and its correction, which must be the smaller, as a number. A correction that makes no
-    /// sense, such as the round-off of an infinity, is dropped. One that is 0 is not added: a
-    /// negative zero stays one.
+    /// The number `sum` + `rest`, where `rest` must be the smaller. A correction that is not finite, such as the round-off of
+    /// an infinity, is dropped. A correction of 0 is not added, so that a negative zero keeps its sign.
     const fn settled(sum: f64, rest: f64) -> Self {
         if rest == 0.0 || !rest.is_finite() {
             return Double::of(sum);
@@ -81,7 +79,7 @@ impl Double {
         if high.is_finite() { Double { high, low } } else { Double::of(high) }
     }
 
-    /// Both pairs are added with their round-off (Joldes, Muller and Popescu, 2017, algorithm 6).
+    /// Adds both pairs with their round-off (Joldes, Muller and Popescu, 2017, algorithm 6).
     const fn plus(self, other: Self) -> Self {
         let (sum, sum_rest) = two_sum(self.high, other.high);
         if !sum.is_finite() {
@@ -100,13 +98,13 @@ impl Double {
         Double { high: -self.high, low: -self.low }
     }
 
-    /// The product of the low parts is below the last digit (Dekker, 1971).
+    /// Multiplies without the product of the low parts, which is below the last digit (Dekker, 1971).
     const fn times(self, other: Self) -> Self {
         let (product, rest) = two_product(self.high, other.high);
         Double::settled(product, rest + (self.high * other.low + self.low * other.high))
     }
 
-    /// Three quotients of high parts, each of what the last has left over.
+    /// Divides by three quotients of high parts, each of the remainder of the last.
     const fn over(self, other: Self) -> Self {
         let first = self.high / other.high;
         let rest = self.minus(other.times(Double::of(first)));
@@ -117,8 +115,7 @@ impl Double {
         Double::settled(quotient.high, quotient.low + third)
     }
 
-    /// The quotient of two integers below 2^53, each part rounded once: what a quotient leaves over
-    /// is exact.
+    /// The quotient of two integers below 2^53, each part rounded once: the remainder of a quotient is exact.
     const fn quotient(numerator: f64, denominator: f64) -> Self {
         let high = numerator / denominator;
         let (product, rest) = two_product(high, denominator);

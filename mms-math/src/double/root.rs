@@ -3,22 +3,22 @@
 use super::Double;
 use super::exact::exponent;
 
-/// The root of the scaled argument, scaled back: so that no product over- or underflows.
+/// Computes the root of the scaled argument, and scales it back, so that no product over- or underflows.
 ///
-/// `fraction` takes an argument of 1 <= x < 2^degree.
+/// `fraction` computes the root of an argument of 1 <= x < 2^degree.
 fn root(x: Double, degree: i32, fraction: impl Fn(Double) -> Double) -> Double {
     let shift = exponent(x.high).div_euclid(degree);
     fraction(x.scaled(-degree * shift)).scaled(shift)
 }
 
-/// For 1 <= x < 4. The first guess is within 6 % of the root, and each step squares the error.
+/// The square root for 1 <= x < 4. The first guess is within 6 % of the root, and each step squares the error.
 fn square_root(x: Double) -> Double {
     let guess = (0..4).fold((x.high + 2.0) / 3.0, |y, _| 0.5 * (y + x.high / y));
     let rest = x - Double::of(guess) * Double::of(guess);
     Double::new(guess, rest.high / (2.0 * guess))
 }
 
-/// For 1 <= x < 8. The first guess is within 12 % of the root, and each step squares the error.
+/// The cube root for 1 <= x < 8. The first guess is within 12 % of the root, and each step squares the error.
 fn cube_root(x: Double) -> Double {
     let step = |y: f64| y - (y * y * y - x.high) / (3.0 * y * y);
     let guess = (0..5).fold((x.high + 6.0) / 7.0, |y, _| step(y));

@@ -13,8 +13,8 @@ const HALF_PI: Double = DOUBLE_PI.scaled(-1);
 const ATAN_HALF: Double = Double { high: 0.4636476090008061, low: 2.2698777452961687e-17 };
 const ATAN_ONE: Double = DOUBLE_PI.scaled(-2);
 
-/// pi/2 to 322 bits, each part what the ones before leave, rounded to nearest. The number nearest
-/// to a multiple of pi/2, with 2^50 for its factor, may have 220 bits in common with it.
+/// pi/2 to 322 bits, each part the remainder of the previous ones, rounded to nearest. The number nearest to a multiple of
+/// pi/2, with a factor of up to 2^50, may have 220 bits in common with it.
 const HALF_PI_PARTS: [f64; 6] = [
     FRAC_PI_2,
     6.123233995736766e-17,
@@ -26,7 +26,7 @@ const HALF_PI_PARTS: [f64; 6] = [
 
 /// The sine, for |x| <= 0.8.
 fn sine(x: Double) -> Double {
-    // A zero keeps its sign, which sums lose.
+    // A zero keeps its sign, which sums would lose.
     if x.high == 0.0 {
         return x;
     }
@@ -40,7 +40,7 @@ fn cosine(x: Double) -> Double {
     Double::ONE + square * polynomial(square, &COSINE, 8)
 }
 
-/// The sine of `rest` and as many quarter turns as `quarters`.
+/// The sine of `rest` plus this number of quarter turns.
 fn sine_of_turn(quarters: i64, rest: Double) -> Double {
     match quarters & 3 {
         0 => sine(rest),
@@ -50,8 +50,7 @@ fn sine_of_turn(quarters: i64, rest: Double) -> Double {
     }
 }
 
-/// The number of quarter turns nearest to an angle, and what is left: not a number where the angle
-/// is not, or is too large.
+/// The number of quarter turns nearest to an angle, and the remainder; NaN if the angle is NaN or too large.
 fn quarter_turns(angle: Double) -> (i64, Double) {
     if angle.high.is_nan() || angle.high.abs() > LARGEST_ANGLE {
         return (0, Double::NAN);
@@ -60,7 +59,7 @@ fn quarter_turns(angle: Double) -> (i64, Double) {
     (count as i64, if count == 0.0 { angle } else { less_quarters(angle, count) })
 }
 
-/// What a whole number of quarter turns, below 2^51, leaves of an angle.
+/// Subtracts a whole number of quarter turns, below 2^51, from an angle.
 fn less_quarters(angle: Double, count: f64) -> Double {
     let [a, b, c, d, e, f] = HALF_PI_PARTS.map(|part| two_product(-count, part));
     let rest = exact_sum([
@@ -69,22 +68,23 @@ fn less_quarters(angle: Double, count: f64) -> Double {
     Double::new(rest[0], rest[1])
 }
 
-/// An angle in half turns less whole turns, of less than two.
+/// An angle in half turns minus whole turns, of less than two half turns.
 fn less_whole_turns(angle: Double) -> Double {
     Double::new(angle.high % 2.0, angle.low % 2.0)
 }
 
-/// The same of an angle in units of pi: exact, but for the factor pi of what is left.
+/// The number of quarter turns nearest to an angle in units of pi, and the remainder in radians: exact up to the factor pi of
+/// the remainder.
 fn quarter_turns_of_half(angle: Double) -> (i64, Double) {
     let within_a_turn = less_whole_turns(angle);
     let count = nearest_integer(2.0 * within_a_turn.high);
-    // Infinite angles, which `%` has made not a number, pass through.
+    // Infinite angles, for which `%` is NaN, pass through.
     (count as i64, (within_a_turn - Double::of(0.5 * count)) * DOUBLE_PI)
 }
 
 /// The inverse tangent of small/large, for 0 <= small <= large, neither near the end of its range.
 ///
-/// Less the nearest of 0, atan(1/2) and atan(1), which leaves the series an argument of 1/4 at most.
+/// Subtracts the nearest of 0, atan(1/2) and atan(1), so that the argument of the series is at most 1/4.
 fn first_octant(small: Double, large: Double) -> Double {
     let ratio = small.high / large.high;
     let (center, angle) = if ratio < 0.25 {
@@ -130,7 +130,7 @@ impl Double {
         sine_of_turn(quarters + 1, rest)
     }
 
-    /// An angle of more than a few radians less the nearest whole turns, as long as it can be reduced.
+    /// An angle of more than a few radians minus the nearest whole turns, if it can be reduced.
     pub(super) fn less_turns(self) -> Self {
         let magnitude = self.high.abs();
         if !(magnitude > FEW_RADIANS && magnitude <= LARGEST_ANGLE) {
@@ -139,7 +139,7 @@ impl Double {
         less_quarters(self, 4.0 * nearest_integer(self.high * (0.25 * FRAC_2_PI)))
     }
 
-    /// The same of an angle in half turns, of any size.
+    /// An angle in half turns, of any size, minus the nearest whole turns.
     pub(super) fn less_pairs_of_half_turns(self) -> Self {
         if self.high.abs() <= FEW_HALF_TURNS {
             return self;
@@ -154,7 +154,7 @@ impl Double {
             return Double::NAN;
         }
         let (height, width) = (self.magnitude(), x.magnitude());
-        // At infinity only directions count: those of the axes and of the diagonals.
+        // At infinity only directions count: of the axes and of the diagonals.
         let unit = |value: f64| Double::of(if value.is_infinite() { 1.0 } else { 0.0 });
         let (height, width) = if height.high.is_infinite() || width.high.is_infinite() {
             (unit(height.high), unit(width.high))
@@ -174,7 +174,7 @@ impl Double {
         half.with_sign_of(self.high)
     }
 
-    /// The sine's complement, (1 - x)(1 + x) under the root: next to 1 only this keeps all digits.
+    /// sqrt((1 - x)(1 + x)), the cosine of a sine: only this form keeps all digits next to 1.
     fn complement(self) -> Self {
         ((Double::ONE - self) * (Double::ONE + self)).square_root()
     }

@@ -1,4 +1,4 @@
-//! Eight numbers as an array, where there is no register for them that is known here.
+//! Eight numbers as an array, for processors without a known register for them.
 
 use super::{Machine, Plain};
 use crate::dispatch::Work;
@@ -10,7 +10,7 @@ macro_rules! arrays {
             impl Machine<$float> for $machine {
                 type Eight = [$float; 8];
                 type Lane = Lane<$float, $fused>;
-                // What multiplies and adds in one step has registers that the compiler knows.
+                // Machines that multiply and add in one step have registers that the compiler uses.
                 const ALONE: bool = !$fused;
 
                 #[inline(never)]

@@ -1,13 +1,13 @@
 //! Eight numbers in the registers of x86-64: one of 256 bits in single precision, in double precision two of them, or
 //! one of 512.
 //!
-//! Safety, of all that is unsafe here: a [`Fused`](super::Fused) is a proof that the processor has AVX2 and FMA, and a
+//! Safety of all unsafe code in this module: a [`Fused`](super::Fused) proves that the processor has AVX2 and FMA, and a
 //! [`Wide`](super::Wide) that it has AVX-512.
 
-/// Bytes that come from memory together.
+/// The number of bytes of a cache line.
 const LINE: usize = 64;
 
-// What one instruction does to every number, with the registers that there are for each value.
+// Methods that apply one instruction to every number, for each number of registers per value.
 macro_rules! alike {
     (one: $($method:ident($($argument:ident),*) $instruction:ident;)*) => {
         $(
@@ -27,7 +27,7 @@ macro_rules! alike {
     };
 }
 
-// What every machine with registers has alike.
+// Methods that are the same for every machine with registers.
 macro_rules! common {
     ($float:ident) => {
         #[inline(always)]
@@ -44,7 +44,7 @@ macro_rules! common {
 
         #[inline(always)]
         fn fetch<V>(self, values: &[V], place: usize) {
-            // A hint may point anywhere.
+            // A prefetch hint may point anywhere.
             let start = values.as_ptr().wrapping_add(place).cast::<i8>();
             for line in (0..size_of::<V>()).step_by(super::LINE) {
                 unsafe { _mm_prefetch::<_MM_HINT_T0>(start.wrapping_add(line)) };

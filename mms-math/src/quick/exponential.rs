@@ -1,6 +1,6 @@
-//! The exponential function and what is made of it.
+//! The exponential function and functions derived from it.
 //!
-//! x = n ln 2 + r with |r| <= (ln 2)/2, and 2^n is made of the bits of n.
+//! x = n ln 2 + r with |r| <= (ln 2)/2, and 2^n is assembled from the bits of n.
 
 use super::number::Float;
 use crate::lane::Lane;
@@ -31,14 +31,14 @@ pub fn exp_of_sum<T: Float, const FUSED: bool>(
     value * Lane(T::from_bits(scale))
 }
 
-/// At most 1.15 ulp in `f64` and 1.1 in `f32`, for |x| <= 708.7 in `f64` and 87.6 in `f32`.
+/// The exponential function. At most 1.15 ulp in `f64` and 1.1 in `f32`, for |x| <= 708.7 in `f64` and 87.6 in `f32`.
 #[inline(always)]
 pub fn exp<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
-    // Less than nothing is added: the compiler may leave out -0, but not 0.
+    // The rest is -0: the compiler may omit the addition of -0, but not of 0.
     exp_of_sum(x, Lane::of(-0.0))
 }
 
-/// At most 1.05 ulp in `f64` and 1.0 in `f32`, for |x| <= 708.7 in `f64` and 87.6 in `f32`.
+/// exp(x) - 1. At most 1.05 ulp in `f64` and 1.0 in `f32`, for |x| <= 708.7 in `f64` and 87.6 in `f32`.
 #[inline(always)]
 pub fn exp_m1<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     let ([r, rest], scale) = reduced(x, 0.0);
@@ -51,7 +51,7 @@ pub fn exp_m1<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> 
     (high + scale.times_plus(curved, low)).signed_as(x)
 }
 
-/// sinh(x), cosh(x) and exp(-x), from those of r and n ln 2. Neither division nor cancellation.
+/// sinh(x), cosh(x) and exp(-x), from the same functions of r and n ln 2. Neither division nor cancellation.
 #[inline(always)]
 fn hyperbolic<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> [Lane<T, FUSED>; 3] {
     let ([r, rest], up) = reduced(x, -1.0);
@@ -68,28 +68,28 @@ fn hyperbolic<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> [Lane<T, FUSED>
     [sum, cosh + less.times_plus(cosh, (r + curved) * sinh), inverse]
 }
 
-/// At most 1.3 ulp in `f64` and 1.2 in `f32`, for |x| <= 707 in `f64` and 86 in `f32`.
+/// The hyperbolic sine. At most 1.3 ulp in `f64` and 1.2 in `f32`, for |x| <= 707 in `f64` and 86 in `f32`.
 #[inline(always)]
 pub fn sinh<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     let [sinh, ..] = hyperbolic(x);
     (sinh + x.zero_within(T::LARGEST_EXPONENT - T::of(1.6))).signed_as(x)
 }
 
-/// At most 1.3 ulp in `f64` and 1.6 in `f32`, for |x| <= 707 in `f64` and 86 in `f32`.
+/// The hyperbolic cosine. At most 1.3 ulp in `f64` and 1.6 in `f32`, for |x| <= 707 in `f64` and 86 in `f32`.
 #[inline(always)]
 pub fn cosh<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     let [_, cosh, _] = hyperbolic(x);
     cosh + x.zero_within(T::LARGEST_EXPONENT - T::of(1.6))
 }
 
-/// At most 2.4 ulp.
+/// The hyperbolic tangent. At most 2.4 ulp.
 #[inline(always)]
 pub fn tanh<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     let magnitude = x.abs();
     let limit = Lane(T::LARGEST_TANH);
     let bounded = if magnitude.0 > limit.0 { limit } else { magnitude };
     let [sinh, cosh, inverse] = hyperbolic(bounded);
-    // From about 1/2 on it is told from 1.
+    // From about 1/2 on it is computed from its difference to 1.
     let large = bounded.0 > T::of(0.55);
     let quotient = if large { inverse } else { sinh } / cosh;
     let tanh = if large { Lane::of(1.0) - quotient } else { quotient };

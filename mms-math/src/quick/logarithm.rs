@@ -6,8 +6,8 @@
 use super::number::Float;
 use crate::lane::Lane;
 
-/// The number n of x = 2^n m, the exponent's bits of 2^n and m, whose root bounds are [`Float`]'s;
-/// for positive normal x. Of any other |n| is [`beyond`].
+/// The number n of x = 2^n m, the exponent's bits of 2^n and m, whose root bounds are [`Float`]'s; for positive normal x. For
+/// any other x, |n| is so large that [`zero_within`] returns NaN.
 #[inline(always)]
 pub fn split<T: Float, const FUSED: bool>(
     x: Lane<T, FUSED>,
@@ -22,7 +22,7 @@ pub fn split<T: Float, const FUSED: bool>(
     (Lane(n), bits & !T::SIGNIFICAND, Lane(m))
 }
 
-/// 0 for the exponents that belong to positive normal numbers alone, else not a number.
+/// 0 for the exponents of positive normal numbers, otherwise NaN.
 #[inline(always)]
 pub fn zero_within<T: Float, const FUSED: bool>(n: Lane<T, FUSED>) -> Lane<T, FUSED> {
     n.zero_within(T::BIAS - T::of(1.75))
@@ -37,8 +37,7 @@ fn less<T: Float, const FUSED: bool>(f: Lane<T, FUSED>, rest: Lane<T, FUSED>) ->
     s.times_plus(g, -rest)
 }
 
-/// At most 0.9 ulp, for all x from sqrt(2) times the least normal number to a sixth of the
-/// greatest.
+/// The natural logarithm. At most 0.9 ulp, for all x from sqrt(2) times the least normal number to a sixth of the largest.
 #[inline(always)]
 pub fn ln<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     let (n, _, m) = split(x);
@@ -47,7 +46,7 @@ pub fn ln<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     n.times_plus(Lane(T::LN_2[0]), f - less)
 }
 
-/// n, f and f - ln(1 + f) - n (ln 2)'s lesser part, of 1 + x.
+/// n, f and f - ln(1 + f) - n (ln 2)'s lesser part, for 1 + x.
 #[inline(always)]
 fn of_one_plus<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> [Lane<T, FUSED>; 3] {
     let one = Lane::of(1.0);
@@ -60,7 +59,7 @@ fn of_one_plus<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> [Lane<T, FUSED
     [n, f, less(f, rest)]
 }
 
-/// At most 1.0 ulp, for all x from -1, which is left out, to a sixth of the greatest number.
+/// ln(1 + x). At most 1.0 ulp, for all x from -1, exclusive, to a sixth of the largest number.
 #[inline(always)]
 pub fn ln_1p<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     let [n, f, less] = of_one_plus(x);

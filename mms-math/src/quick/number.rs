@@ -35,13 +35,13 @@ pub struct Polynomials<T: 'static> {
     pub sin: &'static [T],
     /// (cos(r) - 1 + s/2)/s^2 in s = r^2.
     pub cos: &'static [T],
-    /// As `sin`, on twice the range.
+    /// Like `sin`, on twice the range.
     pub sin_near_zero: &'static [T],
-    /// As `cos`, on twice the range.
+    /// Like `cos`, on twice the range.
     pub cos_near_zero: &'static [T],
-    /// As `sin`, up to [`WITHIN_ONE`](crate::WITHIN_ONE).
+    /// Like `sin`, up to [`WITHIN_ONE`](crate::WITHIN_ONE).
     pub sin_within_one: &'static [T],
-    /// As `cos`, up to there.
+    /// Like `cos`, up to [`WITHIN_ONE`](crate::WITHIN_ONE).
     pub cos_within_one: &'static [T],
     /// (exp(r) - 1 - r)/r^2 in r.
     pub exp: &'static [T],
@@ -77,15 +77,15 @@ pub trait Float:
 
     /// The binary digits of a significand.
     const DIGITS: usize;
-    /// The exponent's bits are biased by this.
+    /// The bias of the exponent's bits.
     const BIAS: Self;
     /// The greatest finite number.
     const MAX: Self;
     /// The least normal number.
     const MIN_POSITIVE: Self;
-    /// Not a number.
+    /// NaN.
     const NAN: Self;
-    /// 3/2 2^(DIGITS - 1): numbers about it are integers, and their lowest bits say which.
+    /// 3/2 2^(DIGITS - 1): numbers near it are integers, and their lowest bits are the integer's.
     const INTEGERS: Self;
     /// The bit of the sign.
     const SIGN: Self::Bits;
@@ -93,7 +93,7 @@ pub trait Float:
     const SIGNIFICAND: Self::Bits;
     /// The sign, the exponent and the upper half of the significand.
     const UPPER_HALF: Self::Bits;
-    /// An integer.
+    /// The integer 1.
     const ONE: Self::Bits;
 
     /// ln 2 as a sum; an exponent times the first part is exact.
@@ -104,25 +104,24 @@ pub trait Float:
     const LARGEST_ANGLE: Self;
     /// The largest |x| of an exponential: 2^(x/ln 2) is normal for both signs.
     const LARGEST_EXPONENT: Self;
-    /// Beyond, tanh(x) is 1.
+    /// The largest |x| for which tanh(x) is not 1.
     const LARGEST_TANH: Self;
-    /// Bits that the first step to a cube root leaves out, so that what is left fits into half a
-    /// significand.
+    /// The number of bits that the first step to a cube root drops, so that the rest fits into half a significand.
     const CBRT_SHIFT: usize;
-    /// What a third of the upper bits of x is subtracted from, for those of x^(-1/3).
+    /// The bits of x^(-1/3) are about this minus a third of the upper bits of x.
     const CBRT_OFFSET: Self;
     /// The polynomials.
     const POLYNOMIALS: Polynomials<Self>;
 
     /// The nearest value.
     fn of(value: f64) -> Self;
-    /// The representation.
+    /// The bits of the number.
     fn bits(self) -> Self::Bits;
-    /// The number of a representation.
+    /// The number with these bits.
     fn from_bits(bits: Self::Bits) -> Self;
     /// `self * factor + term`, rounded once.
     fn fused(self, factor: Self, term: Self) -> Self;
-    /// Whether it is not a number.
+    /// Whether the number is NaN.
     fn is_nan(self) -> bool;
     /// The square root.
     fn sqrt(self) -> Self;

@@ -4,10 +4,10 @@ use super::number::Float;
 use super::{exponential, logarithm};
 use crate::lane::Lane;
 
-/// At most 0.9 ulp, for 0 and all normal numbers.
+/// The cube root. At most 0.9 ulp, for 0 and all normal numbers.
 ///
-/// A third of the bits gives x^(-1/3) to some 3 %, a polynomial to half the digits, and one step of
-/// Halley's method the root. Half the digits of a root have an exact square.
+/// A third of the bits approximates x^(-1/3) to some 3 %, a polynomial improves it to half the digits, and one step of Halley's
+/// method to the root. A root of half the digits has an exact square.
 #[inline(always)]
 pub fn cbrt<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     let magnitude = x.abs();
@@ -29,8 +29,8 @@ pub fn cbrt<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     root.turned(x.sign())
 }
 
-/// (ln((1 + s)/(1 - s))/s - 2)/s^2 = 2/3 + z Q(z) in z = s^2: minimax on [0, 0.1716^2] with 2/3
-/// left as it is, relative error 1.1e-20.
+/// (ln((1 + s)/(1 - s))/s - 2)/s^2 = 2/3 + z Q(z) in z = s^2: minimax on [0, 0.1716^2] with a fixed 2/3, relative error
+/// 1.1e-20.
 const TAIL: [f64; 7] = [
     0.4000000000000225,
     0.2857142857010208,
@@ -72,8 +72,7 @@ fn long_logarithm<const FUSED: bool>(x: Lane<f64, FUSED>) -> [Lane<f64, FUSED>; 
     [high, low + logarithm::zero_within(n)]
 }
 
-/// At most 1.3 ulp, where x is in the range of the logarithm and the result in that of the
-/// exponential function.
+/// x^y. At most 1.3 ulp, if x is in the range of the logarithm and the result in the range of the exponential function.
 #[inline(always)]
 pub fn of_double<const FUSED: bool>(x: Lane<f64, FUSED>, y: Lane<f64, FUSED>) -> Lane<f64, FUSED> {
     let [high, low] = long_logarithm(x);
@@ -81,7 +80,7 @@ pub fn of_double<const FUSED: bool>(x: Lane<f64, FUSED>, y: Lane<f64, FUSED>) ->
     exponential::exp_of_sum(product, y.times_plus(low, rest))
 }
 
-/// At most 0.6 ulp, for positive x.
+/// x^y. At most 0.6 ulp, for positive x.
 #[inline(always)]
 pub fn of_single<const FUSED: bool>(x: Lane<f32, FUSED>, y: Lane<f32, FUSED>) -> Lane<f32, FUSED> {
     let [x, y] = [x, y].map(|value| Lane::<f64, FUSED>(f64::from(value.0)));

@@ -1,14 +1,12 @@
 //! The sine, the cosine and the tangent.
 //!
-//! The argument is reduced by the nearest multiple of a quarter turn, and the number of quarter
-//! turns tells which of the two polynomials it is, and of which sign. A sine and a cosine of one
-//! argument share all of that.
+//! The argument is reduced by the nearest multiple of a quarter turn, and the number of quarter turns selects one of the two
+//! polynomials, and its sign. A sine and a cosine of one argument share all of that.
 
 use super::number::Float;
 use crate::lane::{Lane, NEAR_ZERO, WITHIN_ONE};
 
-/// The sine and the cosine of what is left, not yet turned, and the number of quarter turns in the
-/// lowest bits.
+/// The sine and the cosine of the remainder, not yet turned, and the number of quarter turns in the lowest bits.
 type Reduced<T, const FUSED: bool> = (Lane<T, FUSED>, Lane<T, FUSED>, <T as Float>::Bits);
 
 #[inline(always)]
@@ -19,8 +17,7 @@ fn reduced<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Reduced<T, FUSED> 
     (sin, cos, bits)
 }
 
-/// The sine and the cosine of r + rest, |r| <= pi/4. What is added to the square is 0 or not a
-/// number.
+/// The sine and the cosine of r + rest, |r| <= pi/4. `zero` is added to the square: it is 0 or NaN.
 #[inline(always)]
 fn within_an_eighth<T: Float, const FUSED: bool>(
     r: Lane<T, FUSED>,
@@ -45,7 +42,7 @@ fn within_an_eighth<T: Float, const FUSED: bool>(
 fn reduced_half_turns<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Reduced<T, FUSED> {
     let (turns, bits) = x.nearest(Lane::of(2.0), T::of(0.0));
     let r = turns.times_plus(Lane::of(-0.5), x);
-    // An eighth of the numbers below which there are halves.
+    // An eighth of the magnitude below which numbers have halves.
     let zero = x.zero_within(T::INTEGERS * T::of(1.0 / 12.0));
     let [pi, rest] = T::PI.map(Lane);
     if FUSED {
@@ -77,19 +74,19 @@ fn second_bit_as_sign<T: Float>(turns: T::Bits) -> T::Bits {
     (turns << (8 * size_of::<T>() - 2)) & T::SIGN
 }
 
-/// At most 1.1 ulp, for |x| <= 2^20 in `f64` and 2^17 in `f32`.
+/// The sine. At most 1.1 ulp, for |x| <= 2^20 in `f64` and 2^17 in `f32`.
 #[inline(always)]
 pub fn sin<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     sine(reduced(x))
 }
 
-/// At most 1.1 ulp, for |x| <= 2^20 in `f64` and 2^17 in `f32`.
+/// The cosine. At most 1.1 ulp, for |x| <= 2^20 in `f64` and 2^17 in `f32`.
 #[inline(always)]
 pub fn cos<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     cosine(reduced(x))
 }
 
-/// At most 2.4 ulp, for |x| <= 2^20 in `f64` and 2^17 in `f32`.
+/// The tangent. At most 2.4 ulp, for |x| <= 2^20 in `f64` and 2^17 in `f32`.
 #[inline(always)]
 pub fn tan<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     let (sin, cos, turns) = reduced(x);
@@ -98,37 +95,37 @@ pub fn tan<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     above / below
 }
 
-/// At most 1.0 ulp, for |x| <= 2^49 in `f64` and 2^20 in `f32`; 0 at integers.
+/// sin(pi x). At most 1.0 ulp, for |x| <= 2^49 in `f64` and 2^20 in `f32`; 0 at integers.
 #[inline(always)]
 pub fn sin_pi<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     sine(reduced_half_turns(x))
 }
 
-/// At most 1.0 ulp, for |x| <= 2^49 in `f64` and 2^20 in `f32`; 0 halfway between integers.
+/// cos(pi x). At most 1.0 ulp, for |x| <= 2^49 in `f64` and 2^20 in `f32`; 0 halfway between integers.
 #[inline(always)]
 pub fn cos_pi<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     cosine(reduced_half_turns(x))
 }
 
-/// At most 1.7 ulp, for |x| <= [`NEAR_ZERO`].
+/// The sine. At most 1.7 ulp, for |x| <= [`NEAR_ZERO`].
 #[inline(always)]
 pub fn sin_near_zero<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     unreduced_sine(x, NEAR_ZERO, T::POLYNOMIALS.sin_near_zero)
 }
 
-/// For |x| <= [`NEAR_ZERO`]. The error is at most 0.9 of the format's epsilon, also near the zero.
+/// The cosine for |x| <= [`NEAR_ZERO`]. The error is at most 0.9 of the format's epsilon, also near the zero.
 #[inline(always)]
 pub fn cos_near_zero<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     unreduced_cosine(x, NEAR_ZERO, T::POLYNOMIALS.cos_near_zero)
 }
 
-/// At most 1.7 ulp, for |x| <= [`WITHIN_ONE`].
+/// The sine. At most 1.7 ulp, for |x| <= [`WITHIN_ONE`].
 #[inline(always)]
 pub fn sin_within_one<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     unreduced_sine(x, WITHIN_ONE, T::POLYNOMIALS.sin_within_one)
 }
 
-/// At most 0.9 of the format's epsilon, for |x| <= [`WITHIN_ONE`].
+/// The cosine. The error is at most 0.9 of the format's epsilon, for |x| <= [`WITHIN_ONE`].
 #[inline(always)]
 pub fn cos_within_one<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
     unreduced_cosine(x, WITHIN_ONE, T::POLYNOMIALS.cos_within_one)
@@ -155,7 +152,7 @@ fn unreduced_cosine<T: Float, const FUSED: bool>(
     s.times_plus(cos, Lane::of(1.0))
 }
 
-/// x^2, or not a number where no polynomial is for x.
+/// x^2, or NaN if |x| is beyond `limit`.
 #[inline(always)]
 fn square_within<T: Float, const FUSED: bool>(x: Lane<T, FUSED>, limit: f64) -> Lane<T, FUSED> {
     let s = x * x;

@@ -27,7 +27,7 @@ impl Machine<f64> for Fused {
 
     #[inline(always)]
     fn apart<W: Work<f64>>(self, work: W) -> W::Output {
-        // Safety: there is a `Fused` only where AVX2 and FMA are.
+        // Safety: a `Fused` exists only with AVX2 and FMA.
         unsafe { avx2(work) }
     }
 

@@ -27,7 +27,7 @@ impl Machine<f32> for Fused {
 
     #[inline(always)]
     fn apart<W: Work<f32>>(self, work: W) -> W::Output {
-        // Safety: there is a `Fused` only where AVX2 and FMA are.
+        // Safety: a `Fused` exists only with AVX2 and FMA.
         unsafe { avx2(work) }
     }
 
@@ -104,7 +104,7 @@ impl Machine<f32> for Fused {
     #[inline(always)]
     fn transposed(self, [a, b, c, d]: [__m256; 4]) -> [__m256; 4] {
         unsafe {
-            // Of a and b, in each half: the numbers 0 and 1, then 2 and 3; likewise of c and d. They go on as pairs.
+            // Of a and b, in each half: the numbers 0 and 1, then 2 and 3; likewise of c and d. These are moved as pairs.
             let low = _mm256_castps_pd(_mm256_unpacklo_ps(a, b));
             let high = _mm256_castps_pd(_mm256_unpackhi_ps(a, b));
             let more_low = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));

@@ -27,7 +27,7 @@ impl Machine<f64> for Wide {
 
     #[inline(always)]
     fn apart<W: Work<f64>>(self, work: W) -> W::Output {
-        // Safety: there is a `Wide` only where AVX-512 is.
+        // Safety: a `Wide` exists only with AVX-512.
         unsafe { avx512(work) }
     }
 
@@ -67,7 +67,7 @@ impl Machine<f64> for Wide {
 
     #[inline(always)]
     fn floor(self, a: __m512d) -> __m512d {
-        // Down, and without an exception where the number is not whole.
+        // Rounds down, without an exception if the number is not an integer.
         unsafe { _mm512_roundscale_pd::<0b1001>(a) }
     }
 
@@ -114,7 +114,7 @@ impl Machine<f64> for Wide {
             // Of a and b, in each half: the numbers 0 and 2, then 1 and 3; likewise of c and d.
             let (even, odd) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
             let (more_even, more_odd) = (_mm512_unpacklo_pd(c, d), _mm512_unpackhi_pd(c, d));
-            // The first pair of each half of both; the second one.
+            // The first pair of each half of both; then the second pair.
             let firsts = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
             let seconds = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
             [

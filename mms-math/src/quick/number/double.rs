@@ -185,8 +185,8 @@ impl Float for f64 {
         x: Lane<Self, FUSED>,
         n: Lane<Self, FUSED>,
     ) -> [Lane<Self, FUSED>; 2] {
-        // Two parts are short, so that 2^20 times them is exact. Where a difference is rounded,
-        // its larger term stands first; where it is not, its order does not count.
+        // Two parts are short, so that 2^20 times them is exact. The order of terms matters only where a difference is rounded:
+        // there the larger term is first.
         if FUSED {
             let part = |index: usize| {
                 Lane(
