@@ -1,5 +1,5 @@
-//! What can be measured and said of a compiled field: how exact its quantities are, which terms of the equations it sees,
-//! its period, what it costs, and which point is where.
+//! Measurements of a compiled field: the accuracy of its quantities, the terms of the equations that it tests, its period, its
+//! cost, and the inverse of its motion.
 
 pub mod accuracy;
 pub mod operations;

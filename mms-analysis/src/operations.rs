@@ -9,22 +9,22 @@ use mms_symbolic::expr::Expr;
 use mms_symbolic::pass::half_turns::half_turns;
 use mms_symbolic::sorted::SortedMap;
 
-/// The number of scalar operations of the program of some quantities: + - * / and each call of a
-/// function count one; constants, loads and changes of sign none.
+/// The number of scalar operations of the program of some quantities: + - * / and each call of a function count one; constants,
+/// loads and changes of sign count none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Operations {
-    /// Of the expressions as they were derived, where only equal ones are computed once.
+    /// The number for the expressions as derived, in which equal expressions are computed once.
     pub before: usize,
-    /// Of the expressions that were chosen, and what they share taken out.
+    /// The number for the chosen expressions, with common subexpressions extracted.
     pub after: usize,
-    /// The latter, stage by stage.
+    /// The number after simplification, stage by stage.
     pub by_stage: SortedMap<Stage, usize>,
-    /// The latter by what is done: `add`, `multiply`, `sin`, ...; no entry is 0.
+    /// The number after simplification by kind: `add`, `multiply`, `sin`, ...; no entry is 0.
     pub by_kind: SortedMap<&'static str, usize>,
 }
 
 impl Operations {
-    /// What it takes to compute all of `quantities` together.
+    /// Counts the operations that compute all of `quantities` together.
     pub fn of(compiled: &Compiled, quantities: &[Quantity]) -> Self {
         let components = |derivation: &Derivation| -> Vec<Expr> {
             quantities
@@ -35,7 +35,7 @@ impl Operations {
         };
         let (derived, chosen) = (components(&compiled.derived), components(&compiled.derivation));
         let before = schedule_plainly(&compiled.graph, &SortedMap::from([((), derived.clone())]));
-        // What is cheapest for each alone need not be so together.
+        // The cheapest form for each quantity alone may not be the cheapest for all.
         let forms = [chosen, derived];
         let cheapest = forms.into_iter().min_by_key(|form| cost(&compiled.graph, form));
         let mut graph = compiled.graph.clone();

@@ -1,8 +1,8 @@
 //! The period of a motion: the time after which u repeats itself.
 //!
-//! u repeats itself if it depends on t through sines and cosines alone, whose angles grow evenly at rates that are
-//! rational multiples of one. That is read off the formula, so a period is proved. It may be a multiple of the
-//! least one, as in sin(w t)^2.
+//! u repeats itself if it depends on t only through sines and cosines whose angles grow at constant rates that are rational
+//! multiples of each other. That is derived from the formula, so a period is proved. It may be a multiple of the least one, as
+//! in sin(w t)^2.
 
 use std::fmt;
 
@@ -15,12 +15,12 @@ use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// Why no period of a displacement is known.
+/// The reason why no period of a displacement is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoPeriod {
-    /// It does not depend on t.
+    /// The displacement does not depend on t.
     AtRest,
-    /// It depends on t not only through sines and cosines of what grows evenly.
+    /// The displacement depends on t other than through sines and cosines of angles with constant rates.
     Unsteady,
     /// Two angles grow at rates whose ratio is no rational number as a formula.
     Incommensurate,
@@ -48,7 +48,7 @@ impl std::error::Error for NoPeriod {}
 /// A period of the displacement with these parameters: u(X, t + period) = u(X, t) for all X and t.
 ///
 /// # Errors
-/// A displacement of which none is known.
+/// No period is known.
 pub fn period(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> Result<f64, NoPeriod> {
     let mut graph = compiled.graph.clone();
     graph.make_room();
@@ -73,7 +73,7 @@ pub fn period(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> Result<f
     (period > 0.0 && period.is_finite()).then_some(period).ok_or(NoPeriod::OutOfRange)
 }
 
-/// The rates at which the angles of all sines and cosines grow that contain t.
+/// The rates of the angles of all sines and cosines that contain t.
 fn rates(graph: &mut Graph, roots: &[Expr]) -> Result<SortedSet<Expr>, NoPeriod> {
     let mut rates = SortedSet::new();
     let mut seen = SortedSet::new();
@@ -99,7 +99,7 @@ fn rates(graph: &mut Graph, roots: &[Expr]) -> Result<SortedSet<Expr>, NoPeriod>
     Ok(rates)
 }
 
-/// The largest number that both are multiples of, but for its sign.
+/// The largest number of which both are multiples, up to its sign.
 fn common(mut a: Rational, mut b: Rational) -> Rational {
     while !b.is_zero() {
         let times = Rational::from((a.clone() / b.clone()).floor());

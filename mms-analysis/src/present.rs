@@ -1,18 +1,17 @@
-//! The inverse of a motion: X(x, t), the reference position of what is at x at a time t.
+//! The inverse of a motion: X(x, t), the reference position of the point that is at x at a time t.
 //!
 //! The body is cut into tiles on each of which the motion is proved to be one to one: with Y near the inverse of F in the
-//! middle, I - Y F is bounded in interval arithmetic, and is a contraction where a row of it sums to less than 1. A
-//! point is looked for in every tile whose image may hold it. There the Krawczyk operator (Neumaier, Interval Methods
-//! for Systems of Equations, 1990, section 5.2)
+//! middle, I - Y F is bounded in interval arithmetic, and is a contraction if each row of it sums to less than 1. A point is
+//! searched in every tile whose image may contain it. There the Krawczyk operator (Neumaier, Interval Methods for Systems of
+//! Equations, 1990, section 5.2)
 //!
 //! ```text
 //! K(B) = c - Y (x(c) - x) + (I - Y F(B)) (B - c)
 //! ```
 //!
-//! encloses each solution in B. If K(B) and B have nothing in common there is none; if K(B) lies within B there is exactly
-//! one. Newton's method finds it, and the test is made on a box of a few roundings about what was found. What can be
-//! decided in neither way is halved. So all X that a body has for a point are found, or it is said that this is not
-//! decided.
+//! encloses each solution in B. If K(B) and B are disjoint there is none; if K(B) lies within B there is exactly one. Newton's
+//! method finds it, and the test uses a box of a few roundings around it. A tile that is decided in neither way is halved. So
+//! all X of a point are found, or an error reports that this is not decided.
 
 use mms_codegen::Compiled;
 use mms_math::Scalar as _;
@@ -26,29 +25,29 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
-/// How many tiles a body is cut into at most.
+/// The largest number of tiles of a body.
 const MOST_TILES: usize = 4096;
 
-/// How many tiles are halved for one point, at most.
+/// The largest number of tiles that are halved for one point.
 const MOST_HALVED: usize = 2000;
 
-/// A contraction that is slower is halved, too.
+/// The slowest contraction that is accepted; tiles with slower ones are halved.
 const SLOWEST: f64 = 0.5;
 
-/// What part of its edges a tile is larger by, to each side, so that a solution on its boundary lies within.
+/// The margin of a tile to each side, as a fraction of its edges, so that a solution on its boundary lies within.
 const MARGIN: f64 = 0.05;
 
-/// Steps of Newton's method.
+/// The largest number of steps of Newton's method.
 const STEPS: usize = 20;
 
-/// Why a point has no reference position that is known.
+/// The reason why a point has no known reference position.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unplaced {
     /// No point of the body is there at that time.
     Outside,
-    /// Two points of the body are: two of its reference positions.
+    /// Two points of the body are there: two of its reference positions.
     Several([Vec<f64>; 2]),
-    /// It is not decided whether one is: a place near which that may be.
+    /// No decision whether a point is there: a place near which one may be.
     Undecided(Vec<f64>),
 }
 
@@ -69,11 +68,11 @@ struct Instant<'a> {
 /// A part of the body.
 #[derive(Clone, Debug)]
 struct Tile {
-    /// Without its margin.
+    /// The tile without its margin.
     sides: Vec<Interval>,
-    /// x of all of it and its margin.
+    /// x of the tile and its margin.
     image: Vec<Interval>,
-    /// Where the motion is one to one.
+    /// The contraction; `None` if the motion is not proved to be one to one.
     contraction: Option<Contraction>,
 }
 
@@ -84,7 +83,7 @@ struct Contraction {
     rest: Vec<Interval>,
 }
 
-/// What is known of a point in a tile.
+/// The result of a search in a tile.
 enum Found {
     Nothing,
     One(Vec<f64>),
@@ -95,7 +94,8 @@ const POSITION: Output = Output::Quantity(Quantity::Position);
 const GRADIENT: Output = Output::Quantity(Quantity::DeformationGradient);
 
 impl<'a> Inverse<'a> {
-    /// Of a compiled field, of which position and deformation gradient are wanted, with some parameters set by position.
+    /// Inverts the motion of a compiled field, which needs position and deformation gradient, with some parameters set by
+    /// index.
     pub fn new(compiled: &'a Compiled, set: &SortedMap<usize, Rational>, time: f64) -> Self {
         let values = compiled.parameters::<f64>(set);
         let (body, _) = domain(&compiled.program, &values);
@@ -105,10 +105,10 @@ impl<'a> Inverse<'a> {
         Inverse { motion, body, tiles }
     }
 
-    /// X of the point that is at x; `rounding` is how far each of its coordinates may be from what was meant.
+    /// X of the point that is at x; `rounding` is the largest deviation of each of its coordinates from the intended one.
     ///
     /// # Errors
-    /// No point of the body is there, more than one is, or that is not proved.
+    /// No point of the body is there, more than one is, or this is not decided.
     pub fn reference(&mut self, x: &[f64], rounding: f64) -> Result<Vec<f64>, Unplaced> {
         let mut open: Vec<Tile> =
             self.tiles.iter().filter(|tile| tile.may_hold(x)).cloned().collect();
@@ -137,7 +137,7 @@ impl<'a> Inverse<'a> {
         }
     }
 
-    /// A point within rounding of the body, on its boundary where it is beyond that.
+    /// Moves a point within rounding of the body to its boundary; `None` for points farther away.
     fn in_body(&self, mut point: Vec<f64>, near: f64) -> Option<Vec<f64>> {
         if !self.body.contains(&point) && self.body.distance(&point) > near {
             return None;
@@ -149,7 +149,7 @@ impl<'a> Inverse<'a> {
     }
 }
 
-/// Whether a solution is none of those that were found in another tile.
+/// Whether a solution differs from all solutions of other tiles.
 fn is_new(found: &[Vec<f64>], point: &[f64]) -> bool {
     let size = |x: &[f64]| x.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
     let far = |other: &Vec<f64>| {
@@ -191,10 +191,10 @@ fn within<T>(entries: Vec<T>, dimension: usize) -> Vec<T> {
     kept.map(|(_, entry)| entry).collect()
 }
 
-/// Cuts the body until the motion is one to one on each part, or there are too many.
+/// Cuts the body until the motion is one to one on each part, or there are too many parts.
 fn tiles(motion: &mut Instant<'_>, body: &Extent<f64>) -> Vec<Tile> {
     let [lower, upper] = match body {
-        // About the origin, whatever part of the turn there is.
+        // A square around the origin, for any part of the turn.
         Extent::Block(block) if block.system == System::Polar && block.bounds.len() == 2 => {
             let outer = block.bounds[0][1];
             [vec![-outer; 2], vec![outer; 2]]
@@ -209,13 +209,13 @@ fn tiles(motion: &mut Instant<'_>, body: &Extent<f64>) -> Vec<Tile> {
             continue;
         }
         let halves = tile.halves().into_iter().filter(|sides| may_meet(body, sides));
-        // The largest are cut first.
+        // The largest tiles are cut first.
         halves.for_each(|sides| open.insert(0, Tile::new(motion, sides)));
     }
     done
 }
 
-/// Whether a box may have a point of the body.
+/// Whether a box may contain a point of the body.
 fn may_meet(body: &Extent<f64>, sides: &[Interval]) -> bool {
     match body {
         Extent::Block(block) if block.system != System::Cartesian => {
@@ -257,7 +257,7 @@ impl Tile {
         self.image.iter().zip(x).all(|(side, x)| !side.is_defined() || side.contains(*x))
     }
 
-    /// How far a solution may be from where it was meant to be.
+    /// How far a solution may be from the intended point.
     fn reach(&self, rounding: f64, x: &[f64]) -> f64 {
         let size = x.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
         let largest = self.contraction.iter().flat_map(|it| &it.inverse);
@@ -265,7 +265,7 @@ impl Tile {
         4.0 * x.len() as f64 * largest * (rounding + f64::EPSILON * size)
     }
 
-    /// The two halves of its widest side.
+    /// The two halves of the tile, cut across its widest side.
     fn halves(&self) -> [Vec<Interval>; 2] {
         let width = |axis: &usize| self.sides[*axis].width();
         let widest = (0..self.sides.len()).max_by(|a, b| width(a).total_cmp(&width(b)));
@@ -278,7 +278,7 @@ impl Tile {
         })
     }
 
-    /// The solution in the tile and its margin, where there is one.
+    /// The solution in the tile and its margin, if there is one.
     fn solve(&self, motion: &mut Instant<'_>, x: &[f64]) -> Found {
         let Some(contraction) = &self.contraction else { return Found::Undecided };
         let [at_middle, _] = motion.over(&exact(&middle(&self.sides)));
@@ -305,7 +305,7 @@ impl Tile {
 }
 
 impl Contraction {
-    /// Where I - Y F is one.
+    /// The contraction of a tile; `None` if I - Y F is none.
     fn new(slope: &[f64], gradient: &[Interval], dimension: usize) -> Option<Self> {
         let inverse = inverse(slope, dimension)?;
         let entry = |row: usize, column: usize| {
@@ -347,7 +347,7 @@ impl Contraction {
         .collect()
     }
 
-    /// The middle of an enclosure of the one solution near a place, where that is proved within the tile.
+    /// The middle of an enclosure of the only solution near a place, if it is proved to lie within the tile.
     fn verify(
         &self,
         motion: &mut Instant<'_>,
@@ -357,7 +357,7 @@ impl Contraction {
     ) -> Option<Vec<f64>> {
         let [at_place, _] = motion.over(&exact(place));
         let step = self.step(&at_place, x);
-        // A contraction by a half leads from a box of four steps into one of three.
+        // A contraction by 1/2 maps a box of four steps into one of three.
         let radius = step.iter().fold(0.0, |most: f64, it| most.max(it.farthest()));
         let offset = Interval::new(-4.0 * radius, 4.0 * radius);
         let sides = place.iter().map(|it| Interval::from_f64(*it) + offset);
@@ -398,7 +398,7 @@ fn newton(
     Some(place)
 }
 
-/// The inverse of a square matrix by Gauss-Jordan elimination with pivots; `None` where there is none.
+/// The inverse of a square matrix by Gauss-Jordan elimination with pivots; `None` if it is singular.
 fn inverse(matrix: &[f64], size: usize) -> Option<Vec<f64>> {
     let mut left = matrix.to_vec();
     let mut right = vec![0.0; size * size];

@@ -1,5 +1,5 @@
-//! Errors against arbitrary precision are measured as declared and at every extreme, and what cannot
-//! be made is left out with the reason.
+//! Errors against arbitrary precision are measured as declared and at every extreme, and regimes that do not apply are left out
+//! with the reason.
 
 use mms_analysis::accuracy::regime::REGIMES;
 use mms_analysis::accuracy::{Accuracy, Request, measure};

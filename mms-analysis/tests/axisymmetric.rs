@@ -8,7 +8,7 @@ fn compiled(text: &str) -> Compiled {
     compile("field", "field.toml", text, &load).unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-/// A field in R and Z, and the same in space.
+/// A field in R and Z, and the equal field in space.
 fn both([radial, axial, swirl]: [&str; 3], moduli: &str) -> [Compiled; 2] {
     let material = format!("[material]\nmodel = \"neo_hookean\"\n{moduli}density = 2\n");
     let flat = format!(
@@ -36,7 +36,7 @@ fn a_section_sees_what_the_field_in_space_sees() {
     ] {
         let [flat, space] =
             both(motion, moduli).map(|field| Visibility::of(&field).expect("few terms"));
-        // What depends on no basis.
+        // Terms that depend on no basis.
         for term in [
             Term::Velocity,
             Term::Acceleration,
@@ -59,7 +59,7 @@ fn a_section_sees_what_the_field_in_space_sees() {
     }
 }
 
-/// Linear shape functions in R and Z hold u_R = a + b R: that b is not 0 shows that it is no affine motion in space.
+/// Linear shape functions in R and Z represent u_R = a + b R exactly. If b is not 0, that is no affine motion in space.
 #[test]
 fn shape_functions_are_those_in_r_and_z() {
     let [flat, space] = both(["0.1*(R - 0.25)*t", "0", "0"], "lambda = 3\nmu = 2\n")

@@ -1,4 +1,4 @@
-//! The period of a motion: what formulas tell, and that it is one.
+//! The period of a motion: derived from formulas, and compared with the motion.
 
 use mms_analysis::period::{NoPeriod, period};
 use mms_codegen::{Compiled, compile};
@@ -50,7 +50,7 @@ fn it_is_a_turn_over_the_common_rate() {
         ("X*(cos(2*w*t) + sin(3*w*t + phase))/99", 3.0),
         ("X*(cos(w*t/2) + sin(w*t/3))/99", 0.5),
         ("X*cos(2*w*t)/9", 6.0),
-        // A function of what repeats itself does, too.
+        // A function of periodic arguments is periodic, too.
         ("X*sin(X*cos(w*t))*exp(sin(2*w*t))/99", 3.0),
     ] {
         let found = period_of(u).unwrap_or_else(|why| panic!("{u}: {why}"));
@@ -88,7 +88,7 @@ fn what_does_not_repeat_itself_has_none() {
         ("X*exp(-t)/9", NoPeriod::Unsteady),
         ("X*t*cos(w*t)/9", NoPeriod::Unsteady),
         ("X*cos(w*t^2)/9", NoPeriod::Unsteady),
-        // Every X has a period of its own.
+        // Every X has its own period.
         ("cos(w*X*t)/9", NoPeriod::Unsteady),
         ("X*(cos(t) + cos(sqrt(2)*t))/99", NoPeriod::Incommensurate),
         ("X*(cos(w*t) + cos(2*t))/99", NoPeriod::Incommensurate),

@@ -1,4 +1,4 @@
-//! X(x, t): what is found is what was moved there, and what is refused is nowhere or in two places.
+//! X(x, t): the result is the point that was moved there, and refused points are nowhere or in two places.
 
 use mms_analysis::present::{Inverse, Unplaced};
 use mms_codegen::{Compiled, compile};
@@ -123,7 +123,7 @@ fn two_points_in_one_place_are_both_named() {
     for (found, expected) in both.iter().zip(expected) {
         assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-13), "{both:?}");
     }
-    // Beyond the part that overlaps there is one again.
+    // Beyond the overlapping part there is one reference position again.
     let x = moved(&overlapping, &[1.25, 2.0], 0.5);
     assert!(inverse.reference(&x, 0.0).is_ok());
 }
@@ -136,7 +136,7 @@ fn a_point_outside_the_image_is_outside() {
     for outside in [-1e-9, end + 1e-9, 5.0] {
         assert_eq!(inverse.reference(&[outside], 0.0), Err(Unplaced::Outside), "{outside}");
     }
-    // Within the rounding that is said, it is the end.
+    // Within the given rounding, the point is the end.
     assert_eq!(inverse.reference(&[end + 1e-9], 1e-8), Ok(vec![1.0]));
     assert_eq!(inverse.reference(&[f64::NAN], 0.0), Err(Unplaced::Outside));
 }

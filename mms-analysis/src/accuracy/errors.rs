@@ -5,25 +5,25 @@ use mms_math::Scalar as _;
 use mms_program::precise::Binary;
 use mms_program::precision::{Digits, Precision};
 
-/// What is known of the errors of a quantity. Magnitudes below the least one that has all digits count
-/// as that one, so that nothing is divided by 0.
+/// Statistics of the errors of a quantity. Magnitudes below the least one that has all digits count as that one, so that
+/// nothing is divided by 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
     /// The median of |error| / |value| over points and components.
     pub median_eps: f64,
-    /// That which 99 of 100 do not exceed.
+    /// The 99th percentile of |error| / |value|.
     pub p99_eps: f64,
-    /// The largest.
+    /// The maximum of |error| / |value|.
     pub max_eps: f64,
     /// The largest |error| over the largest |value|.
     pub max_scaled_eps: f64,
-    /// How many components were compared.
+    /// The number of compared components.
     pub compared: usize,
-    /// How many components came out infinite or not a number. They enter no error.
+    /// The number of computed components that are infinite or NaN. They are in no error statistic.
     pub not_finite: usize,
-    /// How many of these have a true value beyond the range of the precision.
+    /// The number of the infinite or NaN components whose true value is beyond the range of the precision.
     pub overflowed: usize,
-    /// How many components have no real value at their point. They enter no error.
+    /// The number of components without a real value at their point. They are in no error statistic.
     pub undefined: usize,
 }
 
@@ -37,13 +37,13 @@ pub struct Tally<const BITS: usize> {
 }
 
 impl<const BITS: usize> Tally<BITS> {
-    /// A tally of nothing.
+    /// A tally without errors.
     pub fn new(precision: Precision) -> Self {
         Tally {
             precision,
             relative: Vec::new(),
             largest_error: Binary::from_f64(0.0),
-            // Numbers below have fewer digits, so that their error is measured against this one.
+            // Smaller numbers have fewer digits, so that their error is relative to this one.
             largest_value: Binary::from_f64(precision.least()),
             errors: Errors::default(),
         }
@@ -72,10 +72,10 @@ impl<const BITS: usize> Tally<BITS> {
         }
     }
 
-    /// An error in units of eps of a size.
+    /// An error relative to a size, in units of eps.
     fn ratio(&self, error: &Binary<BITS>, size: Binary<BITS>) -> f64 {
         let (near, scale) = (error.to_f64(), size.to_f64());
-        // Where double precision holds both, 15 digits of an error are plenty.
+        // If both are in the range of double precision, 15 digits of an error are enough.
         if near == 0.0 || (near.is_normal() && scale.is_normal() && scale > self.precision.least())
         {
             return near / scale.max(self.precision.least()) / self.precision.eps();
@@ -85,7 +85,7 @@ impl<const BITS: usize> Tally<BITS> {
         (error.clone() / size).to_f64() / self.precision.eps()
     }
 
-    /// The errors that were found.
+    /// The statistics of the errors.
     pub fn finish(mut self) -> Errors {
         let scaled = self.ratio(&self.largest_error, self.largest_value.clone());
         self.relative.sort_by(f64::total_cmp);

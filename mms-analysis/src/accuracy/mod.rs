@@ -1,14 +1,13 @@
-//! Errors of a field against arbitrary precision: every quantity, in every precision and form, as declared and at
-//! extremes.
+//! Errors of a field against arbitrary precision: every quantity, in every precision and form, as declared and at extremes.
 //!
-//! What is measured is the interpreter, which has the bits of emitted code. Each precision gets random inputs that
-//! it holds exactly, and the reference, the same program in arbitrary precision, gets the very same numbers. The
-//! reference has 256 bits; where 1536 change a value by more than 2^-136 of its quantity it has 1536, and then
-//! 4096, beyond which that quantity is left out.
+//! The interpreter is measured, whose results have the same bits as emitted code. Each precision gets random inputs that it
+//! represents exactly, and the reference, the same program in arbitrary precision, gets the same numbers. The reference has 256
+//! bits. If 1536 bits change a value by more than 2^-136 of its quantity, it has 1536, and then 4096; a quantity that needs
+//! more is left out.
 //!
-//! A component that comes out infinite or not a number is counted, apart from those whose true value is beyond the
-//! range, and enters no error; so is one without a real value. Magnitudes below the least normal number count as
-//! that.
+//! A component that is infinite or NaN is counted, separately from components whose true value is beyond the range, and is in
+//! no error; likewise a component without a real value. Magnitudes below the least normal number count as the least normal
+//! number.
 
 mod errors;
 mod points;
@@ -43,23 +42,24 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
-/// At how many points J is looked for, at least: so that a regime is the same one at fewer points.
+/// The least number of points at which J is searched, so that a regime does not depend on the requested number of points if
+/// that is smaller.
 const SEARCHED: usize = 1000;
 
-/// At how many points the digits of the reference are checked.
+/// The number of points at which the digits of the reference are checked.
 const CHECKED: usize = 4;
 
-/// To how many bits of the largest value of a quantity two references must agree.
+/// The number of bits of the largest value of a quantity to which two references must agree.
 const SETTLED: i32 = 136;
 
-/// Why a quantity is not measured.
-const UNSETTLED: &str = "1233 digits do not tell what the true values are, as where they are 0 by a cancellation that \
+/// The reason for a quantity that is not measured.
+const UNSETTLED: &str = "1233 digits do not determine the true values, which may be 0 by a cancellation that \
                          no formula shows";
 
-/// What is to be measured.
+/// The fields, quantities and regimes to measure.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// The parameters that are set, the rigid motion and the limits. Quantities and form do not matter.
+    /// The parameters that are set, the rigid motion and the limits. Quantities and form are ignored.
     pub options: Options,
     /// The quantities.
     pub quantities: Vec<Quantity>,
@@ -67,9 +67,9 @@ pub struct Request {
     pub precisions: Vec<Precision>,
     /// The forms.
     pub forms: Vec<Form>,
-    /// The names of the regimes, and of the field's own extremes; `None` stands for all.
+    /// The names of the regimes, and of the field's own extremes; `None` for all.
     pub regimes: Option<Vec<String>>,
-    /// How many points.
+    /// The number of points.
     pub points: usize,
 }
 
@@ -104,35 +104,35 @@ pub struct Row {
 /// A regime that could not be made, or a quantity that could not be measured in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
-    /// Its name.
+    /// The name of the regime.
     pub regime: Foreign,
-    /// The quantity, where others were measured.
+    /// The quantity; `None` if the whole regime is left out.
     pub quantity: Option<Quantity>,
-    /// The precision, where it is made in others.
+    /// The precision; `None` if the regime is left out in all.
     pub precision: Option<Precision>,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
-/// All that was measured of a field.
+/// All measured errors of a field.
 #[derive(Clone, Debug, Default)]
 pub struct Accuracy {
-    /// By regime, quantity, precision and form.
+    /// The errors by regime, quantity, precision and form.
     pub rows: Vec<Row>,
-    /// What was not, and why.
+    /// The regimes and quantities that were not measured, and why.
     pub left_out: Vec<LeftOut>,
 }
 
-/// A field in a regime, for who runs it: what is made of it, and the parameters that are set, by position.
+/// A field in a regime, for callers that run it: the variation, and the parameters that are set, by index.
 #[derive(Clone, Debug)]
 pub struct Varied {
-    /// The field that is made of the field.
+    /// The variation of the field.
     pub variation: Variation,
-    /// The values.
+    /// The values of parameters.
     pub values: SortedMap<usize, Rational>,
 }
 
-/// How a field is put in a regime; otherwise why it cannot be. A body that is elsewhere brings its box with it.
+/// Puts a field in a regime; the error is the reason why it cannot be. A body that is elsewhere has its own box.
 pub fn vary(compile: Compile<'_>, options: &Options, regime: &Regime) -> Result<Varied, String> {
     let subject = Variants::new(compile, options, &[]).map_err(|failure| first_line(&failure))?;
     let case = regime.case(&subject, Search::Everywhere)?;
@@ -145,13 +145,13 @@ pub fn vary(compile: Compile<'_>, options: &Options, regime: &Regime) -> Result<
     Ok(Varied { variation, values })
 }
 
-/// The names of the regimes of a field: those of all fields, then its own.
+/// The names of the regimes of a field: first the regimes of all fields, then the field's own.
 pub fn names(own: &[mms_spec::ExtremeSpec]) -> Vec<Foreign> {
     let shared = REGIMES.iter().map(|regime| regime.name.into());
     shared.chain(own.iter().map(|extreme| extreme.name.value.clone())).collect()
 }
 
-/// Measures what is asked for; `progress` hears the name of every regime before it begins.
+/// Measures the requested errors. Calls `progress` with the name of every regime before it begins.
 pub fn measure(
     compile: Compile<'_>,
     request: &Request,
@@ -179,7 +179,7 @@ pub fn measure(
     Ok(accuracy)
 }
 
-/// What makes a regime.
+/// The source of a regime.
 enum Maker {
     Shared(&'static Regime),
     Own(usize),
@@ -227,7 +227,7 @@ impl Accuracy {
     }
 }
 
-/// What is measured in one precision.
+/// The measurements in one precision.
 struct Found {
     /// The errors of each quantity and form.
     errors: Vec<(Quantity, Form, Errors)>,
@@ -250,7 +250,7 @@ impl Made {
         Ok(Made { case, reference, forms })
     }
 
-    /// The errors in each precision, side by side.
+    /// Computes the errors in each precision, in parallel.
     fn all_errors(&self, request: &Request) -> Vec<Result<Found, String>> {
         thread::scope(|scope| {
             let start = |precision: &Precision| match precision {
@@ -264,7 +264,7 @@ impl Made {
         })
     }
 
-    /// The errors of each quantity and form in a precision; otherwise why there are none.
+    /// Computes the errors of each quantity and form in a precision; the error is the reason why there are none.
     fn errors<T: Digits>(&self, request: &Request) -> Result<Found, String> {
         let set = self.case.values(T::PRECISION);
         if self.case.variation == Variation::Nothing {
@@ -281,7 +281,7 @@ impl Made {
         }
         let run = Run { made: self, parameters, inputs };
         let mut found = Found { errors: Vec::new(), unsettled: request.quantities.clone() };
-        // So many bits that more change nothing. The largest numbers have 1024 before the point.
+        // Enough bits that more do not change the values. The largest numbers have 1024 before the point.
         run.settle::<256, 1536>(&mut found)?;
         run.settle::<1536, 4096>(&mut found)?;
         run.settle::<4096, 8192>(&mut found)?;
@@ -317,7 +317,7 @@ impl<'a, T: mms_program::interpret::Number> Evaluation<'a, T> {
 }
 
 impl<T: Digits> Run<'_, T> {
-    /// Adds the errors of those quantities for which references of different digits agree.
+    /// Adds the errors of quantities for which references of different digits agree.
     fn settle<const BITS: usize, const MORE: usize>(
         &self,
         found: &mut Found,
@@ -326,7 +326,7 @@ impl<T: Digits> Run<'_, T> {
             return Ok(());
         }
         let mut settled = self.agreeing::<BITS, MORE>(&found.unsettled);
-        // J says which points count, as the last of the outputs.
+        // J, the last of the outputs, determines which points count.
         let counts = settled.pop() == Some(true) || self.made.case.least_jacobian.is_none();
         let mut settled = settled.into_iter().map(|it| it && counts);
         let (settled, unsettled): (Vec<_>, Vec<_>) =
@@ -342,7 +342,7 @@ impl<T: Digits> Run<'_, T> {
         Evaluation::new(&self.made.reference, &precisely(&self.parameters), outputs)
     }
 
-    /// Whether references of different digits agree where they are looked at: of each quantity, and of J.
+    /// Whether references of different digits agree at the checked points: for each quantity, and for J.
     fn agreeing<const BITS: usize, const MORE: usize>(&self, quantities: &[Quantity]) -> Vec<bool> {
         let outputs = outputs(quantities);
         let (mut some, mut more) =
@@ -362,7 +362,7 @@ impl<T: Digits> Run<'_, T> {
         agreements.iter().map(Agreement::is_close).collect()
     }
 
-    /// The errors of some quantities in each form; otherwise why there are none.
+    /// Computes the errors of some quantities in each form; the error is the reason why there are none.
     fn compare<const BITS: usize>(
         &self,
         quantities: &[Quantity],
@@ -405,7 +405,7 @@ impl<T: Digits> Run<'_, T> {
         Ok(errors.collect())
     }
 
-    /// Whether the regime is about the point that the reference is at.
+    /// Whether the regime includes the present point of the reference.
     fn counts<const BITS: usize>(&self, reference: &Evaluation<'_, Binary<BITS>>) -> bool {
         let Some(least) = self.made.case.least_jacobian else { return true };
         let jacobian = reference.interpreter.output(Output::Quantity(Quantity::Jacobian));
@@ -413,7 +413,7 @@ impl<T: Digits> Run<'_, T> {
     }
 }
 
-/// What is evaluated for some quantities: these, and J.
+/// The outputs that are evaluated for some quantities: these, and J.
 fn outputs(quantities: &[Quantity]) -> Vec<Output> {
     quantities.iter().chain([&Quantity::Jacobian]).map(|it| Output::Quantity(*it)).collect()
 }
@@ -430,8 +430,8 @@ fn precise_input<T: Digits, const BITS: usize>(input: &Input<T>) -> Input<Binary
     }
 }
 
-/// How far two references of a quantity are apart, over all that was looked at: one component may be
-/// 0, and nothing but round-off in both.
+/// The difference of two references of a quantity, over all checked points: one component alone may be 0, and only round-off in
+/// both.
 struct Agreement<const BITS: usize> {
     difference: Binary<BITS>,
     largest: Binary<BITS>,

@@ -1,4 +1,4 @@
-//! Where errors are measured: points of the body and times of the window, as numbers of a precision.
+//! The points of the body and times of the window where errors are measured, as numbers of a precision.
 //!
 //! They are random, and the same in every run. One in four lies on a face or close to one.
 
@@ -9,12 +9,12 @@ use mms_mechanics::sample::domain;
 use mms_program::precision::Digits;
 use mms_symbolic::expr::Rational;
 
-/// Where points lie.
+/// The region of points and times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// In the body, at times of the window.
     Body,
-    /// The same, with s more along each axis: s is the last parameter.
+    /// In the body, with s added along each axis: s is the last parameter.
     Shifted,
     /// In the body, at times a million windows later.
     Late,
@@ -24,17 +24,17 @@ pub enum Place {
     Largest,
 }
 
-/// By how many time windows [`Place::Late`] is later.
+/// The number of time windows by which [`Place::Late`] is later.
 pub const LATE: f64 = 1e6;
 
-/// What one evaluation takes.
+/// The inputs of one evaluation.
 #[derive(Clone, Debug)]
 pub struct Input<T> {
     /// X.
     pub coordinates: Vec<T>,
     /// t.
     pub time: T,
-    /// N, a unit vector but for rounding.
+    /// N, a unit vector up to rounding.
     pub normal: Vec<T>,
 }
 
@@ -50,18 +50,18 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Between 0 and 1, with 53 digits.
+    /// A number between 0 and 1, with 53 digits.
     fn fraction(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * 2f64.powi(-53)
     }
 
-    /// The same with as many digits as a precision has.
+    /// A number between 0 and 1, with as many digits as the precision has.
     fn digits<T: Digits>(&mut self) -> T {
         let (high, low) = (self.fraction(), self.fraction());
         T::from_parts(high, low * 2f64.powi(-53))
     }
 
-    /// On a face, or closer to it than a thousandth.
+    /// A fraction on a face, or closer to it than 1/1000.
     fn near_face<T: Digits>(&mut self) -> T {
         let kind = self.bits() % 4;
         let distance = T::from_f64(self.fraction() * 2f64.powi(-10));
@@ -74,8 +74,8 @@ impl Random {
     }
 }
 
-/// Inputs for a field with these parameters. Fewer than `count`, or none, where the body and the time
-/// window do not hold that many.
+/// Inputs for a field with these parameters. Fewer than `count`, or none, if the body and the time window do not contain that
+/// many.
 pub fn inputs<T: Digits>(
     compiled: &Compiled,
     parameters: &[T],
@@ -125,12 +125,12 @@ fn inside<T: Digits>(
     }
 }
 
-/// The number of one input that is extreme: coordinates and the time take turns.
+/// The index of the extreme coordinate of an input; `None` for the time. Coordinates and the time take turns.
 fn extreme_input(index: usize, dimension: usize) -> Option<usize> {
     Some(index % (dimension + 1)).filter(|axis| *axis < dimension)
 }
 
-/// Makes a coordinate or the time subnormal, where that is in the body or in the window.
+/// Makes a coordinate or the time subnormal, if that is in the body or in the window.
 fn subnormal<T: Digits>(
     input: &mut Input<T>,
     extent: &Extent<T>,
@@ -146,7 +146,7 @@ fn subnormal<T: Digits>(
         let [lower, upper] = &bounds[axis];
         return holds(lower, upper).then(|| input.coordinates[axis] = T::from_f64(tiny));
     }
-    // On an axis of space, halfway along the body, but for the coordinate that is tiny.
+    // On an axis of space, halfway along the body, except for the tiny coordinate.
     let near = extent.map(|value| value.parts().0);
     let coordinates = match extent {
         Extent::Block(block) => {
@@ -182,7 +182,7 @@ pub fn size(compiled: &Compiled, parameters: &[f64]) -> f64 {
     domain(&compiled.program, parameters).0.size()
 }
 
-/// A number of double precision as an exact one.
+/// Converts a number of double precision exactly.
 pub fn exact(value: f64) -> Option<Rational> {
     Rational::try_from(value).ok()
 }

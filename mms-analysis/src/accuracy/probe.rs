@@ -1,5 +1,4 @@
-//! How a field answers to its parameters: which one scales the displacement, and where J is small or
-//! large.
+//! The dependence of a field on its parameters: which one scales the displacement, and where J is small or large.
 
 use mms_math::Scalar as _;
 
@@ -14,30 +13,29 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
-/// How many points show what a parameter does.
+/// The number of points that show the effect of a parameter.
 const POINTS: usize = 64;
 
-/// By how much, in powers of two, a parameter is reduced to see whether u goes with it.
+/// The factor, as a power of two, by which a parameter is reduced to test whether u is proportional to a power of it.
 const REDUCED: i32 = 30;
 
-/// How many doublings of an amplitude are tried.
+/// The number of doublings of an amplitude that are tried.
 const DOUBLINGS: usize = 40;
 
 /// A parameter with which the displacement vanishes.
 #[derive(Clone, Copy, Debug)]
 pub struct Amplitude {
-    /// Its position.
+    /// The index of the parameter.
     pub parameter: usize,
-    /// Its default.
+    /// The default of the parameter.
     pub value: f64,
-    /// Where it is small, the largest |u| is `factor` times the parameter to the power `order`.
+    /// For small values, the largest |u| is `factor` times the parameter to the power `order`.
     factor: f64,
     order: f64,
 }
 
 impl Amplitude {
-    /// The parameter of that position, if all of u vanishes with it and neither body nor time window
-    /// depend on it.
+    /// The amplitude with this index, if all of u vanishes with it and neither body nor time window depend on it.
     pub fn of(compiled: &Compiled, parameter: usize) -> Option<Amplitude> {
         let value = compiled.parameters::<f64>(&SortedMap::new())[parameter];
         let reduced = value * 2f64.powi(-REDUCED);
@@ -60,20 +58,20 @@ impl Amplitude {
         })
     }
 
-    /// The first such parameter of a field.
+    /// The first amplitude of a field.
     pub fn find(compiled: &Compiled) -> Option<Amplitude> {
         (0..compiled.model.parameters.len())
             .filter(|index| !compiled.field.parameters[*index].frozen)
             .find_map(|index| Self::of(compiled, index))
     }
 
-    /// The value for which the largest |u| is about that, where that is small.
+    /// The parameter value for which the largest |u| is about `displacement`, if that is small.
     pub fn for_displacement(&self, displacement: f64) -> f64 {
         (displacement / self.factor).powf(1.0 / self.order).copysign(self.value)
     }
 }
 
-/// A setting of one parameter; none where the value is not finite.
+/// A setting of one parameter; empty if the value is not finite.
 pub fn set(parameter: usize, value: f64) -> SortedMap<usize, Rational> {
     exact(value).map(|value| (parameter, value)).into_iter().collect()
 }
@@ -84,7 +82,7 @@ fn bounds(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> Vec<f64> {
     all.flat_map(|bound| interpreter.output(Output::Bound(bound))).collect()
 }
 
-/// With 77 digits: what is typed as a difference may cancel.
+/// The largest |u|, with 77 digits: differences in the formula may cancel.
 fn largest_displacement(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> f64 {
     let output = Output::Quantity(Quantity::Displacement);
     let parameters = compiled.parameters::<Precise>(set);
@@ -102,19 +100,19 @@ fn largest_displacement(compiled: &Compiled, set: &SortedMap<usize, Rational>) -
     largest
 }
 
-/// Where J is looked for.
+/// The region in which J is searched.
 #[derive(Clone, Copy, Debug)]
 pub enum Search {
-    /// At so many points of the body and the time window, where errors are measured.
+    /// The requested number of points of the body and the time window, where errors are measured.
     Points(usize),
-    /// In all of the body and the time window.
+    /// All of the body and the time window.
     Everywhere,
 }
 
-/// How many points of all of the body are looked at first.
+/// The number of points of the whole body that are tested first.
 const SPREAD: usize = 256;
 
-/// To what part of the body's edges and the time window an extremum of J is searched.
+/// The part of the body's edges and the time window to which an extremum of J is located.
 const FINEST: f64 = 1e-9;
 
 /// J of a field with some parameters.
@@ -142,7 +140,7 @@ impl<'a> Jacobian<'a> {
         self.interpreter.output(Self::OUTPUT)[0]
     }
 
-    /// J where so large parts of the body's edges and of the time window are passed.
+    /// J at these fractions of the body's edges and of the time window.
     fn at_fractions(&mut self, fractions: &[f64]) -> f64 {
         let (time, place) = fractions.split_last().unwrap_or((&0.0, &[]));
         let [first, last] = self.window;
@@ -150,8 +148,7 @@ impl<'a> Jacobian<'a> {
         self.at(&coordinates, first + (last - first) * time)
     }
 
-    /// The least of `sign` J: from the best of many places on by compass search (Hooke, Jeeves, J. ACM 8 (1961)
-    /// 212-229).
+    /// The least of `sign` J: by compass search from the best of many places (Hooke, Jeeves, J. ACM 8 (1961) 212-229).
     fn least_everywhere(&mut self, sign: f64, places: &[Vec<f64>]) -> f64 {
         let (mut best, mut place) = (f64::INFINITY, Vec::new());
         for fractions in places {
@@ -181,11 +178,11 @@ impl<'a> Jacobian<'a> {
     }
 }
 
-/// Where J is looked at.
+/// The points where J is evaluated.
 enum Points {
-    /// At these.
+    /// At these points.
     Some(Vec<Input<f64>>),
-    /// From these on, as parts of the body's edges and of the time window.
+    /// Searches from these places, as fractions of the body's edges and of the time window.
     From(Vec<Vec<f64>>),
 }
 
@@ -221,8 +218,8 @@ fn nearest(number: &Rational) -> f64 {
     number.to_f64().value()
 }
 
-/// The value of an amplitude of least magnitude at which the least J is `target`, if that is less
-/// than 1, or else the greatest is; otherwise what J does.
+/// The value of an amplitude of least magnitude at which the least J is `target`, if `target` is less than 1, or else at which
+/// the greatest J is; the error describes the range of J.
 pub fn amplitude_for_jacobian(
     compiled: &Compiled,
     amplitude: &Amplitude,

@@ -1,9 +1,9 @@
 //! The closed list of regimes: how a field is evaluated as declared, and at extremes.
 //!
-//! How each is made follows from the field alone: from the units of its parameters (moduli and lengths are those
-//! with that unit), from what they do to u and J (`probe`: the amplitude is the first parameter with which all of
-//! u vanishes while body and time window stay, and J near 0 is found by raising it), or from a variation of the
-//! field ([`mms_codegen::variation`]). A regime that a field cannot be put in is left out with the reason.
+//! Each regime is derived from the field alone: from the units of its parameters (moduli and lengths are the parameters with
+//! that unit), from their effect on u and J (`probe`: the amplitude is the first parameter with which all of u vanishes while
+//! body and time window do not change, and J near 0 is found by raising it), or from a variation of the field
+//! ([`mms_codegen::variation`]). A regime that does not apply to a field is left out with the reason.
 
 use super::points::{LATE, Place, exact, size};
 use super::probe::{Amplitude, Search, amplitude_for_jacobian, set};
@@ -18,9 +18,9 @@ use mms_symbolic::sorted::SortedMap;
 /// A way to evaluate any field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regime {
-    /// Its name on the command line and in JSON.
+    /// The name on the command line and in JSON.
     pub name: &'static str,
-    /// What is extreme about it.
+    /// A description of the extreme.
     pub doc: &'static str,
     kind: Kind,
 }
@@ -43,7 +43,7 @@ const fn regime(name: &'static str, doc: &'static str, kind: Kind) -> Regime {
     Regime { name, doc, kind }
 }
 
-/// Every regime, beside the `[[extreme]]` tables of a field.
+/// Every regime, except for the `[[extreme]]` tables of a field.
 #[rustfmt::skip]
 pub const REGIMES: &[Regime] = &[
     regime("declared", "as the file says", Kind::Declared),
@@ -73,16 +73,16 @@ pub fn find(name: &str) -> Option<&'static Regime> {
     REGIMES.iter().find(|regime| regime.name == name)
 }
 
-/// What is evaluated, and where.
+/// The field and the points of an evaluation.
 #[derive(Clone, Debug)]
 pub(super) struct Case {
-    /// The field that is made of the field.
+    /// The variation of the field.
     pub variation: Variation,
-    /// The `[[extreme]]` table that applies, by position.
+    /// The `[[extreme]]` table that applies, by index.
     pub extreme: Option<usize>,
-    /// Where.
+    /// The place of the points.
     pub place: Place,
-    /// The least J of a point that counts.
+    /// The least J of points that count.
     pub least_jacobian: Option<f64>,
     setting: Setting,
 }
@@ -111,7 +111,7 @@ impl Case {
         Case { extreme: Some(index), ..Case::plain() }
     }
 
-    /// The parameters that are set, by position.
+    /// The parameters that are set, by index.
     pub fn values(&self, precision: Precision) -> SortedMap<usize, Rational> {
         match &self.setting {
             Setting::Values(values) => values.clone(),
@@ -122,7 +122,7 @@ impl Case {
 }
 
 impl Regime {
-    /// How the regime is made for a field; otherwise why it cannot be.
+    /// Derives the regime for a field; the error is the reason why it does not apply.
     pub(super) fn case(&self, subject: &Variants, search: Search) -> Result<Case, String> {
         let plain = Case::plain();
         Ok(match self.kind {
@@ -160,7 +160,7 @@ impl Regime {
                     let value = amplitude_for_jacobian(field, amplitude, target, search)?;
                     Ok(Setting::Values(set(amplitude.parameter, value)))
                 })?;
-                // Where a large amplitude turns the body inside out it is no motion.
+                // If a large amplitude turns the body inside out, u is not a motion.
                 Case { least_jacobian: (target > 1.0).then_some(0.5), ..case }
             }
             Kind::SubnormalAmplitude => {
@@ -173,7 +173,7 @@ impl Regime {
     }
 }
 
-/// A setting of the amplitude: of the field's own, or of the factor of a variation.
+/// A setting of the field's own amplitude, or of the factor of a variation.
 fn with_amplitude(
     subject: &Variants,
     setting: impl Fn(&Compiled, &Amplitude) -> Result<Setting, String>,
@@ -188,7 +188,7 @@ fn with_amplitude(
     Ok(Case { variation: Variation::Scaled, setting: setting(&scaled, &amplitude)?, ..plain })
 }
 
-/// The parameters of that dimension, all scaled alike, the largest of them to `target`.
+/// Scales all parameters of a dimension by one factor, the largest of them to `target`.
 fn scaled(
     field: &Compiled,
     dimension: &Dimension,
@@ -216,7 +216,7 @@ fn scaled(
 
 #[cfg(test)]
 mod tests {
-    /// A field file is refused that names an extreme of its own like one of these.
+    /// A field file is refused if it names an extreme like one of these.
     #[test]
     fn field_files_keep_their_names() {
         let names: Vec<_> = super::REGIMES.iter().map(|regime| regime.name).collect();

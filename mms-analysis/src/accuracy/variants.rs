@@ -1,4 +1,4 @@
-//! The field whose errors are measured, and what is made of it.
+//! The field whose errors are measured, and its variants.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -11,23 +11,23 @@ use mms_spec::quantity::Quantity;
 use mms_spec::twin::Twin;
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// Compiles a field with some options, whether or not it is what it claims to be.
+/// Compiles a field with some options, even if its claims are not proved.
 pub type Compile<'a> = &'a dyn Fn(&Options) -> Result<Compiled, Failure>;
 
-/// What tells compiled variants of a field apart.
+/// The key of a compiled variant of a field.
 type Key = (Variation, Option<usize>, Form);
 
-/// A field, and each of its variants once.
+/// A field, and a cache of its variants.
 pub(super) struct Variants<'a> {
     compile: Compile<'a>,
     options: Options,
-    /// In the stable form, without a rigid motion on top.
+    /// The field in the stable form, without a rigid motion on top.
     plain: Compiled,
     variants: RefCell<SortedMap<Key, Arc<Compiled>>>,
 }
 
 impl<'a> Variants<'a> {
-    /// The field with these options, of which the quantities and the form do not matter.
+    /// Compiles the field with these options, whose quantities and form are ignored.
     pub fn new(
         compile: Compile<'a>,
         options: &Options,
@@ -58,7 +58,7 @@ impl<'a> Variants<'a> {
         (self.compile)(&options).map_err(|failure| first_line(&failure))
     }
 
-    /// What a case evaluates, in a form.
+    /// The program of a case, in a form.
     pub fn of_case(&self, case: &Case, form: Form) -> Result<Arc<Compiled>, String> {
         let key = (case.variation.clone(), case.extreme, form);
         if let Some(compiled) = self.variants.borrow().get(&key) {
@@ -80,7 +80,7 @@ impl<'a> Variants<'a> {
     }
 }
 
-/// What is wrong, in one line.
+/// The first error, in one line.
 pub(super) fn first_line(failure: &Failure) -> String {
     let first = failure.diagnostics.first();
     first.map_or_else(

@@ -1,9 +1,9 @@
-//! Term coverage: which terms of the equations a field can see, and which it cannot.
+//! Term coverage: which terms of the equations a field tests.
 //!
-//! A solver may do wrong what vanishes in a field, and still agree with it. A term is called absent where its
-//! expressions are 0 (for all parameters), or where they are below 1e-60 of their natural size at 32 points with
-//! 77 digits, for the defaults; which of the two is part of the answer, and the latter is no proof. The gallery as
-//! a whole leaves no term unseen; a test lists those that it does.
+//! A solver may be wrong in a term that vanishes in a field, and still agree with the field. A term is called absent if its
+//! expressions are 0 (for all parameters), or if they are below 1e-60 of their natural size at 32 points with 77 digits, for
+//! the defaults; the result tells which, and the latter is no proof. The gallery as a whole tests all terms except those that a
+//! test lists.
 
 mod scale;
 mod term;
@@ -24,22 +24,22 @@ pub use term::Term;
 
 use scale::Sizes;
 
-/// At how many points of the domain a term is evaluated.
+/// The number of points of the domain at which a term is evaluated.
 pub const POINTS: usize = 32;
 
-/// What is no more than this part of its natural size is 0 to all digits that are left.
+/// The fraction of its natural size up to which a value counts as 0 to all remaining digits.
 pub const NEGLIGIBLE: f64 = 1e-60;
 
 /// Whether a field has a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
-    /// It is not 0 at some point.
+    /// The term is not 0 at some point.
     Present,
-    /// It is 0 as an expression: at every point and time, for all parameters.
+    /// The term is 0 as an expression: at every point and time, for all parameters.
     Zero,
-    /// It is negligible at [`POINTS`] points, for the default parameters.
+    /// The term is negligible at [`POINTS`] points, for the default parameters.
     Negligible,
-    /// It has no value at any point that could tell.
+    /// The term has no value at any point that could decide.
     Undecided,
 }
 
@@ -50,7 +50,7 @@ impl Status {
     }
 }
 
-/// The shape functions that hold a displacement, exactly.
+/// The shape functions that represent a displacement exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Span {
     /// Polynomials of degree 1.
@@ -62,7 +62,7 @@ pub enum Span {
 }
 
 impl Span {
-    /// The word for it.
+    /// The name of the space.
     pub fn name(self) -> &'static str {
         match self {
             Span::Linear => "linear",
@@ -72,16 +72,15 @@ impl Span {
     }
 }
 
-/// Every term that a field of its dimension may have, and whether it does.
+/// Every term that a field of its dimension may have, and its status.
 #[derive(Clone, Debug)]
 pub struct Visibility {
-    /// In a fixed order.
+    /// The terms in a fixed order, with their status.
     pub findings: Vec<(Term, Status)>,
 }
 
 impl Visibility {
-    /// Looks at every term of a compiled field, with its default parameters. An error where their
-    /// expressions outgrow the graph.
+    /// Evaluates every term of a compiled field, with its default parameters. An error if the expressions exceed the graph.
     pub fn of(compiled: &Compiled) -> Result<Self, TooLarge> {
         let mut graph = compiled.graph.clone();
         graph.make_room();
@@ -99,12 +98,12 @@ impl Visibility {
         Ok(Visibility { findings })
     }
 
-    /// The terms of that status.
+    /// The terms with that status.
     pub fn with(&self, status: Status) -> impl Iterator<Item = &Term> {
         self.findings.iter().filter(move |(_, found)| *found == status).map(|(term, _)| term)
     }
 
-    /// The absent terms that say more than others which are absent as well.
+    /// The absent terms that are not implied by other absent terms.
     pub fn telling(&self) -> impl Iterator<Item = &(Term, Status)> {
         let absent = || self.findings.iter().filter(|(_, status)| status.is_absent());
         absent().filter(move |(term, _)| !absent().any(|(other, _)| other.carries().contains(term)))
@@ -115,7 +114,7 @@ impl Visibility {
         self.findings.iter().any(|(found, status)| found == term && status.is_absent())
     }
 
-    /// The least space of polynomials that holds u at every time.
+    /// The least space of polynomials that contains u at every time.
     pub fn span(&self) -> Option<Span> {
         let spaces = [
             (Term::Curvature, Span::Linear),

@@ -1,5 +1,5 @@
-//! Natural sizes, which tell a number that is 0 but for rounding from one that is small: products of the length of
-//! the body, the time window, rho0 c0^2 and rho0.
+//! Natural sizes, which separate a number that is 0 up to rounding from a small number: products of the length of the body, the
+//! time window, rho0 c0^2 and rho0.
 
 use mms_math::Scalar as _;
 
@@ -19,13 +19,13 @@ pub const STRESS: Scale = [0, 0, 1, 0];
 pub const STRESS_GRADIENT: Scale = [-1, 0, 1, 0];
 pub const DENSITY_GRADIENT: Scale = [-1, 0, 0, 1];
 
-/// What a field is measured by: the longest edge or the outer radius of its body, its time window,
-/// and the largest rho0 c0^2 and rho0 in its domain.
+/// The scales of a field: the longest edge or the outer radius of its body, its time window, and the largest rho0 c0^2 and rho0
+/// in its domain.
 #[derive(Clone, Debug)]
 pub struct Sizes(pub [Precise; 4]);
 
 impl Sizes {
-    /// The size of a term.
+    /// The natural size of a term.
     pub fn of(&self, scale: Scale) -> Precise {
         let mut size = Precise::from_f64(1.0);
         for (unit, exponent) in self.0.iter().zip(scale) {

@@ -1,4 +1,4 @@
-//! The terms of the equations that a field may leave unseen: one name and one sentence each.
+//! The terms of the equations that a field may not test: one name and one sentence each.
 
 use super::scale::{self, Scale};
 use mms_spec::Face;
@@ -15,12 +15,12 @@ macro_rules! terms {
             /// The names of all kinds of terms, in a fixed order.
             pub const KINDS: &[&str] = &[$($name,)*];
 
-            /// The kind of the term: its name without what it is about.
+            /// The kind of the term: the name without its argument.
             pub fn kind(&self) -> &'static str {
                 match self { $(Term::$variant { .. } => $name,)* }
             }
 
-            /// What the absence of the term is, and what it leaves untested.
+            /// The meaning of the term's absence, and the untested part.
             pub fn absence(&self) -> &'static str {
                 match self { $(Term::$variant { .. } => $means,)* }
             }
@@ -68,7 +68,7 @@ impl Term {
         }
     }
 
-    /// The term in words.
+    /// The name of the term in words.
     pub fn words(&self) -> String {
         match self {
             Term::Parameter(name) => format!("{} {name}", self.kind()),
@@ -77,7 +77,7 @@ impl Term {
         }
     }
 
-    /// Terms that cannot be present without this one.
+    /// The terms that cannot be present without this one.
     pub(super) fn carries(&self) -> &'static [Term] {
         match self {
             Term::Velocity => {

@@ -1,10 +1,10 @@
-//! For each term, the expressions that are 0 where it is absent:
+//! For each term, the expressions that are 0 if it is absent:
 //!
 //! | term | expressions |
 //! |---|---|
 //! | motion, its start and its end | v, a, da/dt; u, v, a with t replaced by the ends of the time window |
 //! | shear, rotation, volume change | off-diagonal E, F - F^T, J - 1 |
-//! | shape functions that hold u | u_i,JK; u_i,JJ; u_i,JKL |
+//! | shape functions that represent u | u_i,JK; u_i,JJ; u_i,JKL |
 //! | cross terms | the part of dP_iJ/dH_kL u_k,LJ with kL other than iJ |
 //! | transposed stress | Div P - Div P^T |
 //! | unequal moduli | lambda - mu at F = I |
@@ -30,7 +30,7 @@ use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::substitute;
 use mms_symbolic::sorted::SortedMap;
 
-/// Every term that a field of this dimension may have, with what it takes to be absent.
+/// Every term that a field of this dimension may have, with the expressions that are 0 if it is absent.
 pub fn terms(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     let mut terms = motion(graph, compiled);
     terms.extend(strain(graph, compiled));
@@ -61,7 +61,7 @@ fn moduli(graph: &mut Graph, compiled: &Compiled) -> Option<(Term, Vec<Expr>)> {
     Some((Term::UnequalModuli, vec![graph.sum(terms)]))
 }
 
-/// The gradient of a tensor of any order: the derivatives of each component along every direction stand together.
+/// The gradient of a tensor of any order: the derivatives of each component along every direction are adjacent.
 fn gradient(graph: &mut Graph, model: &Model, of: &[Expr]) -> Vec<Expr> {
     let plain = slopes(graph, of, model.space.coordinates());
     let Some(radius) = model.radius else { return plain };
@@ -73,15 +73,15 @@ fn gradient(graph: &mut Graph, model: &Model, of: &[Expr]) -> Vec<Expr> {
         .collect()
 }
 
-/// The derivatives of every expression by every coordinate: those of one expression stand together.
+/// The derivatives of every expression by every coordinate: the derivatives of one expression are adjacent.
 fn slopes(graph: &mut Graph, of: &[Expr], coordinates: usize) -> Vec<Expr> {
     let by_axis: Vec<Vec<Expr>> =
         (0..coordinates).map(|axis| differentiate(graph, of, Symbol::Coordinate(axis))).collect();
     (0..of.len()).flat_map(|k| by_axis.iter().map(move |column| column[k])).collect()
 }
 
-/// The derivative of a tensor around the hoop, where its basis turns: for each index R it has -T/R with theta in its place,
-/// and for each index theta T/R with R in its place.
+/// The derivative of a tensor around the hoop, where its basis turns: for each index R it has -T/R with theta in place of R,
+/// and for each index theta T/R with R in place of theta.
 fn around(graph: &mut Graph, radius: Expr, of: &[Expr]) -> Vec<Expr> {
     let order = of.len().ilog(3);
     let turned = |place: usize| {
@@ -99,8 +99,8 @@ fn around(graph: &mut Graph, radius: Expr, of: &[Expr]) -> Vec<Expr> {
     sums.into_iter().map(|sum| graph.div(sum, radius)).collect()
 }
 
-/// dP_iJ/dX_K at fixed H, K fastest, with the values of H in its place. Around the hoop of an axisymmetric field all turns
-/// with the basis, and only the direction of fibres is not seen in H.
+/// dP_iJ/dX_K at fixed H, K fastest, with the values of H substituted. Around the hoop of an axisymmetric field everything
+/// turns with the basis, except the direction of fibres, which H does not contain.
 fn explicit(
     graph: &mut Graph,
     model: &Model,
@@ -126,7 +126,7 @@ fn explicit(
     explicit
 }
 
-/// What is seen in time.
+/// The terms in time.
 fn motion(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     let [u, v, a] = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration]
         .map(|of| quantity(compiled, of));
@@ -146,14 +146,14 @@ fn motion(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     ]
 }
 
-/// What is seen in the displacement gradient and its derivatives.
+/// The terms of the displacement gradient and its derivatives.
 fn strain(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     let dimension = compiled.field.space.rows();
     let [h, e] =
         [Quantity::DisplacementGradient, Quantity::GreenLagrange].map(|of| quantity(compiled, of));
     let one = graph.number(1);
     let volume = graph.sub(quantity(compiled, Quantity::Jacobian)[0], one);
-    // What shape functions hold are the components of u, whatever basis turns with the point.
+    // Shape functions represent the components of u, even if the basis turns with the point.
     let axes = compiled.field.dimension;
     let held = match compiled.field.space {
         Space::Cartesian(_) => h.to_vec(),
@@ -197,7 +197,7 @@ struct Stress {
     explicit: Vec<Expr>,
     /// dP_iJ/dH_mN u_m,NK with mN != iJ, K fastest.
     cross: Vec<Expr>,
-    /// The same with mN = iJ.
+    /// dP_iJ/dH_mN u_m,NK with mN = iJ, K fastest.
     direct: Vec<Expr>,
 }
 
@@ -267,8 +267,8 @@ impl Stress {
     }
 }
 
-/// d(Div P)/ds at s = 0, where the parameter of the material is p exp(s): p d(Div P)/dp, which is 0
-/// where p is. A parameter that the density takes as a number only, such as an exponent, has none.
+/// d(Div P)/ds at s = 0, if the parameter of the material is p exp(s): p d(Div P)/dp, which is 0 if p is. A parameter that the
+/// density uses as a number only, such as an exponent, has none.
 fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     let (field, material, model) = (&compiled.field, &compiled.material, &compiled.model);
     let mut varied = model.arguments.clone();
@@ -298,7 +298,7 @@ fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> 
     field.material.arguments.iter().enumerate().map(term).collect()
 }
 
-/// Div P of a model, with what it can be reduced to; that of a rotation has no ln J then.
+/// Div P of a model, reduced as far as possible; a rotation then has no ln J.
 fn divergence(graph: &mut Graph, model: &Model) -> Vec<Expr> {
     let relations = Relations::find(graph, &model.displacement);
     let reduced = graph.attempt(|graph| derive(graph, model, &relations, Route::Gradient));
@@ -306,14 +306,14 @@ fn divergence(graph: &mut Graph, model: &Model) -> Vec<Expr> {
         Some(Ok(derivation)) => Ok(derivation),
         _ => derive(graph, model, &Relations::default(), Route::Gradient),
     };
-    // Where the graph is full, what is in it is not looked at.
+    // If the graph is full, its contents are not used.
     derivation.map_or_else(
         |TooLarge(_)| Vec::new(),
         |mut derivation| derivation.quantities.remove(&Quantity::DivP).unwrap_or_default(),
     )
 }
 
-/// P N on each face; a point of the body stands for the one of the face that it projects to.
+/// P N on each face; a point of the body is projected to the face.
 fn tractions(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     let (model, field) = (&compiled.model, &compiled.field);
     let values = parameter_values(graph, model, &SortedMap::new()).into_iter().enumerate();
