@@ -8,7 +8,7 @@ use mms_mechanics::face::fixed_coordinate;
 use mms_spec::Face;
 use nalgebra::{SMatrix, SVector};
 
-/// An angle that differs from a whole turn by less than this part of one is a whole turn.
+/// An angle that differs from a whole turn by less than this fraction of a turn is a whole turn.
 const ROUNDING: f64 = 1e-12;
 
 /// A body of `D` dimensions.
@@ -16,12 +16,12 @@ const ROUNDING: f64 = 1e-12;
 pub struct Chart<const D: usize> {
     body: Extent<f64>,
     system: System,
-    /// Least and greatest coordinates: X, or radius and angles; of a polygon those of the box around it.
+    /// Least and greatest coordinates: X, or radius and angles; for a polygon, of the box around it.
     bounds: [[f64; D]; 2],
 }
 
 impl<const D: usize> Chart<D> {
-    /// Of a body in numbers.
+    /// The chart of a body with numeric bounds.
     pub fn new(body: Extent<f64>) -> Self {
         let (system, corners) = match &body {
             Extent::Block(block) => {
@@ -34,8 +34,8 @@ impl<const D: usize> Chart<D> {
         Chart { body, system, bounds }
     }
 
-    /// Whether the fractions of its faces are 0 and 1, so that it has a mesh of them: not of a polygon, and not where
-    /// there is no body.
+    /// Whether the fractions of its faces are 0 and 1, so that it has a mesh of fractions. Polygons have none, and `Nothing`
+    /// has none.
     pub fn is_block(&self) -> bool {
         matches!(self.body, Extent::Block(_))
     }
@@ -65,7 +65,7 @@ impl<const D: usize> Chart<D> {
         SMatrix::from_fn(|row, column| basis[column][row])
     }
 
-    /// How far X moves for each fraction.
+    /// The derivative of X by each fraction, in length.
     pub fn scales(&self, fractions: &[f64; D]) -> [f64; D] {
         let scales = self.system.scales(&mut Numbers::new(), &self.at(fractions));
         std::array::from_fn(|axis| (self.bounds[1][axis] - self.bounds[0][axis]) * scales[axis])
@@ -79,14 +79,14 @@ impl<const D: usize> Chart<D> {
         (0..D).map(|axis| self.bounds[1][axis] - self.bounds[0][axis]).fold(0.0, f64::max)
     }
 
-    /// Whether it closes on itself along an axis.
+    /// Whether the body closes on itself along an axis.
     pub fn is_closed(&self, axis: usize) -> bool {
         let turns = (self.bounds[1][axis] - self.bounds[0][axis]) / std::f64::consts::TAU;
         self.system != System::Cartesian && axis == 1 && (turns - 1.0).abs() <= ROUNDING
     }
 
-    /// The axes along which all coordinates mean the same place where another one is at an end of its range: where the
-    /// radius is 0, all angles do, and on the axis of a sphere all angles about it.
+    /// The axes along which all coordinates are the same place if another coordinate is at an end of its range: all angles if
+    /// the radius is 0, and the angle about the axis on the axis of a sphere.
     pub fn collapsed(&self, at_lower: [bool; D], at_upper: [bool; D]) -> [bool; D] {
         let is_centre = self.is_disc() && at_lower[0];
         let is_pole = self.system == System::Spherical
@@ -97,12 +97,12 @@ impl<const D: usize> Chart<D> {
         })
     }
 
-    /// Whether all angles meet where the radius is least.
+    /// Whether all angles meet at the least radius.
     pub fn is_disc(&self) -> bool {
         self.system != System::Cartesian && self.bounds[0][0] == 0.0
     }
 
-    /// Whether a face is there: a disc has no inner one, a whole ring no edges, and the axis of a sphere is none.
+    /// Whether a face exists: a disc has no inner face, a whole ring no edges, and the axis of a sphere is no face.
     pub fn has(&self, face: Face) -> bool {
         let (axis, _) = fixed_coordinate(face);
         match face {
@@ -115,7 +115,7 @@ impl<const D: usize> Chart<D> {
         }
     }
 
-    /// The fractions of a point of a face, from those along it.
+    /// The fractions of a point of a face, from the fractions along it.
     pub fn on_face(&self, face: Face, along: &[f64]) -> [f64; D] {
         let (axis, is_upper) = fixed_coordinate(face);
         let mut along = along.iter();
@@ -139,7 +139,7 @@ impl<const D: usize> Chart<D> {
     }
 }
 
-/// The components of a vector; what rounding leaves of 0, of either sign, is 0.
+/// The components of a vector; components that are 0 up to rounding, of either sign, are 0.
 pub(crate) fn components<const D: usize>(vector: &SVector<f64, D>) -> Vec<f64> {
     let rounding = 4.0 * f64::EPSILON * vector.amax();
     let clean = |component: &f64| if component.abs() <= rounding { 0.0 } else { *component };

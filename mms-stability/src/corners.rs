@@ -1,9 +1,9 @@
-//! Corners of faces that can move: the edge of a body where two such faces meet is softer than either of them.
+//! Corners of faces that can move: the edge of a body where two such faces meet is softer than each of them.
 //!
-//! What a corner does has no length of its own: if some displacement near it lowers the energy, the same one of half the
-//! size does, and grows twice as fast. So the least ratio of the second variation to the integral of mu |grad v|^2, over
-//! displacements of the quadrant between both faces, tells by its sign whether anything grows. It is bounded from above on
-//! a mesh that is graded towards the corner: what is negative there, is.
+//! A corner has no length scale: if a displacement near it lowers the energy, the same displacement at half the size does, too,
+//! and grows twice as fast. So the sign of the least ratio of the second variation to the integral of mu |grad v|^2, over
+//! displacements of the quadrant between both faces, tells whether any displacement grows. A mesh that is graded towards the
+//! corner bounds the ratio from above: if the bound is negative, so is the ratio.
 
 use mms_codegen::compile::Compiled;
 use mms_mechanics::face::fixed_coordinate;
@@ -18,21 +18,21 @@ use crate::pencil::Pencil;
 use crate::subject::Subject;
 use crate::waves::Recent;
 
-/// At how many places along an edge of a body of three dimensions, and at how many times, the softest state is sought.
+/// The number of places along an edge of a body of three dimensions, and of times, at which the softest state is searched.
 const PLACES: usize = 3;
 const TIMES: usize = 7;
 
-/// How many elements there are along each side of the quadrant, in two and in three dimensions, and how much shorter each is
-/// than the next.
+/// The number of elements along each side of the quadrant, in two and in three dimensions, and the length ratio of each to the
+/// next.
 const ELEMENTS: [usize; 2] = [5, 4];
 const GRADING: f64 = 0.25;
 
-/// What was met at a corner.
+/// The result at a corner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corner {
     /// The faces that meet there.
     pub faces: [Face; 2],
-    /// The least second variation beside the integral of |grad v|^2 times the modulus at rest.
+    /// The least second variation over the integral of |grad v|^2 times the modulus at rest.
     pub coercivity: f64,
     /// X.
     pub at: Vec<f64>,
@@ -40,8 +40,8 @@ pub struct Corner {
     pub time: f64,
 }
 
-/// Looks at every corner of two faces that are loaded, free or on rollers, in the state whose tangent is softest. Two
-/// rollers leave nothing but what is symmetric about both, as in the body.
+/// Evaluates every corner of two faces that are loaded, free or on rollers, in the state whose tangent is softest. Two rollers
+/// allow only displacements that are symmetric about both, as in the body.
 pub fn corners<const D: usize>(compiled: &Compiled, subject: &mut Subject<'_, D>) -> Vec<Corner> {
     if D == 1 {
         return Vec::new();
@@ -89,7 +89,7 @@ fn corner<const D: usize>(
     })
 }
 
-/// The fractions of a point where two faces meet, from that along their edge.
+/// The fractions of a point where two faces meet, from the fraction along their edge.
 fn on_edge<const D: usize>(faces: [Face; 2], along: &[f64]) -> [f64; D] {
     let ends = faces.map(fixed_coordinate);
     std::array::from_fn(|own| match ends.iter().find(|(axis, _)| *axis == own) {
@@ -114,8 +114,8 @@ fn frame<const D: usize>(
     SMatrix::from_columns(&columns)
 }
 
-/// The second variation of a quadrant in one state, and the integral of |grad v|^2, for v that vanishes at a distance and
-/// does not change along the edge. Components of v are those along the frame; on a roller that along its normal is 0.
+/// The second variation of a quadrant in one state, and the integral of |grad v|^2, for v that vanishes at a distance and is
+/// constant along the edge. Components of v are along the frame; on a roller the component along its normal is 0.
 fn quadrant<const D: usize>(
     elasticity: &Elasticity<D>,
     frame: &SMatrix<f64, D, D>,
@@ -149,7 +149,7 @@ fn quadrant<const D: usize>(
 }
 
 /// Integrals over a side of the quadrant of products of two shapes: of both, of both slopes, and of the slope of the first
-/// times the second. The last node is held.
+/// times the second. The last node is fixed.
 struct Line {
     mass: DMatrix<f64>,
     stiffness: DMatrix<f64>,

@@ -10,7 +10,7 @@ pub struct Elasticity<const D: usize> {
 }
 
 impl<const D: usize> Elasticity<D> {
-    /// From a function of i, J, k, L.
+    /// Creates the tensor from a function of i, J, k, L.
     pub fn from_fn(mut component: impl FnMut([usize; 4]) -> f64) -> Self {
         let digit = |place: usize, position: u32| place / D.pow(position) % D;
         let indices = |place| [3, 2, 1, 0].map(|position| digit(place, position));
@@ -22,7 +22,7 @@ impl<const D: usize> Elasticity<D> {
         self.components[((i * D + j) * D + k) * D + l]
     }
 
-    /// Whether each component is a number.
+    /// Whether all components are finite.
     pub fn is_finite(&self) -> bool {
         self.components.iter().all(|component| component.is_finite())
     }

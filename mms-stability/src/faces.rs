@@ -11,24 +11,25 @@ use crate::least::{Least, least};
 use crate::subject::{State, Subject};
 use crate::waves::Recent;
 
-/// How many places along each axis of a face, times, and directions are looked at first.
+/// The numbers of places along each axis of a face, of times, and of directions that are tested first.
 const PLACES: [usize; 3] = [1, 9, 3];
 const TIMES: usize = 7;
 const DIRECTIONS: usize = 5;
 
-/// What is not normal to the deformed face by more than this part of a traction is no pressure.
+/// The fraction of a traction up to which a part that is not normal to the deformed face is ignored, so that the load is a
+/// pressure.
 const PRESSURE: f64 = 1e-9;
 
-/// The least eigenvalue of the surface impedance of a face that was met.
+/// The least sampled eigenvalue of the surface impedance of a face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// The face.
     pub face: Face,
-    /// Its claim.
+    /// The claim of the face.
     pub claim: Claim,
-    /// Beside the modulus at rest.
+    /// The eigenvalue over the modulus at rest.
     pub least: f64,
-    /// The same where the load is a pressure everywhere, and follows the face.
+    /// The least eigenvalue for a load that is a pressure everywhere, and follows the face.
     pub follower: Option<f64>,
     /// X.
     pub at: Vec<f64>,
@@ -38,18 +39,18 @@ pub struct Surface {
     pub direction: Vec<f64>,
 }
 
-/// What a load does when the face moves.
+/// The behaviour of a load when the face moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Load {
-    /// It stays as it is.
+    /// A load of constant magnitude and direction.
     Dead,
-    /// It is a pressure, which stays normal to the face.
+    /// A pressure, which stays normal to the face.
     Follower,
 }
 
-/// Looks at every face that is loaded, free or on rollers; where a load is a pressure at all places that were looked at,
-/// also at that pressure as one that follows the face. A face on which no state is strongly elliptic has no impedance. Nor
-/// has one of one dimension, along which nothing runs.
+/// Evaluates every face that is loaded, free or on rollers. If a load is a pressure at all sampled places, also evaluates a
+/// pressure that follows the face. A face without a strongly elliptic state has no impedance, nor has a face of one dimension,
+/// along which no wave runs.
 pub fn surfaces<const D: usize>(compiled: &Compiled, subject: &mut Subject<'_, D>) -> Vec<Surface> {
     if D == 1 {
         return Vec::new();
@@ -85,8 +86,8 @@ fn surface<const D: usize>(
     })
 }
 
-/// The least eigenvalue over a face, the window and directions. `None` where no state has an impedance, or a load that is
-/// to follow the face is no pressure.
+/// The least eigenvalue over a face, the window and directions. `None` if no state has an impedance, or if `load` should follow
+/// the face but is no pressure.
 fn least_impedance<const D: usize>(
     subject: &mut Subject<'_, D>,
     (face, claim): (Face, Claim),
@@ -117,7 +118,7 @@ fn least_impedance<const D: usize>(
     found.filter(|_| follows)
 }
 
-/// A direction along a face, at a fraction of half a turn; that of a line is one.
+/// A direction along a face, at a fraction of half a turn; a line has only one.
 fn along<const D: usize>(tangents: &[SVector<f64, D>], angle: &[f64]) -> SVector<f64, D> {
     match (tangents, angle) {
         ([first, second], [angle]) => {

@@ -1,4 +1,4 @@
-//! Moduli of a material that fibres stiffen: at rest it is isotropic about an axis.
+//! Moduli of a material that is stiffened by fibres: at rest it is isotropic about an axis.
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
@@ -13,14 +13,14 @@ pub struct TransverseModuli {
     pub axis: [f64; 3],
     /// Young's moduli.
     pub young: [f64; 2],
-    /// Poisson's ratios: how much a pull along the axis, and one across it, narrows what lies across.
+    /// Poisson's ratios: the lateral contraction across the axis under a pull along it, and under a pull across it.
     pub nu: [f64; 2],
-    /// Shear moduli, of planes with the axis and of that across.
+    /// Shear moduli, of planes with the axis and of the plane across it.
     pub shear: [f64; 2],
 }
 
 impl Resting {
-    /// Of a material that is isotropic about an axis, its moduli; `None` of one that is isotropic, or neither.
+    /// The moduli of a material that is isotropic about an axis; `None` if it is isotropic, or isotropic about no axis.
     pub fn transverse_moduli(&self) -> Option<TransverseModuli> {
         if self.moduli().is_some() {
             return None;
@@ -31,7 +31,7 @@ impl Resting {
     }
 }
 
-/// The eigenvector of a contraction, C_ikjk or C_ijkk, whose eigenvalue stands apart from both others.
+/// The eigenvector of a contraction, C_ikjk or C_ijkk, whose eigenvalue is separate from both others.
 fn own_axis(stiffness: &Elasticity<3>, [i, j, k, l]: [usize; 4]) -> Option<Vector3<f64>> {
     let entry = |row: usize, column: usize| -> f64 {
         let index = |own: usize| {
@@ -49,7 +49,7 @@ fn own_axis(stiffness: &Elasticity<3>, [i, j, k, l]: [usize; 4]) -> Option<Vecto
         .then(|| Vector3::from_fn(|row, _| eigen.eigenvectors[(row, axis)]))
 }
 
-/// The moduli about an axis; `None` where it is none of the material.
+/// The moduli about an axis; `None` if the material is not isotropic about it.
 fn about(stiffness: &Elasticity<3>, axis: Vector3<f64>) -> Option<TransverseModuli> {
     let axis = axis * axis[axis.iamax()].signum();
     let aside = Vector3::from_fn(|row, _| f64::from(u8::from(row == axis.iamin())));

@@ -1,8 +1,8 @@
-//! Long waves: by how much a disturbance of the exact motion grows over the window.
+//! Long waves: the growth of a disturbance of the exact motion over the window.
 //!
-//! At each time the least eigenvalue w^2 of the tangent about the exact state, on a coarse mesh of the body held as the
-//! field holds it, tells how fast: as exp(t sqrt(-w^2)) where it is negative. Loads are dead, coefficients frozen, and
-//! rigid motions that nothing holds are left apart.
+//! At each time the growth rate follows from the least eigenvalue w^2 of the tangent about the exact state, on a coarse mesh of
+//! the body with the field's constraints: exp(t sqrt(-w^2)) if it is negative. Loads are dead, coefficients frozen, and
+//! unconstrained rigid motions are excluded.
 
 use mms_codegen::compile::Compiled;
 
@@ -10,30 +10,30 @@ use crate::mesh::Mesh;
 use crate::modes::Modes;
 use crate::subject::Subject;
 
-/// At how many times, evenly over the window; so many times more between them where something grows.
+/// The number of times, evenly over the window, by dimension; and the factor by which there are more where something grows.
 const TIMES: [usize; 3] = [17, 9, 5];
 const BETWEEN: usize = 2;
 
-/// An eigenvalue that is less than 0 by no more than this part of (c/L)^2 is 0, with the shear wave speed c and the size
-/// L of the body.
+/// The fraction of (c/L)^2 by which an eigenvalue may be less than 0 and still counts as 0, with the shear wave speed c and the
+/// size L of the body.
 const ROUNDING: f64 = 1e-6;
 
-/// What grows of a disturbance.
+/// The growth of a disturbance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
-    /// The factor over the window; 1 where nothing grows.
+    /// The factor over the window; 1 if no disturbance grows.
     pub factor: f64,
     /// The least eigenvalue, 1/s^2.
     pub least: f64,
-    /// When.
+    /// The time of the least eigenvalue.
     pub time: f64,
-    /// How many elements there are along each axis.
+    /// The number of elements along each axis.
     pub elements: Vec<usize>,
-    /// At how many times.
+    /// The number of times.
     pub times: usize,
 }
 
-/// The growth over the window; `None` where no displacement is free, or a state is not finite.
+/// The growth over the window; `None` if no displacement is free, or a state is not finite.
 pub fn growth<const D: usize>(compiled: &Compiled, subject: &mut Subject<'_, D>) -> Option<Growth> {
     let mesh = Mesh::new(compiled, &subject.chart);
     let modes = Modes::new(&mesh);
@@ -68,13 +68,13 @@ struct Rate {
 }
 
 impl Rate {
-    /// How fast a disturbance grows, 1/s.
+    /// The growth rate of a disturbance, 1/s.
     fn growing(&self) -> f64 {
         (-self.square).max(0.0).sqrt()
     }
 }
 
-/// At the ends of so many equal intervals of the window; of a static field, at its start.
+/// The least eigenvalues at the ends of equal intervals of the window; only at its start if the field is static.
 fn sampled<const D: usize>(
     modes: &Modes<'_, D>,
     subject: &mut Subject<'_, D>,
@@ -91,7 +91,7 @@ fn sampled<const D: usize>(
         .collect()
 }
 
-/// The least eigenvalue, and what it is measured by.
+/// The least eigenvalue, and its natural unit.
 fn least<const D: usize>(
     modes: &Modes<'_, D>,
     subject: &mut Subject<'_, D>,

@@ -1,27 +1,26 @@
-//! The surface impedance Z of a half space: the traction that holds a wave exp(i k m.X) on its surface, which decays
-//! into it, is k Z times the displacement.
+//! The surface impedance Z of a half space: the traction that sustains a wave exp(i k m.X) on its surface, which decays into
+//! it, is k Z times the displacement.
 //!
-//! Where Z is positive definite, no load on the surface lets such a wave grow; where it is not, a wave grows the
-//! faster, the shorter it is (Biot, J. Appl. Phys. 34, 1963; the complementing condition of Simpson & Spector, Arch.
-//! Rat. Mech. Anal. 84, 1984). Z comes from integrals over the directions of the plane of m and the normal (Barnett &
-//! Lothe, Phys. Norv. 7, 1973): with n and m turned by an angle a, and T = A n n, R = A m n,
+//! If Z is positive definite, no load on the surface lets such a wave grow; if it is not, a wave grows the faster, the shorter
+//! it is (Biot, J. Appl. Phys. 34, 1963; the complementing condition of Simpson & Spector, Arch. Rat. Mech. Anal. 84, 1984). Z
+//! is computed from integrals over the directions of the plane of m and the normal (Barnett & Lothe, Phys. Norv. 7, 1973): with
+//! n and m turned by an angle a, and T = A n n, R = A m n,
 //!
 //! ```text
 //! H = <T^-1>,   S = <T^-1 R^T>,   Z = H^-1 (I + i S),   <.> the mean over all a
 //! ```
 //!
-//! No root of a polynomial is needed, and states whose roots coincide, as an undeformed isotropic one, are like
-//! others. The integrand is periodic and analytic where A is strongly elliptic, so equal steps converge
-//! exponentially.
+//! No root of a polynomial is needed, and states with coinciding roots, such as an undeformed isotropic one, need no special
+//! treatment. The integrand is periodic and analytic if A is strongly elliptic, so equal steps converge exponentially.
 
 use nalgebra::{Cholesky, DMatrix, SMatrix, SVector};
 
 use crate::elasticity::Elasticity;
 
-/// Of how many equal steps the integrals are at first, and at most.
+/// The initial and the largest number of equal steps of the integrals.
 const STEPS: [usize; 2] = [8, 512];
 
-/// Twice the steps change an impedance by less than this part of it when there are enough.
+/// The integrals are converged if twice the steps change an impedance by less than this fraction.
 const CONVERGED: f64 = 1e-8;
 
 /// A Hermitian matrix Z, whose real part is symmetric and whose imaginary part is not.
@@ -34,8 +33,8 @@ pub struct Impedance<const D: usize> {
 }
 
 impl<const D: usize> Impedance<D> {
-    /// Of the half space with the outward normal N, for waves along m in its surface; both are unit vectors. `None`
-    /// where A is not strongly elliptic in their plane.
+    /// The impedance of the half space with the outward normal N, for waves along m in its surface; both are unit vectors.
+    /// `None` if A is not strongly elliptic in their plane.
     pub fn new(
         elasticity: &Elasticity<D>,
         normal: &SVector<f64, D>,
@@ -46,7 +45,7 @@ impl<const D: usize> Impedance<D> {
         let mut sums = blocks.sums(steps, 0.0)?;
         let mut impedance = Self::of(&sums)?;
         while steps < most {
-            // The steps between those that were taken.
+            // The steps between the previous ones.
             let between = blocks.sums(steps, 0.5)?;
             sums = [sums[0] + between[0], sums[1] + between[1]].map(|sum| sum / 2.0);
             steps *= 2;
@@ -62,22 +61,22 @@ impl<const D: usize> Impedance<D> {
         Some(impedance)
     }
 
-    /// From the means of T^-1 and T^-1 R^T.
+    /// Computes Z from the means of T^-1 and T^-1 R^T.
     fn of([h, s]: &[SMatrix<f64, D, D>; 2]) -> Option<Self> {
         let real = Cholesky::new(*h)?.inverse();
         let product = real * s;
-        // What steps have not brought out yet is no part of a Hermitian matrix.
+        // The difference from a Hermitian matrix is the remaining error of the steps.
         Some(Impedance { real, imaginary: (product - product.transpose()) / 2.0 })
     }
 
-    /// Under a pressure that follows the deformed surface, where P N = -q a with a = F^-T N: with b = F^-T m the load
-    /// changes by -i k q (a b^T - b a^T) u.
+    /// The impedance under a pressure that follows the deformed surface, where P N = -q a with a = F^-T N: with b = F^-T m the
+    /// load changes by -i k q (a b^T - b a^T) u.
     pub fn under_pressure(&self, q: f64, [a, b]: [SVector<f64, D>; 2]) -> Self {
         let turn = a * b.transpose() - b * a.transpose();
         Impedance { real: self.real, imaginary: self.imaginary + turn * q }
     }
 
-    /// The least eigenvalue over the displacements that some directions span.
+    /// The least eigenvalue over the displacements in the span of some directions.
     pub fn least_eigenvalue(&self, span: &[SVector<f64, D>]) -> f64 {
         let entry = |matrix: &SMatrix<f64, D, D>, row: usize, column: usize| {
             span[row].dot(&(matrix * span[column]))
@@ -112,7 +111,7 @@ impl<const D: usize> Blocks<D> {
         }
     }
 
-    /// The means of T^-1 and T^-1 R^T over half a turn, of so many steps; `None` where T is not positive.
+    /// The means of T^-1 and T^-1 R^T over half a turn, of this number of steps; `None` if T is not positive definite.
     fn sums(&self, steps: usize, offset: f64) -> Option<[SMatrix<f64, D, D>; 2]> {
         let mut sums = [SMatrix::zeros(); 2];
         for step in 0..steps {

@@ -1,21 +1,21 @@
-//! The least value of a function over a box: on a grid, then around the least of it.
+//! The minimum of a function over a box: on a grid, then around the best grid point.
 
-/// How often the steps around the least value are halved, and how many are made of each length.
+/// The number of times that the steps around the minimum are halved, and the number of steps of each length.
 const HALVINGS: usize = 10;
 const MOVES: usize = 8;
 
-/// A value, and the fractions at which it was met.
+/// A minimum, and the fractions where it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Least {
-    /// The least value that was met.
+    /// The least sampled value.
     pub value: f64,
-    /// Where.
+    /// The fractions.
     pub at: Vec<f64>,
 }
 
-/// The least value of a function over the unit box, first on a grid of so many points along each side, ends included,
-/// the last side fastest; then by steps along the sides, halved where none leads lower. `None` where it has no value on
-/// the grid.
+/// The minimum of a function over the unit box, first on a grid with these numbers of points along the sides, ends included,
+/// the last side fastest; then by steps along the sides, halved if none leads lower. `None` if the function has no value on the
+/// grid.
 pub fn least(counts: &[usize], mut value: impl FnMut(&[f64]) -> Option<f64>) -> Option<Least> {
     let mut best: Option<Least> = None;
     let points: usize = counts.iter().product();

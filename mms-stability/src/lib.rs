@@ -1,16 +1,16 @@
-//! Whether a compiled field is fit to verify with: a stable solution of its own problem, which a solver can follow.
+//! Tests whether a compiled field is fit for verification: a stable solution of its own problem, which a solver can follow.
 //!
-//! Four kinds of disturbances can grow on an exact motion, and then no solver follows it, however right it is:
+//! Four kinds of disturbances can grow on an exact motion, and then no solver follows it, not even a correct one:
 //!
-//! | of | grows where | here |
+//! | disturbance | grows if | module |
 //! |---|---|---|
 //! | short waves in the body | an acoustic tensor is not positive definite | `waves` |
 //! | short waves on a face that can move | the surface impedance is not positive definite | `faces`, `impedance` |
-//! | what is short at a corner of such faces | the second variation of a quadrant is not positive | `corners` |
+//! | short disturbances at a corner of such faces | the second variation of a quadrant is not positive | `corners` |
 //! | long waves | the tangent on a coarse mesh has a negative eigenvalue | `growth` |
 //!
-//! What is looked at here is sampled, at the defaults of the parameters: what is said of it proves nothing. The proof of
-//! strong ellipticity is `mms_codegen::certify`'s.
+//! These modules sample, at the defaults of the parameters, and prove nothing. The proof of strong ellipticity is in
+//! `mms_codegen::certify`.
 
 mod chart;
 pub mod corners;

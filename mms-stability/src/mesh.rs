@@ -1,6 +1,6 @@
 //! A coarse mesh of a body: elements that are quadratic in each coordinate of its chart.
 //!
-//! Displacements at a node are components along the directions in which the coordinates grow, so that a roller holds one
+//! Displacements at a node are components along the directions in which the coordinates grow, so that a roller constrains one
 //! of them on a curved face too.
 
 use mms_codegen::compile::Compiled;
@@ -10,10 +10,10 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::chart::Chart;
 
-/// How many elements there are along each axis, by dimension.
+/// The number of elements along each axis, by dimension.
 const ELEMENTS: [usize; 3] = [8, 4, 2];
 
-/// The same along an axis on which the body closes on itself.
+/// The number of elements along an axis on which the body closes on itself.
 const ELEMENTS_AROUND: usize = 8;
 
 /// Points of an element along each axis, as fractions of it, and their weights (Gauss, three points).
@@ -30,7 +30,7 @@ pub struct Node<const D: usize> {
     pub place: SVector<f64, D>,
     /// The directions of its displacements, as columns.
     pub basis: SMatrix<f64, D, D>,
-    /// Which of them the field gives.
+    /// The components that the field prescribes.
     pub is_held: [bool; D],
 }
 
@@ -39,9 +39,9 @@ pub struct Node<const D: usize> {
 pub struct Quadrature<const D: usize> {
     /// X.
     pub place: SVector<f64, D>,
-    /// The volume that it stands for.
+    /// The volume of the quadrature point.
     pub weight: f64,
-    /// The nodes that are not 0 there: number, value, gradient.
+    /// The nodes whose shapes are not 0 there: number, value, gradient.
     pub shapes: Vec<(usize, f64, SVector<f64, D>)>,
 }
 
@@ -52,12 +52,12 @@ pub struct Mesh<const D: usize> {
     pub nodes: Vec<Node<D>>,
     /// The points of all elements.
     pub points: Vec<Quadrature<D>>,
-    /// How many elements there are along each axis.
+    /// The number of elements along each axis.
     pub elements: [usize; D],
 }
 
 impl<const D: usize> Mesh<D> {
-    /// Of the body of a field, held where the field gives the displacement.
+    /// The mesh of the body of a field, fixed where the field prescribes the displacement.
     pub fn new(compiled: &Compiled, chart: &Chart<D>) -> Self {
         let elements = std::array::from_fn(|axis| match chart.is_closed(axis) {
             true => ELEMENTS_AROUND,
@@ -71,7 +71,7 @@ impl<const D: usize> Mesh<D> {
     }
 }
 
-/// What a solver is given on each face: the displacement, where the field claims nothing.
+/// The claims about the faces: the displacement is prescribed if the field claims nothing.
 fn claims(compiled: &Compiled) -> impl Iterator<Item = (Face, Claim)> {
     let field = &compiled.field;
     Face::of(&field.domain.body, field.space).into_iter().map(|face| {
@@ -87,7 +87,7 @@ struct Lattice<'a, const D: usize> {
 }
 
 impl<const D: usize> Lattice<'_, D> {
-    /// How many positions there are along an axis.
+    /// The number of positions along an axis.
     fn along(&self, axis: usize) -> usize {
         2 * self.elements[axis] + usize::from(!self.chart.is_closed(axis))
     }
@@ -104,7 +104,7 @@ impl<const D: usize> Lattice<'_, D> {
         })
     }
 
-    /// The number of a node: one where the body closes on itself, and one where all angles are one place.
+    /// The number of a node: positions share a node where the body closes on itself, and where all angles are one place.
     fn number(&self, positions: [usize; D]) -> usize {
         let at = |end: usize| {
             std::array::from_fn(|axis| positions[axis] == end * 2 * self.elements[axis])
@@ -123,7 +123,7 @@ impl<const D: usize> Lattice<'_, D> {
     fn node(&self, compiled: &Compiled, number: usize) -> Node<D> {
         let positions = self.positions(number);
         let fractions = self.fractions(positions);
-        // All others that lie in the middle of a disc are that one, and stand alone.
+        // All other nodes in the middle of a disc coincide with one of them, and have no element.
         let is_alone = self.number(positions) != number;
         let mut is_held = [is_alone; D];
         for (face, claim) in claims(compiled) {
@@ -152,7 +152,7 @@ impl<const D: usize> Lattice<'_, D> {
         (0..3_usize.pow(D as u32)).map(|point| self.point(first, ternary(point))).collect()
     }
 
-    /// The Gauss point of these positions in an element.
+    /// The Gauss point with these indices in an element.
     fn point(&self, first: [usize; D], gauss: [usize; D]) -> Quadrature<D> {
         let inside = gauss.map(|position| GAUSS[position][0]);
         let fractions: [f64; D] = std::array::from_fn(|axis| {

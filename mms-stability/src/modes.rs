@@ -7,19 +7,19 @@ use crate::mesh::Mesh;
 use crate::pencil::Pencil;
 use crate::subject::{State, Subject};
 
-/// A rigid motion that moves what is held by less than this part of it moves nothing that is held.
+/// A rigid motion that moves constrained displacements by less than this fraction counts as free.
 const HELD: f64 = 1e-10;
 
-/// The displacements that a mesh leaves free.
+/// The free displacements of a mesh.
 pub struct Modes<'a, const D: usize> {
     mesh: &'a Mesh<D>,
-    /// The number of each displacement of each node, where it is free.
+    /// The number of each free displacement of each node.
     numbers: Vec<[Option<usize>; D]>,
     free: usize,
 }
 
 impl<'a, const D: usize> Modes<'a, D> {
-    /// Of a mesh.
+    /// The free displacements of `mesh`.
     pub fn new(mesh: &'a Mesh<D>) -> Self {
         let mut free = 0;
         let number = |is_held: bool| {
@@ -31,7 +31,7 @@ impl<'a, const D: usize> Modes<'a, D> {
         Modes { mesh, numbers, free }
     }
 
-    /// How many displacements are free.
+    /// The number of free displacements.
     pub fn free(&self) -> usize {
         self.free
     }
@@ -42,7 +42,7 @@ impl<'a, const D: usize> Modes<'a, D> {
         Some((at / D, at % D))
     }
 
-    /// K of dP/dF and M of rho0 at a time; `None` where a state is not finite.
+    /// K of dP/dF and M of rho0 at a time; `None` if a state is not finite.
     pub fn pencil(&self, subject: &mut Subject<'_, D>, time: f64) -> Option<Pencil> {
         let mut pencil = self.empty();
         for index in 0..self.mesh.points.len() {
@@ -52,13 +52,13 @@ impl<'a, const D: usize> Modes<'a, D> {
         Some(pencil)
     }
 
-    /// Of nothing.
+    /// Zero stiffness and mass.
     pub fn empty(&self) -> Pencil {
         let [stiffness, mass] = [(); 2].map(|()| DMatrix::zeros(self.free, self.free));
         Pencil { stiffness, mass }
     }
 
-    /// Gives what is held the values of another state.
+    /// Sets the constrained displacements to their values in another state.
     pub fn hold(&self, state: &mut DVector<f64>, given: &DVector<f64>) {
         for (at, number) in self.numbers.as_flattened().iter().enumerate() {
             if number.is_none() {
@@ -67,7 +67,7 @@ impl<'a, const D: usize> Modes<'a, D> {
         }
     }
 
-    /// Adds a change to what is free.
+    /// Adds a change to the free displacements.
     pub fn move_free(&self, state: &mut DVector<f64>, change: &DVector<f64>) {
         for (at, number) in self.numbers.as_flattened().iter().enumerate() {
             state[at] += number.map_or(0.0, |number| change[number]);
@@ -86,7 +86,7 @@ impl<'a, const D: usize> Modes<'a, D> {
         }
     }
 
-    /// Adds what a state at a point has of stiffness and mass.
+    /// Adds the stiffness and mass of a state at a point.
     pub fn add(&self, pencil: &mut Pencil, index: usize, state: &State<D>) {
         let point = &self.mesh.points[index];
         for (b, value_b, slope_b) in &point.shapes {
@@ -127,7 +127,7 @@ impl<'a, const D: usize> Modes<'a, D> {
         }
     }
 
-    /// The rigid motions of the deformed body that what is held allows, M-orthonormal.
+    /// The rigid motions of the deformed body that the constraints allow, M-orthonormal.
     pub fn rigid(
         &self,
         subject: &mut Subject<'_, D>,
@@ -158,7 +158,7 @@ impl<'a, const D: usize> Modes<'a, D> {
         rigid
     }
 
-    /// The displacements of nodes that are held, or those that are free.
+    /// The displacements that are constrained, or the free ones.
     fn components(&self, motion: &[SVector<f64, D>], is_held: bool) -> DVector<f64> {
         let mut components = Vec::new();
         for ((node, numbers), moved) in self.mesh.nodes.iter().zip(&self.numbers).zip(motion) {
@@ -170,7 +170,7 @@ impl<'a, const D: usize> Modes<'a, D> {
     }
 }
 
-/// The sum over J of what belongs to J times N,J.
+/// The sum over J of the matrices of J times N,J.
 fn contracted<const D: usize>(
     half: &[SMatrix<f64, D, D>; D],
     slope: &SVector<f64, D>,

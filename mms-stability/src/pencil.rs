@@ -2,13 +2,13 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// How many vectors a Krylov space has at most.
+/// The largest number of vectors of a Krylov space.
 const VECTORS: usize = 40;
 
-/// An eigenvalue that another vector changes by less than this part of the shift is found.
+/// An eigenvalue is converged if another vector changes it by less than this fraction of the shift.
 const CONVERGED: f64 = 1e-6;
 
-/// How often a shift is tried, four times as large each time.
+/// The number of shifts that are tried, each four times as large as the previous one.
 const SHIFTS: usize = 40;
 
 /// Stiffness and mass.
@@ -21,11 +21,12 @@ pub struct Pencil {
 }
 
 impl Pencil {
-    /// The least eigenvalue over all vectors that are M-orthogonal to the given ones, which are M-orthonormal. A shift of
-    /// the size of the least eigenvalues, `near`, is cheapest. `None` where there is no such vector.
+    /// The least eigenvalue over all vectors that are M-orthogonal to the given ones, which are M-orthonormal. A shift of the
+    /// size of the least eigenvalues, `near`, is cheapest. `None` if there is no such vector.
     ///
-    /// K + s M is factored, with s so great that it is positive definite; the greatest eigenvalues of its inverse on these
-    /// vectors, times M, are those sought (Lanczos 1950, with full orthogonalisation; Ericsson & Ruhe, Math. Comp. 35, 1980).
+    /// K + s M is factored, with s so large that it is positive definite; the largest eigenvalues of its inverse on these
+    /// vectors, times M, determine the least eigenvalues (Lanczos 1950, with full orthogonalisation; Ericsson & Ruhe, Math.
+    /// Comp. 35, 1980).
     pub fn least(&self, apart: &[DVector<f64>], near: f64) -> Option<f64> {
         let order = self.mass.nrows();
         if apart.len() >= order {
@@ -59,11 +60,11 @@ impl Pencil {
         Some(least)
     }
 
-    /// A vector less its parts along others, of length 1 in M; `None` where nothing is left.
+    /// A vector minus its parts along others, of length 1 in M; `None` if the remainder is 0.
     pub fn normal(&self, mut vector: DVector<f64>, known: &[DVector<f64>]) -> Option<DVector<f64>> {
         let mut heavy = &self.mass * &vector;
         let whole = vector.dot(&heavy).sqrt();
-        // Once more for what rounding leaves of the parts.
+        // Twice, to remove the rounding of the first time.
         for _ in 0..2 {
             let parts: Vec<_> = known.iter().map(|other| other.dot(&heavy)).collect();
             known.iter().zip(parts).for_each(|(other, part)| vector.axpy(-part, other, 1.0));
@@ -74,11 +75,11 @@ impl Pencil {
     }
 }
 
-/// The inverse of a matrix on the vectors that are M-orthogonal to some: what keeps a solution there is a multiplier for
-/// each of these.
+/// The inverse of a matrix on the vectors that are M-orthogonal to some others: a multiplier for each of these constrains the
+/// solution.
 struct Inverse {
     factor: Cholesky<f64, Dyn>,
-    /// M times what is held, the inverse times that, and the matrix of the multipliers.
+    /// M times the constraint vectors, the inverse times that, and the matrix of the multipliers.
     held: DMatrix<f64>,
     moved: DMatrix<f64>,
     multipliers: Cholesky<f64, Dyn>,
@@ -118,7 +119,7 @@ fn largest(diagonal: &[f64], beside: &[f64]) -> f64 {
     matrix.symmetric_eigenvalues().max()
 }
 
-/// A vector that no symmetry of a body leaves without a part along an eigenvector.
+/// A vector that has a part along every eigenvector for all symmetries of a body.
 fn start(order: usize) -> DVector<f64> {
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     DVector::from_fn(order, |row, _| ((row + 1) as f64 * golden).fract() - 0.4)

@@ -1,4 +1,4 @@
-//! What a material is at F = I: the moduli that another code should be given.
+//! A material at F = I: the moduli to use in another code.
 
 use mms_codegen::compile::Compiled;
 use mms_spec::Space;
@@ -6,15 +6,15 @@ use mms_spec::Space;
 use crate::elasticity::Elasticity;
 use crate::subject::{Formulas, Resting, Subject};
 
-/// What differs from an isotropic tangent by less than this part of it is isotropic.
+/// A tangent that differs from an isotropic one by less than this fraction is isotropic.
 pub(crate) const ISOTROPIC: f64 = 1e-9;
 
 /// The material of a field at F = I.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// In the middle of the body.
+    /// The material in the middle of the body.
     pub middle: Resting,
-    /// Whether it is another in a corner.
+    /// Whether the material in a corner differs.
     pub is_graded: bool,
 }
 
@@ -37,7 +37,7 @@ impl Material {
         Some(Material { middle, is_graded })
     }
 
-    /// The word for what moduli are measured by.
+    /// The name of the unit of moduli.
     pub fn modulus(&self) -> &'static str {
         match self.middle.moduli() {
             Some(moduli) if moduli.mu == 0.0 => "lambda",
@@ -78,12 +78,12 @@ impl Moduli {
 }
 
 impl Resting {
-    /// The shear modulus of a material whose volume a given field rules, as a pressure does: it has no other modulus.
+    /// The shear modulus of a material whose volume is governed by a given field, such as a pressure: it has no other modulus.
     pub fn shear_alone(&self) -> Option<f64> {
         self.is_pressed.then(|| average(&self.stiffness()).mu)
     }
 
-    /// Of a material that is isotropic at rest, its moduli.
+    /// The moduli of a material that is isotropic at rest; `None` for others.
     pub fn moduli(&self) -> Option<Moduli> {
         if self.is_pressed {
             return None;
@@ -95,15 +95,16 @@ impl Resting {
         (difference.norm() <= ISOTROPIC * size).then_some(moduli)
     }
 
-    /// What other moduli are measured by: mu, or lambda where mu is 0; of a material that is not isotropic, their
-    /// averages over all directions (Voigt 1928).
+    /// The unit of other moduli: mu, or lambda if mu is 0; for a material that is not isotropic, the averages over all
+    /// directions (Voigt 1928).
     pub fn modulus(&self) -> f64 {
         let Moduli { lambda, mu } = average(&self.stiffness());
         if mu.abs() > ISOTROPIC * lambda.abs() { mu } else { lambda }
     }
 
-    /// dP/dF less what a stress at rest adds to it, P_JL d_ik. A spherical stress s that a given field balances leaves the
-    /// coefficients of stress and strain, to which s adds d_ik d_jl + d_il d_jk - d_ij d_kl (Birch 1947).
+    /// dP/dF minus the contribution of a stress at rest, P_JL d_ik. A spherical stress s that a given field balances is
+    /// different: the result is the coefficients of stress and strain, to which s adds d_ik d_jl + d_il d_jk - d_ij d_kl (Birch
+    /// 1947).
     pub(crate) fn stiffness(&self) -> Elasticity<3> {
         let delta = |a: usize, b: usize| f64::from(u8::from(a == b));
         Elasticity::from_fn(|[i, j, k, l]| {
@@ -118,7 +119,7 @@ impl Resting {
     }
 }
 
-/// The isotropic moduli that are nearest: those of the average over all directions.
+/// The nearest isotropic moduli: of the average over all directions.
 fn average(stiffness: &Elasticity<3>) -> Moduli {
     let sum = |pick: fn(usize, usize) -> [usize; 4]| -> f64 {
         let pairs = (0..3).flat_map(|a| (0..3).map(move |b| (a, b)));

@@ -1,6 +1,6 @@
-//! Whether Newton's method comes to a static field, on the coarse mesh: from the exact state, and from zero in load steps.
+//! Whether Newton's method converges to a static field, on the coarse mesh: from the exact state, and from zero in load steps.
 //!
-//! The loads need no integral over faces: by the balance of a static field the work of b and of P N is that of P.
+//! The loads need no integral over faces: by the balance of a static field, the work of b and of P N is the work of P.
 
 use mms_codegen::compile::Compiled;
 use mms_spec::Space;
@@ -11,41 +11,42 @@ use crate::modes::Modes;
 use crate::pencil::Pencil;
 use crate::subject::{Formulas, State, Subject};
 
-/// In how many steps loads and given displacements grow from zero.
+/// The number of steps in which loads and prescribed displacements grow from zero.
 const STEPS: usize = 10;
 
-/// How many iterations each takes at most, and the part of the largest displacement that a last one changes at most.
+/// The largest number of iterations of each step, and the fraction of the largest displacement by which the last one may
+/// change.
 const ITERATIONS: usize = 15;
 const CONVERGED: f64 = 1e-9;
 
-/// What departs from a solution by more than this part of the largest displacement is another one: of one mesh, and of the
-/// exact solution, from which a coarse mesh departs by its error.
+/// A state that differs from a solution by more than this fraction of the largest displacement is another one: SAME for two
+/// solutions on one mesh, NEAR for the exact solution, from which a coarse mesh differs by its error.
 const SAME: f64 = 1e-4;
 const NEAR: f64 = 0.3;
 
-/// What Newton's method does.
+/// The result of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solved {
-    /// From zero it comes to the exact state.
+    /// From zero the method converges to the exact state.
     Comes,
-    /// It stays at the exact state, and goes elsewhere from zero.
+    /// The method stays at the exact state, and converges to another state from zero.
     GoesElsewhere,
-    /// It stays at the exact state, and does not converge from zero.
+    /// The method stays at the exact state, and does not converge from zero.
     Diverges,
-    /// It leaves the exact state.
+    /// The method leaves the exact state.
     Leaves,
     /// The field is not static.
     Moving,
-    /// There is no coarse mesh of its body.
+    /// The body has no coarse mesh.
     NoMesh,
-    /// There is none of axisymmetric bodies.
+    /// Axisymmetric bodies have no coarse mesh.
     Axisymmetric,
-    /// The exact state has no value, or to evaluate it takes too long.
+    /// The exact state has no value, or its evaluation takes too long.
     Unknown,
 }
 
 impl Solved {
-    /// The word for it.
+    /// The name of the result.
     pub fn name(self) -> &'static str {
         match self {
             Solved::Comes => "comes",
@@ -58,7 +59,7 @@ impl Solved {
         }
     }
 
-    /// What happened.
+    /// The result in words.
     pub fn words(self) -> &'static str {
         match self {
             Solved::Comes => "Newton's method comes to the exact state from zero",
@@ -73,10 +74,10 @@ impl Solved {
             }
             Solved::Unknown => "NOT SOLVED: the exact state has no value, or that takes too long",
             Solved::NoMesh => {
-                "NOT SOLVED: the coarse mesh is one of boxes and of what is round, not of polygons"
+                "NOT SOLVED: only boxes and round bodies have a coarse mesh, polygons have none"
             }
             Solved::Axisymmetric => {
-                "NOT SOLVED: the coarse mesh is one of Cartesian coordinates, and the field is axisymmetric"
+                "NOT SOLVED: the field is axisymmetric, and the coarse mesh needs Cartesian coordinates"
             }
             Solved::Moving => "the field is not static: there is nothing to solve",
         }
@@ -122,8 +123,8 @@ fn solved<const D: usize>(compiled: &Compiled, subject: &mut Subject<'_, D>) -> 
     }
 }
 
-/// The mesh of a body; of one that rigid motions are left to, as many displacements are held as these are, where they move it
-/// most. `None` where the exact state is not finite.
+/// The mesh of a body. If rigid motions are free, as many displacements are constrained, each where a rigid motion is largest.
+/// `None` if the exact state is not finite.
 fn pinned<const D: usize>(compiled: &Compiled, subject: &mut Subject<'_, D>) -> Option<Mesh<D>> {
     let mut mesh = Mesh::new(compiled, &subject.chart);
     let time = subject.window[0];
@@ -169,7 +170,7 @@ impl<'a, const D: usize> Problem<'a, D> {
         Problem { mesh, modes: Modes::new(mesh), exact, stress }
     }
 
-    /// Newton's method for a part of the loads and of the given displacements; `None` where it does not converge.
+    /// Newton's method for a part of the loads and of the prescribed displacements; `None` if it does not converge.
     fn newton(
         &self,
         subject: &mut Subject<'_, D>,
@@ -191,7 +192,7 @@ impl<'a, const D: usize> Problem<'a, D> {
         None
     }
 
-    /// What the loads exceed the stress by at the free displacements, and the tangent.
+    /// The difference of loads and forces of the stress at the free displacements, and the tangent.
     fn linear(
         &self,
         subject: &mut Subject<'_, D>,

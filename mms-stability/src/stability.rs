@@ -1,4 +1,4 @@
-//! All that is known of the stability of a field.
+//! The complete stability results of a field.
 
 use mms_codegen::compile::Compiled;
 use mms_spec::Space;
@@ -11,32 +11,32 @@ use crate::subject::{Formulas, Subject};
 use crate::wavelength::shortest_wavelength;
 use crate::waves::{Waves, waves};
 
-/// What is known of the stability of a field, at the defaults of its parameters.
+/// The stability of a field, at the defaults of its parameters.
 #[derive(Clone, Debug)]
 pub struct Stability {
-    /// The material at F = I; `None` where it is not finite, and of an axisymmetric field.
+    /// The material at F = I; `None` if it is not finite, and for axisymmetric fields.
     pub material: Option<Material>,
-    /// Short waves in the body; `None` where no state is finite.
+    /// Short waves in the body; `None` if no state is finite.
     pub waves: Option<Waves>,
     /// Short waves on every face that is loaded, free or on rollers.
     pub surfaces: Vec<Surface>,
-    /// The corners of these.
+    /// The corners of these faces.
     pub corners: Vec<Corner>,
-    /// Long waves; `None` where nothing is free to move.
+    /// Long waves; `None` if no displacement is free.
     pub growth: Option<Growth>,
-    /// Whether faces, corners and long waves were looked at: on a polygon, and without a body, they are not.
+    /// Whether faces, corners and long waves were evaluated: not for polygons, and not without a body.
     pub has_mesh: bool,
-    /// Whether the field is axisymmetric: then nothing of this is looked at.
+    /// Whether the field is axisymmetric: then nothing is evaluated.
     pub is_axisymmetric: bool,
-    /// Whether the budget ended first: what was not looked at may grow.
+    /// Whether the budget ended early: disturbances that were not evaluated may grow.
     pub is_spent: bool,
     /// Whether u does not depend on t.
     pub is_static: bool,
-    /// The shortest wavelength of u; `None` where u is linear along all axes.
+    /// The shortest wavelength of u; `None` if u is linear along all axes.
     pub shortest_wavelength: Option<f64>,
 }
 
-/// Looks for disturbances that grow.
+/// Searches for disturbances that grow.
 pub fn judge(compiled: &Compiled) -> Stability {
     let formulas = Formulas::new(compiled);
     match compiled.field.space {

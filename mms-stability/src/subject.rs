@@ -17,28 +17,28 @@ use nalgebra::{SMatrix, SVector};
 use crate::chart::Chart;
 use crate::elasticity::Elasticity;
 
-/// What all states of a field may take together, in the steps of [`mms_symbolic::work`].
+/// The budget for all states of a field together, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 100_000_000;
 
-/// What its program computes.
+/// The outputs of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Output {
     Position,
     Gradient,
     Density,
-    /// P at a gradient that is supplied.
+    /// P at a supplied gradient.
     Stress,
     /// P and dP/dF in space at F = I.
     RestStress,
     RestTangent,
 }
 
-/// What states of a field are computed by.
+/// The program that computes states of a field, with its budget.
 #[derive(Debug)]
 pub struct Formulas {
     program: Program<Output>,
     parameters: Vec<f64>,
-    /// What all that is evaluated may take together.
+    /// The budget of all evaluations together.
     work: Work,
     /// Whether u does not depend on t.
     is_static: bool,
@@ -48,7 +48,7 @@ pub struct Formulas {
 }
 
 impl Formulas {
-    /// Of a compiled field.
+    /// Compiles the program for a field.
     pub fn new(compiled: &Compiled) -> Self {
         let mut graph = compiled.graph.clone();
         graph.make_room();
@@ -79,7 +79,7 @@ impl Formulas {
         Formulas { program, parameters, work, is_static, is_frame_indifferent, is_pressed }
     }
 
-    /// Whether evaluating more takes too long: then no state has a value.
+    /// Whether the budget is spent: then no state has a value.
     pub fn is_spent(&self) -> bool {
         self.work.is_over()
     }
@@ -101,7 +101,7 @@ pub struct State<const D: usize> {
     pub elasticity: Elasticity<D>,
     /// rho0.
     pub density: f64,
-    /// What moduli are measured by: mu at rest, or lambda where that is 0.
+    /// The unit of moduli: mu at rest, or lambda if mu is 0.
     pub modulus: f64,
 }
 
@@ -112,7 +112,7 @@ pub struct Resting {
     pub stress: Vec<f64>,
     /// dP/dF, the last index fastest.
     pub tangent: Elasticity<3>,
-    /// Whether rotations cost no energy: a stress at rest then adds to dP/dF.
+    /// Whether rotations cost no energy: a stress at rest then contributes to dP/dF.
     pub is_frame_indifferent: bool,
     /// Whether given fields balance a spherical stress at rest.
     pub is_pressed: bool,
@@ -120,9 +120,9 @@ pub struct Resting {
 
 /// A compiled field, evaluated.
 pub struct Subject<'a, const D: usize> {
-    /// Its body.
+    /// The body.
     pub chart: Chart<D>,
-    /// Its time window.
+    /// The time window.
     pub window: [f64; 2],
     /// Whether u does not depend on t.
     pub is_static: bool,
@@ -135,7 +135,7 @@ pub struct Subject<'a, const D: usize> {
 
 struct Evaluated<'a, T: Number> {
     interpreter: Interpreter<'a, T, Output>,
-    /// That of the last evaluation.
+    /// The time of the last evaluation.
     time: Option<T>,
     plans: SortedMap<Output, Vec<bool>>,
 }
@@ -155,7 +155,7 @@ impl<'a, T: Number> Evaluated<'a, T> {
 }
 
 impl<'a, const D: usize> Subject<'a, D> {
-    /// Of a compiled field of that dimension.
+    /// Prepares a compiled field of this dimension.
     pub fn new(compiled: &Compiled, formulas: &'a Formulas) -> Self {
         let (extent, window) = domain(&compiled.program, &formulas.parameters);
         let duals: Vec<_> = formulas.parameters.iter().copied().map(Dual::constant).collect();
@@ -181,7 +181,7 @@ impl<'a, const D: usize> Subject<'a, D> {
         SVector::from_vec(self.value(Output::Position, place, time))
     }
 
-    /// The state at X and t; `None` where it is not finite.
+    /// The state at X and t; `None` if it is not finite.
     pub fn state(&mut self, place: &SVector<f64, D>, time: f64) -> Option<State<D>> {
         if self.work.is_over() {
             return None;
@@ -200,7 +200,7 @@ impl<'a, const D: usize> Subject<'a, D> {
         })
     }
 
-    /// The material at rest at X; `None` where it is not finite.
+    /// The material at rest at X; `None` if it is not finite.
     pub fn resting(&mut self, place: &SVector<f64, D>) -> Option<Resting> {
         let stress = self.value(Output::RestStress, place, self.window[0]);
         let tangent = self.value(Output::RestTangent, place, self.window[0]);

@@ -1,4 +1,4 @@
-//! What a user should hear of the stability of a field.
+//! Warnings about the stability of a field, for users.
 
 use mms_codegen::bounds::witness::Witness;
 use mms_codegen::certify::softening::Softening;
@@ -13,14 +13,14 @@ use crate::resting::Material;
 use crate::stability::Stability;
 use crate::waves::Waves;
 
-/// A disturbance that grows by more than this over the window outgrows errors.
+/// The growth factor over the window above which a disturbance outgrows errors.
 const GROWTH: f64 = 10.0;
 
-/// What lies below 0 by no more than this part of the modulus at rest is 0.
+/// The fraction of the modulus at rest by which a value may be below 0 and still counts as 0.
 const ROUNDING: f64 = 1e-9;
 
-/// A warning for each way in which a disturbance grows, at the place in the file that says what it is about; `lost` is where
-/// strong ellipticity is proved to be lost, of which the sample need not know.
+/// A warning for each way in which a disturbance grows, at the relevant place of the file; `lost` is where strong ellipticity
+/// is proved to be lost, which the sample may miss.
 pub fn warnings(
     compiled: &Compiled,
     stability: &Stability,
@@ -82,7 +82,7 @@ fn growing_face(compiled: &Compiled, surface: &Surface, modulus: &str) -> Diagno
     .help("this is no verdict: values little below 0 near a corner or for a short time may grow nothing that is seen");
     match surface.follower {
         Some(least) if least > 0.0 => warning.help(format!(
-            "the load is that of a pressure: where it follows the face the least eigenvalue is {} {modulus}",
+            "the load is a pressure: if it follows the face, the least eigenvalue is {} {modulus}",
             short(least)
         )),
         _ => warning,

@@ -1,4 +1,4 @@
-//! The shortest wavelength of a motion, which tells how fine a mesh has to be.
+//! The shortest wavelength of a motion, which determines how fine a mesh has to be.
 
 use std::f64::consts::TAU;
 
@@ -11,21 +11,21 @@ use mms_symbolic::expr::Symbol;
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::sorted::SortedMap;
 
-/// At how many points of body and window.
+/// The number of points of body and window.
 const POINTS: usize = 256;
 
-/// What they may take, in the steps of [`mms_symbolic::work`].
+/// The budget, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 30_000_000;
 
-/// Derivatives of u along one axis, of which order.
+/// The highest order of the derivatives of u along one axis.
 const ORDERS: usize = 3;
 
-/// What is less than this part of the largest derivative of its order is left out: its wavelength is that of rounding.
+/// The fraction of the largest derivative of an order below which a derivative is ignored: its wavelength is due to rounding.
 const NEGLIGIBLE: f64 = 1e-9;
 
 /// The shortest wavelength of a displacement over samples of body and window, at the defaults of the parameters: for each
-/// component and axis, that of the sine whose derivatives are as large as those that were met, first and second, second and
-/// third. Of a sine it is the period. `None` where u is linear along all axes, or too large to differentiate.
+/// component and axis, the wavelength of the sine with the largest sampled derivatives, first and second, second and third. If
+/// u is a sine, it is the period. `None` if u is linear along all axes, or too large to differentiate.
 pub fn shortest_wavelength(compiled: &Compiled) -> Option<f64> {
     let largest = largest_derivatives(compiled)?;
     let mut shortest = f64::INFINITY;
@@ -40,7 +40,7 @@ pub fn shortest_wavelength(compiled: &Compiled) -> Option<f64> {
     (shortest.is_finite() && shortest > 0.0).then_some(shortest)
 }
 
-/// The largest magnitudes that were met: by axis, by order, by component.
+/// The largest sampled magnitudes: by axis, by order, by component.
 fn largest_derivatives(compiled: &Compiled) -> Option<Vec<Vec<Vec<f64>>>> {
     let mut graph = compiled.graph.clone();
     graph.make_room();

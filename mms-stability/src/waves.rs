@@ -6,15 +6,15 @@ use crate::chart::components;
 use crate::least::least;
 use crate::subject::{State, Subject};
 
-/// How many places along each axis, times, and directions along each angle are looked at first.
+/// The numbers of places along each axis, of times, and of directions along each angle that are tested first.
 const PLACES: [usize; 3] = [9, 6, 3];
 const TIMES: usize = 7;
 const ANGLES: usize = 7;
 
-/// The least eigenvalue of the acoustic tensor over body, window and directions that was met.
+/// The least sampled eigenvalue of the acoustic tensor over body, window and directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waves {
-    /// Beside the modulus at rest.
+    /// The eigenvalue over the modulus at rest.
     pub least: f64,
     /// X.
     pub at: Vec<f64>,
@@ -24,7 +24,7 @@ pub struct Waves {
     pub direction: Vec<f64>,
 }
 
-/// The last state that was asked for, and where that was: directions are tried one after another at one state.
+/// A cache of the last state and its place: directions are tried one after another at one state.
 pub(crate) struct Recent<const D: usize> {
     fractions: Vec<f64>,
     state: Option<State<D>>,
@@ -51,7 +51,7 @@ impl<const D: usize> Recent<D> {
     }
 }
 
-/// Looks for the least eigenvalue of the acoustic tensor. `None` where no state has a finite one.
+/// Searches for the least eigenvalue of the acoustic tensor. `None` if no state has a finite one.
 pub fn waves<const D: usize>(subject: &mut Subject<'_, D>) -> Option<Waves> {
     let times = if subject.is_static { 2 } else { TIMES };
     let counts = [&[PLACES[D - 1]; D][..], &[times], &vec![ANGLES; D - 1]].concat();
@@ -70,7 +70,7 @@ pub fn waves<const D: usize>(subject: &mut Subject<'_, D>) -> Option<Waves> {
     })
 }
 
-/// A unit vector: half a turn of the first angle, and half a turn of the second, reach all but for the sign.
+/// A unit vector: half a turn of the first angle, and half a turn of the second, reach all directions up to the sign.
 fn direction<const D: usize>(angles: &[f64]) -> SVector<f64, D> {
     let [turn, rise] = [0, 1].map(|at| std::f64::consts::PI * angles.get(at).unwrap_or(&0.0));
     let flat = if D == 3 { rise.cos() } else { 1.0 };

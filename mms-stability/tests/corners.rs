@@ -7,7 +7,7 @@ use mms_stability::judge;
 const MODULI: [f64; 2] = [1.5, 1.0];
 const ALL: &str = "x_min = 'traction'\nx_max = 'traction'\ny_min = 'traction'\ny_max = 'traction'";
 
-/// F is such a multiple of I, and dead loads hold it.
+/// A state with F a multiple of I, in equilibrium with dead loads.
 fn shrunk(stretch: f64) -> mms_stability::Stability {
     let change = stretch - 1.0;
     judge(&plane([&format!("{change}*X"), &format!("{change}*Y")], MODULI, [1.0, 1.0], ALL))
@@ -33,8 +33,8 @@ fn a_corner_is_softer_than_its_faces() {
     assert!(found.corners.iter().all(|corner| corner.coercivity < -0.1), "{found:?}");
 }
 
-/// What is symmetric about a roller is half of what a free face does: it is stable where the face is, and not far from where
-/// the face is not.
+/// A motion that is symmetric about a roller is half of a motion of a free face: it is stable if the face is, and close to
+/// unstable if the face is unstable.
 #[test]
 fn a_corner_with_a_roller_is_as_stable_as_the_face() {
     let found = |stretch: f64| {

@@ -6,7 +6,7 @@ use mms_codegen::compile;
 use mms_stability::fibres::TransverseModuli;
 use mms_stability::resting::Material;
 
-/// A square of neo-Hookean matrix with E and nu, of whose fibres `energy` tells.
+/// The moduli of a square of neo-Hookean matrix with E and nu, whose fibres have the energy `fibre`.
 fn moduli(fibre: &str) -> Option<TransverseModuli> {
     let compiled = field(&format!(
         r#"
@@ -38,8 +38,8 @@ fn close(found: [f64; 2], expected: [f64; 2]) {
     }
 }
 
-/// Fibres add 4 r a a a a to the stiffness: the compliance is less by what Sherman & Morrison (Ann. Math. Stat. 21, 1950) say,
-/// s s 4 r/(1 + 4 r/E) with s = (1, -nu, -nu)/E.
+/// Fibres add 4 r a a a a to the stiffness: by Sherman & Morrison (Ann. Math. Stat. 21, 1950) the compliance is less by s s 4
+/// r/(1 + 4 r/E) with s = (1, -nu, -nu)/E.
 #[test]
 fn fibres_stiffen_along_their_axis() {
     let (young, nu, added) = (10.0, 0.3, 20.0);
@@ -58,7 +58,7 @@ fn fibres_stiffen_along_their_axis() {
     }
 }
 
-/// A W of the small strain has no rotations that a stress at rest would turn with: lambda and mu are those of its formula.
+/// In a W of the small strain a stress at rest does not turn with rotations: lambda and mu are as in its formula.
 #[test]
 fn a_stress_at_rest_leaves_small_strain_moduli_as_they_are() {
     for (material, text) in [

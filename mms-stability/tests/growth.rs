@@ -20,7 +20,7 @@ fn a_square_on_rollers_has_the_modes_of_sines() {
     let square = plane(["0", "0"], [1.5, 1.0], [1.0, 1.0], ROLLERS);
     let growth = judge(&square).growth.expect("something is free");
     let expected = 2.0 * PI * PI;
-    // Four quadratic elements along half a wave: a part of (k h)^4/720 is too much, and little else.
+    // Four quadratic elements along half a wave: the error is about (k h)^4/720.
     assert!((growth.least / expected - 1.0).abs() < 2e-3, "{growth:?}");
     assert_eq!(growth.factor, 1.0);
 }
@@ -39,8 +39,8 @@ fn plate(length: f64, strain: f64) -> Growth {
 const MODULI: [f64; 2] = [1.5, 1.0];
 const LENGTH: f64 = 16.0;
 
-/// Without a load it swings as a beam that is guided at one end and free at the other: w^2 = E' h^2/12 (b/L)^4/rho0 with
-/// tan b + tanh b = 0 and E' = 4 mu (lambda + mu)/(lambda + 2 mu). It slides along the rollers, which is no mode.
+/// Without a load the plate vibrates as a beam that is guided at one end and free at the other: w^2 = E' h^2/12 (b/L)^4/rho0
+/// with tan b + tanh b = 0 and E' = 4 mu (lambda + mu)/(lambda + 2 mu). Sliding along the rollers is no mode.
 #[test]
 fn a_plate_swings_as_a_beam() {
     let [lambda, mu] = MODULI;
@@ -48,12 +48,12 @@ fn a_plate_swings_as_a_beam() {
     let root = zero(1.6, 3.0, |b| b.tan() + b.tanh());
     let expected = stiffness / 12.0 * (root / LENGTH).powi(4);
     let found = plate(LENGTH, 0.0).least;
-    // Theory and mesh leave parts of (h/L)^2 and of (root/4)^4/720.
+    // The errors of theory and mesh are about (h/L)^2 and (root/4)^4/720.
     assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
 }
 
-/// The load of Euler, 1744: a plate that is guided at one end and free at the other buckles at the strain
-/// (pi h/(2 L))^2/12. Beyond it a disturbance grows.
+/// The load of Euler, 1744: a plate that is guided at one end and free at the other buckles at the strain (pi h/(2 L))^2/12.
+/// Beyond it a disturbance grows.
 #[test]
 fn a_plate_buckles_at_the_load_of_euler() {
     let critical = (PI / (2.0 * LENGTH)).powi(2) / 12.0;
@@ -64,7 +64,7 @@ fn a_plate_buckles_at_the_load_of_euler() {
     assert!((buckled.factor - expected).abs() < 1e-12 && expected > 1.0, "{buckled:?}");
 }
 
-/// What is fixed on one side and loaded little is found from zero.
+/// A body that is fixed on one side and has small loads is found from zero.
 #[test]
 fn newton_comes_to_stable_states() {
     let stretched = plane(["0.05*sin(X)*Y", "0.04*X*Y"], MODULI, [1.0, 1.0], "x_min = 'traction'");

@@ -11,7 +11,7 @@ fn least(elasticity: &Elasticity<2>) -> f64 {
     impedance.least_eigenvalue(&[unit(0), unit(1)])
 }
 
-/// A less rho c^2 m m I: what holds a wave that runs along m at speed c.
+/// A minus rho c^2 m m I: the elasticity for a wave that runs along m at speed c.
 fn moving(elasticity: &Elasticity<2>, inertia: f64) -> Elasticity<2> {
     Elasticity::from_fn(|[i, j, k, l]| {
         let runs = i == k && (j, l) == (0, 0);
@@ -36,7 +36,7 @@ fn free_surfaces_carry_waves_of_the_speed_of_rayleigh() {
 }
 
 /// Biot, Int. J. Eng. Sci. 1, 1963: a half space of incompressible neo-Hookean matter in plane strain is unstable beyond a
-/// stretch of 0.5437 along its free surface. The little that gives is a bulk modulus of 1e4 mu.
+/// stretch of 0.5437 along its free surface. Here it is nearly incompressible, with a bulk modulus of 1e4 mu.
 #[test]
 fn a_compressed_half_space_wrinkles_at_the_stretch_of_biot() {
     let (lambda, mu) = (1e4, 1.0);
@@ -52,9 +52,9 @@ fn a_compressed_half_space_wrinkles_at_the_stretch_of_biot() {
     assert!(compressed(0.65) > 0.0 && compressed(0.45) < 0.0);
 }
 
-/// At F = s I a pressure that follows the surface leaves it as free as a body of the moduli mu and
-/// lambda' = lambda/s^2 + (mu - lambda ln J)/s^2 - mu without any: A then differs from that of such a body by a null
-/// Lagrangian, whose traction is that of the pressure. Its least impedance is 2 mu (lambda' + mu)/(lambda' + 3 mu).
+/// At F = s I under a pressure that follows the surface, the body is as stable as an unloaded body with the moduli mu and
+/// lambda' = lambda/s^2 + (mu - lambda ln J)/s^2 - mu: the two A differ by a null Lagrangian, whose traction is the pressure's.
+/// The least impedance is 2 mu (lambda' + mu)/(lambda' + 3 mu).
 #[test]
 fn a_pressure_that_follows_the_surface_is_no_load_on_an_isotropic_body() {
     let (lambda, mu) = (1.5, 1.0);
@@ -73,7 +73,7 @@ fn a_pressure_that_follows_the_surface_is_no_load_on_an_isotropic_body() {
     }
 }
 
-/// A strongly elliptic A without symmetries but its own, of numbers that do not repeat.
+/// A strongly elliptic A that has only its own symmetries, of numbers that do not repeat.
 fn uneven<const D: usize>(seed: u64) -> Elasticity<D> {
     let mut state = seed;
     let mut next = || {
@@ -88,8 +88,8 @@ fn uneven<const D: usize>(seed: u64) -> Elasticity<D> {
     })
 }
 
-/// With B = T^-1 (Z - i R^T) a wave is exp(B N.X) u on the surface: B solves (Z + i R) B = Q, and decays inwards
-/// (Fu & Mielke, Proc. R. Soc. A 458, 2002, equation 3.8).
+/// With B = T^-1 (Z - i R^T) a wave is exp(B N.X) u on the surface. Tests that B solves (Z + i R) B = Q, and decays inwards (Fu
+/// & Mielke, Proc. R. Soc. A 458, 2002, equation 3.8).
 fn solves_its_equation<const D: usize>(seed: u64) {
     let elasticity = uneven::<D>(seed);
     let (normal, along): (SVector<f64, D>, SVector<f64, D>) = (unit(D - 1), unit(0));
@@ -118,7 +118,7 @@ fn impedances_solve_their_riccati_equation() {
     }
 }
 
-/// What holds a roller is the part of Z along the face; at rest that is 4 mu (lambda + 2 mu)/(lambda + 3 mu)/2.
+/// The impedance of a roller is the part of Z along the face; at rest that is 4 mu (lambda + 2 mu)/(lambda + 3 mu)/2.
 #[test]
 fn rollers_feel_the_impedance_along_the_face() {
     let (lambda, mu) = (1.5, 1.0);

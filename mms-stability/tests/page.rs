@@ -1,4 +1,4 @@
-//! The page of the stability of the gallery is what its command writes.
+//! The page of the stability of the gallery equals the output of its command.
 
 #[path = "../examples/gallery/table.rs"]
 mod table;

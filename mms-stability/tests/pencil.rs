@@ -3,8 +3,8 @@
 use mms_stability::pencil::Pencil;
 use nalgebra::{DMatrix, DVector};
 
-/// A vector that is set apart need not be an eigenvector. The least eigenvalue is then that of the matrix between
-/// projections onto the other vectors.
+/// An excluded vector need not be an eigenvector. The least eigenvalue is then an eigenvalue of the matrix between projections
+/// onto the other vectors.
 #[test]
 fn vectors_are_set_apart_that_are_no_eigenvectors() {
     let stiffness = DMatrix::from_fn(5, 5, |row, column| match row.abs_diff(column) {

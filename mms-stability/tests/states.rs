@@ -1,4 +1,4 @@
-//! States of fields against formulas by hand, and against the derivation that emitted code has.
+//! States of fields against formulas by hand, and against the derivation of emitted code.
 
 use crate::support::{gallery, neo_hookean, plane};
 use mms_codegen::Compiled;
@@ -9,7 +9,7 @@ use mms_stability::subject::{Formulas, Subject};
 use mms_symbolic::sorted::SortedMap;
 use nalgebra::{SMatrix, SVector};
 
-/// dP/dF by dual numbers of P is the tangent that is derived from W by formulas.
+/// Tests that dP/dF by dual numbers of P is the tangent that is derived from W by formulas.
 fn agrees<const D: usize>(name: &str, compiled: &Compiled) {
     let formulas = Formulas::new(compiled);
     let mut subject = Subject::<D>::new(compiled, &formulas);
@@ -67,7 +67,7 @@ fn elasticity_is_that_by_hand() {
     }
 }
 
-/// Every material of the gallery that is given E and nu has them at F = I, and one with fibres has no isotropic moduli.
+/// Every material of the gallery with E and nu has these at F = I, and a material with fibres has no isotropic moduli.
 #[test]
 fn moduli_at_rest_are_those_that_a_field_gives() {
     let mut seen = 0;
@@ -78,7 +78,7 @@ fn moduli_at_rest_are_those_that_a_field_gives() {
             Some(parameters[index])
         };
         let moduli = Material::of(compiled).expect("a material").middle.moduli();
-        // Where a given pressure has to balance the stress at F = I, the tangent there is that of a stressed body.
+        // If a given pressure has to balance the stress at F = I, the tangent there belongs to a stressed body.
         let is_pressed = compiled.material.name.raw() == "neo_hookean_mixed";
         if compiled.model.fibre.is_some() || is_pressed {
             assert_eq!(moduli, None, "{name}");

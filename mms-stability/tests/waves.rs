@@ -1,4 +1,4 @@
-//! Strong ellipticity: what is sampled against what is proved, and where it is lost.
+//! Strong ellipticity: samples against proofs, and where it is lost.
 
 use crate::sampled::sampled;
 use crate::support::{field, gallery};
@@ -10,7 +10,7 @@ use mms_stability::judge;
 use mms_stability::subject::{Formulas, Subject};
 use nalgebra::SVector;
 
-/// What is met lies above the proved bound.
+/// The sampled minimum lies above the proved bound.
 #[test]
 fn no_wave_of_the_gallery_is_softer_than_is_proved() {
     for (name, compiled) in sampled(gallery(), 2) {
@@ -18,7 +18,7 @@ fn no_wave_of_the_gallery_is_softer_than_is_proved() {
         let modulus = stability.material.expect("a material").middle.modulus();
         let met = stability.waves.expect("states").least;
         assert!(met > 0.0, "{name}: {met}");
-        // Moduli that depend on X are measured by those of the place.
+        // If moduli depend on X, the unit is the modulus of the place.
         if let (Ellipticity::Strong(bound), false) =
             (certify(compiled).ellipticity, name.starts_with("graded"))
         {
@@ -74,8 +74,8 @@ time = [0, 1]
     }
 }
 
-/// In a shear that turns its axes with X, the same matter is lost along one of them: the acoustic tensor of the direction that
-/// is named, from the tangent by dual numbers, has an eigenvalue that is not positive.
+/// In a shear that turns its axes with X, this matter loses ellipticity along one of them: the acoustic tensor of the reported
+/// direction, from the tangent by dual numbers, has an eigenvalue that is not positive.
 #[test]
 fn what_is_lost_is_named_with_its_direction() {
     for dimension in [2, 3] {

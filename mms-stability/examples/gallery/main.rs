@@ -1,5 +1,5 @@
-//! Writes `docs/stability.md`, what is known of the stability of each field of the gallery, to stdout:
-//! `cargo run -p mms-stability --example gallery > docs/stability.md`; a minute.
+//! Writes `docs/stability.md`, the stability of each field of the gallery, to stdout: `cargo run -p mms-stability --example
+//! gallery > docs/stability.md`; takes a minute.
 
 mod table;
 

@@ -9,14 +9,14 @@ use mms_codegen::{Compiled, compile};
 use mms_stability::elasticity::Elasticity;
 use nalgebra::SMatrix;
 
-/// A field of the text.
+/// Compiles a field from text.
 pub fn field(text: &str) -> Compiled {
     compile("test", "test.toml", text, &|_| Err("none".into()))
         .unwrap_or_else(|failure| panic!("{failure}"))
 }
 
 /// A field of two dimensions that does not move: u, the moduli of a neo-Hookean material, the upper corner of a box at the
-/// origin, and what is claimed on its faces.
+/// origin, and the claims about its faces.
 pub fn plane(u: [&str; 2], [lambda, mu]: [f64; 2], [x, y]: [f64; 2], boundary: &str) -> Compiled {
     field(&format!(
         r#"
@@ -42,7 +42,7 @@ time = [0, 1]
     ))
 }
 
-/// A = lambda F^-T x F^-T + mu I + (mu - lambda ln J) F^-1_Li F^-1_Jk of W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2, by
+/// A = lambda F^-T x F^-T + mu I + (mu - lambda ln J) F^-1_Li F^-1_Jk for W = mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2, by
 /// hand (Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, section 6.4).
 pub fn neo_hookean<const D: usize>(
     f: &SMatrix<f64, D, D>,
@@ -63,7 +63,7 @@ pub fn zero(mut from: f64, mut to: f64, value: impl Fn(f64) -> f64) -> f64 {
     let sign = value(from) > 0.0;
     loop {
         let middle = (from + to) / 2.0;
-        // No number is left between the two.
+        // There is no number between the two.
         if middle == from || middle == to {
             return middle;
         }
@@ -71,7 +71,7 @@ pub fn zero(mut from: f64, mut to: f64, value: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
-/// The fields of the gallery that are measured in depth, in the order of their names.
+/// The fields of the gallery that are tested in depth, in the order of their names.
 pub fn gallery() -> &'static [(String, Compiled)] {
     static GALLERY: LazyLock<Vec<(String, Compiled)>> = LazyLock::new(compiled_gallery);
     &GALLERY
