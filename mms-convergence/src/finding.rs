@@ -1,4 +1,4 @@
-//! What the levels of one norm say of the expected order.
+//! The comparison of the levels of one norm with the expected order.
 
 use std::fmt;
 
@@ -9,16 +9,16 @@ use crate::share::{Share, lower, rounding};
 use crate::term::{Term, second_term};
 use crate::verdict::Verdict;
 
-/// An order that theory promises, and how far the observed one may be from it.
+/// A theoretical order, and the tolerance of the observed one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
     /// p.
     pub order: f64,
-    /// The highest order that right methods may show; p, unless theory leaves a range.
+    /// The highest order that correct methods may show; p, unless theory states a range.
     pub highest: f64,
-    /// Whether the order settles on finer levels. It need not where an error is made of waves as long as a cell.
+    /// Whether the order settles on finer levels. It need not if an error consists of waves as long as a cell.
     pub settles: bool,
-    /// How far the order may be from p, or from the range.
+    /// The tolerance about p, or about the range.
     pub tolerance: f64,
 }
 
@@ -33,12 +33,12 @@ impl Expected {
         (order - self.highest).max(0.0) + (order - self.order).min(0.0)
     }
 
-    /// A quarter of the tolerance: no interval of an order is printed narrower.
+    /// A quarter of the tolerance: the least half width of a printed interval of an order.
     pub fn resolution(&self) -> f64 {
         self.tolerance / 4.0
     }
 
-    /// Judges an order that is known to within `reach` at either side: in its place, below it, above it, or undecided.
+    /// Compares an order that is known to within `reach` on either side with the expected one.
     fn place(&self, order: f64, reach: f64) -> Place {
         let [low, high] = [order - reach, order + reach].map(|it| self.distance(it));
         match self.tolerance {
@@ -59,69 +59,71 @@ impl fmt::Display for Expected {
     }
 }
 
-/// Where an order is, seen from the expected one.
+/// The position of an order relative to the expected one.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Place {
     /// Within the tolerance.
     Near,
-    /// Below it.
+    /// Below the tolerance.
     Below,
-    /// Above it.
+    /// Above the tolerance.
     Above,
-    /// The interval of the order holds an end of the tolerance.
+    /// The interval of the order contains an end of the tolerance.
     Open,
 }
 
-/// Why a verdict is what it is.
+/// The reason of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// Every error is nothing but round-off.
+    /// Every error is at round-off.
     Exact,
     /// A run stopped.
     Stopped,
-    /// An error is exactly zero or not finite, or nothing fits: there is no order.
+    /// An error is exactly zero or not finite, or no fit exists: there is no order.
     NoOrder,
-    /// There is one level above round-off, or none.
+    /// There is at most one level above round-off.
     TooFewLevels,
-    /// There are two, so that nothing says whether their order is settled: it alone is held to the expected one.
+    /// There are two levels, so that their order cannot be tested for settling: only the order itself is compared with the
+    /// expected one.
     TwoLevels,
-    /// The digits that were printed leave the order open.
+    /// The printed digits are too few to decide the order.
     Digits,
     /// The order is below the expected one by more than the tolerance.
     Below,
     /// The order is above the expected one by more than the tolerance.
     Above,
-    /// A term of lower order may make up more of the finest error than the tolerance allows, or less.
+    /// A term of lower order may or may not make up more of the finest error than the tolerance allows.
     Open,
     /// The order is within the tolerance.
     Settled,
 }
 
-/// What is found of one norm.
+/// The result of one norm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// The outcome.
     pub verdict: Verdict,
-    /// Why.
+    /// The reason of the verdict.
     pub reason: Reason,
     /// The order, if there is one.
     pub estimate: Option<Estimate>,
-    /// The share of a term of lower order, of three levels or more: it decides.
+    /// The share of a term of lower order, which decides; for three levels or more.
     pub share: Option<Share>,
-    /// The second term that explains the drift of the orders best, if one is shown.
+    /// The second term that explains the drift of the orders best, if it is significant.
     pub term: Option<Term>,
-    /// The limit of fine levels, of four levels or more.
+    /// The limit of fine levels, for four levels or more.
     pub limit: Option<Limit>,
     /// The lengths of the levels that decided, from coarse to fine.
     pub lengths: Vec<f64>,
 }
 
-/// Levels whose logarithms are no farther than this from a straight line follow a power law: its order decides.
+/// The scatter of logarithms about a straight line up to which levels follow a power law, whose order then decides.
 const PURE: f64 = 1e-3;
 
 impl Finding {
-    /// Judges one norm. Of a range of orders the highest is tried first. The levels that decide are those before the first that may be nothing but round-off. If they do not
-    /// tell, coarse ones are left out while more than three are left and the term of order p + 1 leads on the coarsest.
+    /// Judges one norm. For a range of orders, the highest order is tried first. The levels before the first that may be at
+    /// round-off decide. If they do not decide, coarse levels are dropped while more than three remain and the term of order p
+    /// + 1 dominates on the coarsest.
     pub fn of(sequence: &Sequence, expected: Expected) -> Self {
         if sequence.is_exact() {
             return Self::exact(sequence.levels());
@@ -147,13 +149,13 @@ impl Finding {
         finding
     }
 
-    /// Of levels whose errors are nothing but round-off.
+    /// The finding for levels whose errors are all at round-off.
     fn exact(levels: &[Level]) -> Self {
         let (verdict, reason) = (Verdict::Exact, Reason::Exact);
         Self { verdict, reason, ..Self::none(levels.iter().map(|level| level.length).collect()) }
     }
 
-    /// Says nothing of levels of these lengths.
+    /// A finding without an order for levels of these lengths.
     fn none(lengths: Vec<f64>) -> Self {
         Self {
             verdict: Verdict::NotAsymptotic,
@@ -166,7 +168,7 @@ impl Finding {
         }
     }
 
-    /// Judges an order that a fit of more than one length has, by half its interval; `None` if nothing fits.
+    /// Judges the order of a fit over more than one length, given with half its interval; `None` if no fit exists.
     pub(crate) fn of_fit(order: Option<[f64; 2]>, lengths: Vec<f64>, expected: Expected) -> Self {
         let Some([order, reach]) = order else { return Self::none(lengths) };
         let shown = reach.max(expected.resolution());
@@ -180,19 +182,19 @@ impl Finding {
         Self { estimate, ..Self::none(lengths) }.decided(place)
     }
 
-    /// The second term, if it moves the order on the finest level by enough to be seen, and is not expected.
+    /// The second term, if it changes the order on the finest level by a visible amount, and is not expected.
     pub fn material_term(&self, expected: Expected) -> Option<Term> {
         let is_seen = |it: &Term| it.moves(expected.order) >= expected.resolution();
         self.term.filter(|it| is_seen(it) && expected.distance(it.order) != 0.0)
     }
 
-    /// The limit that is left, if it is shown not to be 0, moves the order by enough to be seen, and is no other term.
+    /// The limit, if it is significantly different from 0, changes the order by a visible amount, and is no other term.
     pub fn inconsistency(&self, expected: Expected) -> Option<Limit> {
         let is_seen = |it: &Limit| it.share * it.order >= expected.resolution();
         self.limit.filter(|it| self.term.is_none() && !it.is_consistent() && is_seen(it))
     }
 
-    /// On just these levels.
+    /// Judges only these levels.
     fn on(levels: &[Level], expected: Expected) -> Self {
         let mut finding = Self::none(levels.iter().map(|level| level.length).collect());
         let Some(orders) = pairs(levels).filter(|orders| !orders.is_empty()) else {
@@ -217,7 +219,7 @@ impl Finding {
         Self { reason: if is_open { Reason::Digits } else { finding.reason }, ..finding }
     }
 
-    /// Where the order of three levels or more is; `finest` is that of the finest pair.
+    /// Places the order of three levels or more; `finest` is the order of the finest pair.
     fn place(&self, levels: &[Level], finest: f64, expected: Expected) -> Place {
         let Expected { order: p, highest, settles, tolerance } = expected;
         let is_pure = |line: &Line| line.scatter.max(rounding(levels)) <= PURE;
@@ -241,7 +243,7 @@ impl Finding {
         }
     }
 
-    /// With the verdict of a place.
+    /// The finding with the verdict of a place.
     fn decided(self, place: Place) -> Self {
         let (verdict, reason) = match place {
             Place::Near => (Verdict::Pass, Reason::Settled),

@@ -3,10 +3,10 @@
 use crate::OUTSIDE;
 use crate::least::solve;
 
-/// A formula for the error of a method, in the norm that was fitted.
+/// A formula for the error of a method, in the fitted norm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
-    /// C_h; of the other sign than C_t where the two errors cancel.
+    /// C_h; of opposite sign to C_t if the two errors cancel.
     pub space_constant: f64,
     /// p.
     pub space_order: f64,
@@ -14,22 +14,22 @@ pub struct Fit {
     pub time_constant: f64,
     /// q.
     pub time_order: f64,
-    /// Half the intervals of 95 % of p and q, from the scatter of errors about the formula.
+    /// Half the 95 % intervals of p and q, from the scatter of errors about the formula.
     pub reach: [f64; 2],
     /// The largest relative distance of an error from the formula.
     pub residual: f64,
 }
 
-/// Orders are looked for between these.
+/// The range of orders that is searched.
 const ORDERS: [f64; 2] = [0.25, 6.0];
 
-/// Orders are found to within this.
+/// The accuracy of orders.
 const STEP: f64 = 1e-4;
 
-/// Fits h, dt and e of some runs, each error counting relative to itself. For given orders the constants are a
-/// linear problem; the orders are those that leave the least (Golub & Pereyra, SIAM J. Numer. Anal. 10, 1973).
-/// `None` unless there are three runs more than unknowns or more, of three h and three dt at least, and all of
-/// it is positive and finite; or if an order lies at an end of what is looked at.
+/// Fits h, dt and e of some runs, with relative errors. For given orders the constants are a linear problem; the orders
+/// minimise its residual (Golub & Pereyra, SIAM J. Numer. Anal. 10, 1973). `None` unless there are at least three runs more
+/// than unknowns, of at least three h and three dt, and all numbers are positive and finite; also `None` if an order lies at an
+/// end of the search range.
 pub fn fit(runs: &[[f64; 3]]) -> Option<Fit> {
     let different = |which: usize| {
         let mut values: Vec<f64> = runs.iter().map(|run| run[which]).collect();
@@ -60,13 +60,13 @@ pub fn fit(runs: &[[f64; 3]]) -> Option<Fit> {
     })
 }
 
-/// The constants that leave the least sum of squares of relative distances, and that sum.
+/// The constants that minimise the sum of squares of relative residuals, and that sum.
 fn constants(runs: &[[f64; 3]], [p, q]: [f64; 2]) -> Option<([f64; 2], f64)> {
     let rows = runs.iter().map(|[h, dt, e]| ([h.powf(p) / e, dt.powf(q) / e], 1.0));
     solve(&rows.collect::<Vec<_>>()).map(|found| (found.unknowns, found.left))
 }
 
-/// Half the intervals of both orders, the formula being linearised about what was found.
+/// Half the intervals of both orders, from the formula linearised about the solution.
 fn reach(runs: &[[f64; 3]], [space, time]: [f64; 2], [p, q]: [f64; 2]) -> [f64; 2] {
     let row = |[h, dt, e]: &[f64; 3]| {
         let (a, b) = (h.powf(p) / e, dt.powf(q) / e);
@@ -76,8 +76,7 @@ fn reach(runs: &[[f64; 3]], [space, time]: [f64; 2], [p, q]: [f64; 2]) -> [f64; 
     [2, 3].map(|which| found.as_ref().map_or(f64::INFINITY, |it| it.reach(which, OUTSIDE)))
 }
 
-/// Where a function of two orders is least: on a grid over all of them, and then on ever finer ones around the
-/// best.
+/// Minimises a function of two orders: on a grid over the whole range, and then on ever finer grids around the best point.
 fn least(value: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
     let (mut step, mut reach) = (0.25, ORDERS[1] - ORDERS[0]);
     let mut best = [2.0, 2.0];
@@ -128,7 +127,7 @@ mod tests {
         }
     }
 
-    /// Noise of a percent moves the formula by little, and shows as the residual.
+    /// Noise of a percent changes the formula little, and appears in the residual.
     #[test]
     fn noise_shows_as_the_residual() {
         let sign = |h: f64, dt: f64| if (h / dt * 1e3).sin() > 0.0 { 1.01 } else { 0.99 };
@@ -153,7 +152,7 @@ mod tests {
         assert_eq!(fit(&broken), None);
         broken[3][2] = 0.0;
         assert_eq!(fit(&broken), None);
-        // Nothing that depends on dt: no order in time.
+        // The errors do not depend on dt: there is no order in time.
         let still = runs(|h, _| h * h);
         assert!(fit(&still).is_none_or(|found| found.time_constant.abs() < 1e-6));
     }

@@ -7,31 +7,30 @@ use crate::verdict::Verdict;
 
 /// Judged norms, each under its name: mean, root mean square and maximum under `l1`, `l2` and `linf`.
 ///
-/// The worst decides. Beside `l2`, `l1` and `linf` do so only where they fail by more than the tolerance: what is of a
-/// lower order at a few points shows so, and the maximum of errors at particles, which come nearer to a face with every
-/// level, is not a pure power of h otherwise either. `h1` does so only where it fails: terms of higher order go away later
-/// in it.
+/// The worst norm decides. If there is an `l2`, `l1` and `linf` count only if they fail by more than the tolerance: they reveal
+/// a lower order at a few points, and otherwise the maximum of errors at particles, which come nearer to a face with every
+/// level, is not a pure power of h. `h1` counts only if it fails: its terms of higher order vanish later.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
-    /// The findings, one at least, in the sequence in which the norms were given.
+    /// The findings, at least one, in the order in which the norms were given.
     pub norms: Vec<Judged>,
-    /// Which of them decided; `l2` first, where it is as bad as others.
+    /// The index of the norm that decided; `l2` first, if no other is worse.
     deciding: usize,
 }
 
-/// One norm, and what is found of it.
+/// One norm, and its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judged {
-    /// Its name.
+    /// The name of the norm.
     pub norm: String,
-    /// What was expected of it.
+    /// The expected order.
     pub expected: Expected,
-    /// What its levels say.
+    /// The finding from the levels.
     pub finding: Finding,
 }
 
 impl Judged {
-    /// Whether it has more than the least order that right methods may show.
+    /// Whether the order exceeds the least order that correct methods may show.
     pub fn is_superconvergent(&self) -> bool {
         let Expected { order, highest, tolerance, .. } = self.expected;
         let is_more = |observed: f64| highest > order && observed > order + tolerance;
@@ -39,8 +38,8 @@ impl Judged {
             && self.finding.estimate.is_some_and(|it| is_more(it.order))
     }
 
-    /// Whether a norm beside l2 is of a lower order by more than the tolerance, or has no order because a run stopped. Two
-    /// levels have no interval: there it is twice the tolerance.
+    /// Whether a norm beside l2 has a lower order by more than the tolerance, or has no order because a run stopped. Two levels
+    /// have no interval: for them it is twice the tolerance.
     fn fails_by_far(&self) -> bool {
         let Expected { order, tolerance, .. } = self.expected;
         let is_far = self.finding.estimate.is_none_or(|it| match it.interval {
@@ -51,7 +50,7 @@ impl Judged {
     }
 }
 
-/// How far an order may be from that of a layer.
+/// The tolerance of the orders of a layer.
 const NEAR: f64 = 0.15;
 
 impl Judgement {
@@ -103,25 +102,24 @@ impl Judgement {
         &self.norms[self.deciding]
     }
 
-    /// That of the norm that decided.
+    /// The verdict of the norm that decided.
     pub fn verdict(&self) -> Verdict {
         self.deciding().finding.verdict
     }
 
-    /// What is found of a norm.
+    /// The result of a norm.
     pub fn norm(&self, name: &str) -> Option<&Judged> {
         self.norms.iter().find(|it| it.norm == name)
     }
 
-    /// The order of l2, or where there is none of the norm that decided.
+    /// The order of l2, or without l2, of the norm that decided.
     pub fn observed_order(&self) -> Option<f64> {
         let judged = self.norm("l2").unwrap_or(self.deciding());
         judged.finding.estimate.map(|it| it.order)
     }
 
-    /// The order q of a layer of one cell at a face, whose errors are of order q there: it covers a part h of the body,
-    /// so that l1, l2 and linf show q + 1, q + 1/2 and q, or the expected order where that is lower. Told where l2
-    /// shows it too.
+    /// The order q of a layer of one cell at a face, whose errors are of order q there: it covers a part h of the body, so that
+    /// l1, l2 and linf show q + 1, q + 1/2 and q, or the expected order if that is lower. `None` unless l2 shows it too.
     pub fn layer(&self) -> Option<f64> {
         let order = |norm: &str| {
             let judged = self.norm(norm)?;
@@ -136,7 +134,7 @@ impl Judgement {
     }
 }
 
-/// The lengths that there are, from coarse to fine.
+/// The distinct lengths, from coarse to fine.
 fn lengths(runs: &[[f64; 2]], which: usize) -> Vec<f64> {
     let mut lengths: Vec<f64> = runs.iter().map(|run| run[which]).collect();
     lengths.sort_by(|a, b| b.total_cmp(a));

@@ -1,20 +1,20 @@
-//! Linear least squares with few unknowns, and how sure these are.
+//! Linear least squares with few unknowns, and their uncertainties.
 
 use crate::student::quantile;
 
-/// The unknowns that leave the least sum of squares.
+/// The unknowns that minimise the sum of squares.
 pub(crate) struct Solution<const K: usize> {
     pub unknowns: [f64; K],
-    /// The sum of squares that is left.
+    /// The remaining sum of squares.
     pub left: f64,
-    /// The diagonal of the inverse of the normal equations: variances over that of a row.
+    /// The diagonal of the inverse of the normal equations: variances relative to the variance of a row.
     variances: [f64; K],
     freedom: usize,
 }
 
 impl<const K: usize> Solution<K> {
-    /// Half the interval of an unknown that leaves it outside with this probability (Student's t); infinite
-    /// without a degree of freedom.
+    /// Half the interval of an unknown that excludes it with this probability (Student's t); infinite without a degree of
+    /// freedom.
     pub fn reach(&self, which: usize, outside: f64) -> f64 {
         if self.freedom == 0 {
             return f64::INFINITY;
@@ -29,10 +29,10 @@ impl<const K: usize> Solution<K> {
     }
 }
 
-/// The factors of the unknowns, and what they should sum up to.
+/// The factors of the unknowns, and the right-hand side.
 pub(crate) type Row<const K: usize> = ([f64; K], f64);
 
-/// Solves sum_k row_k unknown_k = right in the least-squares sense; `None` where rows do not determine it.
+/// Solves sum_k row_k unknown_k = right in the least-squares sense; `None` if the rows do not determine it.
 pub(crate) fn solve<const K: usize>(rows: &[Row<K>]) -> Option<Solution<K>> {
     let sum = |term: &dyn Fn(&Row<K>) -> f64| rows.iter().map(term).sum::<f64>();
     let size: [f64; K] = std::array::from_fn(|i| sum(&|(row, _)| row[i] * row[i]).sqrt());
@@ -54,7 +54,7 @@ pub(crate) fn solve<const K: usize>(rows: &[Row<K>]) -> Option<Solution<K>> {
     is_sound.then_some(Solution { unknowns, left, variances, freedom })
 }
 
-/// By Gauss and Jordan; of a matrix with ones on its diagonal that is positive definite.
+/// Inverts a positive definite matrix with ones on its diagonal by Gauss-Jordan elimination.
 fn inverse<const K: usize>(mut matrix: [[f64; K]; K]) -> Option<[[f64; K]; K]> {
     let mut inverse = [[0.0; K]; K];
     for (i, row) in inverse.iter_mut().enumerate() {

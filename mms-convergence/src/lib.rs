@@ -1,32 +1,32 @@
-//! What the errors of a study say: the observed order, the interval in which it lies, what hides behind it, and a
-//! verdict.
+//! The statistics of the errors of a study: the observed order, its interval, the terms behind it, and a verdict.
 //!
-//! The exact solution is known, and so is every error. What is uncertain is the order that errors have, and not the
-//! solution: there is no grid convergence index here. The manner is that of L. Eca and M. Hoekstra, A procedure for the
-//! estimation of the numerical uncertainty of CFD calculations based on grid refinement studies, J. Comput. Phys. 262
-//! (2014) 104-130: least squares, with the scatter of what is left as the measure of noise.
+//! The exact solution is known, and so is every error. The uncertain quantity is the order of the errors, not the solution:
+//! there is no grid convergence index here. The method follows L. Eca and M. Hoekstra, A procedure for the estimation of the
+//! numerical uncertainty of CFD calculations based on grid refinement studies, J. Comput. Phys. 262 (2014) 104-130: least
+//! squares, with the scatter of the residuals as the measure of noise.
 //!
-//! Errors e_i of one norm on levels h_i (or dt_i) make a [`Sequence`]; several of one h are replicates.
-//! [`Finding::of`] holds it to an [`Expected`] order p:
+//! Errors e_i of one norm on levels h_i (or dt_i) make a [`Sequence`]; several errors of one h are replicates. [`Finding::of`]
+//! compares it with an [`Expected`] order p:
 //!
-//! | levels | fit | says |
+//! | levels | fit | result |
 //! |---|---|---|
-//! | 2 | the order ln(e1/e2)/ln(h1/h2) | the order alone, which is held to the expected one, and not whether it is settled |
-//! | 3 | two orders p1, p2 | the [interval](Estimate): p1, p2, and p2 + 1.25 (p2 - p1)/(r - 1), where the drift may lead |
-//! | 4 and more, or replicates | ln e = ln C + p ln h | the interval of 95 % by Student's t, from the scatter |
-//! | 3 and more | e = C h^p + D h^(p-1) + E h^(p+1) | the [share](Share) that D has of the finest error, which decides |
-//! | 3 and more | e = C h^p + D h^q, q of 0, p - 1, p + 1, p + 2 | the [second term](Term) that explains a drift, its share and where it takes over |
-//! | 4 and more | e = e0 + C h^p | the [limit](Limit): consistent, if the interval of e0 holds 0 |
+//! | 2 | the order ln(e1/e2)/ln(h1/h2) | the order alone, which is compared with the expected one, without a test for settling |
+//! | 3 | two orders p1, p2 | the [interval](Estimate): p1, p2, and p2 + 1.25 (p2 - p1)/(r - 1), the possible end of the drift |
+//! | 4 and more, or replicates | ln e = ln C + p ln h | the 95 % interval by Student's t, from the scatter |
+//! | 3 and more | e = C h^p + D h^(p-1) + E h^(p+1) | the [share](Share) of D in the finest error, which decides |
+//! | 3 and more | e = C h^p + D h^q, q of 0, p - 1, p + 1, p + 2 | the [second term](Term) that explains a drift, its share and the length at which it takes over |
+//! | 4 and more | e = e0 + C h^p | the [limit](Limit): consistent, if the interval of e0 contains 0 |
 //!
 //! A share s of the term h^(p-1) lowers the order on the finest level by s. It is known to within u, three quarters of its
-//! standard deviation. The scatter behind u is that about the fit, of a further level that is off by 2.5 %, and of
-//! printed digits. Errors that follow a power law to 0.1 % are judged by its order instead of p - s, and two levels by theirs.
+//! standard deviation. The scatter behind u includes the scatter about the fit, a further level with a deviation of 2.5 %, and
+//! printed digits. If errors follow a power law to 0.1 %, its order is judged instead of p - s. For two levels, their order is
+//! judged.
 //!
-//! * `pass`: s + u is the tolerance at most, and the order is not above.
-//! * `fail`: s - u is more than the tolerance, and the order of the finest pair is low too. So it is if errors level off:
-//!   e0 is known to a fifth, and lowers the order by twice the tolerance. A run that stopped is a `fail`.
-//! * `not asymptotic`: else; so too if the order is above p by more than the tolerance and u.
-//! * `exact to round-off`: who measured knows that every error is nothing but round-off ([`Sequence::exact`]).
+//! * `pass`: s + u is at most the tolerance, and the order is not above.
+//! * `fail`: s - u is more than the tolerance, and the order of the finest pair is low too. Also if errors level off:
+//! e0 is known to a fifth, and lowers the order by twice the tolerance. Also if a run stopped.
+//! * `not asymptotic`: otherwise; also if the order is above p by more than the tolerance and u.
+//! * `exact to round-off`: the caller knows that every error is at round-off ([`Sequence::exact`]).
 //!
 //! ```
 //! use mms_convergence::{Expected, Finding, Sample, Sequence, Verdict};
@@ -63,5 +63,5 @@ pub use term::{Kind, Term};
 pub use verdict::{CONSTANT_TOLERANCE, RULE, TOLERANCE, Verdict, is_near};
 pub use words::{Name, bound};
 
-/// How likely what is sought lies outside an interval.
+/// The probability that a value lies outside its interval.
 pub(crate) const OUTSIDE: f64 = 0.05;

@@ -1,15 +1,15 @@
-//! What is left in the limit: e = e0 + C h^p, p being looked for.
+//! The error in the limit of fine levels: e = e0 + C h^p with unknown p.
 
 use crate::OUTSIDE;
 use crate::least::{Solution, solve};
 use crate::sequence::Level;
 
-/// The error that is left in the limit of fine levels.
+/// The error in the limit of fine levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// e0.
     pub error: f64,
-    /// From where to where it may be.
+    /// The interval of e0.
     pub interval: [f64; 2],
     /// p.
     pub order: f64,
@@ -18,21 +18,21 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// Whether something is left beyond doubt: the interval is a fifth of the error at most, to each side.
+    /// Whether the limit is clearly not 0: the half width of the interval is at most a fifth of the error.
     pub(crate) fn is_plain(&self) -> bool {
         self.interval[0] > 0.8 * self.error
     }
 
-    /// Whether nothing need be left: the method is consistent, as far as these levels show.
+    /// Whether the limit may be 0: the method is consistent, as far as these levels show.
     pub fn is_consistent(&self) -> bool {
         self.interval[0] <= 0.0
     }
 }
 
-/// Orders are looked for between these.
+/// The range of orders that is searched.
 const ORDERS: [f64; 2] = [0.1, 8.0];
 
-/// Fits four levels or more, each error counting relative to itself; `None` with fewer, or where no order is best.
+/// Fits four levels or more, with relative errors; `None` with fewer, or if no order is best.
 pub(crate) fn limit(levels: &[Level]) -> Option<Limit> {
     if levels.len() < 4 {
         return None;
@@ -46,7 +46,7 @@ pub(crate) fn limit(levels: &[Level]) -> Option<Limit> {
         return None;
     }
     let [error, constant] = linear(&points, order)?.unknowns;
-    // The order is an unknown as well: linearised about what was found.
+    // The order is an unknown, too: linearised about the solution.
     let rows = points.iter().map(|&[x, e]| {
         let power = x.powf(order);
         ([1.0 / e, power / e, constant * power * x.ln() / e], 1.0 - (error + constant * power) / e)
@@ -61,7 +61,7 @@ fn linear(points: &[[f64; 2]], p: f64) -> Option<Solution<2>> {
     solve(&points.iter().map(|&[x, e]| ([1.0 / e, x.powf(p) / e], 1.0)).collect::<Vec<_>>())
 }
 
-/// Where a function of the order is least: on a grid over all orders, and then on ever finer ones around the best.
+/// Minimises a function of the order: on a grid over all orders, and then on ever finer grids around the best.
 fn least(value: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (ORDERS[0], ORDERS[1]);
     let mut best = low;

@@ -1,39 +1,39 @@
-//! The observed order of a few levels, and the interval in which it lies.
+//! The observed order of a few levels, and its interval.
 
 use crate::OUTSIDE;
 use crate::least::{Solution, solve};
 use crate::sequence::Level;
 use crate::student::tail_of_ratio;
 
-/// An order, and where it lies.
+/// An order, and its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The best guess.
     pub order: f64,
-    /// From where to where it may be; none of two levels whose errors were not rounded.
+    /// The interval of the order; `None` for two levels whose errors were not rounded.
     pub interval: Option<[f64; 2]>,
-    /// What the interval rests on.
+    /// The basis of the interval.
     pub basis: Basis,
 }
 
-/// What the interval of an order rests on.
+/// The data that the interval of an order is computed from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
     /// The scatter of levels, or of replicates, about a power law: 95 % by Student's t.
     Scatter,
     /// The drift between two pairs of levels, which have no scatter.
     Drift,
-    /// The digits that are printed of two errors.
+    /// The printed digits of two errors.
     Digits,
-    /// Nothing: two levels have an order, and no second one to compare it with.
+    /// No data: two levels have an order, and no second one to compare it with.
     Nothing,
 }
 
-/// By how much more than Richardson's extrapolation says orders may still drift (Roache 1998; Eca & Hoekstra 2014).
+/// The factor by which orders may drift more than by Richardson's extrapolation (Roache 1998; Eca & Hoekstra 2014).
 const SAFETY: f64 = 1.25;
 
 impl Estimate {
-    /// Of two levels or more, whose errors are positive. No interval is less than `resolution` to either side.
+    /// The order of two levels or more, whose errors are positive. The half width of an interval is at least `resolution`.
     pub(crate) fn of(levels: &[Level], resolution: f64) -> Option<Self> {
         let first = *pairs(levels)?.last()?;
         let (order, reach, basis) = match levels {
@@ -61,18 +61,19 @@ impl Estimate {
         self.interval.is_some_and(|[low, high]| (low..=high).contains(&order))
     }
 
-    /// Half the width of the interval; infinite where there is none.
+    /// Half the width of the interval; infinite if there is none.
     pub fn reach(&self) -> f64 {
         self.interval.map_or(f64::INFINITY, |[low, high]| (high - low) / 2.0)
     }
 }
 
-/// The orders between neighbours; `None` if one has none.
+/// The orders between neighbours; `None` if a pair has none.
 pub(crate) fn pairs(levels: &[Level]) -> Option<Vec<f64>> {
     levels.windows(2).map(|pair| pair[1].order_from(&pair[0])).collect()
 }
 
-/// Of three levels: the two orders, and where the second may still go if orders approach their limit as h does.
+/// The interval of three levels: the two orders, and the possible further drift of the second if orders approach their limit as
+/// h does.
 fn drift(levels: &[Level]) -> Option<[f64; 2]> {
     let [first, second] = pairs(levels)?[..] else { return None };
     let ratio = levels[1].length / levels[2].length;
@@ -80,9 +81,9 @@ fn drift(levels: &[Level]) -> Option<[f64; 2]> {
     Some([first.min(second).min(further), first.max(second).max(further)])
 }
 
-/// ln e = ln C + p ln h by least squares, and half the interval of p. With replicates the scatter is theirs together
-/// with that of levels, unless levels scatter more than replicates do (lack of fit, by Fisher's F; Draper & Smith,
-/// Applied Regression Analysis, 1998, section 2.1). `None` of three levels whose scatter is not that of replicates.
+/// Fits ln e = ln C + p ln h by least squares, and returns p and half its interval. With replicates the scatter combines
+/// replicates and levels, unless levels scatter more than replicates do (lack of fit, by Fisher's F; Draper & Smith, Applied
+/// Regression Analysis, 1998, section 2.1). `None` for three levels, unless the scatter of replicates is used.
 fn scatter(levels: &[Level]) -> Option<(f64, f64)> {
     let all = levels.iter().flat_map(|level| level.errors.iter().map(|e| [level.length, *e]));
     let of_all = power_law(all)?;
@@ -105,24 +106,24 @@ fn means(levels: &[Level]) -> impl Iterator<Item = [f64; 2]> {
     levels.iter().map(|level| [level.length, level.error()])
 }
 
-/// The straight line through logarithms: ln C at the first length, and p.
+/// Fits a straight line through logarithms: ln C at the first length, and p.
 fn power_law(points: impl Iterator<Item = [f64; 2]>) -> Option<Solution<2>> {
     let points: Vec<_> = points.map(|point| point.map(f64::ln)).collect();
     let first = points.first()?[0];
     solve(&points.iter().map(|[h, e]| ([1.0, h - first], *e)).collect::<Vec<_>>())
 }
 
-/// The power law of an order of their own that is nearest to the means of levels.
+/// The power law with a free order that is nearest to the means of levels.
 pub(crate) struct Line {
     pub order: f64,
-    /// The sum of squares of logarithms that is left.
+    /// The remaining sum of squares of logarithms.
     pub left: f64,
-    /// Its root mean square.
+    /// The root mean square of the residuals.
     pub scatter: f64,
 }
 
 impl Line {
-    /// Through three levels or more.
+    /// Fits three levels or more.
     pub fn through(levels: &[Level]) -> Option<Self> {
         let found = power_law(means(levels))?;
         let scatter = (found.left / levels.len().checked_sub(2)? as f64).sqrt();

@@ -2,8 +2,8 @@
 
 /// ln(e1/e2) / ln(h1/h2).
 ///
-/// `None` where there is none: an error or a length that is not positive and finite, or h1 = h2. An
-/// error of exactly zero has no order: a method that represents the field exactly proves nothing.
+/// `None` if there is no order: an error or a length is not positive and finite, or h1 = h2. An error of exactly zero has no
+/// order: a method that represents the field exactly proves nothing.
 pub fn observed_order(errors: [f64; 2], lengths: [f64; 2]) -> Option<f64> {
     let usable = |value: f64| value > 0.0 && value.is_finite();
     let all_usable = errors.into_iter().chain(lengths).all(usable);
@@ -14,18 +14,18 @@ pub fn observed_order(errors: [f64; 2], lengths: [f64; 2]) -> Option<f64> {
 /// The error of one run in one norm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// What is refined: h or dt.
+    /// The refined length: h or dt.
     pub length: f64,
-    /// The error; none of a run that stopped.
+    /// The error; `None` if the run stopped.
     pub error: Option<f64>,
-    /// Whether the error may be nothing but round-off.
+    /// Whether the error may be at round-off.
     pub is_noise: bool,
-    /// Half a unit of the last digit that was printed of the error; 0 if it was not rounded.
+    /// Half a unit of the last printed digit of the error; 0 if it was not rounded.
     pub rounding: f64,
 }
 
 impl Sample {
-    /// Of a run that ended, well above round-off.
+    /// The error of a run that ended, well above round-off.
     pub fn new(length: f64, error: f64) -> Self {
         Self { length, error: Some(error), is_noise: false, rounding: 0.0 }
     }
@@ -35,24 +35,24 @@ impl Sample {
     }
 }
 
-/// Lengths that differ by less than this, relative to them, are one.
+/// The relative difference below which two lengths are equal.
 const SAME: f64 = 1e-6;
 
-/// The runs of one length. Several are replicates: of other grid offsets, other seeds.
+/// The runs of one length. Several runs are replicates: with other grid offsets, or other seeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
     /// h or dt.
     pub length: f64,
-    /// The errors of its runs, in the sequence in which they were given.
+    /// The errors of the runs, in the order in which they were given.
     pub errors: Vec<f64>,
-    /// How far the digits that were printed may be from an error, relative to it: the largest of its runs.
+    /// The largest relative error of printed digits over the runs.
     pub(crate) rounding: f64,
     has_stopped: bool,
     is_noise: bool,
 }
 
 impl Level {
-    /// The error: of replicates the geometric mean, since orders are differences of logarithms.
+    /// The error; for replicates the geometric mean, since orders are differences of logarithms.
     pub fn error(&self) -> f64 {
         match self.errors.as_slice() {
             [alone] => *alone,
@@ -60,7 +60,7 @@ impl Level {
         }
     }
 
-    /// The observed order from a coarser level to this.
+    /// The observed order from a coarser level to this one.
     pub fn order_from(&self, coarse: &Level) -> Option<f64> {
         observed_order([coarse.error(), self.error()], [coarse.length, self.length])
     }
@@ -81,7 +81,7 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    /// Of samples in any sequence.
+    /// A sequence of samples in any order.
     pub fn new(samples: impl IntoIterator<Item = Sample>) -> Self {
         let mut samples: Vec<Sample> = samples.into_iter().collect();
         samples.sort_by(|a, b| b.length.total_cmp(&a.length));
@@ -101,12 +101,12 @@ impl Sequence {
         Self { levels, is_exact: false }
     }
 
-    /// The same, all of whose errors are known to be nothing but round-off, or not.
+    /// Sets whether all errors are known to be at round-off.
     pub fn exact(self, is_exact: bool) -> Self {
         Self { is_exact, ..self }
     }
 
-    /// Whether all errors are known to be nothing but round-off.
+    /// Whether all errors are known to be at round-off.
     pub fn is_exact(&self) -> bool {
         self.is_exact && !self.has_stopped()
     }
@@ -121,7 +121,7 @@ impl Sequence {
         self.levels.iter().any(|level| level.has_stopped)
     }
 
-    /// The levels before the first that may be nothing but round-off.
+    /// The levels before the first that may be at round-off.
     pub fn sound(&self) -> &[Level] {
         let sound = self.levels.iter().take_while(|level| !level.is_noise).count();
         &self.levels[..sound]

@@ -1,16 +1,16 @@
-//! The share that a term of lower order has of the finest error: e = C h^p + D h^q + E h^(p+1) with q < p.
+//! The share of a term of lower order in the finest error: e = C h^p + D h^q + E h^(p+1) with q < p.
 
 use crate::least::solve;
 use crate::sequence::Level;
 
-/// The scatter of the errors of right methods, relative to them. It counts as much as one more level does.
+/// The relative scatter of the errors of correct methods. It has the weight of one more level.
 const USUAL_SCATTER: f64 = 0.025;
 
-/// Half the interval of a share, in standard deviations. With the tolerance that is usual, it lets 95 % of right methods
-/// pass on five levels that scatter by 3 %, and 6 % of those with a fifth of the finest error of first order.
+/// Half the interval of a share, in standard deviations. With the usual tolerance, 95 % of correct methods pass on five levels
+/// that scatter by 3 %, and 6 % of methods with a fifth of the finest error of first order.
 const REACH: f64 = 0.75;
 
-/// The term h^(p+1) may make up this much of the coarsest error, beside the others, on levels that are asymptotic.
+/// The largest part of the term h^(p+1) in the coarsest error, relative to the others, on levels that are asymptotic.
 const ASYMPTOTIC: f64 = 0.5;
 
 /// The share of a term of lower order.
@@ -18,49 +18,49 @@ const ASYMPTOTIC: f64 = 0.5;
 pub struct Share {
     /// q.
     pub order: f64,
-    /// D h^q over the error on the finest level; negative if it takes away from it.
+    /// D h^q over the error on the finest level; negative if it reduces the error.
     pub share: f64,
-    /// Half its interval.
+    /// Half the interval of the share.
     pub reach: f64,
     /// The order of all three terms together on the finest level.
     pub total_order: f64,
-    /// Whether printed digits make it more uncertain than the scatter does.
+    /// Whether printed digits are more uncertain than the scatter.
     pub is_rounded: bool,
     /// Whether the term h^(p+1) is more than half of the two others on the coarsest level.
     pub is_coarse: bool,
 }
 
-/// The order of the term below that of order p.
+/// The order of the term below the term of order p.
 pub(crate) fn lower(p: f64) -> f64 {
     if p > 0.0 { (p - 1.0).max(0.0) } else { p - 1.0 }
 }
 
-/// The scatter that printed digits make, whose error is uniform; relative to the errors.
+/// The scatter due to printed digits, whose error is uniform; relative to the errors.
 pub(crate) fn rounding(levels: &[Level]) -> f64 {
     let sum: f64 = levels.iter().map(|level| level.rounding.powi(2) / 3.0).sum();
     (sum / levels.len() as f64).sqrt()
 }
 
 impl Share {
-    /// From where to where it may be.
+    /// The interval of the share.
     pub fn interval(&self) -> [f64; 2] {
         [self.share - self.reach, self.share + self.reach]
     }
 
-    /// By how much, from where to where, it lowers the order on the finest level below p.
+    /// The interval by which the term lowers the order on the finest level below p.
     pub fn lowers(&self, p: f64) -> [f64; 2] {
         self.interval().map(|share| (p - self.order) * share)
     }
 
     /// Fits three levels or more, each error relative to itself; `None` if they do not determine the terms.
     ///
-    /// The scatter is that about the fit, with one level of the usual scatter, and that of printed digits.
+    /// The scatter combines the scatter about the fit, one level of the usual scatter, and printed digits.
     pub(crate) fn of(levels: &[Level], p: f64, q: f64) -> Option<Self> {
         let (coarsest, finest) = (levels.first()?, levels.last()?);
         let row = |level: &Level| {
             let (x, e) = (level.length / finest.length, level.error() / finest.error());
             let [main, low, high] = [p, q, p + 1.0].map(|power| x.powf(power) / e);
-            // The first unknown is the sum of the terms on the finest level, so that the others over it are shares.
+            // The first unknown is the sum of the terms on the finest level, so that the others relative to it are shares.
             ([main, low - main, high - main], 1.0)
         };
         let found = solve(&levels.iter().map(row).collect::<Vec<_>>())?;
@@ -92,7 +92,7 @@ mod tests {
         assert_eq!(orders, [2.0, 1.0, 0.0, 0.0, -1.0, -2.0]);
     }
 
-    /// Levels of errors of a law, refined by 2, and the share of first order.
+    /// The share of first order in errors of a law, on levels refined by 2.
     fn of(count: i32, law: impl Fn(f64) -> f64) -> Share {
         let sample = |k: i32| Sample::new(2f64.powi(k) * 1e-2, law(2f64.powi(k)));
         let levels = Sequence::new((0..count).map(sample));
@@ -112,7 +112,7 @@ mod tests {
     fn levels_are_coarse_where_the_third_term_is_more_than_half_of_the_others() {
         assert!(of(4, |x| x * x + 0.2 * x.powi(3)).is_coarse);
         assert!(!of(4, |x| x * x + 0.03 * x.powi(3)).is_coarse);
-        // The term of first order counts among the others: 120 are less than half of 64 + 200.
+        // The term of first order counts among the others: 120 is less than half of 64 + 200.
         assert!(of(4, |x| x * x + 0.234 * x.powi(3)).is_coarse);
         assert!(!of(4, |x| 25.0 * x + x * x + 0.234 * x.powi(3)).is_coarse);
     }

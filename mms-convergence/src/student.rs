@@ -29,7 +29,7 @@ fn incomplete_beta(x: f64, [a, b]: [usize; 2]) -> f64 {
     value.clamp(0.0, 1.0)
 }
 
-/// How likely |t| exceeds this.
+/// The probability that |t| exceeds this value.
 fn both_tails(t: f64, freedom: usize) -> f64 {
     incomplete_beta(freedom as f64 / (freedom as f64 + t * t), [freedom, 1])
 }
@@ -50,7 +50,7 @@ pub(crate) fn quantile(outside: f64, freedom: usize) -> f64 {
     high
 }
 
-/// How likely a ratio of two independent variances of the same expectation exceeds this.
+/// The probability that a ratio of two independent variances of the same expectation exceeds this value.
 pub(crate) fn tail_of_ratio(ratio: f64, [above, below]: [usize; 2]) -> f64 {
     let (above_f, below_f) = (above as f64, below as f64);
     incomplete_beta(below_f / (below_f + above_f * ratio), [below, above])
@@ -64,7 +64,7 @@ mod tests {
         assert!((found / expected - 1.0).abs() < 1e-4, "{found}, {expected}");
     }
 
-    /// Of one degree of freedom t is the tangent of a uniform angle; of two it is algebraic.
+    /// With one degree of freedom t is the tangent of a uniform angle; with two it is algebraic.
     #[test]
     fn quantiles_are_those_of_closed_forms() {
         for outside in [0.3, 0.05, 0.01] {
@@ -74,7 +74,7 @@ mod tests {
         }
     }
 
-    /// Tables that everybody has.
+    /// Published tables.
     #[test]
     fn quantiles_and_tails_are_those_of_tables() {
         for (freedom, t) in

@@ -1,44 +1,44 @@
-//! A second term beside that of the expected order: e = C h^p + D h^q.
+//! A second term beside the term of the expected order: e = C h^p + D h^q.
 
 use crate::OUTSIDE;
 use crate::least::solve;
 use crate::order::Line;
 use crate::sequence::Level;
 
-/// What a second term is, and so what a drift of the orders shows.
+/// The kind of a second term, which explains a drift of the orders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// q = 0: errors level off.
     Plateau,
     /// q = p - 1: an error of lower order, which takes over on finer levels.
     LowerOrder,
-    /// q = p + 1, or p + 2 where symmetry leaves no odd powers: an error of higher order, which goes away on finer levels.
+    /// q = p + 1, or p + 2 if symmetry excludes odd powers: an error of higher order, which vanishes on finer levels.
     PreAsymptotic,
 }
 
 /// A second term in the errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
-    /// What it is.
+    /// The kind of the term.
     pub kind: Kind,
     /// q.
     pub order: f64,
-    /// D h^q over the error on the finest level; negative where it takes away from it.
+    /// D h^q over the error on the finest level; negative if it reduces the error.
     pub share: f64,
-    /// From where to where that may be.
+    /// The interval of the share.
     pub interval: [f64; 2],
-    /// The length at which both terms are as large: a lower order takes over below it, a higher one above.
+    /// The length at which both terms are equal: a lower order takes over below it, a higher one above.
     pub takes_over: f64,
 }
 
 impl Term {
-    /// Whether it is there, and not nothing but scatter.
+    /// Whether the term is significant, not only scatter.
     pub fn is_shown(&self) -> bool {
         self.interval[0] > 0.0 || self.interval[1] < 0.0
     }
 
-    /// By how much it moves the order of the finest level away from p, at least: with the digits of a table a share of
-    /// some percent may be there or not.
+    /// The least change of the order of the finest level from p due to the term: the digits of a table cannot decide shares of
+    /// some percent.
     pub fn moves(&self, expected: f64) -> f64 {
         let least =
             if self.is_shown() { self.interval[0].abs().min(self.interval[1].abs()) } else { 0.0 };
@@ -46,21 +46,21 @@ impl Term {
     }
 }
 
-/// Each with its q.
+/// Each kind with its q.
 fn kinds(expected: f64) -> impl Iterator<Item = (Kind, f64)> {
     let lower = (expected - 1.0 > 1e-9).then_some((Kind::LowerOrder, expected - 1.0));
     let higher = [1.0, 2.0].map(|more| (Kind::PreAsymptotic, expected + more));
     std::iter::once((Kind::Plateau, 0.0)).chain(lower).chain(higher)
 }
 
-/// A power law that leaves no more than this is exact but for rounding.
+/// The sum of squares up to which a power law is exact up to rounding.
 const EXACT: f64 = 1e-20;
 
-/// The second term that explains the errors of three levels or more best, if one explains them better than a power law
-/// of another order does.
+/// The second term that explains the errors of three levels or more best, if it explains them better than a power law of
+/// another order.
 ///
-/// Each error counts relative to itself. Intervals are Student's for one of four terms that were looked at
-/// (Bonferroni), so that scatter alone shows one in 5 % of all cases at most.
+/// Errors are relative. Intervals are Student's for one of four tested terms (Bonferroni), so that scatter alone shows one in
+/// at most 5 % of all cases.
 pub(crate) fn second_term(levels: &[Level], expected: f64) -> Option<Term> {
     let misfit = Line::through(levels).map_or(f64::INFINITY, |line| line.left);
     if misfit < EXACT {
@@ -71,7 +71,7 @@ pub(crate) fn second_term(levels: &[Level], expected: f64) -> Option<Term> {
     (best.1 < misfit).then_some(best.0)
 }
 
-/// One of them, and its misfit.
+/// Fits one kind of term, and returns its misfit, too.
 fn fit(levels: &[Level], p: f64, (kind, q): (Kind, f64)) -> Option<(Term, f64)> {
     let finest = levels.last()?;
     let row = |level: &Level| {

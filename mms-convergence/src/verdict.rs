@@ -1,34 +1,34 @@
-//! What a study ends with.
+//! The verdict of a study.
 
 use std::fmt;
 
-/// The version of the rule by which verdicts are made: another rule has another number.
+/// The version of the rule of verdicts: a changed rule has another number.
 pub const RULE: u32 = 3;
 
-/// How far the observed order may be from the expected one, by default.
+/// The default tolerance of the observed order.
 pub const TOLERANCE: f64 = 0.15;
 
-/// How far an error constant may be from the expected one, relative to it: runs are the same on every machine but for
-/// rounding, and what levels lose by not being asymptotic is the same as well.
+/// The relative tolerance of an error constant: runs are the same on every machine up to rounding, and the deviation of levels
+/// that are not asymptotic is the same as well.
 pub const CONSTANT_TOLERANCE: f64 = 0.01;
 
-/// The outcome of a study; the worse, the later.
+/// The outcome of a study, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// The values that were compared show nothing of the solver.
+    /// The compared values contain no information about the solver.
     NoEvidence,
-    /// Every error is round-off: there is no order to observe, and nothing left of the error.
+    /// Every error is round-off: there is no order to observe, and no other error.
     Exact,
     /// The levels show the expected order.
     Pass,
-    /// The levels do not tell, or show a higher order.
+    /// The levels do not decide, or show a higher order.
     NotAsymptotic,
     /// The levels show a lower order or another error constant, or a run stopped.
     Fail,
 }
 
 impl Verdict {
-    /// Whether it speaks for the solver.
+    /// Whether the verdict supports the solver.
     pub fn is_good(self) -> bool {
         matches!(self, Verdict::Pass | Verdict::Exact)
     }

@@ -7,10 +7,10 @@ use crate::order::Basis;
 use crate::term::{Kind, Term};
 use crate::verdict::Verdict;
 
-/// How levels are called: by what is refined, or as who asks likes it.
+/// A function that names a level: by its length, or as the caller prefers.
 pub type Name<'a> = &'a dyn Fn(f64) -> String;
 
-/// A bound of an order, with the digits that tell it from the expected order.
+/// A bound of an order, with enough digits to differ from the expected order.
 pub fn bound(value: f64, expected: f64) -> String {
     let short = format!("{value:.2}");
     let is_told = |text: &String| text.parse() != Ok(expected);
@@ -22,39 +22,39 @@ pub fn bound(value: f64, expected: f64) -> String {
     format!("{}, {side} {expected}", longer.unwrap_or(short))
 }
 
-/// Why an order may be above that of theory.
+/// The reasons why an order may exceed the theoretical one.
 const ABOVE: &str = "an order above theory comes from an error that changes its sign between the levels, from errors of \
      space and time that cancel, from places where the method is more accurate than elsewhere (nodes, Gauss points), \
-     from coarse levels that are not asymptotic, or from a theory that says too little";
+     from coarse levels that are not asymptotic, or from a theory that predicts too low an order";
 
 impl Judgement {
-    /// The verdict with what decided it, and then what is behind it, a sentence a line. `symbol` is that of the lengths in
-    /// formulas: h or dt.
+    /// The verdict with the deciding norm, and then its explanation, a sentence a line. `symbol` is the symbol of the lengths
+    /// in formulas: h or dt.
     pub fn sentences(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
         let first = format!("{}: {}", self.verdict(), self.headline(name));
         std::iter::once(first).chain(self.explanations(symbol, name)).collect()
     }
 
-    /// The order with its interval, the norm and the levels that decided, and what was expected.
+    /// The order with its interval, the norm and the levels that decided, and the expected order.
     pub fn headline(&self, name: Name<'_>) -> String {
         let Judged { norm, expected, finding } = self.deciding();
         finding.says(norm, *expected, name)
     }
 
-    /// The reasons of the verdict, a sentence a line: first where the interval is from.
+    /// The reasons of the verdict, a sentence a line: first the basis of the interval.
     pub fn explanations(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
         let Judged { expected, finding, .. } = self.deciding();
         let basis = finding.basis(*expected).into_iter();
         basis.chain(self.reasons(symbol, name)).collect()
     }
 
-    /// The reasons of the verdict, without where the interval is from.
+    /// The reasons of the verdict, without the basis of the interval.
     pub fn reasons(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
         let Judged { expected, finding, .. } = self.deciding();
         let mut lines = finding.reasons(*expected, symbol, name);
         lines.extend(self.layer().map(|q| {
             format!(
-                "the orders of l1, l2 and linf are those of a layer at a face where the order is {q:.1}: q + 1, q + 1/2 \
+                "the orders of l1, l2 and linf indicate a layer at a face where the order is {q:.1}: q + 1, q + 1/2 \
                  and q; look at the boundary conditions"
             )
         }));
@@ -63,7 +63,7 @@ impl Judgement {
 }
 
 impl Finding {
-    /// The order, its interval, norm and levels, and what was expected.
+    /// The order, its interval, norm and levels, and the expected order.
     fn says(&self, norm: &str, expected: Expected, name: Name<'_>) -> String {
         let levels = match self.lengths.as_slice() {
             [] => "no level".into(),
@@ -90,7 +90,7 @@ impl Finding {
 
     fn because(&self, expected: Expected) -> String {
         match self.reason {
-            Reason::Exact => "; no error is more than rounding makes".into(),
+            Reason::Exact => "; all errors are at round-off".into(),
             Reason::Settled | Reason::Below | Reason::Above => String::new(),
             Reason::Stopped => "; a run stopped".into(),
             Reason::NoOrder => "; an error is exactly zero, or nothing fits".into(),
@@ -120,11 +120,11 @@ impl Finding {
         ))
     }
 
-    /// Where the interval is from.
+    /// The basis of the interval.
     fn basis(&self, expected: Expected) -> Option<String> {
         match self.estimate?.basis {
             Basis::Scatter => Some(format!(
-                "the interval is that of 95 % by the scatter about a power law, and no less than +-{:.2}",
+                "the 95 % interval follows from the scatter about a power law, and is no less than +-{:.2}",
                 expected.resolution()
             )),
             Basis::Drift => Some(
@@ -158,7 +158,7 @@ impl Finding {
         lines
     }
 
-    /// What a pass does not exclude.
+    /// The errors that a pass does not exclude.
     fn left_open(&self, name: Name<'_>) -> Option<String> {
         let (share, finest) = (self.share?, self.lengths.last()?);
         Some(format!(
@@ -171,7 +171,7 @@ impl Finding {
 }
 
 impl Fit {
-    /// The formula, and how far errors are from it.
+    /// The formula, and the distance of errors from it.
     pub fn sentence(&self, norm: &str) -> String {
         format!(
             "{norm} = {:.3e} h^{:.2} {:+.3e} dt^{:.2} in all runs, within {:.1} %",

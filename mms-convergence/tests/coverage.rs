@@ -1,22 +1,22 @@
-//! Intervals hold what they promise to, in two thousand studies with noise of which the law is known.
+//! Intervals contain the true order as often as they promise, in 2000 studies with noise of a known law.
 
 use mms_convergence::{Basis, Expected, Finding, Sample, Sequence, Verdict};
 
 use crate::sampled::sampled;
 
-/// The share of kinds of studies: one in so many is tried.
+/// One in this number of kinds of studies is tried.
 const SHARE: usize = 4;
 
 const SECOND: Expected = Expected::new(2.0, 0.15);
 const STUDIES: usize = 2000;
 
-/// Normally distributed, by Box and Muller.
+/// A normally distributed number, by Box and Muller.
 fn normal(random: &mut fastrand::Rng) -> f64 {
     let (radius, angle) = ((-2.0 * (1.0 - random.f64()).ln()).sqrt(), random.f64());
     radius * (std::f64::consts::TAU * angle).cos()
 }
 
-/// What is found in studies of errors C h^order with a relative noise, `runs` of them on each level.
+/// The findings of studies with errors C h^order and a relative noise, `runs` of them on each level.
 fn studies(levels: i32, runs: i32, order: f64, noise: f64) -> Vec<Finding> {
     let mut random = fastrand::Rng::with_seed(2014);
     let mut study = || {
@@ -31,8 +31,8 @@ fn share(findings: &[Finding], is: impl Fn(&Finding) -> bool) -> f64 {
     findings.iter().filter(|it| is(it)).count() as f64 / findings.len() as f64
 }
 
-/// Three standard deviations of the share of 2000 studies are 1.5 %. Levels that are left out because orders seem to
-/// approach the expected one may take 1 % more.
+/// Three standard deviations of the share of 2000 studies are 1.5 %. Levels that are dropped because orders seem to approach
+/// the expected one may cost 1 % more.
 #[test]
 fn intervals_of_95_percent_hold_the_true_order_in_as_many_studies() {
     for (levels, runs) in sampled([(4, 1), (5, 1), (7, 1), (3, 4), (4, 3)], SHARE) {
@@ -55,7 +55,7 @@ fn scatter_of_a_percent_lets_what_is_right_pass_and_what_is_wrong_fail() {
     }
 }
 
-/// How often studies pass and fail, in percent, whose errors have that share of first order on the finest of some levels, a
+/// The percentage of studies that pass and fail, whose errors have that share of first order on the finest of some levels, a
 /// drift k h/h_1 with |k| of 0.3 at most, and a relative noise.
 fn passed_and_failed(levels: i32, noise: f64, first: f64) -> [f64; 2] {
     let mut random = fastrand::Rng::with_seed(1962);
@@ -95,7 +95,7 @@ fn right_methods_pass_and_a_fifth_of_first_order_does_not() {
     }
 }
 
-/// Noise alone shows a second term in no more than 5 % of all studies; three standard deviations are 1.5 %.
+/// Noise alone shows a second term in at most 5 % of all studies; three standard deviations are 1.5 %.
 #[test]
 fn noise_is_seldom_taken_for_a_second_term() {
     let kinds = (3..7).flat_map(|levels| [0.003, 0.03, 0.1].map(|noise| (levels, noise)));
@@ -105,8 +105,8 @@ fn noise_is_seldom_taken_for_a_second_term() {
     }
 }
 
-/// Replicates make three levels more accurate. Six of 5 % leave 2 %, and so 10 % of the share of a lower order: seven of
-/// ten studies pass, less three standard deviations.
+/// Replicates make three levels more accurate. Six with 5 % noise reduce it to 2 %, and so the share of a lower order is known
+/// to 10 %: seven of ten studies pass, minus three standard deviations.
 #[test]
 fn replicates_tell_what_three_levels_cannot() {
     let alone = studies(3, 1, 2.0, 0.05);
@@ -123,7 +123,8 @@ fn replicates_tell_what_three_levels_cannot() {
     assert!(share(&replicated, by_scatter) > 0.94);
 }
 
-/// Levels that scatter more than their replicates do are not judged by these: all replicates are off by one factor.
+/// If levels scatter more than their replicates do, the replicates are not used: all replicates of a level deviate by one
+/// factor.
 #[test]
 fn replicates_do_not_hide_what_levels_have_in_common() {
     let factors = [1.0, 1.3, 0.8, 1.2];

@@ -1,4 +1,4 @@
-//! Errors whose law is known, and the verdict that is true of them.
+//! Errors with a known law, and their correct verdict.
 
 use mms_convergence::{
     Basis, Expected, Finding, Judgement, Kind, Reason, Sample, Sequence, Verdict,
@@ -6,7 +6,7 @@ use mms_convergence::{
 
 const SECOND: Expected = Expected::new(2.0, 0.15);
 
-/// Levels of sizes n, n/2, .. 1 times the finest, with the errors that a law makes of these sizes.
+/// Levels of sizes n, n/2, .. 1 times the finest, with the errors of a law of these sizes.
 fn levels(count: i32, law: impl Fn(f64) -> f64) -> Sequence {
     let sizes = (0..count).map(|k| 2f64.powi(k));
     Sequence::new(sizes.map(|x| Sample::new(x * 1e-2, 1e-4 * law(x))))
@@ -16,7 +16,7 @@ fn finding(count: i32, law: impl Fn(f64) -> f64) -> Finding {
     Finding::of(&levels(count, law), SECOND)
 }
 
-/// Levels between which errors have these orders.
+/// The finding for levels with these orders between them.
 fn with_orders(orders: &[f64]) -> Finding {
     let mut errors = vec![1.0];
     for order in orders {
@@ -38,7 +38,7 @@ fn a_power_law_of_the_expected_order_passes() {
         assert_eq!((found.term, found.lengths.len()), (None, count as usize));
         let estimate = found.estimate.expect("an order");
         assert_near(estimate.order, 2.0, 1e-9);
-        // Not narrower than a quarter of the tolerance.
+        // At least a quarter of the tolerance.
         assert_near(estimate.reach(), 0.0375, 1e-9);
     }
 }
@@ -65,7 +65,7 @@ fn the_order_of_a_power_law_may_be_off_by_the_tolerance() {
     }
 }
 
-/// The rule of the finest pair within 0.15 passed the first of these on three levels, and called its limit 1.96 +- 0.02.
+/// The rule of the finest pair within 0.15 passed the first of these on three levels, and computed its limit as 1.96 +- 0.02.
 #[test]
 fn a_hidden_lower_order_is_found_with_its_share_and_where_it_takes_over() {
     for count in 3..7 {
@@ -90,7 +90,7 @@ fn a_hidden_lower_order_is_found_with_its_share_and_where_it_takes_over() {
     }
 }
 
-/// A term of lower order that takes away from the error raises the order, until it changes its sign.
+/// A term of lower order that reduces the error raises the order, until the error changes its sign.
 #[test]
 fn a_term_that_takes_away_from_the_error_is_no_pass() {
     for count in 3..7 {
@@ -99,7 +99,7 @@ fn a_term_that_takes_away_from_the_error_is_no_pass() {
     }
 }
 
-/// Theory may leave a range of orders, within which they settle.
+/// Theory may state a range of orders, within which they settle.
 #[test]
 fn an_order_within_a_range_passes() {
     let range = Expected { highest: 2.0, ..Expected::new(1.0, 0.15) };
@@ -120,12 +120,12 @@ fn an_order_within_a_range_passes() {
             assert_eq!(found.verdict, *verdict, "{count}, {at}: {found:?}");
         }
     }
-    // Two levels are held to the range as well.
+    // Two levels are compared with the range as well.
     assert_eq!(found(2, &|x| x.powf(1.6)).verdict, Verdict::Pass);
     assert_eq!(found(2, &|x| x.powf(0.8)).verdict, Verdict::Fail);
 }
 
-/// Three levels whose order is left open, and what leaves it so.
+/// Three levels whose order is open, with the cause.
 #[test]
 fn digits_or_scatter_leave_an_order_open() {
     let with = |rounding: f64| {
@@ -142,8 +142,7 @@ fn digits_or_scatter_leave_an_order_open() {
     assert_eq!((scattered.verdict, scattered.reason), (Verdict::NotAsymptotic, Reason::Open));
 }
 
-/// Orders of velocities on irregular meshes do not settle. The finest pair is enough for a pass, and one that is too low is
-/// none.
+/// Orders of velocities on irregular meshes do not settle. The finest pair is enough for a pass, and too low a pair is none.
 #[test]
 fn orders_need_not_settle_where_theory_gives_a_bound() {
     let rough = Expected { highest: 3.0, settles: false, ..Expected::new(2.0, 0.15) };
@@ -163,7 +162,7 @@ fn orders_need_not_settle_where_theory_gives_a_bound() {
     assert_eq!(found(&[1.3, 1.1, 1.0], rough), Verdict::Fail);
 }
 
-/// Orders of solvers that are right, whose errors have terms of higher order.
+/// Orders of correct solvers, whose errors have terms of higher order.
 #[test]
 fn orders_that_are_near_pass() {
     assert_eq!(with_orders(&[1.93, 1.95, 1.96, 1.96]).verdict, Verdict::Pass);
@@ -194,7 +193,7 @@ fn a_plateau_is_found_as_the_error_at_which_others_level_off() {
     assert!(finding(5, |x| x.powf(1.5)).limit.expect("a limit").error.abs() < 1e-10);
 }
 
-/// A plateau beside an order that is not the expected one is no second term of that, and yet is no limit of 0.
+/// A plateau beside an order that is not the expected one is no second term of the expected order, and yet the limit is not 0.
 #[test]
 fn errors_that_level_off_are_not_consistent_whatever_their_order() {
     let found = finding(6, |x| 0.9 * x.powf(2.3) + 0.01 * x.sin().abs() + 0.4);
@@ -203,7 +202,7 @@ fn errors_that_level_off_are_not_consistent_whatever_their_order() {
     assert!(limit.interval[0] > 0.0 && !limit.is_consistent(), "{limit:?}");
 }
 
-/// What moves the order by less than a quarter of the tolerance decides nothing.
+/// A term that changes the order by less than a quarter of the tolerance decides nothing.
 #[test]
 fn a_term_that_nobody_sees_decides_nothing() {
     let found = finding(4, |x| 0.995 * x * x + 0.005 * x);
@@ -218,7 +217,7 @@ fn coarse_levels_that_are_not_asymptotic_yet_are_left_out() {
     assert_eq!(found.verdict, Verdict::Pass, "{found:?}");
     let term = found.term.expect("a term");
     assert_eq!((term.kind, term.order), (Kind::PreAsymptotic, 4.0));
-    // Of three levels none is left out.
+    // Three levels are never reduced.
     let found = finding(3, |x| x * x + 0.3 * x.powi(4));
     let seen = (found.verdict, found.reason, found.lengths.len());
     assert_eq!(seen, (Verdict::NotAsymptotic, Reason::Open, 3), "{found:?}");
@@ -291,7 +290,7 @@ fn printed_digits_count() {
     assert_eq!(of(&[0.1, 0.05, 0.025], &[1.2e-3, 3.0e-4, 7.5e-5]).verdict, Verdict::Pass);
 }
 
-/// Orders are ratios of errors, whose size does not matter.
+/// Orders are ratios of errors, so that the size of errors does not matter.
 #[test]
 fn errors_may_be_as_small_or_large_as_numbers_are() {
     for law in [|x: f64| x * x + 0.03 * x, |x: f64| x * x + x, |x: f64| x * x + 40.0] {
@@ -317,7 +316,7 @@ fn errors_of_zero_have_no_order_and_runs_that_stop_fail() {
     assert_eq!((found.verdict, found.reason), (Verdict::Fail, Reason::Stopped));
 }
 
-/// The seminorm of H1 falls from above: its term of higher order goes away later. It decides where it fails.
+/// The seminorm of H1 approaches its order from above: its term of higher order vanishes later. It decides if it fails.
 #[test]
 fn the_seminorm_of_h1_decides_where_it_fails() {
     let l2 = levels(3, |x| x * x);
@@ -370,7 +369,7 @@ fn the_worst_norm_decides_and_a_layer_is_told_by_its_orders() {
     let layer = three([square, |x| x.powf(1.5), |x| x]);
     assert_eq!(layer.deciding().norm, "l2");
     assert_near(layer.layer().expect("a layer"), 1.0, 1e-6);
-    // Of order 1/2 at the face, all three are lower.
+    // With the order 1/2 at the face, all three are lower.
     let layer = three([|x| x.powf(1.5), |x| x, |x| x.sqrt()]);
     assert_near(layer.layer().expect("a layer"), 0.5, 1e-6);
     assert_eq!(three([|x| x, |x| x, |x| x]).layer(), None, "a lower order everywhere is no layer");
@@ -399,7 +398,7 @@ fn words_name_the_norm_the_levels_and_the_reason() {
     );
 }
 
-/// What has no order is neither passed nor failed, and speaks for the solver. A run that stopped does not.
+/// Errors without an order neither pass nor fail, and support the solver. A run that stopped does not.
 #[test]
 fn errors_that_are_round_off_have_a_verdict_of_their_own() {
     let samples = || [0.0, 3e-17, 1e-17].into_iter().zip([4.0, 2.0, 1.0]);
@@ -414,7 +413,7 @@ fn errors_that_are_round_off_have_a_verdict_of_their_own() {
     assert_eq!(
         says,
         [
-            "exact to round-off: no observed order (l2; 3 levels, h 4 to h 1), expected 2; no error is more than rounding makes"
+            "exact to round-off: no observed order (l2; 3 levels, h 4 to h 1), expected 2; all errors are at round-off"
         ]
     );
     let stopped = Sample { error: None, ..Sample::new(0.5, 0.0) };

@@ -15,8 +15,7 @@
 //! | module | contents |
 //! |---|---|
 //! | `axisymmetric` | bodies of revolution: rings, hoop strain, hoop stress |
-//! | `body` | bodies filled with particles: boxes, annuli and sectors, Cartesian or fitted; the pieces of faces that particles
-//! carry; jitter |
+//! | `body` | bodies filled with particles: boxes, annuli and sectors, Cartesian or fitted; the pieces of faces that particles carry; jitter |
 //! | `lattice` | positions of nodes: cells of any edge lengths, offset, period, knots |
 //! | `stencil`, `shape` | the nodes of a bunch with w and grad w; the sums between particles and nodes |
 //! | `particle`, `column` | the particles' arrays, grouped in bunches |
