@@ -1,5 +1,4 @@
-//! Embeds `fields/*.toml`, so that the folder is the list of the gallery, and gives the shared
-//! library its name.
+//! Embeds `fields/*.toml`, so that the folder is the list of the gallery, and sets the name of the shared library.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -25,8 +24,7 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// What a program that is linked with the library asks for when it starts: its name, wherever it was
-/// built.
+/// Sets the name by which linked programs search for the library at their start, independent of where it was built.
 fn name_the_library() {
     let name = match env::var("CARGO_CFG_TARGET_OS").as_deref() {
         Ok("linux") => "-soname,libmms_capi.so",

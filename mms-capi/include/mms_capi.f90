@@ -1,5 +1,5 @@
-! The interface of mms_capi.h for Fortran 2003 and later; the header says what the functions do.
-! Texts are passed as `'bar_1d' // c_null_char`; `c_text` makes one of what comes back.
+! The interface of mms_capi.h for Fortran 2003 and later; the header documents the functions.
+! Texts are passed as `'bar_1d' // c_null_char`; `c_text` converts a returned text.
 module mms_capi
     use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int32_t, c_null_char, c_ptr, &
         c_size_t, c_associated, c_f_pointer
@@ -79,7 +79,7 @@ module mms_capi
             integer(c_int32_t) :: code
         end function
 
-        ! `stop` is `c_null_ptr`, or of `mms_stop_new`.
+        ! `stop` is `c_null_ptr`, or a result of `mms_stop_new`.
         function mms_field_from_text_stoppable(name, toml, material, stop, field, message, &
             capacity) result(code) bind(c)
             import :: c_char, c_int32_t, c_ptr, c_size_t
@@ -218,8 +218,8 @@ module mms_capi
             integer(c_int32_t) :: code
         end function
 
-        ! `points(D, count)`, `values(C, count)`, and of a tensor `values(J, i, count)`: the first index
-        ! of an array is the fastest. `normals` is `c_null_ptr`, or `c_loc` of an array(D, count).
+        ! `points(D, count)`, `values(C, count)`, and for a tensor `values(J, i, count)`: the first index of an array is the
+        ! fastest. `normals` is `c_null_ptr`, or `c_loc` of an array(D, count).
         function mms_field_evaluate(field, quantity, time, count, points, normals, values, &
             message, capacity) result(code) bind(c)
             import :: c_char, c_double, c_int32_t, c_ptr, c_size_t

@@ -1,6 +1,5 @@
-//! The functions of `mms_capi.h`, which is made of this file: each has its pointers checked by `memory` and calls
-//! safe Rust. What C passes is read before anything is written, but for the points of a batch, and the message is
-//! written last.
+//! The functions of `mms_capi.h`, which is generated from this file: `memory` checks the pointers of each, and it calls safe
+//! Rust. All arguments are read before anything is written, except for the points of a batch, and the message is written last.
 #![allow(unsafe_code)]
 
 use std::ffi::{c_char, c_int};
@@ -17,7 +16,7 @@ use crate::gallery;
 use crate::memory::{Extent, Message, Room, array, handle, reference, text};
 use crate::stop::Stop;
 
-/// The most bytes of a name. What has more is read no further.
+/// The largest number of bytes of a name. Longer names are not read further.
 const MAX_NAME: usize = 4096;
 
 /// The names of all quantities, one after the other, each with a NUL at its end.
@@ -72,9 +71,8 @@ pub unsafe extern "C" fn mms_field_from_gallery(
     unsafe { make(field, Message::new(message, capacity), || gallery::field(word("name", name)?)) }
 }
 
-/// Makes `*field` the field of a text, the content of a field file. `name` is what
-/// messages call it. `material` is the content of the material file that the field names, as in
-/// `model = "./mine.toml"`, or NULL where it names a material that ships.
+/// Makes `*field` the field of a text, the content of a field file. Messages call it `name`. `material` is the content of the
+/// material file that the field names, as in `model = "./mine.toml"`, or NULL if it names a material that ships.
 ///
 /// Codes: MMS_CODE_INVALID_FIELD, with every mistake at its line and column. On failure `*field` is NULL.
 #[unsafe(no_mangle)]
@@ -90,7 +88,7 @@ pub unsafe extern "C" fn mms_field_from_text(
     unsafe { mms_field_from_text_stoppable(name, toml, material, null(), field, message, capacity) }
 }
 
-/// The same as `mms_field_from_text`, until somebody requests to stop. NULL for `stop` means that nobody will.
+/// Makes `*field` as `mms_field_from_text` does, until `mms_stop_request`. `stop` may be NULL.
 ///
 /// Codes: MMS_CODE_INVALID_FIELD, MMS_CODE_STOPPED. On failure `*field` is NULL.
 #[unsafe(no_mangle)]
@@ -116,15 +114,15 @@ pub unsafe extern "C" fn mms_field_from_text_stoppable(
     }
 }
 
-/// Makes what a program requests to stop with, by which calls of its are told to. It is never NULL.
+/// Makes the object by which a program stops calls. Never returns NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn mms_stop_new() -> *mut Stop {
     Box::into_raw(Box::new(Stop::default()))
 }
 
-/// Requests that calls to which `stop` was passed, now or later, end soon: within milliseconds, or some hundred of
-/// them where a formula is large. There is no way back; the next work gets a new one. Any thread may call
-/// this at any time, and so may a signal handler. NULL is allowed.
+/// Requests that calls to which `stop` was passed, now or later, end soon: within milliseconds, or some hundred of them if a
+/// formula is large. A request cannot be withdrawn; further work needs a new `stop`. Any thread may call this at any time, and
+/// so may a signal handler. NULL is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_stop_request(stop: *const Stop) {
     // SAFETY: the caller passes what `mms_stop_new` made, or NULL.
@@ -133,14 +131,14 @@ pub unsafe extern "C" fn mms_stop_request(stop: *const Stop) {
     }
 }
 
-/// Whether somebody requested to stop: 1 or 0; 0 for NULL. A signal handler may call this, too.
+/// Whether a stop was requested: 1 or 0; 0 for NULL. A signal handler may call this, too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_stop_is_requested(stop: *const Stop) -> c_int {
     // SAFETY: the caller passes what `mms_stop_new` made, or NULL.
     unsafe { reference(stop) }.is_some_and(Stop::is_asked).into()
 }
 
-/// Frees it, when all calls to which it was passed have ended. NULL is allowed.
+/// Frees `stop`, when all calls to which it was passed have ended. NULL is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_stop_free(stop: *mut Stop) {
     // SAFETY: the caller passes what `mms_stop_new` made, once, or NULL.
@@ -150,8 +148,7 @@ pub unsafe extern "C" fn mms_stop_free(stop: *mut Stop) {
     }
 }
 
-/// Frees a field, and what its functions returned. NULL is allowed. No other call may be at work on
-/// the field.
+/// Frees a field, and all texts that its functions returned. NULL is allowed. No other call may be using the field.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_free(field: *mut Field) {
     // SAFETY: the caller passes what `make` made, once, or NULL.
@@ -161,7 +158,7 @@ pub unsafe extern "C" fn mms_field_free(field: *mut Field) {
     }
 }
 
-/// The name of a field; NULL for NULL. It lives as long as the field, as do all texts of a field.
+/// The name of a field; NULL for NULL. All texts of a field are valid until the field is freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_name(field: *const Field) -> *const c_char {
     // SAFETY: the caller passes a field or NULL.
@@ -182,7 +179,7 @@ pub unsafe extern "C" fn mms_field_dimension(field: *const Field) -> usize {
     unsafe { reference(field) }.map_or(0, Field::dimension)
 }
 
-/// How many parameters a field has; 0 for NULL.
+/// The number of parameters of a field; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_parameter_count(field: *const Field) -> usize {
     // SAFETY: the caller passes a field or NULL.
@@ -200,7 +197,7 @@ pub unsafe extern "C" fn mms_field_parameter_name(
     name.map_or(null(), |name| name.as_ptr())
 }
 
-/// How many faces the body of a field has; 0 for NULL.
+/// The number of faces of a field's body; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_face_count(field: *const Field) -> usize {
     // SAFETY: the caller passes a field or NULL.
@@ -215,7 +212,7 @@ pub unsafe extern "C" fn mms_field_face_name(field: *const Field, index: usize) 
     name.map_or(null(), |name| name.as_ptr())
 }
 
-/// How many quantities the file of a field defines beside those of every field: of given fields and of balances; 0 for NULL.
+/// The number of quantities that only the file of a field defines: given fields and balances; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_own_quantity_count(field: *const Field) -> usize {
     // SAFETY: the caller passes a field or NULL.
@@ -254,7 +251,7 @@ pub unsafe extern "C" fn mms_field_get_parameter(
     }
 }
 
-/// Sets a parameter. Parameters whose defaults depend on it follow, unless they were set.
+/// Sets a parameter. Parameters whose defaults depend on it change, unless they were set.
 ///
 /// Codes: MMS_CODE_UNKNOWN_NAME, MMS_CODE_INVALID_PARAMETER. On failure nothing changes.
 #[unsafe(no_mangle)]
@@ -273,8 +270,8 @@ pub unsafe extern "C" fn mms_field_set_parameter(
     }
 }
 
-/// Sets `count` parameters at once, where one alone would not be allowed, as in a body that moves
-/// away. An evaluation on another thread sees all of them or none.
+/// Sets `count` parameters at once, if a single change would not be allowed, as in a body that moves away. An evaluation on
+/// another thread uses all new values or none.
 ///
 /// Codes: MMS_CODE_UNKNOWN_NAME, MMS_CODE_INVALID_PARAMETER. On failure nothing changes.
 #[unsafe(no_mangle)]
@@ -322,14 +319,12 @@ pub unsafe extern "C" fn mms_field_components(
 
 /// Evaluates a quantity at `count` points of the reference body, at one time.
 ///
-/// `quantity` is a name, or one of the symbols u x v a H F J C B E rho P sigma b W. `points` are count x
-/// D coordinates, those of a point side by side. `values` get count x C numbers, those of a point
-/// side by side, with C from `mms_field_components`; a tensor is stored by rows. `normals` are count
-/// x D components of reference unit normals for "traction" (see `mms_field_normals`), and NULL for
-/// all else. `values` may not overlap with the others.
+/// `quantity` is a name, or one of the symbols u x v a H F J C B E rho P sigma b W. `points` are count x D coordinates, with
+/// the D coordinates of a point adjacent. `values` get count x C numbers, with the C numbers of a point adjacent and C from
+/// `mms_field_components`; a tensor is stored by rows. `normals` are count x D components of reference unit normals for
+/// "traction" (see `mms_field_normals`), and NULL for all other quantities. `values` may not overlap with the others.
 ///
-/// Every value is a finite number, or the call fails: the message then names the first point, and
-/// `values` are unspecified.
+/// Every value is a finite number, or the call fails: the message then names the first point, and `values` are unspecified.
 ///
 /// Codes: MMS_CODE_UNKNOWN_NAME, MMS_CODE_INVALID_ARGUMENT, MMS_CODE_NOT_FINITE.
 #[unsafe(no_mangle)]
@@ -361,9 +356,9 @@ pub unsafe extern "C" fn mms_field_evaluate(
     }
 }
 
-/// The same as `mms_field_evaluate`, until somebody requests to stop. NULL for `stop` means that nobody will.
+/// Evaluates as `mms_field_evaluate` does, until `mms_stop_request`. `stop` may be NULL.
 ///
-/// Codes: those of `mms_field_evaluate`, MMS_CODE_STOPPED.
+/// Codes: as `mms_field_evaluate`, and MMS_CODE_STOPPED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_evaluate_stoppable(
     field: *const Field,
@@ -434,7 +429,7 @@ pub unsafe extern "C" fn mms_field_normals(
 
 /// Writes the number of components of a bound to `*components`: D, 1 or 2, see `mms_field_get_bound`.
 ///
-/// Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound.
+/// Codes: MMS_CODE_UNKNOWN_NAME, also if the body has no such bound.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_bound_components(
     field: *const Field,
@@ -453,13 +448,12 @@ pub unsafe extern "C" fn mms_field_bound_components(
     }
 }
 
-/// Writes where the body or the time window ends: "lower", "upper" (D coordinates each, of a box),
-/// "inner", "outer" (a radius each, of what is round), "theta" (first and last angle), "z" (the ends of a
-/// cylinder), "phi" (first and last angle from +Z of a sphere), "vertices" (of a polygon, X and Y of one after
-/// another), "time" (first and last). It follows the parameters. `values` has room for `room` numbers; where that is not enough,
-/// nothing is written to it.
+/// Writes a bound of the body or the time window: "lower", "upper" (D coordinates each, of a box), "inner", "outer" (a radius
+/// each, of a round body), "theta" (first and last angle), "z" (the ends of a cylinder), "phi" (first and last angle from +Z of
+/// a sphere), "vertices" (of a polygon, X and Y of one after another), "time" (first and last). Bounds depend on the
+/// parameters. `values` has room for `room` numbers; if that is too small, nothing is written to it.
 ///
-/// Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound; MMS_CODE_INVALID_ARGUMENT.
+/// Codes: MMS_CODE_UNKNOWN_NAME, also if the body has no such bound; MMS_CODE_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_get_bound(
     field: *const Field,
@@ -485,10 +479,10 @@ pub unsafe extern "C" fn mms_field_get_bound(
     }
 }
 
-/// The same as `mms_field_get_bound`, where `values` has room for all components; 3 are always enough.
-/// It stays for programs that call it. New ones say how much room there is.
+/// Writes a bound as `mms_field_get_bound` does, into `values` with room for all components; 3 are always enough. Kept for
+/// programs that call it. New ones pass the size.
 ///
-/// Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound.
+/// Codes: MMS_CODE_UNKNOWN_NAME, also if the body has no such bound.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_bound(
     field: *const Field,
@@ -501,7 +495,7 @@ pub unsafe extern "C" fn mms_field_bound(
     unsafe { mms_field_get_bound(field, name, usize::MAX, values, message, capacity) }
 }
 
-/// Puts a new field where the caller wants it, and NULL if there is none.
+/// Writes a new field to `place`, and NULL if there is none.
 unsafe fn make(
     place: *mut *mut Field,
     message: Message,
@@ -521,13 +515,13 @@ unsafe fn this<'a>(field: *const Field) -> Result<&'a Field, Error> {
     unsafe { handle("field", field) }
 }
 
-/// The name of something. None is longer than `MAX_NAME`.
+/// A name of at most `MAX_NAME` bytes.
 unsafe fn word<'a>(what: &str, name: *const c_char) -> Result<&'a str, Error> {
     // SAFETY: passed on.
     unsafe { text(what, name, MAX_NAME, MmsCode::UnknownName) }
 }
 
-/// The content of a file. The compiler reads no longer one.
+/// The content of a file, of at most `MAX_FILE` bytes, as the compiler requires.
 unsafe fn content<'a>(what: &str, content: *const c_char) -> Result<&'a str, Error> {
     // SAFETY: passed on.
     unsafe { text(what, content, MAX_FILE, MmsCode::InvalidField) }

@@ -1,4 +1,4 @@
-//! The functions as C calls them.
+//! Tests of the functions as C calls them.
 
 use std::ffi::{CStr, CString, c_char};
 use std::ptr::{null, null_mut};
@@ -10,10 +10,10 @@ use mms_codegen::materials::MATERIALS;
 use super::*;
 use crate::evaluator::BLOCK;
 
-/// Room for any message but those of field files.
+/// The capacity for any message except for the mistakes of field files.
 const CAPACITY: usize = 1024;
 
-/// What a call says: its code and its message.
+/// The code and the message of a call.
 fn said(call: impl FnOnce(*mut c_char, usize) -> MmsCode) -> (MmsCode, String) {
     let mut message = [b'?'; CAPACITY];
     let code = call(message.as_mut_ptr().cast(), CAPACITY);
@@ -21,12 +21,12 @@ fn said(call: impl FnOnce(*mut c_char, usize) -> MmsCode) -> (MmsCode, String) {
     (code, message.to_str().expect("UTF-8").into())
 }
 
-/// A call that does what it is for.
+/// Makes a call that has to succeed.
 fn done(call: impl FnOnce(*mut c_char, usize) -> MmsCode) {
     assert_eq!(said(call), (MmsCode::Ok, String::new()));
 }
 
-/// A field that is freed when it goes.
+/// A field that is freed on drop.
 struct Handle(*mut Field);
 
 // SAFETY: the interface promises it, and `Field` is `Sync`.
@@ -34,7 +34,7 @@ unsafe impl Sync for Handle {}
 
 impl Drop for Handle {
     fn drop(&mut self) {
-        // SAFETY: made below, and gone now.
+        // SAFETY: made below, and not used afterwards.
         unsafe { mms_field_free(self.0) }
     }
 }
@@ -59,7 +59,7 @@ impl Handle {
         value
     }
 
-    /// The quantity at points, with room for `components` numbers at each.
+    /// Evaluates a quantity at points, with room for `components` numbers at each.
     fn evaluate(
         &self,
         quantity: &CStr,
@@ -171,7 +171,7 @@ fn a_quantity_has_its_components_side_by_side() {
     }
     let gradient = cube.evaluate(c"H", 0.1, &points, None, 9).expect("values");
     let transposed: Vec<_> = (0..9).map(|entry| gradient[entry % 3 * 3 + entry / 3]).collect();
-    assert_ne!(gradient[..9], transposed, "rows and columns can be told apart");
+    assert_ne!(gradient[..9], transposed, "rows and columns differ");
     let step = 1e-6;
     let u = |y: f64| cube.evaluate(c"u", 0.1, &[0.1, y, 0.3], None, 3).expect("values");
     let slope = (u(0.2 + step)[0] - u(0.2 - step)[0]) / (2.0 * step);
@@ -327,7 +327,7 @@ fn null_is_refused_where_a_pointer_is_needed() {
     let mut place = null_mut();
     let b = c"b".as_ptr();
     let at = [0.5].as_ptr();
-    // SAFETY: NULL is allowed everywhere; what follows holds the library to that.
+    // SAFETY: NULL is allowed everywhere, which the following calls test.
     unsafe {
         for (what, (code, message)) in [
             ("name", said(|m, n| mms_field_from_gallery(null(), &mut place, m, n))),

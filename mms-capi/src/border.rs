@@ -1,5 +1,5 @@
-//! Between Rust and C: panics stop here, messages go into buffers of the caller, and no more of the caller's stack
-//! is used than it may have.
+//! The border between Rust and C: stops panics, writes messages into buffers of the caller, and limits the use of the caller's
+//! stack.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -8,12 +8,11 @@ use std::thread;
 use crate::error::{Error, MmsCode};
 use crate::memory::Message;
 
-/// The stack for a compilation. The deepest nesting that TOML's parser follows takes 0.4 MiB of it.
+/// The stack for a compilation. The deepest nesting that TOML's parser accepts needs 0.4 MiB of it.
 const STACK: usize = 2 << 20;
 
-/// Runs the body of a function of the interface. Whatever goes wrong becomes a code, and a message
-/// in the caller's buffer, which holds the empty text if nothing did. The message is the last that is
-/// written, so that it may stand where an argument stood.
+/// Runs the body of a function of the interface. Any failure becomes a code, and a message in the caller's buffer; the message
+/// is empty on success. It is written last, so that the buffer may overlap with an argument.
 pub fn guarded(message: Message, body: impl FnOnce(Message) -> Result<(), Error>) -> MmsCode {
     let (code, text) = match attempt(|| body(message)) {
         Ok(()) => (MmsCode::Ok, String::new()),
@@ -23,20 +22,20 @@ pub fn guarded(message: Message, body: impl FnOnce(Message) -> Result<(), Error>
     code
 }
 
-/// What a body returns; a panic is an error.
+/// Runs a body, and converts a panic to an error.
 pub fn attempt<T>(body: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
-    // Nothing that the body may leave half done is looked at again: a field changes only as a whole.
+    // Half-made changes of the body are never used: a field changes only as a whole.
     catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|panic| {
         Err(Error::new(MmsCode::Defect, format!("a mistake of mms_capi: {}", what(panic.as_ref()))))
     })
 }
 
-/// Runs the body of a function that cannot fail but for a mistake of ours.
+/// Runs the body of a function that fails only by a defect of this library.
 pub fn guarded_or<T>(otherwise: T, body: impl FnOnce() -> T) -> T {
     catch_unwind(AssertUnwindSafe(body)).unwrap_or(otherwise)
 }
 
-/// Runs what may take more stack than a thread of the caller has, on a thread of its own.
+/// Runs a body that may need more stack than a thread of the caller has, on a separate thread.
 pub fn on_own_stack<T: Send>(body: impl FnOnce() -> Result<T, Error> + Send) -> Result<T, Error> {
     let builder = thread::Builder::new().name("mms_capi".into()).stack_size(STACK);
     thread::scope(|scope| match builder.spawn_scoped(scope, body) {
@@ -48,7 +47,7 @@ pub fn on_own_stack<T: Send>(body: impl FnOnce() -> Result<T, Error> + Send) -> 
     })
 }
 
-/// What a panic says.
+/// The text of a panic.
 fn what(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied();
     text.or(panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message")

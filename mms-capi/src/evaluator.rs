@@ -1,4 +1,4 @@
-//! Quantities at many points, in blocks: to the bits of the interpreter of one point.
+//! Quantities at many points, in blocks: with the same bits as the interpreter of one point.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -6,25 +6,25 @@ use mms_mechanics::{Output, Program};
 use mms_program::block::{Blockwise, Plan, Prepared, Room, Way};
 use mms_spec::quantity::Quantity;
 
-/// How many points are evaluated together.
+/// The number of points that are evaluated together.
 pub const BLOCK: usize = <f64 as Blockwise>::BLOCK;
 
-/// What the evaluation of each quantity needs, kept from call to call.
+/// The data for the evaluation of each quantity, reused from call to call.
 #[derive(Debug)]
 pub struct Evaluator(Vec<(Quantity, Asked)>);
 
-/// What one quantity takes.
+/// The data for one quantity.
 #[derive(Debug, Default)]
 struct Asked {
     plan: OnceLock<Arc<Plan>>,
-    /// Of calls that have ended, as many as there were at a time.
+    /// The data of calls that have ended; as many as there were concurrent calls.
     idle: Mutex<Vec<Ready>>,
 }
 
-/// What one call needs.
+/// The data of one call.
 #[derive(Debug)]
 pub struct Ready {
-    /// The parameters that it was prepared for.
+    /// The parameters of `prepared`.
     parameters: Vec<f64>,
     prepared: Prepared<f64>,
     room: Room<f64>,
@@ -33,13 +33,13 @@ pub struct Ready {
 }
 
 impl Evaluator {
-    /// Nothing yet, for these quantities.
+    /// An evaluator without data, for these quantities.
     pub fn new(quantities: impl Iterator<Item = Quantity>) -> Self {
         Evaluator(quantities.map(|quantity| (quantity, Asked::default())).collect())
     }
 
-    /// Lends what a call needs that evaluates a quantity with these parameters. Other parameters than those of the call
-    /// before run the stage Parameter, and nothing else.
+    /// Calls `work` with the data for an evaluation of a quantity with these parameters. If the parameters differ from the
+    /// previous call's, only the stage Parameter runs again.
     pub fn with<R>(
         &self,
         program: &Program,
@@ -74,8 +74,8 @@ impl Evaluator {
 }
 
 impl Ready {
-    /// Evaluates at points of `dimension` coordinates each, of which there may be normals, no more than a block of them.
-    /// Gives the components of each point in turn.
+    /// Evaluates at points of `dimension` coordinates each, which may have normals, at most a block of them. Returns the
+    /// components of each point in turn.
     pub fn evaluate(
         &mut self,
         time: f64,

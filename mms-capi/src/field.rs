@@ -1,4 +1,4 @@
-//! A field, compiled and interpreted: all that the C interface does, in safe Rust.
+//! A field, compiled and interpreted: the complete C interface in safe Rust.
 
 use std::ffi::CString;
 use std::mem;
@@ -23,7 +23,7 @@ use crate::evaluator::{BLOCK, Evaluator};
 use crate::settings::Settings;
 use crate::stop::Stop;
 
-/// How far the length of a normal may be from 1.
+/// The tolerance of the length of a normal.
 const UNIT: f64 = 1e-6;
 
 /// A field and the values of its parameters.
@@ -32,23 +32,22 @@ pub struct Field {
     compiled: Compiled,
     settings: Settings<SortedMap<usize, Rational>>,
     evaluator: Evaluator,
-    /// Which values are surely allowed, once any are set.
+    /// The bounds of values that are certainly allowed, once any are set.
     quick: OnceLock<Option<Quick>>,
-    /// What C programs are shown, with a NUL at the end.
+    /// The name for C programs, with a NUL at the end.
     pub name: CString,
-    /// Its title.
+    /// The title.
     pub title: CString,
-    /// The names of its parameters, in the order of the file.
+    /// The names of the parameters, in the order of the file.
     pub parameters: Vec<CString>,
-    /// The names of its faces.
+    /// The names of the faces.
     pub faces: Vec<CString>,
-    /// The names of the quantities that its file defines.
+    /// The names of the quantities that the file defines.
     pub own: Vec<CString>,
 }
 
 impl Field {
-    /// The field of a text. `name` is what messages call it; `material` is the text of its material,
-    /// where that is none of those that ship.
+    /// Compiles the field of a text. Messages call it `name`; `material` is the text of its material, unless that ships.
     pub fn compile(
         name: &str,
         text: &str,
@@ -56,7 +55,7 @@ impl Field {
         stop: &Stop,
     ) -> Result<Self, Error> {
         let made = on_own_stack(|| Field::compile_here(name, text, material, stop));
-        // What comes of work that was stopped looks like a mistake, or like a field.
+        // The result of stopped work may look like a mistake, or like a field.
         stop.check().and(made)
     }
 
@@ -74,7 +73,7 @@ impl Field {
         let options = Options { stop: stop.of_compiler(), ..Options::default() };
         let mut compiled = compile_with(name, &format!("{name}.toml"), text, &load, &options)
             .map_err(|failure| Error::new(MmsCode::InvalidField, failure))?;
-        // Whoever stops other work later does not mean this field.
+        // A later request to stop other work must not stop this field.
         compiled.graph = mem::take(&mut compiled.graph).stopped_by(&Default::default());
         let shown = |text: &str| {
             CString::new(text).map_err(|error| {
@@ -122,9 +121,8 @@ impl Field {
         Ok(self.settings.now()[self.position(name)?])
     }
 
-    /// Sets parameters, all of them or, where the field does not allow that, none. Those that depend
-    /// on them and were not set follow. The first mistake is the last that is read, so that there are no more
-    /// reads than parameters and one.
+    /// Sets all parameters, or none if the field does not allow that. Parameters that depend on them and were not set change,
+    /// too. Stops reading at the first mistake, so that it reads at most one setting more than there are parameters.
     pub fn set<'a>(
         &self,
         settings: impl IntoIterator<Item = Result<(&'a str, f64), Error>>,
@@ -143,7 +141,7 @@ impl Field {
         self.settings.change(new, |set| self.accepted(set))
     }
 
-    /// The values of all parameters where some are set, if the field allows them.
+    /// The values of all parameters if some are set and the field allows them.
     fn accepted(&self, set: &SortedMap<usize, Rational>) -> Result<Vec<f64>, Error> {
         let quick = self.quick.get_or_init(|| Quick::new(&self.compiled));
         if let Some(all) = quick.as_ref().and_then(|quick| quick.accepted(set)) {
@@ -155,9 +153,9 @@ impl Field {
         Ok(self.compiled.parameters(set))
     }
 
-    /// Evaluates a quantity at points of `dimension` coordinates each; `normals` has one for each
-    /// point where the quantity is the traction, and is not read otherwise. `put` gets the
-    /// components of each point in turn, tensors in rows, up to the point where this fails or is stopped.
+    /// Evaluates a quantity at points of `dimension` coordinates each. `normals` has one for each point if the quantity is the
+    /// traction, and is not read otherwise. `put` gets the components of each point in turn, tensors in rows, up to the point
+    /// where this fails or is stopped.
     pub fn evaluate(
         &self,
         name: &str,
@@ -204,8 +202,8 @@ impl Field {
         })
     }
 
-    /// How many points there are before the first that is none, or whose normal is none, and what is wrong with that;
-    /// `first` is the place of the first among all.
+    /// The number of points before the first invalid one, or the first with an invalid normal, and its error; `first` is the
+    /// index of the first point among all.
     fn sound(&self, first: usize, points: &[f64], normals: &[f64]) -> (usize, Option<Error>) {
         let dimension = self.dimension();
         let count = points.len() / dimension;
@@ -223,7 +221,7 @@ impl Field {
         (count, None)
     }
 
-    /// The first point of a block where a value is no finite number, and what to say of it.
+    /// The first point of a block where a value is not finite, and its error.
     fn undefined(
         &self,
         first: usize,
@@ -249,7 +247,7 @@ impl Field {
         Some((index, Error::new(MmsCode::NotFinite, message)))
     }
 
-    /// The outward reference unit normals of a face at points of it: `put` gets each in turn.
+    /// Computes the outward reference unit normals of a face at points of it: `put` gets each in turn.
     pub fn normals(
         &self,
         face: &str,
@@ -277,7 +275,7 @@ impl Field {
         Ok(())
     }
 
-    /// What the body and the time window end at.
+    /// A bound of the body or of the time window.
     pub fn bound(&self, name: &str) -> Result<Vec<f64>, Error> {
         let named = |bound: Bound| match bound {
             Bound::Time => "time",
@@ -308,7 +306,7 @@ impl Field {
     }
 }
 
-/// Whether all are finite, without a branch for each.
+/// Whether all numbers are finite, without a branch for each.
 fn are_finite(numbers: &[f64]) -> bool {
     numbers.iter().fold(true, |all, number| all & number.is_finite())
 }
@@ -323,7 +321,7 @@ fn finite(what: &str, numbers: &[f64]) -> Result<(), Error> {
     }
 }
 
-/// Whether a normal is one.
+/// Refuses a normal that is not a unit vector.
 fn unit(index: usize, normal: &[f64]) -> Result<(), Error> {
     let squared: f64 = normal.iter().map(|component| component * component).sum();
     if (squared - 1.0).abs() <= UNIT {

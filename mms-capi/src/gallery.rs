@@ -8,7 +8,7 @@ use crate::error::{Error, MmsCode};
 use crate::field::Field;
 use crate::stop::Stop;
 
-/// Names, texts, and the texts of the materials that fields bring along, in the order of the names.
+/// Names, texts, and the texts of the fields' own materials, in the order of the names.
 pub const FIELDS: &[(&CStr, &str, Option<&str>)] =
     include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
 

@@ -1,6 +1,6 @@
-//! The memory of a C program: what it passes is addresses and counts. Each is checked as far as an address can be
-//! checked, and becomes no more than it is: a text or an array that is read, or room that is written to. Room
-//! is never referred to, for it may hold nothing yet.
+//! The memory of a C program: it passes addresses and counts. Each is checked as far as an address can be checked, and is used
+//! only as declared: a text or an array that is read, or room that is written to. There are no references to room, since it may
+//! be uninitialised.
 #![allow(unsafe_code)]
 
 use std::ffi::c_char;
@@ -8,7 +8,7 @@ use std::slice;
 
 use crate::error::{Error, MmsCode};
 
-/// The bytes that an argument is about.
+/// The memory range of an argument.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
     what: &'static str,
@@ -17,12 +17,12 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// Those of an array or of a text.
+    /// The range of an array or of a text.
     pub fn of<T>(what: &'static str, elements: &[T]) -> Self {
         Extent { what, start: elements.as_ptr().addr(), bytes: size_of_val(elements) }
     }
 
-    /// Refuses two that have a byte in common.
+    /// Refuses two ranges with a common byte.
     fn apart(self, other: Extent) -> Result<(), Error> {
         let [first, second] = if self.start <= other.start { [self, other] } else { [other, self] };
         if first.bytes == 0 || second.bytes == 0 || second.start - first.start >= first.bytes {
@@ -48,17 +48,17 @@ impl Message {
         Message { first, capacity: if first.is_null() { 0 } else { capacity } }
     }
 
-    /// Where it is. Of a capacity that no buffer has, such as SIZE_MAX, the first byte alone is sure.
+    /// The range of the buffer. For a capacity that no buffer has, such as SIZE_MAX, only the first byte is certain.
     pub fn extent(self) -> Extent {
         let bytes = if self.capacity > isize::MAX as usize { 1 } else { self.capacity };
         Extent { what: "message", start: self.first.addr(), bytes }
     }
 
-    /// Writes as much of a text as there is room for, whole characters only, and a NUL.
+    /// Writes as much of a text as fits, whole characters only, and a NUL.
     pub fn write(self, text: &str) {
         let Some(room) = self.capacity.checked_sub(1) else { return };
         let text = cut(text, room);
-        // SAFETY: `capacity` bytes are there; a text of Rust is in memory of its own, whatever they hold.
+        // SAFETY: `capacity` bytes exist; a text of Rust is in separate memory.
         unsafe {
             self.first.cast::<u8>().copy_from_nonoverlapping(text.as_ptr(), text.len());
             self.first.add(text.len()).write(0);
@@ -72,7 +72,7 @@ fn cut(text: &str, most: usize) -> &str {
     ends.into_iter().find_map(|end| text.get(..end)).unwrap_or_default()
 }
 
-/// Room for results.
+/// Memory for results.
 #[derive(Debug)]
 pub struct Room<T> {
     next: *mut T,
@@ -80,10 +80,10 @@ pub struct Room<T> {
 }
 
 impl<T: Copy> Room<T> {
-    /// Room for `count` elements, apart from everything else that the call is about.
+    /// Memory for `count` elements, separate from all other arguments of the call.
     ///
     /// # Safety
-    /// NULL, or `count` elements that may be written to while this lives; they may hold anything.
+    /// NULL, or `count` elements that may be written to while this lives; they may be uninitialised.
     pub unsafe fn new(
         what: &'static str,
         first: *mut T,
@@ -102,7 +102,7 @@ impl<T: Copy> Room<T> {
         if elements.is_empty() {
             return;
         }
-        // SAFETY: there is room; what Rust lends is elsewhere, for `new` refused what overlaps.
+        // SAFETY: there is room; memory of Rust is elsewhere, for `new` refused overlaps.
         unsafe {
             self.next.copy_from_nonoverlapping(elements.as_ptr(), elements.len());
             self.next = self.next.add(elements.len());
@@ -111,7 +111,7 @@ impl<T: Copy> Room<T> {
     }
 }
 
-/// What a handle refers to, if it can be one. It is found without a message, as a signal handler needs it.
+/// The object of a handle, if the address can be one. Creates no message, as signal handlers require.
 ///
 /// # Safety
 /// NULL, or a `T` that lives for `'a`.
@@ -120,7 +120,7 @@ pub unsafe fn reference<'a, T>(place: *const T) -> Option<&'a T> {
     (!place.is_null() && place.is_aligned()).then(|| unsafe { &*place })
 }
 
-/// The same, where it must be one.
+/// The object of a handle, or an error if the address cannot be one.
 ///
 /// # Safety
 /// NULL, or a `T` that lives for `'a`.
@@ -139,11 +139,11 @@ pub unsafe fn array<'a, T>(what: &str, first: *const T, count: usize) -> Result<
     if count == 0 {
         return Ok(&[]);
     }
-    // SAFETY: not NULL, aligned, and no longer than an array can be; the caller vouches for the rest.
+    // SAFETY: not NULL, aligned, and not longer than an array can be; the caller vouches for the rest.
     Ok(unsafe { slice::from_raw_parts(first, count) })
 }
 
-/// A text of at most `most` bytes before its NUL. No byte beyond that is read, nor one behind the NUL.
+/// A text of at most `most` bytes before its NUL. No byte beyond that is read, nor one after the NUL.
 ///
 /// # Safety
 /// NULL, or bytes that nothing changes during `'a`, with a NUL among them or more than `most` of them.
@@ -155,7 +155,7 @@ pub unsafe fn text<'a>(
 ) -> Result<&'a str, Error> {
     check(what, first, 1)?;
     let first = first.cast::<u8>();
-    // SAFETY: each byte up to the NUL, or to the one that is too many, is there.
+    // SAFETY: each byte up to the NUL, or to the first one beyond the limit, exists.
     let Some(length) = (0..=most).find(|index| unsafe { first.add(*index).read() } == 0) else {
         let message = format!("`{what}` has more than {most} bytes, or no NUL at its end");
         return Err(Error::new(too_long, message));
@@ -167,7 +167,7 @@ pub unsafe fn text<'a>(
     })
 }
 
-/// Refuses what no array can be: at NULL, out of line, or longer than memory.
+/// Refuses an address or a count that no array has: NULL, not aligned, or longer than memory.
 fn check<T>(what: &str, first: *const T, count: usize) -> Result<(), Error> {
     let wrong = |message| Err(Error::new(MmsCode::InvalidArgument, message));
     if count == 0 {
@@ -197,7 +197,7 @@ pub mod tests {
 
     /// A buffer as the library sees it.
     pub fn message(buffer: &mut [u8]) -> Message {
-        // SAFETY: it outlives the call that it is for.
+        // SAFETY: the buffer outlives the call.
         unsafe { Message::new(buffer.as_mut_ptr().cast(), buffer.len()) }
     }
 
@@ -260,7 +260,7 @@ pub mod tests {
     #[test]
     fn no_byte_behind_a_text_is_read() {
         let read = |bytes: &[u8], most| {
-            // SAFETY: there are as many bytes as are read, which the first tests and Miri see.
+            // SAFETY: there are as many bytes as are read, which the first tests and Miri check.
             unsafe { text("name", bytes.as_ptr().cast(), most, MmsCode::UnknownName) }
                 .map(String::from)
         };

@@ -6,32 +6,30 @@ use std::sync::PoisonError;
 
 use crate::locks::{Arc, Mutex, RwLock};
 
-/// The parameters of a field. A set `S` has the exact values of those that were set, by position. A panic leaves no
-/// change half done, so that its poison means nothing.
+/// The parameters of a field. A set `S` has the exact values of the parameters that were set, by index. No change is half done
+/// after a panic, so a poisoned lock is ignored.
 #[derive(Debug)]
 pub struct Settings<S> {
-    /// Those that were set; the others are at their defaults, which may depend on these. Locked from
-    /// the look at a change until it is made: of two changes at a time, the later one starts from what the other
-    /// made.
+    /// The set parameters; the others have their defaults, which may depend on these. Locked from the check of a change until
+    /// it is made: of two concurrent changes, the later one starts from the result of the other.
     set: Mutex<S>,
-    /// All values, in the order of the file. Locked no longer than it takes to copy or exchange the pointer, so
-    /// that no evaluation waits for the look at a change.
+    /// All values, in the order of the file. Locked only while the pointer is copied or exchanged, so that no evaluation waits
+    /// for the check of a change.
     all: RwLock<Arc<Vec<f64>>>,
 }
 
 impl<S: Clone + Default> Settings<S> {
-    /// Nothing is set; these are the defaults.
+    /// No parameter is set; these are the defaults.
     pub fn new(defaults: Vec<f64>) -> Self {
         Settings { set: Mutex::new(S::default()), all: RwLock::new(Arc::new(defaults)) }
     }
 
-    /// All values at this moment.
+    /// The present values.
     pub fn now(&self) -> Arc<Vec<f64>> {
         self.all.read().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Sets parameters, where `values` finds the values of all for what is then set. On failure nothing
-    /// changes.
+    /// Sets parameters; `values` computes the values of all parameters from the set ones. On failure nothing changes.
     pub fn change<T, E>(
         &self,
         new: S,

@@ -1,23 +1,23 @@
-//! How a caller ends what takes long.
+//! Stops of long calls.
 
 use crate::error::{Error, MmsCode};
 
-/// By which calls are told to stop.
+/// An object by which calls are stopped.
 #[derive(Clone, Debug, Default)]
 pub struct Stop(mms_symbolic::work::Stop);
 
 impl Stop {
-    /// Tells them so. It is one store to an atomic variable, so that signal handlers may do it.
+    /// Requests the stop. This is one store to an atomic variable, so that signal handlers may call it.
     pub fn ask(&self) {
         self.0.ask();
     }
 
-    /// Whether somebody did.
+    /// Whether a stop was requested.
     pub fn is_asked(&self) -> bool {
         self.0.is_asked()
     }
 
-    /// What is asked in the middle of work: whether to go on.
+    /// Returns an error if a stop was requested. Called in the middle of work.
     pub fn check(&self) -> Result<(), Error> {
         if self.is_asked() {
             return Err(Error::new(MmsCode::Stopped, "stopped before its end, as was requested"));
@@ -25,7 +25,7 @@ impl Stop {
         Ok(())
     }
 
-    /// What the compiler asks.
+    /// The stop of the compiler.
     pub fn of_compiler(&self) -> mms_symbolic::work::Stop {
         self.0.clone()
     }

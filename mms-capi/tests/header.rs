@@ -1,5 +1,4 @@
-//! The header is that of the functions. After a change, `MMS_BLESS=1 cargo test -p mms-capi --test
-//! header` writes it.
+//! The header equals the output of cbindgen. After a change, `MMS_BLESS=1 cargo test -p mms-capi --test header` writes it.
 
 use std::fs;
 use std::path::Path;

@@ -1,10 +1,10 @@
-//! Parameters that are set while others evaluate, in every order in which threads can take the locks.
+//! Parameters that are set while other threads evaluate, in every order in which threads can acquire the locks.
 #![cfg(test)]
 
 #[path = "../../src/settings.rs"]
 mod settings;
 
-/// The locks, which try all orders.
+/// The locks of loom, which tries all orders.
 mod locks {
     pub use loom::sync::{Arc, Mutex, RwLock};
 }
@@ -18,14 +18,14 @@ use settings::Settings;
 
 type Set = BTreeMap<usize, f64>;
 
-/// Two parameters with the defaults 0, and a third that is their sum. Positive ones are allowed.
+/// Two parameters with the default 0, and a third that is their sum. Only values that are not negative are allowed.
 fn values(set: &Set) -> Result<Vec<f64>, &'static str> {
     let [a, b] = [0, 1].map(|index| set.get(&index).copied().unwrap_or_default());
     if a < 0.0 || b < 0.0 { Err("negative") } else { Ok(vec![a, b, a + b]) }
 }
 
-/// Tries every order of threads each of which makes a change, allowed or not, and of one that evaluates twice.
-/// Each evaluation sees one of the allowed states, and no less than one before it. The last state remains.
+/// Tries every order of threads each of which makes a change, allowed or not, and of one that evaluates twice. Each evaluation
+/// reads one of the allowed states, and the second none before the first. The last state remains.
 fn explore(changes: &'static [&'static [(usize, f64)]], allowed: &'static [[f64; 3]]) {
     loom::model(move || {
         let settings = Arc::new(Settings::<Set>::new(vec![0.0; 3]));

@@ -1,15 +1,14 @@
-//! Programs in C that misuse the library, each by itself, where memory ends at a page that is not there, and with
-//! AddressSanitizer and valgrind. More calls: `MMS_RANDOM_CALLS=1000000 cargo test -p mms-capi --test suite
-//! random`.
+//! Programs in C that misuse the library: each alone, with memory that ends at an inaccessible page, and with AddressSanitizer
+//! and valgrind. More calls: `MMS_RANDOM_CALLS=1000000 cargo test -p mms-capi --test suite random`.
 
 use super::{PREFIX, is_installed, quoted, root, run, scratch};
 use crate::sampled::sampled_count;
 
-/// Of so many random calls valgrind makes one: it is fifty times as slow.
+/// valgrind makes one in this number of random calls: it takes 50 times as long.
 const SHARE_OF_VALGRIND: u32 = 16;
 
-/// What a program prints, which is `NAME.c` of this folder, however it is run; `calls` are its arguments for so
-/// many, where valgrind makes fewer.
+/// The outputs of the program `NAME.c` of this folder, run in every way; `calls` makes its arguments for a number of calls,
+/// which is smaller for valgrind.
 fn every_way(name: &str, calls: impl Fn(u32) -> String) -> Vec<String> {
     let source = quoted(&root().join("tests/programs").join(name).with_extension("c"));
     let prefix = quoted(&PREFIX);

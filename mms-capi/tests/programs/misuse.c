@@ -1,5 +1,5 @@
-/* Every kind of wrong argument that a function can see, each with the code that answers it, and what is allowed
- * though it looks wrong. Prints how many calls it made. */
+/* Every kind of wrong argument that a function can detect, each with its code, and arguments that are allowed
+ * though they look wrong. Prints the number of calls. */
 #include "support.h"
 #include <mms_capi.h>
 #include <pthread.h>
@@ -12,7 +12,7 @@ static int calls;
 static char message[65536];
 static mms_field *bar, *ring, *cube;
 
-/* Ends the program where a call returned another code, or its message lacks some words. */
+/* Ends the program if a call returned another code, or its message lacks some words. */
 static void expect(int line, mms_code expected, const char *words, mms_code code, const char *said)
 {
     ++calls;
@@ -22,7 +22,7 @@ static void expect(int line, mms_code expected, const char *words, mms_code code
     }
 }
 
-/* Ends the program where something does not hold. */
+/* Ends the program if a condition is false. */
 static void must(int line, int holds)
 {
     if (!holds) {
@@ -38,7 +38,7 @@ static void must(int line, int holds)
 #define OK(function, ...) REFUSED(MMS_CODE_OK, "", function, __VA_ARGS__)
 #define WRONG(words, function, ...) REFUSED(MMS_CODE_INVALID_ARGUMENT, words, function, __VA_ARGS__)
 
-/* Numbers at the end of their room. */
+/* Numbers at the end of their memory. */
 static double *numbers(size_t count, double value)
 {
     double *first = room(count * sizeof *first);
@@ -48,7 +48,7 @@ static double *numbers(size_t count, double value)
     return first;
 }
 
-/* So many letters, with no NUL behind the last. */
+/* This number of letters, without a NUL after the last. */
 static char *letters(size_t count)
 {
     return memset(room(count), 'a', count);
@@ -78,7 +78,7 @@ static void counts_that_no_array_has(void)
     }
 }
 
-/* No more names are read than show that one is there twice. */
+/* Names are only read until one is found twice. */
 static void more_settings_than_parameters(void)
 {
     size_t enough = mms_field_parameter_count(bar) + 1;
@@ -174,11 +174,11 @@ static void messages_over_arguments(void)
     SAYS(MMS_CODE_NOT_FINITE, "body_force of `", both.text,
          mms_field_evaluate(bar, "b", 0, 2, both.points, NULL, values, both.text, 16));
     OK(mms_field_set_parameter, bar, "amplitude", 0.2);
-    /* A capacity that no buffer has means that there is enough. */
+    /* A capacity larger than any buffer means unlimited. */
     SAYS(MMS_CODE_UNKNOWN_NAME, "no parameter `x`", text, mms_field_get_parameter(bar, "x", values, text, SIZE_MAX));
 }
 
-/* Each text in turn is none. */
+/* Each text in turn is invalid. */
 static void texts_that_are_none(void)
 {
     double *values = numbers(9, 0.1);
@@ -207,7 +207,7 @@ static void texts_that_are_none(void)
     }
 }
 
-/* No byte is read beyond the one that shows that there are too many. */
+/* No byte is read beyond the one that exceeds the limit. */
 static void texts_without_an_end(void)
 {
     double value;
@@ -247,7 +247,7 @@ static void bounds_and_their_room(void)
     REFUSED(MMS_CODE_UNKNOWN_NAME, "this body has lower", mms_field_get_bound, bar, "inner", 3, values);
 }
 
-/* Whatever the capacity, a message is a beginning of the whole one, and ends between characters. */
+/* For every capacity, a message is a beginning of the whole one, and ends between characters. */
 static void capacities_of_messages(void)
 {
     const char *name = "\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80";
@@ -270,7 +270,7 @@ static void capacities_of_messages(void)
     MUST(mms_field_get_parameter(bar, name, &value, NULL, 64) == MMS_CODE_UNKNOWN_NAME);
 }
 
-/* All that a program does, on the least stack that it may have. */
+/* All calls of a program, on the smallest allowed stack. */
 static void *on_a_small_stack(void *toml)
 {
     double points[3] = {0.1, 0.2, 0.3}, normals[3] = {1, 0, 0}, values[9];
@@ -298,7 +298,7 @@ static void *on_a_small_stack(void *toml)
 
 static void a_small_stack(void)
 {
-    /* As deep as TOML's parser follows. */
+    /* The deepest nesting that TOML's parser accepts. */
     char toml[512] = "";
     for (int i = 0; i < 75; ++i) {
         strcat(toml, i == 0 ? "a = " : "{a = ");
@@ -315,7 +315,7 @@ static void a_small_stack(void)
     MUST(!failed);
 }
 
-/* The text of a field that takes seconds to make, or of one that does not where that takes minutes. */
+/* The text of a field that takes seconds to make; a faster one where seconds would be minutes. */
 static char *long_text(void)
 {
 #ifdef HEAP
@@ -348,7 +348,7 @@ static void request_in_handler(int number)
     mms_stop_request(stop);
 }
 
-/* Whatever is at work when somebody requests to stop ends soon, and what comes after it does not begin. */
+/* After a request to stop, a running call ends soon, and later calls do not begin. */
 static void work_that_is_stopped(void)
 {
     enum { COUNT = 20000 };
@@ -388,7 +388,7 @@ static void work_that_is_stopped(void)
         mms_stop_free(stop);
         stop = mms_stop_new();
     }
-    /* What was made before is as it was. */
+    /* A field made before is unchanged. */
     OK(mms_field_set_parameter, early, "rho0", 7);
     OK(mms_field_evaluate, early, "mass_density", 0, 1, points, NULL, values);
     mms_field_free(early);
@@ -401,7 +401,7 @@ static void work_that_is_stopped(void)
     mms_stop_free(NULL);
 }
 
-/* Where the system gives no thread, that is an answer. Comes first, for the stack of a thread that was is kept. */
+/* If the system provides no thread, a code says so. Runs first, since the stacks of ended threads are kept. */
 static void no_thread(void)
 {
 #ifndef HEAP

@@ -1,6 +1,6 @@
-//! The library as others meet it: installed, found by pkg-config and by CMake, and called from C, C++,
-//! Fortran and Python. All programs do the same and print the same, which is what the compiler of
-//! fields says. Other programs misuse it, where no byte of memory is touched unseen.
+//! The library in use: installed, found by pkg-config and by CMake, and called from C, C++, Fortran and Python. All programs
+//! print the same, which is the result of the compiler of fields. Other programs misuse it, with all accesses to memory
+//! checked.
 
 mod checked;
 
@@ -15,7 +15,7 @@ use mms_mechanics::Output;
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
 
-/// Where the library is installed, and then moved to. A space is in its name, as in folders of users.
+/// The folder where the library is installed, and then moved to. Its name has a space, as folders of users may.
 static PREFIX: LazyLock<PathBuf> = LazyLock::new(|| {
     let scratch = scratch();
     let _ = fs::remove_dir_all(scratch);
@@ -26,7 +26,7 @@ static PREFIX: LazyLock<PathBuf> = LazyLock::new(|| {
     prefix
 });
 
-/// Where the programs are built.
+/// The folder where the programs are built.
 fn scratch() -> &'static Path {
     Path::new(concat!(env!("CARGO_TARGET_TMPDIR"), "/capi"))
 }
@@ -100,7 +100,7 @@ fn the_files_beside_the_header_are_in_step_with_it() {
     }
 }
 
-/// What the programs print.
+/// The expected output of the programs.
 fn expected() -> String {
     let text = fs::read_to_string(root().join("fields/bar_1d.toml")).expect("a field");
     let bar = compile("bar_1d", "bar_1d.toml", &text, &|_| Err("none".into())).expect("a field");
@@ -133,7 +133,7 @@ fn quoted(path: &Path) -> String {
     format!("'{}'", path.display())
 }
 
-/// What a line of the shell prints, if it succeeds and has nothing to complain of.
+/// The output of a shell command, which has to succeed.
 fn run(line: &str, folder: &Path) -> String {
     let run = Command::new("sh").args(["-c", line]).current_dir(folder).output().expect("a shell");
     let [out, err] = [&run.stdout, &run.stderr].map(|text| String::from_utf8_lossy(text));
@@ -141,7 +141,7 @@ fn run(line: &str, folder: &Path) -> String {
     out.into_owned()
 }
 
-/// Whether a tool is there. One that is not is named, or fails the test where all are required.
+/// Whether a tool is installed. A missing tool is printed, or fails the test if all are required.
 fn is_installed(tool: &str) -> bool {
     let tool = if tool == "python3" { python() } else { tool.into() };
     let version = Command::new(&tool).arg("--version").output();

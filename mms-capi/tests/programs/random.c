@@ -1,6 +1,5 @@
-/* Calls functions at random, with arguments of which many are wrong: random [CALLS [SEED]]. No call may touch
- * what is not its own, and each must say how it went. Prints how many calls there were, and how many did what they
- * are for. */
+/* Calls functions at random, with many wrong arguments: random [CALLS [SEED]]. No call may access memory that is
+ * not its own, and each must return a correct code. Prints the number of calls, and of successful ones. */
 #include "support.h"
 #include <math.h>
 #include <mms_capi.h>
@@ -27,7 +26,7 @@ static size_t below(size_t count)
     return (size_t)(any() % count);
 }
 
-/* Once in so many times. */
+/* True once in `times` on average. */
 static int once_in(size_t times)
 {
     return below(times) == 0;
@@ -39,7 +38,7 @@ static void wrong(const char *what)
     exit(1);
 }
 
-/* What the functions know of memory. */
+/* The memory that the functions may access. */
 struct text {
     char *first;
     size_t size;
@@ -54,7 +53,7 @@ static struct text copy(const char *text, size_t size)
 
 enum kind { QUANTITY, PARAMETER, FACE, BOUND, ODD, NONE, LONGEST };
 
-/* A name, mostly one of the kind that is wanted. */
+/* A name, mostly of the requested kind. */
 static struct text a_name(const mms_field *field, enum kind kind)
 {
     static const char *const bounds[] = {"lower", "upper", "inner", "outer", "theta", "time"};
@@ -90,7 +89,7 @@ static size_t a_count(void)
     return once_in(16) ? odd[below(5)] : below(6);
 }
 
-/* An array of so many numbers, or what is none. What no array is has but one. */
+/* An array of this number of numbers, or an invalid one. An invalid array has only one. */
 static double *an_array(size_t count, double *other)
 {
     size_t size = count > 1000 ? 1 : count;
@@ -112,7 +111,7 @@ static mms_field *a_field(void)
     return !once_in(32) ? field : once_in(2) ? NULL : (mms_field *)(void *)((char *)field + 1);
 }
 
-/* Looks at what a call left. */
+/* Checks the results of a call. */
 static void look(mms_code code, struct text message)
 {
     done += code == MMS_CODE_OK;
@@ -131,7 +130,7 @@ static void look(mms_code code, struct text message)
     }
 }
 
-/* A buffer: large, small, none, or where an argument is. */
+/* A buffer: large, small, NULL, or the memory of an argument. */
 static struct text a_message(struct text argument)
 {
     struct text made = {NULL, below(64)};
@@ -192,7 +191,7 @@ static void set(void)
     look(mms_field_set_parameters(field, count, names, an_array(count, NULL), message.first, message.size), message);
 }
 
-/* The functions of few results. */
+/* The functions with few results. */
 static void ask(void)
 {
     static const enum kind kinds[] = {PARAMETER, QUANTITY, BOUND, BOUND, BOUND};

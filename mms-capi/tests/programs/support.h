@@ -1,5 +1,5 @@
-/* What the programs share. Memory ends where it is said to end: the byte behind it is a fault. With HEAP it is that of
- * malloc, where sanitizers and valgrind see the same, and what has not been written to besides. */
+/* Code that the programs share. An access to the byte after the end of a memory block is a fault. With HEAP, malloc
+ * allocates the blocks: sanitizers and valgrind detect such accesses, and reads of uninitialised memory. */
 #ifndef SUPPORT_H
 #define SUPPORT_H
 
@@ -27,7 +27,7 @@ static void *must_be(void *start)
     return start;
 }
 
-/* So many bytes, which hold anything. */
+/* Allocates `size` bytes with arbitrary contents. */
 static void *room(size_t size)
 {
     void *start;
@@ -49,7 +49,7 @@ static void *room(size_t size)
     return end - size;
 }
 
-/* Gives back all rooms since there were so many. */
+/* Frees all rooms except the first `count`. */
 static void give_back(size_t count)
 {
     while (room_count > count) {
@@ -80,7 +80,7 @@ static int is_utf8(const char *text, size_t length)
     return 1;
 }
 
-/* Fields that are made in little time. */
+/* Fields that take little time to make. */
 static const char cube_text[] =
     "[field]\n"
     "title = \"A cube that is stretched\"\n"
