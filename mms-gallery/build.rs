@@ -1,7 +1,7 @@
 //! Compiles the field files into Rust modules.
 //!
-//! Each becomes a Rust file of its own, which is written again only where its field or the compiler is another
-//! one: a new field costs no other one anything. Those that are written are compiled side by side.
+//! Each becomes a separate Rust file, which is written again only if its field or the compiler has changed: a new field causes
+//! no work for other fields. Files are compiled in parallel.
 
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
@@ -24,14 +24,14 @@ fn main() -> io::Result<()> {
     let compiler = fs::read(env::current_exe()?)?;
     let mistakes = side_by_side(&files, |file| write_module(file, &compiler, &out));
     if !mistakes.is_empty() {
-        // An error that `main` returned would be shown as Rust writes values down.
+        // An error returned by `main` would be printed in Rust's debug format.
         eprintln!("{}", mistakes.join("\n"));
         process::exit(1);
     }
     fs::write(out.join("gallery.rs"), gallery(&files))
 }
 
-/// What goes wrong with files that the processors share.
+/// Processes the files in parallel, and collects the errors.
 fn side_by_side(
     files: &[FieldFile],
     work: impl Fn(&FieldFile) -> Result<(), String> + Sync,
@@ -48,7 +48,7 @@ fn side_by_side(
     })
 }
 
-/// Writes the module of a field, unless it is there.
+/// Writes the module of a field, unless it is up to date.
 fn write_module(file: &FieldFile, compiler: &[u8], out: &Path) -> Result<(), String> {
     let material = file.material.as_ref().map(|_| file.load_material());
     let mut hasher = DefaultHasher::new();
@@ -65,7 +65,7 @@ fn write_module(file: &FieldFile, compiler: &[u8], out: &Path) -> Result<(), Str
     fs::write(&path, text).map_err(|error| format!("error: {}: {error}", path.display()))
 }
 
-/// One module per field, and the list of them. The feature `linked` says where what is on the list is compiled.
+/// One module per field, and their list. The feature `linked` determines where the listed code is compiled.
 fn gallery(files: &[FieldFile]) -> String {
     let modules = files
         .iter()

@@ -1,7 +1,7 @@
 //! The shipped fields, compiled: one module for each file of the folder `fields/`, which is the list.
 //!
-//! With the feature `linked` all of them are compiled behind the contract of a solver in this crate, for a program that
-//! has them all. Without it that is left to who asks for one: the tests of formulas do not.
+//! With the feature `linked` this crate compiles all of them with the traits of a solver, for a program that has them all.
+//! Without it, only fields that a program uses are compiled with these traits: the tests of formulas use none.
 
 use mms_runtime::scene::Code;
 

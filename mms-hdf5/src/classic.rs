@@ -2,14 +2,14 @@
 
 use crate::{Place, Set, Type, Value, letters};
 
-/// How many dimensions, variables or attributes a list has at most.
+/// The largest number of dimensions, variables or attributes of a list.
 const MOST: usize = 20_000;
 
-/// Where the numbers of a variable are.
+/// The place of a variable's numbers.
 struct Variable {
     name: String,
     axes: Vec<usize>,
-    /// Whether each number of the first axis is in a record of its own.
+    /// Whether each number of the first axis is in a separate record.
     is_record: bool,
     kind: Type,
     attributes: Vec<(String, Value)>,
@@ -21,7 +21,7 @@ pub struct Classic {
     bytes: Vec<u8>,
     attributes: Vec<(String, Value)>,
     variables: Vec<Variable>,
-    /// Bytes from a record to the next.
+    /// The number of bytes from a record to the next.
     stride: u64,
 }
 
@@ -63,14 +63,14 @@ impl<'a> Head<'a> {
         self.padded(length).map(|it| String::from_utf8_lossy(it).into_owned())
     }
 
-    /// So many bytes, and those that fill them up to a multiple of 4.
+    /// Reads `length` bytes, and skips the padding up to a multiple of 4.
     fn padded(&mut self, length: usize) -> Result<&'a [u8], String> {
         let found = self.take(length)?;
         self.take(length.wrapping_neg() % 4)?;
         Ok(found)
     }
 
-    /// How many members a list has that begins with this mark, or with nothing.
+    /// The number of members of a list that begins with this mark, or is absent.
     fn list(&mut self, mark: u64) -> Result<usize, String> {
         let (found, count) = (self.word()?, self.count()?);
         match (found, count) {
@@ -112,7 +112,7 @@ impl<'a> Head<'a> {
     }
 }
 
-/// How many numbers axes have.
+/// The number of values of an array with these axes.
 fn count(axes: &[usize]) -> Option<u64> {
     axes.iter().try_fold(1, |all: u64, &axis| all.checked_mul(axis as u64))
 }
@@ -122,7 +122,7 @@ impl Variable {
         self.kind.bytes().unwrap_or(1) as u64
     }
 
-    /// The bytes that one record has of it, or all that it has.
+    /// The number of bytes of the variable in one record, or in the file.
     fn slab(&self) -> Option<u64> {
         count(&self.axes[usize::from(self.is_record)..])?.checked_mul(self.size())
     }
@@ -165,7 +165,7 @@ impl Classic {
         Ok(classic)
     }
 
-    /// Gives the variables of records their first axis. A file that is still written does not say how many records it has.
+    /// Sets the first axis of record variables. A file that is still being written does not contain the number of records.
     fn count_records(&mut self, records: Option<u64>) -> Result<(), String> {
         let damaged = || String::from("its records are longer than any: the file is damaged");
         let of_records = || self.variables.iter().filter(|it| it.is_record);
@@ -212,7 +212,7 @@ impl Classic {
         })
     }
 
-    /// The bytes of a variable, of which it has so many.
+    /// The bytes of a variable; `needed` is their number.
     pub fn bytes(&self, at: usize, needed: usize) -> Result<Vec<u8>, String> {
         let ends = || String::from("its numbers end with the file: was it cut off?");
         let variable = &self.variables[at];

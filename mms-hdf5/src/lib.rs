@@ -1,8 +1,8 @@
 //! Arrays, words and attributes of HDF5 and netCDF files, over bytes.
 //!
-//! A [`Store`] is one file, whichever of the two formats it has: HDF5, in which netCDF-4 is written as well, or the classic
-//! format of netCDF. A [`Set`] is one array in it, with its shape and the [`Type`] of its numbers; its bytes are read as
-//! they are, in either order. Nothing here opens a file, starts a thread, or knows what an array means.
+//! A [`Store`] is one file in either format: HDF5, which netCDF-4 uses as well, or the classic format of netCDF. A [`Set`] is
+//! one array in it, with its shape and the [`Type`] of its numbers; its bytes are read unchanged, in either order. This crate
+//! opens no file, starts no thread, and does not interpret arrays.
 
 mod classic;
 mod lzf;
@@ -13,19 +13,19 @@ use std::cell::Cell;
 use classic::Classic;
 use tree::Tree;
 
-/// How a file in the classic format of netCDF begins.
+/// The first bytes of a file in the classic format of netCDF.
 const CLASSIC: &[u8] = b"CDF";
 
-/// Bytes that deflate makes of one byte at most.
+/// The largest number of bytes that deflate makes from one byte.
 const RATIO: u64 = 1032;
 
-/// Bytes that any file may have, however short it is.
+/// The number of bytes that any file may contain, however short it is.
 const LEAST: u64 = 1 << 20;
 
-/// How many words of one array are read.
+/// The largest number of words that are read of one array.
 const MOST_WORDS: usize = 100_000;
 
-/// Numbers of an array, or what else it holds.
+/// The type of an array's elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Type {
     /// Floating-point numbers of 4 or 8 bytes.
@@ -36,12 +36,12 @@ pub enum Type {
     Unsigned(usize),
     /// Words.
     Words,
-    /// None of these: records, references, numbers of other sizes.
+    /// Other types: records, references, numbers of other sizes.
     Other,
 }
 
 impl Type {
-    /// The bytes of a number; none where there are no numbers.
+    /// The number of bytes of a number; `None` for other types.
     pub fn bytes(self) -> Option<usize> {
         match self {
             Type::Float(bytes) | Type::Signed(bytes) | Type::Unsigned(bytes) => Some(bytes),
@@ -52,33 +52,33 @@ impl Type {
 
 /// An array of a file.
 pub struct Set {
-    /// Its path, from the root on, without a slash before it.
+    /// The path, from the root on, without a leading slash.
     pub path: String,
-    /// Its axes, the slowest first; none of a single number.
+    /// The axes, the slowest first; empty for a single number.
     pub shape: Vec<usize>,
-    /// The type of its numbers.
+    /// The type of the elements.
     pub kind: Type,
-    /// Whether the greatest byte of a number comes first.
+    /// Whether the most significant byte of a number is first.
     pub is_big: bool,
     place: Place,
 }
 
-/// Where an array is.
+/// The place of an array.
 enum Place {
-    /// In HDF5; and whether it is packed there, and may be longer than the file.
+    /// In HDF5; and whether the array is compressed there, and may be longer than the file.
     Tree(Box<hdf5_reader::Dataset>, bool),
     Classic(usize),
-    /// Listed by its group, and none that can be opened.
+    /// Listed by its group, but cannot be opened.
     Nowhere,
 }
 
 impl Set {
-    /// How many numbers or words one place along its first axis has.
+    /// The number of elements at one index of the first axis.
     pub fn stride(&self) -> usize {
         self.shape.iter().skip(1).fold(1, |all: usize, &axis| all.saturating_mul(axis))
     }
 
-    /// How many numbers or words it has; none if no file holds as many.
+    /// The number of elements; `None` if no file can contain as many.
     pub fn count(&self) -> Option<usize> {
         self.shape.iter().try_fold(1, |all: usize, &axis| all.checked_mul(axis))
     }
@@ -87,9 +87,9 @@ impl Set {
 /// A fault of an array.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// The fault, and what to do.
+    /// The fault, and advice.
     pub what: String,
-    /// Whether the array may be sound, and is compressed in a way that is not read, or was never written.
+    /// Whether the array may be sound: its compression is not supported, or it was never written.
     pub is_foreign: bool,
 }
 
@@ -109,7 +109,7 @@ impl From<String> for Fault {
 pub enum Value {
     /// Words.
     Words(Vec<String>),
-    /// Bytes of numbers, and whether the greatest byte of each comes first.
+    /// The bytes of numbers, and whether the most significant byte of each is first.
     Numbers(Type, bool, Vec<u8>),
 }
 
@@ -121,9 +121,9 @@ enum Source {
 /// A file.
 pub struct Store {
     source: Source,
-    /// How many bytes it has.
+    /// The number of bytes of the file.
     length: u64,
-    /// How many bytes may still be decoded: as many as the file can honestly hold.
+    /// The number of bytes that may still be decoded: at most what the file can contain without being forged.
     left: Cell<u64>,
 }
 
@@ -131,7 +131,7 @@ impl Store {
     /// Opens a file.
     ///
     /// # Errors
-    /// Bytes that are damaged, or neither HDF5 nor netCDF.
+    /// The bytes are damaged, or neither HDF5 nor netCDF.
     pub fn open(bytes: Vec<u8>) -> Result<Store, String> {
         let length = bytes.len() as u64;
         let left = length.saturating_mul(RATIO).saturating_add(LEAST);
@@ -142,7 +142,7 @@ impl Store {
         Ok(Store { source, length, left: Cell::new(left) })
     }
 
-    /// Whether it is HDF5.
+    /// Whether the file is HDF5.
     pub fn is_tree(&self) -> bool {
         matches!(self.source, Source::Tree(_))
     }
@@ -150,7 +150,7 @@ impl Store {
     /// All arrays, also those in groups.
     ///
     /// # Errors
-    /// Groups that are damaged, deeper or more than is read.
+    /// Groups are damaged, deeper than the limit, or too many.
     pub fn sets(&self) -> Result<Vec<Set>, String> {
         match &self.source {
             Source::Tree(tree) => tree.sets(),
@@ -158,7 +158,7 @@ impl Store {
         }
     }
 
-    /// The array of this path, if there is one that can be opened.
+    /// The array at this path, if there is one that can be opened.
     pub fn set(&self, path: &str) -> Option<Set> {
         let path = path.trim_matches('/');
         match &self.source {
@@ -187,7 +187,7 @@ impl Store {
     /// The bytes of an array of numbers.
     ///
     /// # Errors
-    /// Damaged data, or data beyond the budget.
+    /// The data are damaged, or beyond the budget.
     pub fn bytes(&self, set: &Set) -> Result<Vec<u8>, Fault> {
         let size = match set.kind {
             Type::Words => return Err(Fault::of("expected numbers, found words")),
@@ -197,7 +197,7 @@ impl Store {
         let needed = set.count().and_then(|it| it.checked_mul(size));
         let needed = needed.ok_or_else(|| Fault::of("no file holds as many numbers"))?;
         if matches!(set.place, Place::Tree(_, false)) && needed as u64 > self.length + LEAST {
-            // None of it may be stored: then all of it is one number that fills it.
+            // None of the array may be stored: then all of it is one fill value.
             let what = format!("{needed} bytes, and the file has {}", self.length);
             return Err(Fault { what, is_foreign: true });
         }
@@ -219,7 +219,7 @@ impl Store {
     /// The words of an array. Single letters along the last axis are one word.
     ///
     /// # Errors
-    /// Damaged data, or data beyond the budget.
+    /// The data are damaged, or beyond the budget.
     pub fn words(&self, set: &Set) -> Result<Vec<String>, String> {
         let most = set.count().filter(|it| *it <= MOST_WORDS.saturating_mul(64));
         let most = most.ok_or("more words than are read")?;
@@ -237,12 +237,12 @@ impl Store {
         }
     }
 
-    /// How many bytes the file can honestly hold, less those that were read.
+    /// The number of bytes that may still be decoded.
     pub fn left(&self) -> u64 {
         self.left.get()
     }
 
-    /// Takes what is decoded from what the file can honestly hold.
+    /// Subtracts decoded bytes from the budget.
     fn hold(&self, bytes: usize) -> Result<(), String> {
         let left = self.left.get().checked_sub(bytes as u64);
         self.left.set(left.ok_or_else(|| format!("{bytes} bytes: the file cannot hold as many"))?);
@@ -250,12 +250,12 @@ impl Store {
     }
 }
 
-/// Words of so many bytes each, without what fills them up.
+/// Splits bytes into words of `length` bytes each, without padding.
 fn letters(bytes: &[u8], length: usize) -> Vec<String> {
     bytes.chunks(length.max(1)).take(MOST_WORDS).map(word).collect()
 }
 
-/// A word, without what fills it up.
+/// A word, without padding.
 fn word(bytes: &[u8]) -> String {
     let end = bytes.iter().position(|it| *it == 0).unwrap_or(bytes.len());
     String::from_utf8_lossy(&bytes[..end]).trim_end().to_owned()

@@ -3,7 +3,7 @@
 /// The number of the filter.
 pub const NUMBER: u16 = 32_000;
 
-/// Unpacks bytes into so many at most.
+/// Unpacks bytes into at most `most`.
 pub fn unpack(packed: &[u8], most: usize) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(most.min(packed.len().saturating_mul(4)));
     let mut rest = packed.iter().copied();

@@ -1,4 +1,4 @@
-//! Files of HDF5, by the crate `hdf5-reader`: what is asked of it, and within which limits.
+//! Files of HDF5, by the crate `hdf5-reader`: its use, and the limits.
 
 use std::collections::BTreeSet;
 
@@ -10,22 +10,22 @@ use hdf5_reader::{
 
 use crate::{Fault, MOST_WORDS, Place, Set, Type, Value, letters, lzf, word};
 
-/// How many groups and arrays are listed.
+/// The largest number of groups and arrays that are listed.
 const MOST_OBJECTS: usize = 20_000;
 
-/// How deep groups are in each other.
+/// The largest depth of groups in each other.
 const DEEPEST: usize = 32;
 
 /// The longest header of a group or an array, in bytes.
 const LONGEST_HEADER: usize = 1 << 20;
 
-/// Bytes of words of variable length in one array or attribute.
+/// The largest number of bytes of words of variable length in one array or attribute.
 const MOST_LETTERS: usize = 1 << 22;
 
-/// How netCDF-4 names the arrays that stand for its dimensions alone.
+/// The name that netCDF-4 gives to arrays that only represent its dimensions.
 const DIMENSION: &str = "This is a netCDF dimension but not a netCDF variable";
 
-/// Finds the bytes that a reference leads to.
+/// Reads the bytes that a reference points to.
 type Follow<'a> = &'a dyn Fn(&[u8]) -> Result<Vec<u8>, String>;
 
 /// A file of HDF5.
@@ -36,7 +36,7 @@ fn said(error: impl std::fmt::Display) -> String {
 }
 
 impl Tree {
-    /// Opens a file, of which no chunk has more than so many bytes.
+    /// Opens a file whose chunks have at most `most` bytes.
     pub fn open(bytes: Vec<u8>, most: u64) -> Result<Tree, String> {
         let mut filters = FilterRegistry::new();
         let unpack = |packed: &[u8], most: usize| {
@@ -67,7 +67,7 @@ impl Tree {
         let (mut sets, mut seen) = (Vec::new(), BTreeSet::new());
         let mut groups = vec![(String::new(), self.0.root_group().map_err(said)?, 0)];
         while let Some((path, group, depth)) = groups.pop() {
-            // A group may be in itself.
+            // A group may contain itself.
             if !seen.insert(group.address()) {
                 continue;
             }
@@ -118,7 +118,7 @@ impl Tree {
         let axes = found.shape().iter().chain(dims);
         let shape = axes.map(|it| usize::try_from(*it)).collect::<Result<Vec<_>, _>>();
         let Ok(shape) = shape else { return nowhere(path) };
-        // One that is declared to be empty has no axes either.
+        // An array that is declared as empty has no axes either.
         let shape = if matches!(found.num_elements(), Ok(0)) { vec![0] } else { shape };
         let header = self.0.get_or_parse_header(found.address());
         let is_filter = |it: &HdfMessage| matches!(it, HdfMessage::FilterPipeline(_));
@@ -175,7 +175,7 @@ pub fn bytes(found: &Dataset) -> Result<Vec<u8>, Fault> {
     })
 }
 
-/// Words of fixed length, or those that references of so many bytes lead to.
+/// Words of fixed length, or words behind references of `size` bytes.
 fn words(
     bytes: &[u8],
     kind: &Datatype,
@@ -202,7 +202,7 @@ fn words(
     Ok(all)
 }
 
-/// The type of numbers, and whether the greatest byte comes first.
+/// The type of numbers, and whether the most significant byte is first.
 fn kind(found: &Datatype) -> (Type, bool) {
     let is_big = |order: &ByteOrder| *order == ByteOrder::BigEndian;
     match found {
@@ -214,7 +214,7 @@ fn kind(found: &Datatype) -> (Type, bool) {
             let kind = if *signed { Type::Signed(size) } else { Type::Unsigned(size) };
             (kind, is_big(byte_order))
         }
-        // True and false of h5py.
+        // Booleans of h5py.
         Datatype::Enum { base, .. } if matches!(**base, Datatype::FixedPoint { .. }) => kind(base),
         Datatype::String { .. } => (Type::Words, false),
         Datatype::VarLen { base, .. } if base.is_vlen_string_base() => (Type::Words, false),
@@ -222,7 +222,7 @@ fn kind(found: &Datatype) -> (Type, bool) {
     }
 }
 
-/// Whether an array stands for a dimension of netCDF alone.
+/// Whether an array only represents a dimension of netCDF.
 fn is_dimension(found: &Dataset) -> bool {
     let named = |it: &RawAttribute| {
         it.name() == "NAME" && it.message().raw_data.starts_with(DIMENSION.as_bytes())

@@ -1,9 +1,8 @@
-//! A field that was never compiled, behind the solver's contract: its program, run in blocks of points to the bits
-//! that compiled code has.
+//! A field without compiled code, with the traits for the solver: its program, run in blocks of points with the same bits as
+//! compiled code.
 //!
-//! A file takes the data path in one of two ways. In `fields/`, or behind `field!`, it is compiled. Named by its
-//! path on the command line, it is interpreted. `mms eval` interprets in both cases; `mms study` runs compiled
-//! code where there is some.
+//! A field file is used in one of two ways. In `fields/`, or by `field!`, it is compiled. Named by its path on the command
+//! line, it is interpreted. `mms eval` interprets in both cases; `mms study` runs compiled code if there is some.
 
 mod points;
 
@@ -34,7 +33,7 @@ use mms_symbolic::sorted::SortedMap;
 
 pub use points::AtPoints;
 
-/// How many outputs a solver asks for.
+/// The number of outputs that a solver uses.
 const ASKED: usize = 9;
 
 /// A field evaluated by the interpreter, for one set of parameters.
@@ -44,16 +43,16 @@ struct Interpreted<T: Blockwise> {
     asked: [Asked<T>; ASKED],
 }
 
-/// What a solver asks a field for.
+/// An output that a solver uses.
 struct Asked<T: Blockwise> {
     output: Output,
     way: Way,
-    /// Made when it is asked for.
+    /// The prepared program, made at its first use.
     prepared: OnceLock<Prepared<T>>,
     rooms: Rooms<T>,
 }
 
-/// The outputs, each to the bits of compiled code: there the first three are loops over many points, and the others are
+/// The outputs, each with the same bits as compiled code: there the first three are loops over many points, and the others are
 /// computed point by point.
 fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
     let (fused, portable) = (Way::fused(), Way::portable());
@@ -76,13 +75,13 @@ fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
     })
 }
 
-/// A precision that fields are interpreted in. What does that is compiled in this crate, once: who asks for a scene
-/// compiles none of it.
+/// A precision in which fields are interpreted. The interpreter is compiled in this crate, once: callers of [`scene`](fn@scene)
+/// compile none of it.
 pub trait Interpretable: Real + Blockwise {
     /// See [`scene`](fn@scene).
     ///
     /// # Errors
-    /// As of [`scene`](fn@scene).
+    /// The errors of [`scene`](fn@scene).
     fn scene(
         compiled: Arc<Compiled>,
         set: &SortedMap<usize, RBig>,
@@ -104,7 +103,7 @@ macro_rules! interpretable {
 
 interpretable!(f32 f64);
 
-/// An axisymmetric field with a swirl, of which there is no scene.
+/// An axisymmetric field with a swirl, for which there is no scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Swirling;
 
@@ -116,10 +115,10 @@ impl fmt::Display for Swirling {
 
 impl Error for Swirling {}
 
-/// The scene of a compiled text, some of its parameters set by the caller.
+/// The scene of a compiled text, with some of its parameters set by the caller.
 ///
 /// # Errors
-/// An axisymmetric field with a swirl.
+/// The field is axisymmetric and has a swirl.
 pub fn scene<T: Interpretable>(
     compiled: Arc<Compiled>,
     set: &SortedMap<usize, RBig>,
@@ -172,8 +171,8 @@ impl<T: Real + Blockwise> Interpreted<T> {
         asked.rooms.lend(|room| prepared.run(room, time, count, bring, take));
     }
 
-    /// Evaluates an output of positions. `place` is that of a component in the result of a point; some tensors have components
-    /// without one.
+    /// Evaluates an output of positions. `place` maps the index of a component to its place in the result of a point; some
+    /// tensors have components without a place.
     fn at_points<R, const D: usize>(
         &self,
         time: T,
@@ -232,12 +231,12 @@ impl<T: Real + Blockwise> Interpreted<T> {
         );
     }
 
-    /// Rows of tensors.
+    /// The number of rows of tensors.
     fn rows(&self) -> usize {
         self.compiled.field.space.rows()
     }
 
-    /// Evaluates the Kirchhoff stress of whole bunches; hoop strains and stresses are there if the field is axisymmetric.
+    /// Evaluates the Kirchhoff stress of whole bunches; hoop strains and stresses are used if the field is axisymmetric.
     fn stress_of_bunches<const D: usize>(
         &self,
         time: T,
@@ -282,7 +281,7 @@ impl<T: Real + Blockwise> Interpreted<T> {
         );
     }
 
-    /// Evaluates the strain energy; hoop strains are there if the field is axisymmetric.
+    /// Evaluates the strain energy; hoop strains are used if the field is axisymmetric.
     fn energy<const D: usize>(
         &self,
         time: T,
@@ -484,7 +483,7 @@ impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interprete
     }
 }
 
-/// A face as the solver knows it.
+/// Converts a face to the solver's type.
 fn face(face: mms_spec::Face) -> Face {
     match face {
         mms_spec::Face::Min(axis) => Face::Min(axis),
@@ -503,7 +502,7 @@ fn face(face: mms_spec::Face) -> Face {
     }
 }
 
-/// A claim as the solver knows it: the axis is a plane that is not left, and has no traction along it.
+/// Converts a claim to the solver's type: points of the axis stay on it, and have no traction along it.
 fn condition(claim: Claim) -> Condition {
     match claim {
         Claim::Fixed => Condition::Fixed,

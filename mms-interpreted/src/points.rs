@@ -6,23 +6,23 @@ use std::thread;
 use mms_mechanics::{Output, Program};
 use mms_program::block::{Plan, Prepared, Room, Way};
 
-/// From so many points on threads share them.
+/// The number of points from which on threads share them.
 const MANY: usize = 1 << 16;
 
-/// An output of a program, for one set of parameters. What evaluates it is compiled in this crate, once.
+/// An output of a program, for one set of parameters. The evaluation is compiled in this crate, once.
 pub struct AtPoints {
     prepared: Prepared<f64>,
 }
 
 impl AtPoints {
-    /// With the stages that parameters decide computed.
+    /// Prepares the output, and computes the stages that depend on parameters alone.
     pub fn new(program: &Program, output: Output, parameters: &[f64]) -> Self {
         let plan = Plan::new(program, &[output], Output::is_quantity);
         AtPoints { prepared: Prepared::new(Arc::new(plan), Way::portable(), parameters) }
     }
 
-    /// So many components at points X, and with normals N if it takes them, whose coordinates stand one after the other; by
-    /// so many threads where it is worth it.
+    /// Evaluates `components` numbers at each point X, with normals N if the output needs them; coordinates of a point are
+    /// adjacent. Uses up to `threads` threads if there are many points.
     pub fn values(
         &self,
         components: usize,
@@ -43,7 +43,7 @@ impl AtPoints {
                     let room = &mut Room::default();
                     self.prepared.at_points(room, time, dimension, [points, normals], values);
                 };
-                // Few points are done before a thread has started.
+                // Few points take less time than the start of a thread.
                 if rows == count { work() } else { drop(scope.spawn(work)) }
             }
         });

@@ -1,8 +1,8 @@
-//! Doorways from Rust code into the field compiler: `field!` reads the file, calls the compiler and returns.
+//! Rust macros around the field compiler: `field!` reads the file, calls the compiler and returns its code.
 //!
-//! The module that `field!` makes includes the bytes of its file, so that a change in any crate that uses it is
-//! seen. Procedural macros run unoptimised by default, even in a release build; the workspace's profiles raise
-//! that, since the derivation runs in one.
+//! The module that `field!` makes includes the bytes of its file, so that Cargo detects a change in any crate that uses it.
+//! Procedural macros run unoptimised by default, even in a release build; the workspace's profiles optimise them, since the
+//! derivation runs in one.
 
 mod request;
 
@@ -47,24 +47,23 @@ use request::Request;
 /// );
 /// ```
 ///
-/// | option | does |
+/// | option | effect |
 /// |---|---|
-/// | `quantities = [..]` | compiles these alone. Nothing else is in the module, neither the domain nor the contract of a solver (`boxed`), and the using crate depends on `mms-math` instead of `mms-runtime` |
-/// | `set = { name = value, .. }` | changes defaults. A value is a number or, in quotes, a formula in the parameters above that one. Parameters that depend on it follow |
-/// | `freeze` | makes all parameters constants, at their defaults. They disappear from `Parameters`, and what they make 0 disappears from the code |
-/// | `freeze = [..]` | makes these constants |
-/// | `rigid = ".."` | puts a rigid motion on top, with the keys of `[rigid]`; without a value a large and accelerated one |
-/// | `form = "fast"` | takes the fewest operations, at the cost of accuracy where strains are small; `"stable"`, the default, holds every quantity to 64 eps of its largest magnitude |
-/// | `name = other` | names the module, so that two of one file can stand side by side |
+/// | `quantities = [..]` | compiles only these. The module has no other contents, neither the domain nor the traits of a solver (`boxed`), and the using crate depends on `mms-math` instead of `mms-runtime` |
+/// | `set = { name = value, .. }` | changes defaults. A value is a number or, in quotes, a formula in the parameters above that one. Parameters that depend on it change, too |
+/// | `freeze` | makes all parameters constants, at their defaults. They are removed from `Parameters`, and terms that become 0 are removed from the code |
+/// | `freeze = [..]` | makes these parameters constants |
+/// | `rigid = ".."` | superposes a rigid motion, with the keys of `[rigid]`; without a value a large and accelerated one |
+/// | `form = "fast"` | uses the fewest operations, at the cost of accuracy if strains are small; `"stable"`, the default, computes every quantity to 64 eps of its largest magnitude |
+/// | `name = other` | names the module, so that two modules of one file can exist |
 ///
-/// A parameter that depends on others and is frozen without them keeps the value that their
-/// defaults give.
+/// A parameter that depends on others and is frozen without them keeps the value of their defaults.
 ///
 /// # Precision
 ///
-/// A module computes in any scalar: `f32`, `f64`, or `mms_math::Double`, which has twice the digits of `f64`. What
-/// needs no position is computed with twice the digits in each. Loops over many points and the contract of a
-/// solver (`boxed`) take `f32` and `f64`.
+/// A module computes in any scalar: `f32`, `f64`, or `mms_math::Double`, which has twice the digits of `f64`. Terms that do not
+/// depend on the position are computed with twice the digits in each. Loops over many points and the traits of a solver
+/// (`boxed`) support `f32` and `f64`.
 ///
 /// ```ignore
 /// use mms_math::{Double, Scalar as _};
@@ -75,8 +74,8 @@ use request::Request;
 ///
 /// # Once per point
 ///
-/// Each quantity can be computed from a position, or from what the position determines, which a
-/// solver keeps: `Point::<f64>::BYTES` for each point. Both give the same bits.
+/// Each quantity can be computed from a position, or from values that depend on the position alone, which a solver stores:
+/// `Point::<f64>::BYTES` for each point. Both give the same bits.
 ///
 /// ```ignore
 /// let point = field.at_point([0.37]);              // once per particle
@@ -108,7 +107,7 @@ fn expand(request: &Request) -> Result<proc_macro2::TokenStream> {
         Some(name) => module_named(&compiled, name),
         None => module(&compiled),
     };
-    // Cargo compiles the using crate again when a file that it includes changes.
+    // Cargo compiles the using crate again if a file that it includes changes.
     let mut sources = vec![file.clone()];
     sources.extend(compiled.own_material().map(|(material, _)| folder.join(material)));
     let sources = sources.iter().map(|source| source.to_string_lossy().into_owned());
@@ -118,7 +117,7 @@ fn expand(request: &Request) -> Result<proc_macro2::TokenStream> {
     })
 }
 
-/// Mistakes of the file at its path, and each mistake of the selection where it was made.
+/// Mistakes of the file at its path, and each mistake of the selection at its place in the call.
 fn refused(request: &Request, failure: Failure) -> Error {
     let Failure { sources, diagnostics } = failure;
     let (of_the_call, of_the_file): (Vec<_>, Vec<_>) =
@@ -146,7 +145,7 @@ fn message(rendered: &str) -> String {
     rendered.strip_prefix("error: ").unwrap_or(rendered).trim_end().into()
 }
 
-/// The text of a plain file, unless it is longer than files may be: what is none might never end.
+/// The text of a plain file, unless it is longer than the limit: other kinds of files might never end.
 fn read(path: &Path) -> std::result::Result<String, String> {
     let read = || {
         if !fs::metadata(path)?.is_file() {

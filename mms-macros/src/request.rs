@@ -12,22 +12,22 @@ use syn::parse::{Parse, ParseStream};
 use syn::token::Bracket;
 use syn::{Error, Lit, LitStr, Result, Token, braced, bracketed};
 
-/// What may follow the path.
+/// The options after the path.
 const OPTIONS: [&str; 6] = ["quantities", "set", "freeze", "rigid", "form", "name"];
 
 /// A parsed call of the macro.
 pub struct Request {
     /// The path of the field file.
     pub path: LitStr,
-    /// The name of the module, where it is not the file's.
+    /// The name of the module, if it is not the file's.
     pub name: Option<Ident>,
     /// The wanted parts of the field, without the quantities.
     selection: Selection,
-    /// The names of the quantities that are wanted; `None` stands for all.
+    /// The names of the selected quantities; `None` selects all.
     quantities: Option<Vec<Ident>>,
-    /// Which ways to compute are open.
+    /// The allowed ways to compute.
     pub form: Form,
-    /// Where the entries of `set` and `freeze` stand.
+    /// The places of the entries of `set` and `freeze`.
     places: Places,
 }
 
@@ -67,12 +67,12 @@ impl Parse for Request {
 }
 
 impl Request {
-    /// The part of the selection that a message of the compiler is about.
+    /// The part of the selection that a message of the compiler refers to.
     pub fn entry(&self, span: source::Span) -> Option<Entry> {
         self.selection.entry(span)
     }
 
-    /// Where a part of the selection stands in the call.
+    /// The place of a part of the selection in the call.
     pub fn span(&self, entry: Entry) -> Span {
         let span = match entry {
             Entry::Set(position) => self.places.set.get(position).copied(),
@@ -111,10 +111,10 @@ impl Request {
         Ok(())
     }
 
-    /// The selection, for a field that defines these quantities of its own.
+    /// The selection, for a field with these quantities of its own.
     ///
     /// # Errors
-    /// A name of no quantity, or one that is given twice, where it stands.
+    /// A name is no quantity, or is listed twice. The error is at its place.
     pub fn selection(&self, own: &[Own]) -> Result<Selection> {
         let mut selection = self.selection.clone();
         let Some(names) = &self.quantities else { return Ok(selection) };
@@ -123,7 +123,7 @@ impl Request {
             let found =
                 quantity(own, &text(name)).map_err(|message| Error::new(name.span(), message))?;
             if !wanted.insert(found) {
-                let message = format!("`{}` is asked for twice", found.name());
+                let message = format!("`{}` is listed twice", found.name());
                 return Err(Error::new(name.span(), message));
             }
         }
@@ -211,7 +211,7 @@ fn names(input: ParseStream, what: &str) -> Result<Vec<Ident>> {
     Ok(names)
 }
 
-/// A name as a field file writes it.
+/// A name as in a field file.
 fn text(name: &Ident) -> String {
     name.unraw().to_string()
 }

@@ -1,5 +1,5 @@
-//! What the macro refuses: each program in `ui/fail` with the text in its `.stderr`, which is all that the
-//! compiler says. A test of the command line compares those texts with what `mms check` says.
+//! Calls that the macro refuses: each program in `ui/fail` with the text in its `.stderr`, which is the compiler's complete
+//! output. A test of the command line compares those texts with the output of `mms check`.
 //!
 //! After a deliberate change, `MMS_BLESS=1 cargo test -p mms-macros --test mistakes` writes the
 //! `.stderr` files anew; read the difference before it is committed.
@@ -9,8 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The folders of field files that the programs name, and where they are. The macro finds a file
-/// relative to the manifest of the crate that uses it.
+/// The folders of field files that the programs name, and their places. The macro finds a file relative to the manifest of the
+/// crate that uses it.
 const INPUTS: [[&str; 2]; 4] = [
     ["fields", "../fields"],
     ["examples/fields", "../examples/fields"],
@@ -28,7 +28,7 @@ fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
     files
 }
 
-/// A folder with the field files where they are looked for.
+/// A folder with the field files at the expected place.
 fn manifest() -> PathBuf {
     let manifest = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mistakes");
     let _ = fs::remove_dir_all(&manifest);
@@ -42,7 +42,7 @@ fn manifest() -> PathBuf {
     manifest
 }
 
-/// The macro, as Cargo has built it for this test: of those beside it, the newest.
+/// The macro, as Cargo has built it for this test: the newest file of several.
 fn library() -> PathBuf {
     let program = std::env::current_exe().expect("the path of the test");
     let beside = fs::read_dir(program.parent().expect("a folder")).expect("a folder");
