@@ -1,4 +1,4 @@
-//! Which terms of the equations a field sees.
+//! The terms of the equations that a field tests.
 
 use mms_analysis::visibility::{Span, Status, Term, Visibility};
 use mms_codegen::{Compiled, compile};
@@ -7,7 +7,7 @@ use mms_codegen::{Compiled, compile};
 mod written;
 use written::{GRADED, NEO_HOOKEAN, PLANE, SPACE, VORTEX, field};
 
-/// The names of the terms that a field has of each status.
+/// The names of a field's terms with each status.
 fn seen(compiled: &Compiled) -> [Vec<String>; 3] {
     let visibility = Visibility::of(compiled).expect("within the bound");
     [Status::Present, Status::Zero, Status::Negligible]
@@ -38,7 +38,7 @@ fn a_vortex_has_no_volume_change_no_lambda_and_a_symmetric_stress() {
     }
 }
 
-/// As Poisson's ratio of 1/4 makes them.
+/// Equal moduli, as with Poisson's ratio 1/4.
 #[test]
 fn equal_moduli_hide_a_swap_of_the_two() {
     let term = "unequal_moduli".to_string();
@@ -66,7 +66,7 @@ fn a_divergence_that_is_0_by_an_identity_leaves_no_lambda() {
     assert!(negligible.is_empty(), "{negligible:?}");
 }
 
-/// Everywhere else u is too small for any number.
+/// Elsewhere u is below the smallest number.
 #[test]
 fn a_pulse_in_a_tiny_body_has_a_divergence() {
     let pulse = "1e-11*exp(-(X/1e-9)^2 - (Y/1e-9)^2)*cos(t)";
@@ -94,7 +94,7 @@ fn components_that_do_not_couple_have_no_cross_terms() {
     assert!(negligible.is_empty(), "{negligible:?}");
 }
 
-/// sin^2 + cos^2 - 1 that canonical form does not find: the angle is doubled in one of them.
+/// sin^2 + cos^2 - 1 that the canonical form does not recognise: the angle is doubled in one of them.
 #[test]
 fn what_is_zero_without_being_seen_to_be_is_negligible() {
     let hidden = "[\"X/9 + 0.1*(cos(2*X*t) - 1 + 2*sin(X*t)^2)\"]";
@@ -105,7 +105,7 @@ fn what_is_zero_without_being_seen_to_be_is_negligible() {
     }
     assert_eq!(visibility.span(), Some(Span::Linear));
     assert!(visibility.is_exact_in_time());
-    // Far below the accuracy of double precision, and there all the same.
+    // Far below the accuracy of double precision, but present.
     let small = hidden.replace("2*X*t) - 1", "2*X*t) - 1 + 1e-40*X^3*t^3");
     let [present, ..] = seen(&field(1, &small, NEO_HOOKEAN, "1"));
     for term in ["jerk", "third_gradient", "body_force"] {
@@ -130,7 +130,7 @@ fn polynomials_are_in_the_span_of_shape_functions() {
     }
 }
 
-/// An exponent is varied like any parameter, to see whether b depends on it.
+/// An exponent is varied like any parameter, to test whether b depends on it.
 #[test]
 fn an_exponent_is_varied_like_any_parameter() {
     let material = "[material]\ntitle = \"power law\"\n\

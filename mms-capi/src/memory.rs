@@ -195,7 +195,7 @@ pub mod tests {
 
     use super::*;
 
-    /// A buffer as the library sees it.
+    /// A buffer as an argument of the library.
     pub fn message(buffer: &mut [u8]) -> Message {
         // SAFETY: the buffer outlives the call.
         unsafe { Message::new(buffer.as_mut_ptr().cast(), buffer.len()) }

@@ -163,7 +163,7 @@ impl System {
                     let at = [first, second, third];
                     let point = self.position(&mut Numbers::<f64>::new(), &at);
                     for k in 0..3 {
-                        // Round-off of a sine must not move a corner beside a knot.
+                        // Round-off of a sine must not move a corner off a knot.
                         let is_round = self != System::Cartesian;
                         let is_zero = is_round && point[k].abs() < 1e-12 * axis(0)[1];
                         let x = if is_zero { 0.0 } else { point[k] };

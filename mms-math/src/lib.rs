@@ -80,7 +80,7 @@ pub trait Scalar:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The nearest value to `value`; exact where the type holds a 53-bit significand.
+    /// The nearest value to `value`; exact if the type has a 53-bit significand.
     fn from_f64(value: f64) -> Self;
 
     /// The type for values that are computed once and used often: it has more digits if there is such a type.

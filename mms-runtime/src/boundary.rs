@@ -45,7 +45,7 @@ pub(crate) fn is_wall<T, const D: usize>(domain: &Domain<T, D>, face: Face) -> b
 }
 
 impl<T: Real, const D: usize> Boundary<T, D> {
-    /// The conditions of a body on a grid; `moves` says whether the body moves through it.
+    /// The conditions of a body on a grid; `moves` tells whether the body moves through it.
     ///
     /// # Errors
     /// A condition that cannot be met on this grid, or a claim about a face that the body lacks.

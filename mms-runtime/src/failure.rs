@@ -10,7 +10,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Why a scene is not started. Nothing has run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
-    /// A face asks for a condition that the solver does not have.
+    /// A face has a condition that the solver does not support.
     #[error(
         "face {face} is `{condition}`, which this solver has on faces of boxes only: claim \
          `prescribed` there, or leave the face without a claim"
@@ -61,7 +61,7 @@ pub enum Refusal {
         /// The name of the integrator.
         integrator: &'static str,
     },
-    /// Threads that the system does not give.
+    /// The system cannot start the threads.
     #[error("cannot run on {threads} thread(s): {reason}; use fewer")]
     NoThreads {
         /// The requested number.
@@ -318,7 +318,7 @@ pub enum Cause {
     /// A particle's domain is flat or not finite.
     #[error("the particle's domain is flat or not finite")]
     FlatDomain,
-    /// No reference position was found for a node beside a face whose motion is given.
+    /// No reference position was found for a node near a face whose motion is prescribed.
     #[error(
         "the field's motion could not be inverted at the grid node x = {position:?}, beside a face whose motion is given"
     )]

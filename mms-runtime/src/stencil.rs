@@ -132,7 +132,7 @@ pub struct Gathered<F, const D: usize> {
     pub slopes: [[F; D]; D],
 }
 
-/// The sums that a caller needs beside the value.
+/// The sums that a caller needs in addition to the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
     /// [`Gathered::value`] alone.

@@ -366,7 +366,7 @@ fn boxes_around_sectors() {
         [0.1, 0.2],
         [0.4 * 0.2_f64.cos(), 0.4 * 0.1_f64.sin(), 1.1 * 0.1_f64.cos(), 1.1 * 0.2_f64.sin()],
     );
-    // Round-off puts no corner beside an axis.
+    // Round-off moves no corner off an axis.
     assert_eq!(around([0.0, FRAC_PI_2])[0], Vector::<f64, 2>::zeros());
     // Every particle of a sector is inside.
     for theta in [[0.3, 2.9], [-3.0, 0.2], [2.0, 5.0]] {

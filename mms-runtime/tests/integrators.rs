@@ -171,7 +171,7 @@ fn is_contiguous(method: &Method) -> bool {
     }
 }
 
-/// A uniformly stretched body at rest stays at rest.
+/// A uniformly stretched body at rest remains at rest.
 fn patch<T: Solve<D>, const D: usize>(stretch: f64) {
     let field = Affine::patch(stretch);
     for method in methods().into_iter().filter(is_contiguous) {

@@ -129,7 +129,7 @@ fn an_equilibrium_is_of_second_order() {
     near(finest_orders::<f64, 2>(&block(), &domains, [8, 16]), [1.9, 0.9, 0.9]);
 }
 
-/// Forces at nodes from the particles of the last state alone: hat functions at X by hand, P and b by their formulas.
+/// Forces at nodes balance, from the particles of the last state alone: hat functions at X by hand, P and b by formulas.
 #[test]
 fn forces_at_the_nodes_balance_at_the_end() {
     let (cells, field) = (16, Bar::default());

@@ -25,7 +25,7 @@ fn a_corner_is_as_soft_as_finite_elements_say() {
     }
 }
 
-/// A pressure that leaves all faces stable lets a corner of two of them grow.
+/// Under a pressure for which all faces are stable, a corner of two of them grows.
 #[test]
 fn a_corner_is_softer_than_its_faces() {
     let found = shrunk(0.9);

@@ -7,7 +7,7 @@ use super::exact::nearest_integer;
 use super::series::{EXPONENTIAL, polynomial};
 
 /// ln 2 in three parts. The first two have 42 bits, so that products with integers of 11 bits are
-/// exact; together they hold 137 bits.
+/// exact; together they have 137 bits.
 pub(super) const LN_2_PARTS: [f64; 3] =
     [0.6931471805598903, 5.49792301870721e-14, 1.1612227229362532e-26];
 

@@ -3,7 +3,7 @@
 //! # Accuracy
 //!
 //! Errors are in units of 2^-104, that is 4.9e-32, relative to the value. These bounds, asserted by
-//! tests, are what was seen against 77 digits, rounded up:
+//! tests, are the largest errors against 77 digits, rounded up:
 //!
 //! | | units |
 //! |---|---|

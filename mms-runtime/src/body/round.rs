@@ -142,7 +142,7 @@ impl Block {
         filling
     }
 
-    /// Adds a particle for a cell; `ends` says along each coordinate whether it is the first and whether it is the last.
+    /// Adds a particle for a cell; `ends` tells along each coordinate whether the cell is the first and whether it is the last.
     fn add<const D: usize>(
         &self,
         filling: &mut Filling<D>,

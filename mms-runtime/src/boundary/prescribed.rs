@@ -203,7 +203,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
 
     fn not_found(&self, k: usize, time: T, grid: &Grid<T, D>) -> Failure {
         Failure {
-            step: 0, // the solver knows
+            step: 0, // set by the solver
             time: time.to_f64(),
             particle: None,
             reference_position: components(&self.reference[k]),

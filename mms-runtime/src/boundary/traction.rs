@@ -112,7 +112,7 @@ impl<T: Real, const D: usize> Traction<T, D> {
         let hoop_strain = hoop_strain(field, time, reference);
         for (k, &particle) in particle.iter().enumerate() {
             let fail = |cause: Cause| Failure {
-                step: 0, // the solver knows
+                step: 0, // set by the solver
                 time: time.to_f64(),
                 particle: Some(particle),
                 reference_position: components(&reference[k]),

@@ -84,7 +84,7 @@ impl Wall {
             return;
         }
         for &node in &self.on_wall {
-            // Half of (q + reflected q) would do too, but leaves round-off.
+            // Half of (q + reflected q) would be 0 up to round-off only.
             for a in (0..LAST).filter(|&a| self.reflects(a)) {
                 intensive[node].0[a] = T::zero();
             }
