@@ -24,7 +24,7 @@
 //!
 //! * `pass`: s + u is at most the tolerance, and the order is not above.
 //! * `fail`: s - u is more than the tolerance, and the order of the finest pair is low too. Also if errors level off:
-//! e0 is known to a fifth, and lowers the order by twice the tolerance. Also if a run stopped.
+//!   e0 is known to a fifth, and lowers the order by twice the tolerance. Also if a run stopped.
 //! * `not asymptotic`: otherwise; also if the order is above p by more than the tolerance and u.
 //! * `exact to round-off`: the caller knows that every error is at round-off ([`Sequence::exact`]).
 //!

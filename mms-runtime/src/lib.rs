@@ -2,7 +2,7 @@
 //! accuracy on any such field.
 //!
 //! * [`ManufacturedField`] and [`Material`] are implemented by generated code; they are evaluated over slices of
-//! particles and are object-safe.
+//!   particles and are object-safe.
 //! * [`Solver`] advances a body of particles through a background grid. It is written once for one to three
 //!   dimensions and for `f32` and `f64`.
 //! * [`AnySolver`] is a solver for the names of a [`Method`] ([`Solve::solver`]), compiled here.

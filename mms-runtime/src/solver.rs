@@ -18,11 +18,11 @@
 //! Particles store the displacement, not the position, and H, not F, so that single precision loses nothing to x - X and F - I.
 //! X is stored and never recomputed. Stress is a function of H, computed for 256 particles at a time where it is needed, and
 //! not stored. The body force b, at X and t^n, is computed for 2048 particles at a time: a batch begins with the terms that
-//! depend on time alone. One in eight of these batches is timed, for the processor stops to read the clock. Times are computed
-//! from the step number, never accumulated. Initial u, v and H are the field's. The solver computes at nodes what particles
-//! read (`transfer::Reads`): with PIC and APIC only v_i after its kick, and then momentum and dt times force are one sum; with
-//! FLIP also a_i, and then v_i and a_i are computed from two sums in one pass over the nodes; with XPIC v_i before the kick
-//! too.
+//! depend on time alone. Only one in eight of these batches is timed, since reading the clock stalls the processor. Times are
+//! computed from the step number, never accumulated. Initial u, v and H are the field's. The solver computes at nodes what
+//! particles read (`transfer::Reads`): with PIC and APIC only v_i after its kick, and then momentum and dt times force are one
+//! sum; with FLIP also a_i, and then v_i and a_i are computed from two sums in one pass over the nodes; with XPIC v_i before
+//! the kick too.
 //!
 //! # Memory and caches
 //!

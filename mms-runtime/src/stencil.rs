@@ -9,8 +9,8 @@
 //!
 //! A bunch is eight adjacent particles, in two halves of four (an AoSoA tile). A register of particle data has one particle in
 //! each lane. A register of nodal data has the four numbers of a node in the lanes of each half: in the first half a node of
-//! particle k of the first half, and in the second half a node of particle k of the second. Numbers within a register move only
-//! within their half, which takes one instruction, so the halves of a bunch may be in different cells: with four particles in a
+//! particle k of the first half, and in the second half a node of particle k of the second. Numbers move only within their half
+//! of a register, which takes one instruction, so the halves of a bunch may be in different cells: with four particles in a
 //! cell, they are.
 //!
 //! In most bunches the particles of a half share their nodes, since particles are sorted by cells: then a node is looked up

@@ -29,7 +29,7 @@ const PART: usize = 256;
 /// The number of particles whose body forces are computed together: so many that the terms of the time alone cost little.
 const FORCED: usize = 2048;
 
-/// One batch in this number is timed, since the processor stops to read the clock.
+/// Only one batch in this number is timed, since reading the clock stalls the processor.
 const TIMED: usize = 8;
 
 /// The quantity that is added to the nodes.
