@@ -1,4 +1,4 @@
-//! What is said of an error: a finding, and hypotheses in the order of what they explain.
+//! The answer to a diagnosis: a finding, and the hypotheses ordered by the part of the error that they explain.
 
 use std::borrow::Cow;
 
@@ -9,14 +9,14 @@ use crate::falls::{Falls, OfOrder};
 use crate::hypothesis::{Hypothesis, Kind, Size, title};
 use crate::smooth::{less, size};
 
-/// What was found.
+/// The outcome of a diagnosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finding {
-    /// No error beyond that of a method.
+    /// The error is no larger than the error of a right method.
     Nothing,
-    /// An error that a hypothesis explains.
+    /// A hypothesis explains the error.
     Named,
-    /// An error that none explains.
+    /// No hypothesis explains the error.
     Unexplained,
 }
 
@@ -31,73 +31,73 @@ impl Finding {
     }
 }
 
-/// A hypothesis, and what it explains.
+/// A hypothesis, and the part of the error that it explains.
 #[derive(Clone, Debug)]
 pub struct Ranked {
-    /// Which hypothesis, of the list.
+    /// The index of the hypothesis in the list.
     pub hypothesis: usize,
-    /// The name of the mistake; of a size with a name, that.
+    /// The name of the mistake; if the size has a name, that name.
     pub name: &'static str,
-    /// What it is.
+    /// The description of the mistake.
     pub says: String,
     /// Whether it is a mistake or a choice.
     pub kind: Kind,
     /// The face that it is on.
     pub face: Option<Face>,
-    /// Which of several it is.
+    /// Which of several variants it is.
     pub which: Option<Cow<'static, str>>,
-    /// Its size: a factor, an amount, the parts of a vector; of a mistake without one by which its effect would have to be
-    /// scaled.
+    /// The size: a factor, an amount, or the components of a vector. If the mistake has no size, the factor by which its effect
+    /// would have to be scaled.
     pub factor: Vec<f64>,
-    /// How far each may be off.
+    /// The uncertainty of each number of the size.
     pub margin: f64,
-    /// Which part of the squared error it explains.
+    /// The part of the squared error that it explains.
     pub explained: f64,
-    /// Whether it is of a size that it may have.
+    /// Whether the mistake can have this size.
     pub is_plausible: bool,
-    /// Whether what it explains is what the first of the list explains.
+    /// Whether it explains the same part of the error as the first hypothesis of the list.
     pub acts_as_first: bool,
-    /// Whether its size was found, and so may be what fits best.
+    /// Whether its size was fitted, and so may merely fit best.
     pub is_sized: bool,
-    /// Whether that is a known one.
+    /// Whether the size is a known one.
     pub is_known: bool,
-    /// The mistakes that are the same formula, for such results of any field.
+    /// The mistakes that are the same formula for such results of any field.
     pub equivalent_always: Vec<String>,
-    /// Those that explain this error as well.
+    /// The mistakes that explain this error as well.
     pub equivalent_here: Vec<String>,
-    /// How many of these are as simple.
+    /// How many of these mistakes are as simple.
     pub rivals: usize,
-    /// What separates them.
+    /// The evidence that would separate these mistakes.
     pub needs: Vec<String>,
 }
 
 impl Ranked {
-    /// The name, with the face and which it is.
+    /// The name, with the face and the variant.
     pub fn title(&self) -> String {
         title(self.name, self.which.as_deref(), self.face)
     }
 
-    /// Whether it fits with a size that nobody would have expected.
+    /// Whether the size was fitted and is not a known one.
     pub fn is_free(&self) -> bool {
         self.is_sized && !self.is_known
     }
 }
 
-/// What a solver computed.
+/// The quantity that a solver computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Computed {
     /// a.
     Acceleration,
     /// r = rho0 a - Div P - rho0 b per reference volume.
     Residual,
-    /// The same at nodes, as forces: integrated with the shape function of each, tractions among them.
+    /// The residual at nodes, as forces: integrated with the shape function of each node, tractions included.
     NodalResidual,
 }
 
-/// A step of the ladder: each vouches for what the next one takes for granted.
+/// A step of the ladder: each step checks what the next step assumes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rung {
-    /// Stresses beside F, without a solver.
+    /// Stresses at given F, without a solver.
     Law,
     /// Accelerations or residuals at an exact state, without a step.
     State(Computed),
@@ -108,7 +108,7 @@ pub enum Rung {
 }
 
 impl Rung {
-    /// What was looked at, in words.
+    /// Names the evidence in words.
     pub fn says(self) -> &'static str {
         match self {
             Rung::Law => "the law alone",
@@ -120,7 +120,7 @@ impl Rung {
         }
     }
 
-    /// What to ask for next, after this finding.
+    /// Advises what to run next after this finding.
     pub fn next(self, finding: Finding) -> &'static str {
         match (self, finding) {
             (_, Finding::Named) => "fix it, run your code again, and ask again",
@@ -150,45 +150,45 @@ impl Rung {
     }
 }
 
-/// A right method of this project's own solver, and how near an error is to that which it makes on such a grid.
+/// A right method of this project's own solver, and how near its error on such a grid is to the user's error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Like {
     /// The method, as `--like` takes it.
     pub method: String,
-    /// How many times the method's error it is.
+    /// The user's error, as a multiple of the method's error.
     pub factor: f64,
-    /// How far apart both are, over the error.
+    /// The distance between both errors, over the user's error.
     pub apart: f64,
 }
 
 /// Two hypotheses that explain an error together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
-    /// Their names, with faces and which they are.
+    /// The names of both, with faces and variants.
     pub hypotheses: [String; 2],
-    /// Which part of the squared error they explain.
+    /// The part of the squared error that both explain.
     pub explained: f64,
 }
 
-/// Where an error sits.
+/// Where an error is concentrated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// X of the point with the largest error.
     pub at: Vec<f64>,
     /// The time.
     pub time: f64,
-    /// The face near which more than half of it is.
+    /// The face near which more than half of the squared error is.
     pub face: Option<Face>,
-    /// The axis and the place on it of a plane that is no face, near which more than half of it is.
+    /// The axis and the coordinate of a plane that is no face, near which more than half of the squared error is.
     pub plane: Option<(usize, f64)>,
-    /// The observed order from the mesh before to the finest one.
+    /// The observed order from the second finest mesh to the finest one.
     pub order: Option<f64>,
-    /// Which part of the squared error is smooth. What is not is noise: of particles that cross cells, of iterations that stop
-    /// early, of single precision.
+    /// The smooth part of the squared error. The rest is noise: of particles that cross cells, of iterations that stop early,
+    /// of single precision.
     pub smooth: f64,
 }
 
-/// Errors at points over the body, each a vector of the components of one quantity: what is smooth of them.
+/// Errors at points over the body, each a vector of the components of one quantity: their smooth part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fields {
     /// The quantity.
@@ -199,98 +199,100 @@ pub struct Fields {
     pub points: Vec<Vec<f64>>,
     /// The user's error.
     pub error: Vec<Vec<f64>>,
-    /// That of the hypothesis that is named.
+    /// The error that the named hypothesis makes.
     pub named: Option<Vec<Vec<f64>>>,
 }
 
-/// The answer.
+/// The result of a diagnosis.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
-    /// What was found.
+    /// The outcome.
     pub finding: Finding,
-    /// What was looked at.
+    /// The kind of evidence that was diagnosed.
     pub rung: Rung,
     /// Hypotheses, the best one first.
     pub ranked: Vec<Ranked>,
-    /// What such results of this field cannot show.
+    /// Mistakes that such results of this field cannot show.
     pub cannot_be_seen: Vec<String>,
-    /// The size of the error over that of the exact solution.
+    /// The size of the error over the size of the exact solution.
     pub error: f64,
-    /// The least error of a right solver, and the largest that is taken for one.
+    /// The least error of a right solver, and the largest error that counts as one of a right solver.
     pub expected: [f64; 2],
-    /// How the error falls from mesh to mesh, of results of two meshes and more.
+    /// How the error falls from mesh to mesh, for results of two or more meshes.
     pub falls: Option<Falls>,
-    /// A right method whose error falls with that order, if the order is not the expected one.
+    /// A right method whose error falls with this order, if the order is not the expected one.
     pub of_order: Option<OfOrder>,
-    /// Two hypotheses that explain together what none does alone.
+    /// Two hypotheses that together explain what no single one explains.
     pub pair: Option<Pair>,
     /// A right method with such an error.
     pub like: Option<Like>,
-    /// Where the error sits, of results.
+    /// Where the error is concentrated, for results.
     pub place: Option<Place>,
-    /// The errors of results, to be looked at.
+    /// The errors of results, for plots.
     pub fields: Option<Fields>,
 }
 
-/// What a hypothesis explains.
+/// The part of an error that one hypothesis explains.
 #[derive(Clone, Debug)]
 pub struct Explained {
-    /// Which, of the list.
+    /// The index of the hypothesis in the list.
     pub hypothesis: usize,
-    /// Its size; none where it has none.
+    /// The size; empty if the hypothesis has none.
     pub size: Vec<f64>,
-    /// How far each may be off.
+    /// The uncertainty of each number of the size.
     pub margin: f64,
-    /// By which the response has to be scaled.
+    /// The factor by which the response has to be scaled.
     pub scale: f64,
-    /// Which part of the squared error is explained.
+    /// The part of the squared error that is explained.
     pub share: f64,
-    /// The error that it makes.
+    /// The error that the hypothesis makes.
     pub response: Vec<f64>,
 }
 
 impl Explained {
-    /// What it takes of the error.
+    /// The explained error: the response, scaled.
     fn explains(&self) -> Vec<f64> {
         self.response.iter().map(|it| it * self.scale).collect()
     }
 }
 
-/// Mistakes that are one formula for any field, inside a body and with b per mass; with the size that each has then.
+/// Mistakes that are one formula for any field, inside a body and with b per mass; with the equivalent size of each.
 const SAME: [&[(&str, Option<f64>)]; 2] = [
     &[("force_sign", None), ("moduli_factor", Some(3.0)), ("density_factor", Some(1.0 / 3.0))],
     &[("moduli_factor", None), ("density_factor", None)],
 ];
 
-/// More hypotheses that explain an error as well as the best one say that the results tell nothing apart.
+/// The most hypotheses that may explain an error as well as the best one. With more, the results do not tell them apart, and
+/// nothing is named.
 const ALIKE: usize = 5;
-/// By how much a response may have to be scaled in a mistake that has no size, at least and at most for what methods differ by, and
-/// besides over what it leaves of the error.
+/// Limits for |scale - 1| of a response that counts as plausible: the part by which methods differ, clamped between `SCALED`
+/// and `MOST_SCALED`, plus `SCALED_BY_LEFT` times the part of the error that is left.
 const SCALED: f64 = 0.03;
 const MOST_SCALED: f64 = 0.08;
 const SCALED_BY_LEFT: f64 = 0.5;
-/// What may be left besides, over how many times the method's error an error is.
+/// The part of an error that may be left in addition, divided by `excess`, the error over the method's error.
 const LEFT_BY_METHOD: f64 = 0.1;
-/// The part of the error that a mistake with several free numbers leaves at most: they explain much by chance.
+/// The part of the error that a mistake with several free numbers may leave at most: such mistakes explain much by chance.
 const OF_VECTOR: f64 = 0.12;
-/// The remainder of a hypothesis that explains an error as well as the best one, over that of it; and the part of the
-/// squared error that is not looked at.
+/// A hypothesis explains an error as well as the best one if its unexplained part is at most `AS_WELL` times that part of the
+/// best one, plus `UNSEEN`, a part of the squared error that is ignored.
 const AS_WELL: f64 = 1.3;
 const UNSEEN: f64 = 0.004;
-/// Two explanations are the same if they are no further apart than this part of what the first leaves.
+/// Two explanations are the same if they differ by no more than this part of what the first leaves.
 const SAME_PART: f64 = 0.6;
-/// What leaves no more than this part of an error is clear, whatever else does.
+/// A hypothesis that explains at least 94 % of the error is named, however much an implausible hypothesis explains.
 const CLEAR: f64 = 0.06;
-/// A size is a known one within this of itself, or within what is sure of it, but for no more than this.
+/// A size is a known one if it is within `KNOWN` of it, or within the margin of the fit, but at most `SURE` of its distance
+/// from the right size.
 const KNOWN: f64 = 0.03;
 const SURE: f64 = 0.1;
 
-/// Which part of an error is left where this share of its square is explained.
+/// The part of an error that is left if this share of its square is explained.
 fn left(share: f64) -> f64 {
     (1.0 - share).max(0.0).sqrt()
 }
 
-/// Whether a hypothesis may be of the size that was found, where methods differ by such a part of what they compute.
+/// Whether a hypothesis can have the size that was found, if methods differ by the part `apart` of what they compute.
 fn is_plausible<const D: usize>(
     hypothesis: &Hypothesis<D>,
     explained: &Explained,
@@ -304,18 +306,19 @@ fn is_plausible<const D: usize>(
 /// The limits within which a mistake is named.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// How many times that of methods the error is at least: of a mistake whose size was to be expected (it has none, or a known
-    /// one), and of one of any size.
+    /// The least error over the methods' error: first for a mistake without a fitted size or with a known one, then for a
+    /// mistake of any size.
     pub excess: [f64; 2],
-    /// Which part of the error it leaves at most, where methods make next to nothing of it: of a mistake that has no size, and of
-    /// one whose size was found.
+    /// The largest part of the error that may be left, where methods make next to none of it: first for a mistake without a
+    /// size, then for one whose size was fitted.
     pub left: [f64; 2],
-    /// What each leaves at most over what a hypothesis of a size that it cannot have leaves: else something like that is at work.
+    /// The largest part that may be left, over the part that a hypothesis of an impossible size leaves. If that hypothesis fits
+    /// much better, something similar to it is the cause.
     pub nearer: [f64; 2],
 }
 
 impl Limits {
-    /// What is found where hypotheses explain so much of an error that is so many times that of methods.
+    /// Finds the outcome from ranked hypotheses and from `excess`, the error over the methods' error.
     pub fn finding(&self, ranked: &[Ranked], excess: f64) -> Finding {
         let others = ranked.iter().filter(|it| !it.is_plausible && !it.acts_as_first);
         let nearest = others.map(|it| left(it.explained)).fold(f64::INFINITY, f64::min);
@@ -342,8 +345,8 @@ impl Limits {
     }
 }
 
-/// Hypotheses in the order of what they explain, those first that may be, where methods differ by a part `apart` of what they
-/// compute.
+/// Orders hypotheses by the part of the error that they explain, plausible ones first. `apart` is the part by which methods
+/// differ in what they compute.
 pub fn ranked<const D: usize>(
     exact: &Exact<'_, D>,
     hypotheses: &[Hypothesis<D>],
@@ -354,7 +357,7 @@ pub fn ranked<const D: usize>(
     all.retain(|it| it.share.is_finite());
     let mut ranked: Vec<Ranked> =
         all.iter().map(|it| one(exact, &hypotheses[it.hypothesis], it, apart)).collect();
-    // Where shares differ by rounding alone, mistakes stand before choices, and then the order is that of the list.
+    // Where shares differ by rounding alone, mistakes precede choices, and then the order of the list decides.
     let share = |it: &Ranked| (it.explained * 1e6).round();
     let by_share = |a: &Ranked, b: &Ranked| share(b).total_cmp(&share(a)).then(a.kind.cmp(&b.kind));
     ranked.sort_by(|a, b| b.is_plausible.cmp(&a.is_plausible).then(by_share(a, b)));
@@ -362,7 +365,7 @@ pub fn ranked<const D: usize>(
     let remains = |share: f64| 1.0 - share;
     let most = AS_WELL * remains(best.explained) + UNSEEN;
     let is_as_good = |it: &Ranked| it.is_plausible && remains(it.explained) <= most;
-    // What fits without a size that was looked for is the simpler explanation.
+    // A fit without a free size is the simpler explanation.
     if let Some(simpler) = ranked.iter().position(|it| is_as_good(it) && !it.is_free()) {
         ranked[..=simpler].rotate_right(1);
     }
@@ -420,9 +423,9 @@ fn one<const D: usize>(
         let away = |it: &&crate::hypothesis::Known| (it.size - found).abs();
         let nearest =
             known.iter().filter(|it| near(it)).map(|it| away(&it)).fold(f64::INFINITY, f64::min);
-        // Of those that the results do not tell apart, the first of the list.
+        // If the results do not tell several known sizes apart, the first of the list counts.
         let known = known.iter().find(|it| near(it) && away(it) <= nearest + explained.margin);
-        // What is nearly right has no name of its own.
+        // A size that is right within the margin has no name of its own.
         if let Some(known) = known.filter(|it| (it.size - right[0]).abs() > explained.margin) {
             is_known = true;
             (name, says) = (known.name, format!("{found:.3} = {:.3}: {}", known.size, known.says));
@@ -449,7 +452,7 @@ fn one<const D: usize>(
     }
 }
 
-/// Hypotheses whose error is below that of the method: what the results cannot show.
+/// Hypotheses whose error is below the error of the method, so that the results cannot show them.
 pub fn unseen<const D: usize>(
     hypotheses: &[Hypothesis<D>],
     all: &[Explained],

@@ -1,4 +1,4 @@
-//! The faces of a body: which points are on them, how far others are, which way they look.
+//! The faces of a body: which points are on them, how far other points are from them, and their normals.
 
 pub use mms_runtime::body::faces;
 use mms_runtime::body::round::Block;
@@ -8,7 +8,7 @@ use mms_runtime::math::coordinates::System;
 use mms_runtime::math::polygon;
 use mms_runtime::{Body, Face, Vector};
 
-/// Whether a point of the boundary is on a face, to a thousandth of the body's size.
+/// Whether a point of the boundary is on a face, to within 1/1000 of the body's size.
 pub fn is_on<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>) -> bool {
     match (body, face) {
         (Body::Box { lower, upper }, Face::Min(axis) | Face::Max(axis)) => {
@@ -41,12 +41,12 @@ pub fn padded<const D: usize>(x: &Vector<f64, D>) -> [f64; 3] {
     std::array::from_fn(|axis| if axis < D { x[axis] } else { 0.0 })
 }
 
-/// The corners of the box around a body; those of no body are the origin.
+/// The corners of the box around a body; two origins if the body has no box.
 pub fn bounds<const D: usize>(body: &Body<f64, D>) -> [Vector<f64, D>; 2] {
     bounding_box(body).unwrap_or_else(|_| [Vector::zeros(); 2])
 }
 
-/// How far X is from a face, over the size of the body.
+/// The distance of X from a face, over the size of the body.
 pub fn away<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>) -> f64 {
     match (body, face) {
         (Body::Box { lower, upper }, Face::Min(axis)) => {
@@ -78,7 +78,7 @@ pub fn away<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>)
     }
 }
 
-/// N at X on a face.
+/// The outward normal N at X on a face.
 pub fn normal<const D: usize>(
     body: &Body<f64, D>,
     face: Face,

@@ -1,4 +1,4 @@
-//! A field with a mistake, as a solver is given it.
+//! A field with a mistake, in the form in which a solver gets it.
 
 use mms_runtime::axisymmetric::hoop_strain;
 use mms_runtime::column::{BUNCH, Bunch, Matrices};
@@ -9,7 +9,7 @@ use crate::exact::Exact;
 use crate::hypothesis::{Change, Given, Hypothesis, MotionPart, Ring};
 use crate::revolved::{lifted, part, whole};
 
-/// Terms that are left out on purpose.
+/// Terms that are omitted on purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Without {
     /// b is 0.
@@ -28,12 +28,12 @@ pub struct Changed<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Changed<'a, D> {
-    /// The field as it is, but for terms that are left out.
+    /// The right field, less the omitted terms.
     pub fn right(exact: &'a Exact<'a, D>, without: Without) -> Self {
         Changed { exact, mistake: None, without }
     }
 
-    /// The same with a mistake.
+    /// The field with a mistake.
     pub fn with(
         exact: &'a Exact<'a, D>,
         without: Without,
@@ -53,7 +53,7 @@ impl<'a, const D: usize> Changed<'a, D> {
         Given { exact: self.exact, size, time, reference, gradient }
     }
 
-    /// The mistake of an axisymmetric field in space, its size and the field there.
+    /// The mistake of an axisymmetric field in space, its size, and the exact solution in space.
     fn in_space(&self) -> Option<(&'a Hypothesis<3>, &'a [f64], &'a Exact<'a, 3>)> {
         let (Hypothesis { change: Change::InSpace(it), .. }, size) = self.mistake? else {
             return None;
@@ -84,7 +84,7 @@ impl<'a, const D: usize> Changed<'a, D> {
         }
     }
 
-    /// Changes a quantity of the motion, as it is at the start or on walls.
+    /// Changes a quantity of the motion at the start or on walls.
     fn moved(&self, time: f64, reference: &[Vector<f64, D>], motion: MotionPart<'_, D>) {
         let Some((hypothesis, size)) = self.mistake else { return };
         let is_start = time == self.exact.domain.time[0];
@@ -150,7 +150,7 @@ impl<const D: usize> Material<f64, D> for Changed<'_, D> {
 }
 
 impl<const D: usize> Changed<'_, D> {
-    /// The body that is taken for a ring by mistake.
+    /// The body that the mistake uses in place of a ring.
     fn ring(&self) -> Option<Ring> {
         match self.mistake {
             Some((Hypothesis { change: Change::Ring(ring), .. }, _)) => Some(*ring),

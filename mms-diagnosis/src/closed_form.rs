@@ -1,7 +1,7 @@
-//! Diagnosis of a closed form from paper that differs from what was derived: the mistake that gives such a formula.
+//! Diagnosis of a closed form from paper that differs from the derived one: finds the mistake that gives such a formula.
 //!
-//! A stress is looked at as that of a law. Of b, a mistake in b is the formula itself, and one in the stress changes Div P, which is
-//! found by central differences of fourth order.
+//! A stress is diagnosed like the stress of a law. For b, a mistake in b changes the formula itself, and a mistake in the
+//! stress changes Div P, which is computed by central differences of fourth order.
 
 use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::{Fill, Matrix, Vector};
@@ -12,7 +12,7 @@ use crate::hypothesis::{Change, Given, Hypothesis, OfForce, OfStress};
 use crate::smooth::{less, size};
 use crate::table::{self, ARITHMETIC, Measure, Table, to_round_off};
 
-/// What a closed form is of.
+/// The quantity of a closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClosedForm {
     /// b.
@@ -21,10 +21,10 @@ pub enum ClosedForm {
     Stress(Measure),
 }
 
-/// The values of a closed form at a time and at X; the numbers of a point stand together.
+/// The values of a closed form at a time and at X, point by point.
 pub type Values<'a> = dyn Fn(f64, &[f64]) -> Vec<f64> + 'a;
 
-/// Where in the time window a closed form is looked at, and at how many points along an axis.
+/// The times, as parts of the time window, and the numbers of points along an axis at which a closed form is evaluated.
 const TIMES: [f64; 3] = [0.23, 0.57, 0.91];
 const POINTS: [f64; 3] = [16.0, 5.0, 3.0];
 /// The step of differences, over the size of the body.
@@ -35,13 +35,13 @@ struct Sampled<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     points: Vec<Vector<f64, D>>,
     times: [f64; 3],
-    /// The values, of each time one after the other.
+    /// The values, time by time.
     values: Vec<f64>,
     /// The step of differences.
     step: f64,
 }
 
-/// The mistake that gives a closed form; `None` where none does.
+/// The mistake that gives a closed form; `None` if no hypothesis gives it.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
     of: ClosedForm,
@@ -65,7 +65,7 @@ pub fn diagnose<const D: usize>(
 }
 
 impl<const D: usize> Sampled<'_, D> {
-    /// As what a law gave.
+    /// The values as stresses of a law.
     fn table(&self, measure: Measure) -> Table<D> {
         let gradients = self.times.iter().flat_map(|time| self.exact.gradient(*time, &self.points));
         Table {
@@ -78,7 +78,7 @@ impl<const D: usize> Sampled<'_, D> {
         }
     }
 
-    /// As b. `None` where an exact value is not finite.
+    /// The diagnosis of the values as b. `None` if an exact value is not finite.
     fn force(&self, mut hypotheses: Vec<Hypothesis<D>>) -> Option<Diagnosis> {
         hypotheses.retain(|it| matches!(it.change, Change::Force(_) | Change::Stress(..)));
         let beside = self.beside();
@@ -119,7 +119,7 @@ impl<const D: usize> Sampled<'_, D> {
         self.times.iter().flat_map(at).collect()
     }
 
-    /// What Div P is found from.
+    /// The exact stresses beside the points from which differences give Div P.
     fn beside(&self) -> Vec<Beside<D>> {
         let mut all = Vec::new();
         for time in self.times {
@@ -161,7 +161,7 @@ impl<const D: usize> Sampled<'_, D> {
     }
 }
 
-/// tau a step beside the points along an axis, and what it adds to Div P.
+/// tau at points shifted by a step along an axis, and its weight in Div P.
 struct Beside<const D: usize> {
     time: f64,
     axis: usize,
@@ -174,7 +174,7 @@ struct Beside<const D: usize> {
 /// Steps and weights of the first derivative by differences of fourth order.
 const SLOPE: [(f64, f64); 4] =
     [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
-/// How much more than the right b another may be off by differences.
+/// The accepted error of b by differences, over the error that differences make in the right b.
 const MARGIN: f64 = 10.0;
 
 fn over(values: &[f64], scale: f64) -> Vec<f64> {

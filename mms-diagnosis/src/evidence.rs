@@ -1,4 +1,4 @@
-//! What a solver wrote, and its errors as coefficients of smooth functions.
+//! The results of a solver, and their errors as coefficients of smooth functions.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use mms_runtime::Vector;
 use crate::exact::{Exact, Quantity, vectors};
 use crate::smooth::{Fitting, Smooth, less};
 
-/// What a solver wrote on one mesh, at one time or more.
+/// The results of a solver on one mesh, at one or more times.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// h.
@@ -18,7 +18,7 @@ pub struct Mesh {
     pub snapshots: Vec<Snapshot>,
 }
 
-/// A number by which the positions of points are spread: the golden ratio of 2^32 (Knuth, "The Art of Computer Programming", vol. 3,
+/// A multiplier that spreads the indices of points: the golden ratio of 2^32 (Knuth, "The Art of Computer Programming", vol. 3,
 /// section 6.4).
 const SPREAD: u32 = 2_654_435_769;
 
@@ -47,14 +47,14 @@ impl Mesh {
     }
 }
 
-/// What a solver wrote at one time. The numbers of a point stand together.
+/// The results of a solver at one time, point by point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     /// The time.
     pub time: f64,
     /// X.
     pub reference: Vec<f64>,
-    /// Quantities; tensors by rows.
+    /// The quantities; tensors by rows.
     pub values: Vec<(Quantity, Vec<f64>)>,
     /// Reference volumes of the points, where they are known.
     pub volumes: Option<Vec<f64>>,
@@ -64,10 +64,11 @@ pub struct Snapshot {
 
 /// The highest degree of functions, in one to three dimensions.
 pub const DEGREE: [usize; 3] = [9, 8, 4];
-/// How many times are looked at, at most.
+/// The most times that are compared.
 const TIMES: usize = 4;
 
-/// What is compared: quantities at times, as coefficients of smooth functions, each over the size of the exact quantity.
+/// The comparison of results: quantities at times, as coefficients of smooth functions, each over the size of the exact
+/// quantity.
 #[derive(Clone, Debug)]
 pub struct Frame<const D: usize> {
     /// The times.
@@ -78,11 +79,11 @@ pub struct Frame<const D: usize> {
     pub smooth: Smooth<D>,
 }
 
-/// What a frame sees of results.
+/// The errors of results in a frame.
 pub struct Seen {
     /// Coefficients: by times, by quantities, by components, by functions.
     pub coefficients: Vec<f64>,
-    /// Which part of the squared error they hold.
+    /// The part of the squared error that the coefficients represent.
     pub share: f64,
 }
 
@@ -93,7 +94,7 @@ impl<const D: usize> Frame<D> {
         let last = snapshots.len().saturating_sub(1);
         let chosen: Vec<&Snapshot> = match snapshots.len() {
             0..=TIMES => snapshots.to_vec(),
-            // Evenly, the last one among them.
+            // Evenly spaced, including the last one.
             _ => (1..=TIMES).map(|part| snapshots[part * last / TIMES]).collect(),
         };
         let kinds = snapshots.first().map_or(&[][..], |it| &it.values);
@@ -108,14 +109,14 @@ impl<const D: usize> Frame<D> {
         };
         let times = chosen.iter().map(|it| it.time);
         Frame {
-            // At the start the state of what moves is given.
+            // At the start the state is given, unless nothing moves.
             times: times.filter(|time| *time > start || is_at_rest).collect(),
             quantities: kinds.iter().map(|(quantity, _)| (*quantity, size(*quantity))).collect(),
             smooth,
         }
     }
 
-    /// What is compared: the positions of times, with each quantity.
+    /// The pairs that are compared: the index of each time, with each quantity.
     pub fn each(&self) -> impl Iterator<Item = (usize, Quantity)> {
         let quantities = |at| self.quantities.iter().map(move |(quantity, _)| (at, *quantity));
         (0..self.times.len()).flat_map(quantities)
@@ -134,7 +135,7 @@ impl<const D: usize> Frame<D> {
         Some(Sight { frame: self, mesh, points })
     }
 
-    /// The values of coefficients at points, of what is seen first, at the last time.
+    /// Evaluates coefficients at points, for the first quantity at the last time.
     pub fn values(&self, coefficients: &[f64], points: &[Vector<f64, D>]) -> Option<Vec<Vec<f64>>> {
         let count = self.smooth.count();
         let numbers = |it: &(Quantity, f64)| count * it.0.components(D);

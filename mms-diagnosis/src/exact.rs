@@ -8,7 +8,7 @@ use mms_runtime::{Domain, Fill, ManufacturedField, Matrix, Vector};
 use crate::law::{LAWS, Law, moduli};
 use crate::revolved::Revolved;
 
-/// What of the motion solvers write.
+/// A quantity of the motion that solvers write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Quantity {
     /// u.
@@ -20,7 +20,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Its identifier.
+    /// The identifier of the quantity.
     pub fn name(self) -> &'static str {
         match self {
             Quantity::Displacement => "displacement",
@@ -29,7 +29,7 @@ impl Quantity {
         }
     }
 
-    /// Its numbers in a point.
+    /// The number of components at a point.
     pub fn components(self, dimension: usize) -> usize {
         match self {
             Quantity::Displacement | Quantity::Velocity => dimension,
@@ -41,9 +41,9 @@ impl Quantity {
 /// How the moduli of the law are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Moduli {
-    /// They are the same everywhere.
+    /// The moduli are the same everywhere.
     Uniform([f64; 2]),
-    /// They depend on X.
+    /// The moduli depend on X.
     Graded,
     /// The law has no lambda and mu at rest: it is anisotropic, or has a stress there.
     None,
@@ -51,24 +51,24 @@ enum Moduli {
 
 /// The parameters of a material.
 pub trait Parameters<const D: usize>: Sync {
-    /// Their names.
+    /// The names of the parameters.
     fn names(&self) -> &[String];
 
     /// A field with the same motion, whose material has one parameter times a factor; `None` if there is no such field.
     fn times(&self, parameter: usize, factor: f64) -> Option<Arc<dyn ManufacturedField<f64, D>>>;
 }
 
-/// A field, and what a solver that computes it takes.
+/// A field, with the data of a solver that computes it.
 pub struct Exact<'a, const D: usize> {
     /// The field.
     pub field: &'a dyn ManufacturedField<f64, D>,
-    /// Its body, time window and conditions.
+    /// The body, time window and conditions of the field.
     pub domain: Domain<f64, D>,
-    /// The time step of the solver, or about that.
+    /// The time step of the solver, possibly estimated.
     pub time_step: f64,
     /// h of the solver.
     pub cell_size: f64,
-    /// The published law that the field's is.
+    /// The published law that is the law of the field.
     pub law: Option<&'static Law>,
     /// The parameters of the material, if they are known.
     pub parameters: Option<&'a dyn Parameters<D>>,
@@ -79,7 +79,7 @@ pub struct Exact<'a, const D: usize> {
     is_revolved: bool,
 }
 
-/// Displacement gradients at which laws are told apart, and one at which all are alike.
+/// Displacement gradients that distinguish the laws, and one at which all laws agree.
 fn trials<const D: usize>() -> [Matrix<f64, D>; 4] {
     let angle = |k: usize, i: usize, j: usize| {
         (1.0 + 2.3 * k as f64 + 1.7 * i as f64 + 0.9 * j as f64).sin()
@@ -89,17 +89,17 @@ fn trials<const D: usize>() -> [Matrix<f64, D>; 4] {
 
 /// The strain at which a law is taken as linear.
 const SMALL: f64 = 1e-6;
-/// By how much a law may miss stresses of its own, for rounding.
+/// The largest relative difference between a law and its own stresses, for rounding.
 const SAME: f64 = 1e-9;
-/// Parts of the time window at which a field is asked whether it moves.
+/// Parts of the time window at which a field is tested for motion.
 const TRIED: [f64; 4] = [0.0, 0.31, 0.67, 1.0];
 /// The step of differences in time, over the time window.
 const STEP: f64 = 1e-5;
-/// The same of a law taken as linear.
+/// The largest relative difference between a law taken as linear and its stresses.
 const LINEAR: f64 = 1e-4;
 
 impl<'a, const D: usize> Exact<'a, D> {
-    /// Of a field, for a solver with this h and time step.
+    /// The exact solution of a field, for a solver with this h and time step.
     pub fn new(field: &'a dyn ManufacturedField<f64, D>, cell_size: f64, time_step: f64) -> Self {
         Self::of(field, cell_size, time_step, false)
     }
@@ -142,7 +142,7 @@ impl<'a, const D: usize> Exact<'a, D> {
         exact
     }
 
-    /// Displacement gradients that the field may have, at which laws are told apart.
+    /// Displacement gradients that the field can have, and that distinguish the laws.
     fn trials(&self) -> [Matrix<f64, D>; 4] {
         let is_shear = |i: usize, j: usize| self.is_revolved && (i == 2) != (j == 2);
         let held = |h: Matrix<f64, D>| {
@@ -204,7 +204,7 @@ impl<'a, const D: usize> Exact<'a, D> {
         gradients.iter().copied().zip(stress).collect()
     }
 
-    /// lambda and mu at X, of the law where it is known, and else at small strains.
+    /// lambda and mu at X: of the law if it is known, otherwise at small strains.
     fn fitted(&self, x: &Vector<f64, D>) -> Option<[f64; 2]> {
         let (law, gradients, most) = match self.law {
             Some(law) => (law, self.trials(), SAME),
@@ -228,7 +228,7 @@ impl<'a, const D: usize> Exact<'a, D> {
         if let Moduli::Uniform(moduli) = self.moduli { Some(moduli) } else { None }
     }
 
-    /// P F^T of H at X and a time, which is tau but for the small strain.
+    /// P F^T for H at X and a time: tau, except for small-strain laws.
     pub fn stress(
         &self,
         time: f64,
@@ -289,7 +289,7 @@ impl<'a, const D: usize> Exact<'a, D> {
         density
     }
 
-    /// A quantity, the numbers of a point together, tensors by rows.
+    /// A quantity, point by point, tensors by rows.
     pub fn values(&self, quantity: Quantity, time: f64, x: &[Vector<f64, D>]) -> Vec<f64> {
         match quantity {
             Quantity::Displacement => numbers(&self.displacement(time, x)),
@@ -318,7 +318,7 @@ pub fn numbers<const D: usize>(vectors: &[Vector<f64, D>]) -> Vec<f64> {
     vectors.iter().flat_map(|vector| vector.iter().copied()).collect()
 }
 
-/// Vectors whose components stand one after the other.
+/// Vectors from a flat list of their components.
 pub fn vectors<const D: usize>(numbers: &[f64]) -> Vec<Vector<f64, D>> {
     numbers.chunks_exact(D).map(Vector::from_column_slice).collect()
 }

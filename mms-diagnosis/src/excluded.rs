@@ -1,8 +1,8 @@
-//! Mistakes that results with a small error exclude, since they would have made one that is twice as large.
+//! Mistakes that results with a small error exclude, because they would have made an error twice as large.
 //!
-//! The error of a mistake is that which it adds to a run of this project's own solver, on a grid no finer than that of the results: a
-//! root mean square over the body, the largest over times, as that of the results is. Of a field without time it is what the mistake
-//! adds [at equilibrium](crate::statics).
+//! The error of a mistake is the error that it adds to a run of this project's own solver, on a grid no finer than the grid of
+//! the results. It is measured as the error of the results is: a root mean square over the body, the largest over times. For a
+//! field without time it is the error that the mistake adds [at equilibrium](crate::statics).
 
 use std::sync::Arc;
 
@@ -19,12 +19,12 @@ use crate::run::{Obstacle, Plan, Responses as _, written};
 use crate::smooth::{Smooth, less};
 use crate::statics::{Equilibrium, Statics};
 
-/// Results whose errors are known.
+/// Results with known errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
     /// h of the finest mesh.
     pub cell_size: f64,
-    /// Its time step, if that is known.
+    /// The time step of the finest mesh, if it is known.
     pub time_step: Option<f64>,
     /// The times.
     pub times: Vec<f64>,
@@ -34,31 +34,31 @@ pub struct Study {
     pub is_static: bool,
 }
 
-/// Which mistakes of a kind the results would have shown.
+/// The mistakes of one kind that the results would have shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shown {
-    /// The mistake, whose error is so many times that of the results; or it stops the solver.
+    /// The results show the mistake: its error is this multiple of the results' error, or, if `None`, it stops the solver.
     Always(Option<f64>),
-    /// Those whose size is further than this from the right one.
+    /// The results show sizes that differ by more than this from the right one.
     From {
         /// The size of a right solver.
         right: f64,
-        /// The least distance from it that is shown.
+        /// The least difference that is shown.
         least: f64,
     },
-    /// None: the error of the mistake, or of the largest that it may be, is so many times that of the results, less than
-    /// [`NOTICED`].
+    /// The results do not show the mistake: its error, or the error of its largest possible size, is this multiple of the
+    /// results' error, less than [`NOTICED`].
     Never(f64),
 }
 
 /// A mistake, and whether it is excluded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Excluded {
-    /// Its name, with which of several it is.
+    /// The name, with the variant.
     pub name: String,
-    /// The same, with the face that it is on.
+    /// The name, with the variant and the face.
     pub title: String,
-    /// What it is.
+    /// The description of the mistake.
     pub says: &'static str,
     /// Whether it is a mistake or a choice.
     pub kind: Kind,
@@ -67,18 +67,19 @@ pub struct Excluded {
 }
 
 impl Excluded {
-    /// Whether the mistake is excluded, be it of a size or more.
+    /// Whether the mistake is excluded, at all sizes or from some size on.
     pub fn is_excluded(&self) -> bool {
         !matches!(self.shown, Shown::Never(_))
     }
 }
 
-/// A mistake is noticed if its error is so many times that of the results. Then no order of the sum is near that of a right
-/// solver, whatever part of the right error the mistake takes away: that takes 1.65 of an error that does not fall with h, where
-/// the right one has order 2 and meshes are refined by 2. The rest is the uncertainty of a run on another mesh.
+/// The least error of a mistake that is noticed, over the error of the results. From there on no order of the sum is near the
+/// order of a right solver, even if the mistake cancels a part of the right error: that needs a factor of 1.65 for an error
+/// that does not fall with h, where the right error has order 2 and meshes are refined by 2. The rest of the factor covers the
+/// uncertainty of a run on another mesh.
 pub const NOTICED: f64 = 2.0;
 
-/// Steps times particles that a run may take: a fraction of a second, of which there are a hundred.
+/// The most steps times particles of one run: a fraction of a second, for about a hundred runs.
 const MOST_WORK: f64 = 3e5;
 
 /// The runs that are compared.
@@ -90,7 +91,7 @@ struct Runs<'a, const D: usize> {
     errors: &'a [(Quantity, f64)],
 }
 
-/// The two ways to compute the errors that a mistake adds.
+/// Two ways to compute the errors that a mistake adds.
 enum Solvers<'a, const D: usize> {
     /// A run with the mistake, and one without.
     Runs { plan: Plan<'a, D>, right: Vec<Vec<f64>> },
@@ -120,7 +121,7 @@ where
         Ok(Solvers::Runs { plan, right })
     }
 
-    /// The errors that a mistake adds, per time and quantity; `None` if it stops the solver.
+    /// The errors that a mistake adds, for each time and quantity; `None` if it stops the solver.
     fn added(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
         match self {
             Solvers::Runs { plan, right } => {
@@ -132,7 +133,7 @@ where
     }
 }
 
-/// What a study of a field excludes, of each hypothesis.
+/// Lists for each hypothesis whether a study of a field excludes it.
 ///
 /// # Errors
 /// Runs that would take too long, or that stop without a mistake.
@@ -146,7 +147,7 @@ where
 {
     let mesh = places(exact, study)?;
     let snapshots: Vec<&Snapshot> = mesh.snapshots.iter().collect();
-    // Errors are looked at point by point: no smooth functions are fitted to them.
+    // Errors are compared point by point: no smooth functions are fitted to them.
     let none = Smooth::new(&exact.domain.body, 1, [0; 3])?;
     let frame = Frame::new(exact, &snapshots, none);
     if frame.times.is_empty() {
@@ -154,7 +155,7 @@ where
     }
     let solvers = Solvers::new(exact, &frame, &mesh, study.is_static)?;
     let runs = Runs { exact, frame: &frame, mesh: &mesh, solvers, errors: &study.errors };
-    // Large sizes of a mistake have a hypothesis of their own, which excludes nothing more.
+    // Large sizes of a mistake are hypotheses of their own, which exclude nothing more.
     let own: Vec<_> = study.errors.iter().map(|(quantity, _)| *quantity).collect();
     let is_own = |it: &&Hypothesis<D>| it.also.is_empty() && it.is_of(&own);
     let hypotheses: Vec<_> = hypotheses.iter().filter(is_own).collect();
@@ -191,7 +192,7 @@ fn places<const D: usize>(exact: &Exact<'_, D>, study: &Study) -> Result<Mesh, O
     })
 }
 
-/// Points along an axis at which errors are looked at, in one to three dimensions.
+/// Points along an axis at which errors are compared, in one to three dimensions.
 const POINTS: [f64; 3] = [64.0, 24.0, 10.0];
 
 impl<const D: usize> Runs<'_, D>
@@ -206,19 +207,19 @@ where
             };
         };
         let axes = (0..right.len()).map(|axis| self.least(hypothesis, axis, first[axis]));
-        // Of a vector, what is shown whatever its direction.
+        // For a vector, the size that is shown in every direction.
         let least = axes.fold(0.0, f64::max);
         let farthest = hypothesis.farthest();
         match least < farthest {
             true => Shown::From { right: right[0], least },
-            // It adds nothing, however large it is.
+            // The mistake adds nothing at any size.
             false if least.is_infinite() => Shown::Never(0.0),
             false => Shown::Never(NOTICED * farthest / least),
         }
     }
 
-    /// The least distance from the right size along an axis that is shown: first as if the error grew with it, and then with
-    /// what it is about there.
+    /// The least difference from the right size along an axis that is shown: the first estimate takes the error as proportional
+    /// to it, later ones use the error computed there.
     fn least(&self, hypothesis: &Hypothesis<D>, axis: usize, first: f64) -> f64 {
         let Size::Any { right, .. } = &hypothesis.size else { return 0.0 };
         let mut step = first - right[axis];
@@ -233,7 +234,7 @@ where
                     if (times - 1.0).abs() < NEAR {
                         break;
                     }
-                    // No further than from where it was to where that leads, for that may be far away.
+                    // The step is limited, since the estimate may be far away.
                     step = (step / times).clamp(-FARTHEST * step.abs(), FARTHEST * step.abs());
                 }
                 Some(_) => return f64::INFINITY,
@@ -244,8 +245,7 @@ where
         last
     }
 
-    /// How many times the error of the results that of a mistake is, in the quantity that shows it best; `None` where it stops
-    /// the solver.
+    /// The error of a mistake over the error of the results, in the quantity that shows it best; `None` if it stops the solver.
     fn times(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<f64> {
         let own = match written(self.exact, self.frame, self.mesh, hypothesis, size) {
             Some(errors) => errors,
@@ -264,9 +264,9 @@ where
     }
 }
 
-/// How often a size is looked for.
+/// The most runs in the search for a size.
 const ROUNDS: usize = 3;
-/// The error of a mistake is that which is noticed, within this part of it.
+/// The search ends if the error of a mistake is within this part of the noticed one.
 const NEAR: f64 = 0.2;
-/// By how many times a size changes at most.
+/// The largest factor by which a size changes in one step.
 const FARTHEST: f64 = 1e3;

@@ -1,6 +1,6 @@
 //! How an error falls from mesh to mesh, and where to look for its cause.
 
-/// The order of an error, held to the order that a right solver has.
+/// The order of an error, compared with the order of a right solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Falls {
     /// The quantity.
@@ -13,11 +13,11 @@ pub struct Falls {
     pub expected: f64,
     /// The verdict of `mms judge`.
     pub verdict: String,
-    /// Whether that verdict allows the answer that nothing is wrong.
+    /// Whether that verdict allows the finding `nothing`.
     pub is_right: bool,
 }
 
-/// An error falls like that of a time step from this order on, and below the second one.
+/// An error with an order between these two falls like the error of a time step.
 const OF_STEPS: [f64; 2] = [0.75, 1.25];
 /// An error with less than this order does not fall.
 const STEADY: f64 = 0.35;
@@ -25,7 +25,7 @@ const STEADY: f64 = 0.35;
 const NEAR: f64 = 0.15;
 
 impl Falls {
-    /// Says where to look for the cause of an error of this order; nothing if the order is right.
+    /// Says where to look for the cause of an error of this order; `None` if the order is right.
     pub fn hint(&self) -> Option<&'static str> {
         let [least, most] = OF_STEPS;
         Some(match self.observed {

@@ -1,7 +1,7 @@
-//! Published isotropic laws, each linear in lambda and mu, to be compared with what a solver computes.
+//! Published isotropic laws, each linear in lambda and mu, for comparison with what a solver computes.
 //!
-//! They are written here by hand, from the Kirchhoff stress tau of F in three dimensions; plane strain is F with 1 on
-//! the rest of its diagonal. All have the same stress where F is near I.
+//! They are typed here by hand, as the Kirchhoff stress tau of F in three dimensions. In plane strain the rest of F's diagonal
+//! is 1. All have the same stress where F is near I.
 
 use mms_runtime::Matrix;
 
@@ -11,15 +11,15 @@ pub type Tensor = Matrix<f64, 3>;
 /// A law tau = lambda L(F) + mu M(F).
 #[derive(Clone, Copy, Debug)]
 pub struct Law {
-    /// Its identifier.
+    /// The identifier of the law.
     pub name: &'static str,
-    /// W, or the stress where there is none.
+    /// W, or the stress if there is no W.
     pub formula: &'static str,
     /// L and M.
     pub parts: fn(&Tensor) -> [Tensor; 2],
 }
 
-/// All of them.
+/// All published laws.
 pub const LAWS: [Law; 10] = [
     Law {
         name: "neo_hookean",
@@ -100,7 +100,7 @@ fn identity(factor: f64) -> Tensor {
 }
 
 fn left(f: &Tensor) -> Tensor {
-    // Term by term: a product of matrices is a call for each of its columns.
+    // Written term by term: a product of matrices makes a call for each of its columns.
     let entry =
         |i: usize, j: usize| f[(i, 0)] * f[(j, 0)] + f[(i, 1)] * f[(j, 1)] + f[(i, 2)] * f[(j, 2)];
     let [xy, xz, yz] = [entry(0, 1), entry(0, 2), entry(1, 2)];
@@ -115,24 +115,24 @@ fn isochoric(f: &Tensor, volumetric: f64) -> [Tensor; 2] {
     [identity(volumetric), shear + identity(2.0 / 3.0 * volumetric)]
 }
 
-/// F in space of H in D dimensions.
+/// F in space, from H in D dimensions.
 pub fn in_space<const D: usize>(gradient: &Matrix<f64, D>) -> Tensor {
     let entry = |i: usize, j: usize| if i < D && j < D { gradient[(i, j)] } else { 0.0 };
     Tensor::identity() + Tensor::from_fn(entry)
 }
 
-/// The part of a tensor in space that D dimensions see.
+/// The leading D x D part of a tensor in space.
 pub fn in_plane<const D: usize>(tensor: &Tensor) -> Matrix<f64, D> {
     Matrix::from_fn(|i, j| tensor[(i, j)])
 }
 
 impl Law {
-    /// L and M of H in D dimensions.
+    /// L and M for H in D dimensions.
     pub fn in_dimension<const D: usize>(&self, gradient: &Matrix<f64, D>) -> [Matrix<f64, D>; 2] {
         (self.parts)(&in_space(gradient)).map(|part| in_plane(&part))
     }
 
-    /// tau.
+    /// tau for H in D dimensions.
     pub fn stress<const D: usize>(
         &self,
         moduli: [f64; 2],
@@ -142,7 +142,7 @@ impl Law {
         stress
     }
 
-    /// tau with some moduli each.
+    /// tau for each of several pairs of moduli.
     pub fn stresses<const D: usize, const N: usize>(
         &self,
         moduli: [[f64; 2]; N],
@@ -153,8 +153,8 @@ impl Law {
     }
 }
 
-/// lambda and mu with which a law comes nearest to some stresses, and by how much of their size it misses them. `None`
-/// where they do not fix both.
+/// lambda and mu with which a law comes nearest to some stresses, and the relative difference that remains. `None` if the
+/// stresses do not determine both.
 pub fn moduli<const D: usize>(
     law: &Law,
     samples: &[(Matrix<f64, D>, Matrix<f64, D>)],

@@ -1,4 +1,4 @@
-//! The meshes of a user's that are looked at, and runs of our own on grids of about their size.
+//! The user's meshes that are compared, and our own runs on grids of about their size.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -15,24 +15,24 @@ use crate::run::{Obstacle, Plan, Responses, written};
 use crate::smooth::{less, size};
 use crate::statics::{Equilibrium, Statics};
 
-/// A mesh is finer than another by this factor at least.
+/// The least ratio of cell sizes of two meshes that count as refined.
 const REFINED: f64 = 1.2;
-/// Steps times particles that a run may take: some seconds.
+/// The most steps times particles of one run: some seconds.
 pub const MOST_WORK: f64 = 3e6;
-/// How much of what falls with h^2 from mesh to mesh is looked at, where two meshes tell it from what does not.
+/// The weight of the part of an error that falls with h^2, where two meshes separate it from the rest.
 const FALLING: f64 = 0.25;
 
-/// One mesh.
+/// One of the user's meshes.
 pub struct Level<'a, const D: usize> {
     /// The results.
     pub mesh: &'a Mesh,
     /// The fit of errors at their points.
     sight: Sight<'a, D>,
-    /// Their errors.
+    /// The errors of the results.
     pub seen: Seen,
-    /// The solvers that its errors are compared with.
+    /// The solvers whose errors are compared with the mesh's errors.
     pub solvers: Box<dyn Responses<'a, D> + 'a>,
-    /// The errors of right methods; `None` of one that stops.
+    /// The errors of right methods; `None` for a method that stops.
     right: Vec<Option<Vec<f64>>>,
 }
 
@@ -58,7 +58,7 @@ impl<'a, const D: usize> Level<'a, D> {
         Ok(Level { mesh, sight, seen, solvers, right })
     }
 
-    /// The errors that a right method would make on the mesh.
+    /// The errors that a right method makes on the mesh.
     pub fn right(&self, method: usize) -> Option<Vec<f64>> {
         let ratio = (self.mesh.cell_size / self.solvers.cell_size()).powi(2);
         self.right[method].as_ref().map(|it| it.iter().map(|it| it * ratio).collect())
@@ -69,15 +69,15 @@ impl<'a, const D: usize> Level<'a, D> {
 pub struct Levels<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     frame: &'a Frame<D>,
-    /// The finest.
+    /// The finest mesh.
     pub fine: Level<'a, D>,
     coarse: Option<Level<'a, D>>,
-    /// The orders with which the errors of right methods fall on this field; `None` of one that stops.
+    /// The orders with which the errors of right methods fall on this field; `None` for a method that stops.
     orders: Vec<Option<f64>>,
 }
 
 impl<'a, const D: usize> Levels<'a, D> {
-    /// Of results of meshes, from coarse to fine, and a method that they may be of.
+    /// Compares results of meshes, from coarse to fine, and optionally a method that the solver may use.
     ///
     /// # Errors
     /// Values that are not finite; runs that would take too long; a body at rest that nothing holds.
@@ -125,7 +125,7 @@ impl<'a, const D: usize> Levels<'a, D> {
         Ok(Levels { exact, frame, fine, coarse, orders })
     }
 
-    /// The order with which the error of a right method falls on this field; `None` if it stops.
+    /// The order with which the error of a right method falls on this field; `None` if the method stops.
     pub fn order_of(&self, method: usize) -> Option<f64> {
         self.orders[method]
     }
@@ -135,12 +135,12 @@ impl<'a, const D: usize> Levels<'a, D> {
         self.fine.mesh.snapshots.iter().filter_map(|it| it.degree).min().unwrap_or(1)
     }
 
-    /// Whether there are two.
+    /// Whether there are two meshes.
     pub fn are_two(&self) -> bool {
         self.coarse.is_some()
     }
 
-    /// The order with which the error falls from one mesh to the other, of two.
+    /// The order with which the error falls from the coarser mesh to the finer one.
     pub fn order(&self) -> Option<f64> {
         let coarse = self.coarse.as_ref()?;
         let [fine, coarse] = [&self.fine, coarse];
@@ -148,7 +148,8 @@ impl<'a, const D: usize> Levels<'a, D> {
         Some(errors.ln() / (coarse.mesh.cell_size / fine.mesh.cell_size).ln())
     }
 
-    /// Errors on two meshes as what does not fall with h^2, and a part of what does; of one mesh as they are.
+    /// Combines the errors on two meshes: the part that does not fall with h^2, and, weighted, the part that does. Errors of
+    /// one mesh stay as they are.
     pub fn together(&self, of: impl Fn(&Level<'a, D>) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
         let fine = of(&self.fine)?;
         let Some(level) = &self.coarse else { return Some(fine) };
@@ -161,7 +162,8 @@ impl<'a, const D: usize> Levels<'a, D> {
         Some(steady.chain(falling).collect())
     }
 
-    /// The error that a hypothesis makes on a mesh by a method, less that of a right solver. The size is that on the finest.
+    /// The error that a hypothesis makes on a mesh by a method, less the error of a right solver. `size` is for the finest
+    /// mesh.
     pub fn wrong(
         &self,
         level: &Level<'a, D>,
@@ -177,7 +179,8 @@ impl<'a, const D: usize> Levels<'a, D> {
         self.beyond(level, method, &level.solvers.wrong(method, hypothesis, &size)?)
     }
 
-    /// The error that a hypothesis makes by the first method as if it were small; `None` if that takes as long as [`wrong`](Self::wrong).
+    /// The error that a hypothesis makes by the first method, linearised; `None` if that takes as long as
+    /// [`wrong`](Self::wrong).
     pub fn roughly(
         &self,
         level: &Level<'a, D>,
@@ -188,7 +191,7 @@ impl<'a, const D: usize> Levels<'a, D> {
         self.beyond(level, 0, &level.solvers.roughly(hypothesis, &size)?)
     }
 
-    /// A size on a mesh, of one on the finest.
+    /// Converts a size on the finest mesh to a size on a mesh.
     fn on_mesh(&self, level: &Level<'a, D>, hypothesis: &Hypothesis<D>, size: &[f64]) -> Vec<f64> {
         let steps = level.mesh.time_step.zip(self.fine.mesh.time_step);
         let sizes = (level.mesh.cell_size, self.fine.mesh.cell_size);
@@ -197,14 +200,14 @@ impl<'a, const D: usize> Levels<'a, D> {
         size.iter().map(|it| it * factor).collect()
     }
 
-    /// Coefficients of the errors of a method, less those of a right one.
+    /// Coefficients of the errors of a wrong method, less the coefficients of the right method.
     fn beyond(&self, level: &Level<'a, D>, method: usize, errors: &[Vec<f64>]) -> Option<Vec<f64>> {
         let wrong = level.sight.see(errors)?.coefficients;
         Some(less(&wrong, 1.0, level.right[method].as_ref()?))
     }
 }
 
-/// The orders of right methods, from their errors on the finest mesh and by solvers with larger cells.
+/// The orders of right methods, from their errors on the finest mesh and from solvers with larger cells.
 fn orders<const D: usize>(
     fine: &Level<'_, D>,
     solvers: &dyn Responses<'_, D>,
@@ -218,7 +221,7 @@ fn orders<const D: usize>(
     fine.right.iter().zip(coarse).map(one).collect()
 }
 
-/// What a function makes of the numbers below `count`, in their order.
+/// Maps a function over the numbers below `count` on all processors; the results are in the order of the numbers.
 pub fn on_all_processors<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let worker = || {

@@ -1,29 +1,30 @@
 //! Names the mistake of a solver by the error that it makes.
 //!
-//! A [hypothesis] is a change of what a solver is given or computes: of b, of tau, of tractions on a face, of rho0, of the initial
-//! state, of a condition, or of what is written. The error that it makes is found in one of three ways:
+//! A [hypothesis] is a change of the input of a solver or of what it computes: of b, tau, tractions on a face, rho0, the
+//! initial state, a condition, or the written results. The error that it makes is computed in one of three ways:
 //!
-//! * of a law alone, by its stresses ([`table`]) or its [tangent](mod@tangent), or of formulas from paper ([`closed_form`]);
-//! * of accelerations or residuals at an exact state, by the [weak] form of the balance ([`state`]); velocities after one
+//! * for a law alone, from its stresses ([`table`]) or its [tangent](mod@tangent), or from formulas on paper ([`closed_form`]);
+//! * for accelerations or residuals at an exact state, from the [weak] form of the balance ([`state`]); velocities after one
 //!   [step] are mean accelerations;
-//! * of ordinary results, by running the solver of `mms-runtime` with the [changed] field, at rest by Newton's method about
-//!   the exact motion ([`statics`]), or for mistakes of output by the exact solution ([`ordinary`], [`run`]).
+//! * for ordinary results, from a run of the solver of `mms-runtime` with the [changed] field, at rest from Newton's method
+//!   about the exact motion ([`statics`]), or, for mistakes of output, from the exact solution ([`ordinary`], [`run`]).
 //!
-//! Errors are compared as coefficients of [smooth] functions, or as sums with them, never point by point: what
-//! methods make of an error between points differs, and what is smooth does not. Those of our own runs are taken at the user's points
-//! ([`sample`]), for what is not smooth looks different at others. [`rank`] finds the size with which a hypothesis comes nearest
-//! to an error, besides what the method makes of it: that falls from one mesh of the user's to the next, and is about what
-//! one of several right methods of our own makes. [`answer`] says whether what is left is no more than that, and which
-//! hypotheses do as well. Where none does, [`pair`] looks for two, and [`place`] says where the error is.
+//! Errors are compared as coefficients of [smooth] functions, or as sums with them, never point by point, because methods
+//! differ in the error between points and agree in its smooth part. The errors of our own runs are interpolated at the user's
+//! points ([`sample`]), because the other part differs from one set of points to another. [`rank`] finds the size with
+//! which a hypothesis comes nearest to an error, allowing for the error of the method. That error falls from one of the user's
+//! meshes to the next, and is about the error of one of several right methods of our own. [`answer`] says whether the rest is
+//! no more than that error, and which hypotheses explain as much. If none does, [`pair`] searches two, and [`place`] says where
+//! the error is.
 //!
-//! If the order between meshes is wrong ([`falls`]), the answer is a name or that nothing explains the error, however small it is.
-//! Where an error is no more than a method's, the same runs tell which mistakes it [excludes](excluded).
+//! If the order between meshes is wrong ([`falls`]), the finding is `named` or `unexplained`, however small the error is. If an
+//! error is no larger than a method's, the same runs show which mistakes it [excludes](excluded).
 //!
-//! A hypothesis is named only if three things hold: it leaves little of the error; its effect need not be scaled, or its size is one
-//! that it may have; and, where that size was fitted, the error is beyond that of methods ([`answer::Limits`]).
+//! A hypothesis is named only if three conditions hold: it leaves little of the error; its effect need not be scaled, or its
+//! size is possible; and, if that size was fitted, the error is larger than the methods' errors ([`answer::Limits`]).
 //!
-//! The formula for a size that is no factor of the effect (a time, a density) is met by repeating: the response is found again at
-//! the size that the last one asked for.
+//! A size that is no factor of the effect (a time, a density) is found by iteration: the response is computed again at the size
+//! that the last response suggests.
 
 pub mod answer;
 mod body;

@@ -1,4 +1,4 @@
-//! The orders of a method of this project's own solver, which results may be held to.
+//! The orders of a method of this project's own solver, as a standard for results.
 
 use mms_runtime::Method;
 use mms_runtime::study::Solve;
@@ -10,8 +10,8 @@ use crate::level::MOST_WORK;
 use crate::run::{Obstacle, Plan, Responses};
 use crate::smooth::size;
 
-/// The order with which the error of a right method falls on a field, for each quantity of results of two meshes: root mean
-/// squares at the points of the finest mesh, the largest over times.
+/// Computes the order with which the error of a right method falls on a field, for each quantity of results of two meshes.
+/// Errors are root mean squares at the points of the finest mesh, the largest over times.
 ///
 /// # Errors
 /// Runs that stop, that would take too long, or whose error does not fall.
@@ -48,5 +48,5 @@ where
     Ok(orders)
 }
 
-/// The least order of an error that falls.
+/// The least order that counts as falling.
 const LEAST: f64 = 0.5;

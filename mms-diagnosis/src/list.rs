@@ -1,27 +1,27 @@
-//! The list of hypotheses, for people.
+//! The list of hypotheses for people.
 
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Hypothesis, Kind, Of, Size, all, of_tangent, voigt_orders};
 use crate::patterns;
 
-/// What a hypothesis is.
+/// A hypothesis, or a size of one that has a name of its own.
 #[derive(Clone, Debug)]
 pub struct Listed {
-    /// Its name, with the face and which it is.
+    /// The name, with the face and the variant.
     pub title: String,
-    /// What it is.
+    /// The description of the mistake.
     pub says: String,
     /// Whether it is a mistake or a choice.
     pub kind: Kind,
-    /// What it changes.
+    /// The part of the problem that it changes.
     pub changes: &'static str,
     /// The steps of the ladder that show it.
     pub shown_by: &'static str,
-    /// The hypothesis, and its size, that this is a name of.
+    /// If this is a name of a size: the hypothesis, and that size.
     pub size_of: Option<(&'static str, f64)>,
 }
 
-/// All hypotheses about a field, each followed by the names of its sizes.
+/// All hypotheses about a field, each followed by its named sizes.
 pub fn listed<const D: usize>(exact: &Exact<'_, D>) -> Vec<Listed> {
     let of_laws = if exact.space.is_some() { Vec::new() } else { of_tangent() };
     let orders = if exact.space.is_some() { Vec::new() } else { voigt_orders() };

@@ -1,4 +1,4 @@
-//! The parameters of a field's material, and the fields in which one of them is wrong.
+//! The parameters of a field's material, and fields with a mistake in one of them.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,19 +10,19 @@ use crate::exact::Parameters;
 
 /// The parameters of a field's material.
 pub struct Material<'a> {
-    /// Their names.
+    /// The names of the parameters.
     pub names: Vec<String>,
     /// The field with one parameter times a factor; `None` if there is no such field.
     pub times: &'a (dyn Fn(usize, f64) -> Option<Scene<f64>> + Sync),
 }
 
-/// A field of one dimension.
+/// A field in D dimensions.
 type Field<const D: usize> = Box<dyn ManufacturedField<f64, D>>;
 
-/// Fields that were made, by the parameter and the bits of its factor.
+/// Fields made so far, by the parameter and the bits of its factor.
 type Made<const D: usize> = HashMap<(usize, u64), Option<Arc<dyn ManufacturedField<f64, D>>>>;
 
-/// The parameters of the material of a field of one dimension; each field is made once.
+/// The parameters of a material for fields in D dimensions; each field is made once.
 pub struct Own<'a, const D: usize> {
     material: &'a Material<'a>,
     of: fn(Scene<f64>) -> Option<Field<D>>,
@@ -30,7 +30,7 @@ pub struct Own<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Own<'a, D> {
-    /// Wraps a material; `of` takes the field of this dimension out of a scene.
+    /// Wraps a material; `of` extracts the field in D dimensions from a scene.
     pub fn new(material: &'a Material<'a>, of: fn(Scene<f64>) -> Option<Field<D>>) -> Self {
         Own { material, of, made: Mutex::default() }
     }

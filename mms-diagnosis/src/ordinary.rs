@@ -1,4 +1,4 @@
-//! Diagnosis of ordinary results: the error at some times, beside those that mistakes make in runs of our own.
+//! Diagnosis of ordinary results: compares their error at some times with the errors that mistakes make in our own runs.
 
 use mms_runtime::Fill;
 use mms_runtime::body::{Filling, bounding_box};
@@ -21,20 +21,20 @@ use crate::solver::Solver;
 
 /// Points along an axis at which errors are shown, in one to three dimensions.
 const SHOWN: [f64; 3] = [64.0, 16.0, 6.0];
-/// How far results of one solver may differ for how they are stored, over the solution.
+/// The largest difference that storage makes in results of one solver, over the solution.
 const ROUNDING: f64 = 1e-6;
-/// What a method makes at least, over the solution: so many times (h/length)^2. Some fields have none in ours.
+/// The least error of a method over the solution is this times (h/length)^2. On some fields our methods make no error.
 const LEAST: f64 = 2.0;
-/// An error is like that of a method if they are no further apart than this part of it.
+/// An error is like a method's error if they differ by no more than this part of it.
 const NEAR: f64 = 0.25;
-/// From this share on a hypothesis is looked at as a large mistake.
+/// The least share that may be a large mistake.
 const LIKELY: f64 = 0.5;
-/// From this share on an error is explained, and large mistakes are not looked for.
+/// The least share with which an error is explained, so that large mistakes are not searched.
 const EXPLAINED: f64 = 0.9;
-/// From this part on a hypothesis is looked at by other methods.
+/// The least share with which a hypothesis is tried with other methods.
 const PROMISING: f64 = 0.5;
 
-/// Looks at results with every hypothesis.
+/// The comparison of results with every hypothesis.
 struct Look<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     frame: &'a Frame<D>,
@@ -42,7 +42,7 @@ struct Look<'a, const D: usize> {
     hypotheses: &'a [Hypothesis<D>],
     /// The right methods that an error may be like.
     yardsticks: Vec<usize>,
-    /// What is explained.
+    /// The error to be explained.
     error: Error,
 }
 
@@ -63,13 +63,13 @@ where
         let free = free.filter(|it| size(it) > 0.0);
         let edge = exact.length() / levels.fine.mesh.cell_size;
         let is_asked = solver.like.is_some();
-        // Beside a right run of the same solver there is no error of a method.
+        // The error of a method cancels against a right run of the same solver.
         let yardsticks = if solver.is_beside { Vec::new() } else { yardsticks(&levels, is_asked) };
         let floor = match solver.is_beside {
             true => ROUNDING,
             false => LEAST / edge.powi(levels.degree() as i32 + 1),
         };
-        // Methods of degree 1 say nothing of what elements of degree 2 make.
+        // Methods of degree 1 do not show what errors elements of degree 2 make.
         let known = if levels.degree() > 1 && !is_asked { &[] } else { yardsticks.as_slice() };
         let error = Error::new(
             levels.together(own).unwrap_or_default(),
@@ -80,7 +80,7 @@ where
         Look { exact, frame, levels, hypotheses, yardsticks, error }
     }
 
-    /// The errors of right methods on the finest mesh, from the least to the largest; the floor if there is none.
+    /// The sorted errors of right methods on the finest mesh; the floor if there are none.
     fn ordinary(&self) -> Vec<f64> {
         let errors = self.yardsticks.iter().filter_map(|it| self.levels.fine.right(*it));
         let mut sizes: Vec<f64> = errors.map(|it| size(&it)).collect();
@@ -88,13 +88,13 @@ where
         if sizes.is_empty() { vec![self.error.floor] } else { sizes }
     }
 
-    /// The least error of a right method; methods of degree 1 say nothing of elements of degree 2.
+    /// The least error of a right method; for elements of degree 2 the floor, since methods of degree 1 do not show it.
     fn least(&self, ordinary: &[f64]) -> f64 {
         if self.levels.degree() > 1 { self.error.floor } else { ordinary[0] }
     }
 
-    /// The largest error that is taken for that of a right method. Elements of degree 2 make no more than the best method of
-    /// degree 1.
+    /// The largest error that counts as one of a right method. Elements of degree 2 make at most the error of the best method
+    /// of degree 1.
     fn most(&self, ordinary: &[f64], falls: bool) -> f64 {
         let largest = match self.levels.degree() {
             2.. => ordinary[0],
@@ -119,12 +119,12 @@ where
         Some(OfOrder { method: self.levels.fine.solvers.described(method)?, order })
     }
 
-    /// The error that a hypothesis of this size makes by a method, less that of a right solver.
+    /// The error that a hypothesis of this size makes by a method, less the error of a right solver.
     fn by(&self, method: usize, hypothesis: &Hypothesis<D>, at: &[f64]) -> Option<Vec<f64>> {
         self.levels.together(|level| self.levels.wrong(level, method, hypothesis, at))
     }
 
-    /// The user's error on the finest mesh, and that of a hypothesis of some size, to be looked at.
+    /// The user's error on the finest mesh and the error of a hypothesis of some size, as fields for plots.
     fn fields(&self, named: Option<(&Hypothesis<D>, &[f64])>) -> Option<Fields> {
         let [lower, upper] = bounding_box(&self.exact.domain.body).ok()?;
         let spacing = (upper - lower) / SHOWN[D - 1];
@@ -141,7 +141,7 @@ where
         })
     }
 
-    /// The method whose error on such a grid is nearest; if one was asked for, that.
+    /// The method whose error on such a grid is nearest; if the user named a method, that method.
     fn like(&self, is_asked: bool) -> Option<Like> {
         let fine = &self.levels.fine;
         let last = fine.solvers.methods() - 1;
@@ -165,8 +165,8 @@ where
         (is_asked || best.apart <= NEAR).then_some(best)
     }
 
-    /// Finds the part of the error that each hypothesis explains, on all processors. If none explains it, large mistakes are tried: the
-    /// response to a large mistake is no multiple of that to a small one.
+    /// Finds the part of the error that each hypothesis explains, on all processors. If no hypothesis explains it, tries large
+    /// mistakes, whose response is no multiple of the response to small ones.
     fn all(&self, is_right: bool) -> Vec<Explained> {
         let seen: Vec<_> = self.frame.quantities.iter().map(|(it, _)| *it).collect();
         let each = |of: &(dyn Fn(usize, &Hypothesis<D>) -> Option<Explained> + Sync)| {
@@ -178,7 +178,7 @@ where
             on_all_processors(self.hypotheses.len(), one)
         };
         let mut all = each(&|index, it| explain(index, it, &self.error, self));
-        // Output of some offset or factor explains much by chance.
+        // Output with a fitted offset or factor explains much by chance.
         let is_output =
             |it: &Explained| matches!(self.hypotheses[it.hypothesis].change, Change::Output(_));
         let explains = |it: &Explained| it.share >= EXPLAINED && !is_output(it);
@@ -197,8 +197,8 @@ where
     }
 }
 
-/// The right methods that results may be held to: those whose error falls on this field, of second order in time, or the one
-/// that was asked for.
+/// The right methods that results are compared with: methods of second order in time whose error falls on this field, or the
+/// one method that the user named.
 fn yardsticks<const D: usize>(levels: &Levels<'_, D>, is_asked: bool) -> Vec<usize>
 where
     f64: Solve<D>,
@@ -215,7 +215,7 @@ where
     }
 }
 
-/// What velocities of half a step earlier add on a mesh, as leapfrog has them: any amount of that is no mistake.
+/// The error of velocities that are half a step earlier, as leapfrog has them: any multiple of it is no mistake.
 fn earlier<'a, const D: usize>(
     exact: &Exact<'_, D>,
     levels: &Levels<'a, D>,
@@ -243,7 +243,8 @@ where
         self.by(0, hypothesis, size).or(Some(rough))
     }
 
-    /// By how much responses are others by the second method. Nothing where they explain too little to be looked at again.
+    /// The differences between the responses of other methods and of the first; none for output or a hypothesis that explains
+    /// too little.
     fn doubts(
         &self,
         hypothesis: &Hypothesis<D>,
@@ -266,30 +267,30 @@ where
     }
 }
 
-/// The limits within which a mistake is named. What has no size to be fitted and explains an error is there, however small it is:
-/// right solvers do not make such errors. On one mesh the error of a method may look like a mistake of some size, and so may on two
-/// what falls with its order.
+/// The limits within which a mistake is named. A mistake without a fitted size that explains an error is named even if the
+/// error is small, because right solvers do not make such errors. On one mesh the error of a method may look like a mistake of
+/// some size, and on two meshes so may an error that falls with the method's order.
 const OF_ONE: Limits = Limits { excess: [0.05, 1.0], left: [0.35, 0.12], nearer: [1.3, 0.95] };
 const OF_TWO: Limits = Limits { excess: [0.05, 0.4], left: [0.35, 0.15], nearer: [1.3, 0.95] };
-/// If the order is wrong, there is a mistake: how large its error is beside that of methods says nothing.
+/// If the order is wrong, there is a mistake, and the ratio of its error to the methods' error does not matter.
 const OF_WRONG_ORDER: Limits =
     Limits { excess: [0.05, 0.05], left: [0.35, 0.25], nearer: [1.3, 0.95] };
-/// How many times the errors of right methods an error is that is taken for one of theirs: on one mesh, on two, and where it
-/// falls with the expected order.
+/// The largest errors that count as errors of a right method, over the errors of our right methods: on one mesh, on two, and
+/// for an error that falls with the expected order.
 const TIMES_OF_ONE: f64 = 4.0;
 const TIMES_OF_TWO: f64 = 3.0;
 const TIMES_FALLING: f64 = 10.0;
-/// The least order from which on an error of two meshes holds next to nothing but that of a method.
+/// The least order with which an error on two meshes is almost only the error of the method.
 const VANISHES: f64 = 1.5;
 /// The least order of a method that converges.
 const CONVERGES: f64 = 1.4;
-/// Orders that differ by less may be those of one method.
+/// Orders that differ by less may belong to one method.
 const SAME_ORDER: f64 = 0.15;
 
 /// Diagnoses ordinary results of meshes, from coarse to fine, of a solver of which something is known.
 ///
 /// # Errors
-/// Results with which that is not possible.
+/// Results that cannot be diagnosed.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
     frame: &Frame<D>,
@@ -321,11 +322,11 @@ where
         _ if look.levels.are_two() => OF_TWO,
         _ => OF_ONE,
     };
-    // What may be the error of a method, as that of a wave's speed, may look like a factor.
+    // A method's error, such as an error of the wave speed, may look like a factor.
     let order = look.levels.order();
     let vanishes = match falls {
         Some(falls) => falls.is_right,
-        // No error has no order.
+        // If the error is 0, it has no order.
         None => solver.is_beside || order.is_none_or(|it| it.is_nan() || it >= VANISHES),
     };
     let is_of_method = vanishes && error <= middle;
@@ -341,7 +342,7 @@ where
         _ => Finding::Unexplained,
     };
     let named = ranked.first().filter(|_| finding == Finding::Named);
-    // Behind what is left of the error anything smaller is hidden.
+    // The remaining error hides anything smaller.
     let left = match (finding, named) {
         (Finding::Nothing, _) => size(&look.error.all),
         (_, Some(best)) => size(&look.error.beyond) * (1.0 - best.explained).max(0.0).sqrt(),

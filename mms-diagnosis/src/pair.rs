@@ -1,12 +1,12 @@
-//! Two mistakes at once: which pair of hypotheses explains an error that none explains alone.
+//! Two mistakes at once: finds the pair of hypotheses that explains an error that no single one explains.
 
 use crate::answer::{Explained, Pair};
 use crate::hypothesis::{Hypothesis, Size};
 use crate::rank::Error;
 
-/// One of a pair is among so many that explain most alone.
+/// One member of a pair is among this many hypotheses that explain most alone.
 const LIKELY: usize = 5;
-/// Which part of the error a pair may leave, and by how much a mistake that has no size may have to be scaled.
+/// The part of the error that a pair may leave, and the largest |scale - 1| of a mistake that has no size.
 const LEFT: f64 = 0.15;
 const SCALED: f64 = 0.15;
 
@@ -38,7 +38,7 @@ pub fn best<const D: usize>(
     ((1.0 - best.explained).max(0.0).sqrt() <= LEFT).then_some(best)
 }
 
-/// Whether a hypothesis may be of the size at which its response has to be scaled so.
+/// Whether a hypothesis can have the size at which its response is scaled by `scale`.
 fn is_plausible<const D: usize>(it: &Hypothesis<D>, explained: &Explained, scale: f64) -> bool {
     match (&it.size, explained.size.as_slice()) {
         (Size::Fixed, _) => (scale - 1.0).abs() <= SCALED,

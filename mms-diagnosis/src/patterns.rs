@@ -1,4 +1,4 @@
-//! Mistakes that are seen in the numbers themselves, before any comparison with a solver.
+//! Mistakes that show in the numbers themselves, without comparison with a solver.
 
 use mms_runtime::Vector;
 
@@ -8,20 +8,20 @@ use crate::exact::{Exact, vectors};
 use crate::hypothesis::Kind;
 use crate::smooth::size;
 
-/// What is found so: its name, and what it is.
+/// A pattern: its name and its description.
 type Pattern = (&'static str, &'static str);
 
 const PERMUTATION: Pattern =
-    ("points_permuted", "the values of points stand in another order than their positions");
+    ("points_permuted", "the values of points are in another order than their positions");
 const ZERO: Pattern = ("output_zero", "results are 0");
 
-/// All of them, for a list of hypotheses.
+/// All patterns, for a list of hypotheses.
 pub const LISTED: [Pattern; 2] = [PERMUTATION, ZERO];
 
-/// Values that are the exact ones of other points, to this part of their errors, stand in another order.
+/// Values are permuted if, sorted, they differ from the sorted exact ones by at most this part of the error.
 const PERMUTED: f64 = 0.1;
 
-/// The first quantity of the last snapshot, which is far off.
+/// The first quantity of the last snapshot, if its error is large.
 struct Wrong<'a, const D: usize> {
     points: Vec<Vector<f64, D>>,
     computed: &'a [f64],
@@ -58,14 +58,14 @@ pub fn zero<const D: usize>(exact: &Exact<'_, D>, snapshots: &[&Snapshot]) -> Op
     Some(found)
 }
 
-/// Finds values that stand in another order. Much may look so: it is asked last.
+/// Finds values that are in another order. Tried last, because much may look so.
 pub fn permutation<const D: usize>(
     exact: &Exact<'_, D>,
     snapshots: &[&Snapshot],
 ) -> Option<Diagnosis> {
     let Wrong { computed, right, components, sizes: [scale, off], .. } =
         Wrong::of(exact, snapshots)?;
-    // Of each component, the sorted values are those of the exact solution, whatever their order.
+    // The sorted values of each component are compared with the sorted exact ones.
     let sorted = |values: &[f64]| -> Vec<f64> {
         let columns = (0..components).flat_map(|component| {
             let mut column: Vec<f64> =
@@ -83,14 +83,14 @@ pub fn permutation<const D: usize>(
     is_permuted.then(|| named(PERMUTATION, [off, apart], scale))
 }
 
-/// Whether a body that nothing drives stays where it is.
+/// Whether the field starts at rest, so that a body without loads stays where it is.
 fn starts_at_rest<const D: usize>(exact: &Exact<'_, D>, points: &[Vector<f64, D>]) -> bool {
     let start = exact.domain.time[0];
     let motion = [exact.displacement(start, points), exact.velocity(start, points)];
     motion.iter().flatten().all(|it| it.norm() == 0.0)
 }
 
-/// A pattern that leaves so much of what results are off, each over the size of the exact solution.
+/// The diagnosis of a pattern, from the error and the part that the pattern leaves, each over the size of the exact solution.
 fn named((name, says): Pattern, [off, left]: [f64; 2], scale: f64) -> Diagnosis {
     Diagnosis {
         finding: Finding::Named,
@@ -130,7 +130,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
-/// The points in an order that their values have, by the first component and then the next.
+/// The values sorted by point: by the first component, then by the next.
 fn rows(values: &[f64], components: usize) -> Vec<f64> {
     let mut rows: Vec<&[f64]> = values.chunks_exact(components).collect();
     rows.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));

@@ -1,4 +1,4 @@
-//! Where an error sits: in which part of the body, at which time, and how it falls from mesh to mesh.
+//! Where an error is concentrated: in which part of the body, at which time, and how it falls from mesh to mesh.
 
 use mms_runtime::body::bounding_box;
 use mms_runtime::{Body, Face, Vector};
@@ -8,16 +8,16 @@ use crate::body::{away, faces};
 use crate::evidence::{Mesh, Snapshot, nearest};
 use crate::exact::{Exact, vectors};
 
-/// How many cells wide the layer is that is looked at.
+/// The width of a layer, in cells.
 const CELLS: f64 = 2.0;
-/// Which part of the squared error is in it, at least, and how many times its part of the points.
+/// The least part of the squared error in a layer, and the least multiple of the layer's part of the points.
 const MOST: f64 = 0.5;
 const CROWDED: f64 = 3.0;
 
 /// A point with its squared error.
 type Weighed<const D: usize> = (Vector<f64, D>, f64);
 
-/// Where the error of the finest mesh is, at the last time; `smooth` is which part of its square is smooth.
+/// Finds where the error of the finest mesh is at the last time; `smooth` is the smooth part of its square.
 pub fn of<const D: usize>(exact: &Exact<'_, D>, meshes: &[Mesh], smooth: f64) -> Option<Place> {
     let fine = meshes.last()?;
     let snapshot = fine.snapshots.last()?;
@@ -46,7 +46,7 @@ pub fn of<const D: usize>(exact: &Exact<'_, D>, meshes: &[Mesh], smooth: f64) ->
     })
 }
 
-/// The points, each with the squared error of what is written first.
+/// The points, each with the squared error of the first quantity.
 fn squared<const D: usize>(exact: &Exact<'_, D>, snapshot: &Snapshot) -> Option<Vec<Weighed<D>>> {
     let points = vectors::<D>(&snapshot.reference);
     let (quantity, values) = snapshot.values.first()?;
@@ -64,7 +64,7 @@ fn mean<const D: usize>(exact: &Exact<'_, D>, snapshot: &Snapshot) -> Option<f64
     Some((all.iter().map(|it| it.1).sum::<f64>() / all.len().max(1) as f64).sqrt())
 }
 
-/// Whether points like these have most of the error, and are few.
+/// Whether the points that satisfy `is_in` are few and have most of the error.
 fn is_crowded<const D: usize>(
     points: &[Weighed<D>],
     is_in: impl Fn(&Vector<f64, D>) -> bool,
@@ -75,7 +75,7 @@ fn is_crowded<const D: usize>(
     error > MOST && error > CROWDED * inside().count() as f64 / points.len() as f64
 }
 
-/// The axis and the place of a layer across the body that has most of the error.
+/// The axis and the position of a layer across the body that has most of the error.
 fn plane<const D: usize>(
     points: &[Weighed<D>],
     lower: Vector<f64, D>,

@@ -15,7 +15,7 @@ use crate::smooth::legendre;
 pub struct Quadrature<const D: usize> {
     /// X of the points in the body.
     pub points: Vec<Vector<f64, D>>,
-    /// Their volumes, which add up to that of the body.
+    /// The volume weights of the points, which add up to the volume of the body.
     pub volumes: Vec<f64>,
     /// The pieces of all faces.
     pub pieces: Vec<Piece<D>>,
@@ -27,13 +27,13 @@ pub struct Piece<const D: usize> {
     pub face: Face,
     /// X.
     pub position: Vector<f64, D>,
-    /// Its part of the area times the outward normal.
+    /// The area weight of the point times the outward normal.
     pub area: Vector<f64, D>,
 }
 
 impl<const D: usize> Quadrature<D> {
-    /// So many points along each axis of a box, along the radius and the height, in each quarter turn of an angle, and along
-    /// both sides of the quadrilaterals of a polygon.
+    /// Places `count` points along each axis of a box, along the radius and the height, in each quarter turn of an angle, and
+    /// along both sides of the quadrilaterals of a polygon.
     pub fn new(body: &Body<f64, D>, count: usize) -> Self {
         let (mut points, mut volumes) = (Vec::new(), Vec::new());
         match body {
@@ -68,13 +68,13 @@ impl<const D: usize> Quadrature<D> {
     }
 }
 
-/// How far X moves with each coordinate.
+/// The scale factors: how far X moves per unit of each coordinate.
 fn scales<const D: usize>(block: &Block, at: &Vector<f64, D>) -> Vector<f64, D> {
     let scales = block.system.scales(&mut Numbers::new(), &padded(at));
     Vector::from_fn(|axis, _| scales[axis])
 }
 
-/// Points along each coordinate, one of which may be a number.
+/// Points along each coordinate; one coordinate may be constant.
 fn axes<const D: usize>(
     block: &Block,
     constant: Option<(usize, f64)>,
@@ -139,7 +139,7 @@ fn on_face<const D: usize>(body: &Body<f64, D>, face: Face, count: usize) -> Vec
     }
 }
 
-/// Angles from one to another, with their arcs.
+/// Angles between two ends, with their weights.
 fn around(theta: [f64; 2], count: usize) -> Vec<(f64, f64)> {
     let quarters = ((theta[1] - theta[0]) / FRAC_PI_2).ceil().max(1.0);
     over(theta, quarters as usize, count)
@@ -161,7 +161,7 @@ fn products<const D: usize>(axes: &[Vec<(f64, f64)>; D]) -> Vec<(Vector<f64, D>,
     all
 }
 
-/// Points with weights in parts of equal length between two ends.
+/// Points with weights in `parts` intervals of equal length between two ends.
 fn over([from, to]: [f64; 2], parts: usize, count: usize) -> Vec<(f64, f64)> {
     let (rule, part) = (gauss(count), (to - from) / parts as f64);
     let within = |at: usize| {
@@ -171,7 +171,7 @@ fn over([from, to]: [f64; 2], parts: usize, count: usize) -> Vec<(f64, f64)> {
     (0..parts).flat_map(within).collect()
 }
 
-/// Points and weights of Gauss and Legendre on [0, 1]: the roots of a polynomial, by Newton's method.
+/// Gauss-Legendre points and weights on [0, 1]: the roots of a Legendre polynomial, by Newton's method.
 fn gauss(count: usize) -> Vec<(f64, f64)> {
     let scale = (2.0 * count as f64 + 1.0).sqrt();
     let polynomial = |x: f64| {

@@ -1,43 +1,43 @@
-//! Which hypotheses explain an error, with which size, and which do so as well.
+//! Finds which hypotheses explain an error, with which size, and which explain it as well.
 
 use crate::answer::Explained;
 use crate::hypothesis::{Hypothesis, Size};
 use crate::smooth::{less, nearest, size};
 
-/// What is to be explained.
+/// The error to be explained.
 pub struct Error {
     /// The coefficients of a user's error.
     pub all: Vec<f64>,
-    /// What right methods make. The user's may make about as much as one of them, or nothing.
+    /// The errors of right methods. The user's method may make about as much as one of them, or nothing.
     pub methods: Vec<Vec<f64>>,
-    /// What results may have any amount of, without a mistake.
+    /// Directions of which results may contain any multiple without a mistake.
     pub free: Vec<Vec<f64>>,
-    /// The size of what a right method may make besides.
+    /// The size of the additional error that a right method may make.
     pub floor: f64,
-    /// What no method explains.
+    /// The part of the error that no method explains.
     pub beyond: Vec<f64>,
 }
 
-/// How far the user's method may be from one of ours, and a response from that of another method, over itself.
+/// The relative difference between the user's method and one of ours, and between the responses of two methods.
 const DOUBT: f64 = 0.4;
 
-/// Coefficients of some directions with which they come nearest to an error.
+/// A least-squares fit of some directions to an error.
 struct Fit {
     found: Vec<f64>,
     remains: Vec<f64>,
-    /// The square of what remains, and of what had to be doubted.
+    /// The square of the remainder, plus the penalty for the doubts used.
     cost: f64,
 }
 
 impl Error {
-    /// Of these coefficients.
+    /// The error with these coefficients.
     pub fn new(all: Vec<f64>, methods: Vec<Vec<f64>>, free: Vec<Vec<f64>>, floor: f64) -> Self {
         let mut error = Error { all, methods, free, floor, beyond: Vec::new() };
         error.beyond = error.explain(&[], &[]).1;
         error
     }
 
-    /// The size of what methods do not explain, over that of what they may make besides.
+    /// The size of the error that methods do not explain, over the additional error that they may make.
     pub fn excess(&self) -> f64 {
         let beyond = size(&self.beyond);
         if self.floor > 0.0 {
@@ -49,8 +49,8 @@ impl Error {
         }
     }
 
-    /// Coefficients of some directions with which they, the error of a method, and what methods make of `doubtful` come
-    /// nearest; and what remains. The method is the one with which the least has to be doubted.
+    /// Finds the coefficients with which some directions, the error of a method, and the differences `doubtful` between methods
+    /// come nearest to the error; and the remainder. Uses the method that needs the least doubt.
     pub fn explain(&self, directions: &[Vec<f64>], doubtful: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
         let none = vec![0.0; self.all.len()];
         let fits = self.methods.iter().chain([&none]).map(|it| self.fit(directions, doubtful, it));
@@ -59,7 +59,7 @@ impl Error {
     }
 
     fn fit(&self, directions: &[Vec<f64>], doubtful: &[Vec<f64>], method: &Vec<f64>) -> Fit {
-        // Each doubt has a row of its own: that the method's error is there once, and nothing of the others.
+        // Each doubt has a row of its own: it pulls the method's error to one time itself, and the other doubts to 0.
         let rows = 1 + doubtful.len();
         let row = |column: &[f64], place: Option<usize>| {
             let weight = (DOUBT * size(column)).max(self.floor);
@@ -83,7 +83,7 @@ impl Error {
         Fit { found, remains, cost }
     }
 
-    /// Which part of the square of what methods do not explain is explained with this remainder.
+    /// The explained part of the square of what methods do not explain, from this remainder.
     pub fn share(&self, remains: &[f64]) -> f64 {
         1.0 - (size(remains) / size(&self.beyond)).powi(2)
     }
@@ -91,10 +91,10 @@ impl Error {
 
 /// The errors that hypotheses make.
 pub trait Effect<const D: usize> {
-    /// The error that a hypothesis of this size makes, less that of a right solver; `None` where it cannot be found.
+    /// The error that a hypothesis of this size makes, less the error of a right solver; `None` if it cannot be computed.
     fn response(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<f64>>;
 
-    /// By how much methods differ in such errors, where that is known.
+    /// The differences between methods in such errors, where they are known.
     fn doubts(&self, _: &Hypothesis<D>, _: &[Vec<f64>], _: &[Vec<f64>]) -> Vec<Vec<f64>> {
         Vec::new()
     }
@@ -106,7 +106,8 @@ impl<const D: usize, F: Fn(&Hypothesis<D>, &[f64]) -> Vec<f64>> Effect<D> for F 
     }
 }
 
-/// What a hypothesis explains. Its size is mended until the effect need not be scaled; a vector is taken as linear.
+/// Finds the part of the error that a hypothesis explains. Refines the size until its effect need not be scaled; takes a vector
+/// as linear.
 pub fn explain<const D: usize>(
     index: usize,
     hypothesis: &Hypothesis<D>,
@@ -116,7 +117,7 @@ pub fn explain<const D: usize>(
     match &hypothesis.size {
         Size::Fixed => sized(index, hypothesis, error, effect, 0.0, &[1.0]),
         Size::Any { right, first, .. } => match (right.as_slice(), first.as_slice()) {
-            // What is large is not linear: from the other side it may look better.
+            // Large mistakes act nonlinearly, so the search also starts from the other side.
             ([right], [first]) => {
                 let starts = [&[*first, 2.0 * right - first], hypothesis.also.as_slice()].concat();
                 sized(index, hypothesis, error, effect, *right, &starts)
@@ -142,7 +143,7 @@ pub fn explain_usual<const D: usize>(
     }
 }
 
-/// A hypothesis with one number, or none, by its responses at the sizes `starts`.
+/// Explains an error by a hypothesis with one number or none, by its responses at the sizes `starts`.
 fn sized<const D: usize>(
     index: usize,
     hypothesis: &Hypothesis<D>,
@@ -183,7 +184,7 @@ fn secant([a, of_a]: [f64; 2], [b, of_b]: [f64; 2]) -> f64 {
     b + (1.0 - of_b) * (b - a) / (of_b - of_a)
 }
 
-/// What a hypothesis explains by its response at a size, scaled.
+/// Explains an error by the response at one size, scaled.
 fn one<const D: usize>(
     index: usize,
     hypothesis: &Hypothesis<D>,
@@ -206,7 +207,7 @@ fn one<const D: usize>(
     Some(Explained { hypothesis: index, size, margin, scale, share, response })
 }
 
-/// A hypothesis with a vector.
+/// Explains an error by a hypothesis with a vector.
 fn vector<const D: usize>(
     index: usize,
     hypothesis: &Hypothesis<D>,
@@ -236,11 +237,11 @@ fn vector<const D: usize>(
     Some(Explained { hypothesis: index, size: found, margin, scale: 1.0, share, response })
 }
 
-/// Shares that differ by less are alike: the later size is the better one.
+/// Shares that differ by less are equal: the later size is the better one.
 const SAME: f64 = 1e-3;
-/// How often the size of a hypothesis is mended.
+/// The most refinements of a size.
 const MENDS: usize = 8;
-/// From this part of the error on a hypothesis is worth mending.
+/// The least share with which a hypothesis is refined.
 const WORTH: f64 = 0.3;
-/// A size is found when the response has to be scaled by no more than this.
+/// A size is found if the response has to be scaled by no more than this.
 const FOUND: f64 = 1e-3;

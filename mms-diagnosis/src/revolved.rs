@@ -1,10 +1,10 @@
-//! An axisymmetric field in space: points and vectors have the components R, Z and theta, tensors three rows in that order. What is
-//! right or wrong of stresses and forces at a point is so there as in Cartesian coordinates.
+//! An axisymmetric field in space: points and vectors have the components R, Z and theta, tensors three rows in that order.
+//! Mistakes in stresses and forces at a point are the same here as in Cartesian coordinates.
 
 use mms_runtime::axisymmetric;
 use mms_runtime::{Body, Domain, ManufacturedField, Material, Matrix, Vector};
 
-/// The meridian's field, in space.
+/// The field of a meridian, in space.
 pub struct Revolved<'a, const D: usize>(pub &'a dyn ManufacturedField<f64, D>);
 
 /// X in the meridian.

@@ -1,4 +1,4 @@
-//! The errors that mistakes make, in runs of this project's own solver.
+//! The errors that mistakes make in runs of this project's own solver.
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -17,34 +17,34 @@ use crate::hypothesis::{Change, Given, Hypothesis};
 use crate::sample::Sampling;
 use crate::smooth::less;
 
-/// Cells along the longest edge, at least and at most, in one to three dimensions.
+/// The least and the most cells along the longest edge, in one to three dimensions.
 const CELLS: [[usize; 2]; 3] = [[16, 64], [8, 32], [4, 8]];
 
-/// Why results cannot be diagnosed.
+/// The reasons why results cannot be diagnosed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Obstacle {
     /// A value of the exact solution at a point of the results is not finite.
     NotFinite,
-    /// A run of our own would take so many steps even on the coarsest grid.
+    /// A run of our own would take this many steps even on the coarsest grid.
     TooManySteps(f64),
-    /// Results have fewer points than tell one mistake from another.
+    /// Results have too few points to tell mistakes apart.
     TooFewPoints {
-        /// How many there are.
+        /// The number of points.
         found: usize,
-        /// How many there have to be.
+        /// The least number of points.
         least: usize,
     },
     /// All results are at the start of the time window.
     AtStart,
     /// A stress of the field is not finite at a row of a table.
     SingularDeformation,
-    /// Evidence of this kind is not looked at for axisymmetric fields.
+    /// Evidence of this kind is not supported for axisymmetric fields.
     Axisymmetric(&'static str),
     /// Nothing holds a body at rest, or it is unstable.
     NotHeld,
     /// The body has no extent.
     Refused(Refusal),
-    /// The error of the method that results are compared with falls with this order on this field, or a run of it stops.
+    /// The error of the method that the user named falls with this order on this field, or, if `None`, a run of it stops.
     Diverges(Option<f64>),
 }
 
@@ -110,20 +110,20 @@ pub trait Responses<'a, const D: usize>: Sync {
     fn cell_size(&self) -> f64;
     /// How many methods there are.
     fn methods(&self) -> usize;
-    /// A method, in the words of its options; `None` if it is none that a user may ask for.
+    /// Describes a method in the words of its options; `None` if users cannot name it.
     fn described(&self, method: usize) -> Option<String>;
     /// Whether a method is of second order in time.
     fn is_of_second_order(&self, method: usize) -> bool;
-    /// The errors of a right solver, of each time and quantity; `None` where it stops.
+    /// The errors of a right solver, for each time and quantity; `None` if it stops.
     fn right(&self, method: usize) -> Option<Vec<Vec<f64>>>;
-    /// The errors of a solver with a mistake; `None` where it stops.
+    /// The errors of a solver with a mistake; `None` if it stops.
     fn wrong(
         &self,
         method: usize,
         hypothesis: &Hypothesis<D>,
         size: &[f64],
     ) -> Option<Vec<Vec<f64>>>;
-    /// The errors with a mistake as if it were small, where that is found in less time.
+    /// The linearised errors with a mistake, where they are cheaper.
     fn roughly(&self, _: &Hypothesis<D>, _: &[f64]) -> Option<Vec<Vec<f64>>> {
         None
     }
@@ -139,15 +139,15 @@ pub struct Plan<'a, const D: usize> {
     without: Without,
     cells: usize,
     methods: Vec<Method>,
-    /// From the particles of each method to the points of the user's results, at each time.
+    /// The maps from the particles of each method to the points of the user's results, at each time.
     samplings: Vec<OnceLock<Vec<Sampling>>>,
 }
 
-/// Of these, those by which a response is found again: none of them is near the first.
+/// The indices of the methods with which a response is computed again: none of them is near the first.
 pub const OTHERS: [usize; 3] = [1, 4, 8];
 
-/// Methods that are right, and unlike each other. The first has particles as a quadrature has points: finite elements. The
-/// second is smooth, and damps. The others are what particles make of it that lie anywhere in cells.
+/// Right methods that differ from each other. The first has particles at quadrature points: finite elements. The second is
+/// smooth, and damps. The others have particles anywhere in cells.
 fn methods(setup: &Setup, may_be_offset: bool) -> Vec<Method> {
     let integrated = |integrator, shape, formulation, transfer, offset: f64, jitter| Method {
         shape,
@@ -206,10 +206,11 @@ impl<'a, const D: usize> Plan<'a, D>
 where
     f64: Solve<D>,
 {
-    /// For results of a mesh, in a frame: on a coarser grid, where a run would take more steps times particles than `most_work`.
+    /// Plans runs for the results of a mesh in a frame. The grid is coarser if a run would take more steps times particles than
+    /// `most_work`.
     ///
     /// # Errors
-    /// They would take too long on any.
+    /// Runs that would take too long on any grid.
     pub fn new(
         exact: &'a Exact<'a, D>,
         frame: &'a Frame<D>,
@@ -238,7 +239,7 @@ where
         let cells =
             (least..=wanted).rev().find(fits).ok_or(Obstacle::TooManySteps(steps(least)))?;
         let end = frame.times.iter().copied().fold(exact.domain.time[0], f64::max);
-        // Walls stand at nodes.
+        // Walls are at nodes.
         let is_wall = |it: &Condition| matches!(it, Condition::Fixed | Condition::Roller);
         let may_be_offset = !exact.domain.faces.iter().any(|(_, it)| is_wall(it));
         let setup = Setup { end_time: Some(end), ..Setup::default() };
@@ -251,7 +252,7 @@ where
         Ok(Plan { exact, frame, mesh, without, cells, methods, samplings })
     }
 
-    /// The cells along each axis: as near to cubes as they can be while they end where the body ends.
+    /// The cells along each axis: nearly cubes, with the last one ending at the end of the body.
     fn division(&self) -> Division {
         let mut numbers = [1; 3];
         if let Ok([lower, upper]) = bounding_box(&self.exact.domain.body) {
@@ -291,7 +292,7 @@ where
         Some(self.frame.each().map(one).collect())
     }
 
-    /// From the particles of states to the points of the user's results at their times.
+    /// The maps from the particles of states to the points of the user's results at their times.
     fn samplings(&self, states: &[&State]) -> Vec<Sampling> {
         let box_around = bounding_box(&self.exact.domain.body);
         let measure = box_around.map_or(1.0, |[lower, upper]| (upper - lower).product());
@@ -304,7 +305,7 @@ where
         pairs.map(one).collect()
     }
 
-    /// The errors of a state, at its particles; its velocities are of so much before.
+    /// The errors of a state at its particles; its velocities belong to a time earlier by `before`.
     fn error(&self, state: &State, quantity: Quantity, before: f64) -> Vec<f64> {
         let (computed, time): (Vec<f64>, f64) = match quantity {
             Quantity::Displacement => (state.displacement.clone(), state.time),
@@ -376,7 +377,8 @@ fn reference<const D: usize>(state: &State) -> Vec<Vector<f64, D>> {
     vectors(&pairs.map(|(x, u)| x - u).collect::<Vec<_>>())
 }
 
-/// The errors that a mistake in what is written makes at a user's points, of each time and quantity; `None` of another mistake.
+/// The errors that a mistake in the written results makes at a user's points, for each time and quantity; `None` for another
+/// mistake.
 pub fn written<const D: usize>(
     exact: &Exact<'_, D>,
     frame: &Frame<D>,

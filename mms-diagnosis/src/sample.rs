@@ -1,22 +1,21 @@
-//! Values at points of one cloud from those of another, by moving least squares: locally, a polynomial of second degree.
+//! Values of a point cloud at other points, by moving least squares: locally, a polynomial of second degree.
 //!
-//! An error that is compared with another is taken at the same points: what smooth functions leave of it is then the same part of
-//! both.
+//! Errors are compared at the same points, so that smooth functions capture the same part of each.
 
 use std::collections::HashMap;
 
 use mms_runtime::Vector;
 use mms_runtime::nalgebra::{DMatrix, DVector};
 
-/// The radius around a point in which values count, over the spacing of the cloud.
+/// The radius around a point within which values count, over the spacing of the cloud.
 const RADIUS: f64 = 3.2;
 
-/// How values of a cloud make those at points: for each point, weights of some values.
+/// The map from values of a cloud to values at points: for each point, weights of some values.
 #[derive(Clone, Debug, Default)]
 pub struct Sampling(Vec<Vec<(usize, f64)>>);
 
 impl Sampling {
-    /// From values of a cloud to values at points; `measure` is that of the body.
+    /// The map from a cloud to points; `measure` is the length, area or volume of the body.
     pub fn new<const D: usize>(
         cloud: &[Vector<f64, D>],
         points: &[Vector<f64, D>],
@@ -28,7 +27,7 @@ impl Sampling {
         Sampling(points.iter().map(|x| weights(cloud, &cells.near(x), x, radius)).collect())
     }
 
-    /// The values at the points, of values whose numbers of a point stand together.
+    /// The values at the points, from values of the cloud, both point by point.
     pub fn values(&self, of_cloud: &[f64], components: usize) -> Vec<f64> {
         let one = |terms: &Vec<(usize, f64)>, component: usize| -> f64 {
             terms.iter().map(|(at, weight)| weight * of_cloud[at * components + component]).sum()
@@ -38,7 +37,7 @@ impl Sampling {
     }
 }
 
-/// A cloud by cubes of an edge.
+/// A cloud sorted into cubes with edges of one length.
 struct Cells<const D: usize> {
     edge: f64,
     members: HashMap<[i64; D], Vec<usize>>,
@@ -57,7 +56,7 @@ impl<const D: usize> Cells<D> {
         std::array::from_fn(|axis| (x[axis] / self.edge).floor() as i64)
     }
 
-    /// All that may be within an edge of a point.
+    /// The members that may be within an edge of a point.
     fn near(&self, x: &Vector<f64, D>) -> Vec<usize> {
         let middle = self.of(x);
         let neighbour = |number: usize| {
@@ -69,13 +68,13 @@ impl<const D: usize> Cells<D> {
     }
 }
 
-/// 1, the coordinates, and their products by two.
+/// The monomials up to second degree: 1, the coordinates, and their products.
 fn polynomial<const D: usize>(x: &Vector<f64, D>) -> Vec<f64> {
     let squares = (0..D).flat_map(|i| (0..=i).map(move |j| x[i] * x[j]));
     std::iter::once(1.0).chain(x.iter().copied()).chain(squares).collect()
 }
 
-/// The weights of the values near X; where these are too few, the nearest value alone.
+/// The weights of the values near X; if there are too few, the nearest value alone.
 fn weights<const D: usize>(
     cloud: &[Vector<f64, D>],
     near: &[usize],
@@ -92,7 +91,7 @@ fn weights<const D: usize>(
     let weighed =
         DMatrix::from_fn(near.len(), count, |row, column| weight[row] * basis[(row, column)]);
     let normal = basis.transpose() * &weighed;
-    // The value of the polynomial in the point is its first coefficient.
+    // The value of the polynomial at the point is its first coefficient.
     let first = DVector::from_fn(count, |row, _| if row == 0 { 1.0 } else { 0.0 });
     let solved = normal.cholesky().map(|it| weighed * it.solve(&first));
     match solved.filter(|it| it.iter().all(|it| it.is_finite())) {

@@ -1,4 +1,4 @@
-//! Diagnosis of a field of any dimension. Nothing that its callers compile depends on the dimension.
+//! Diagnosis of a field of any dimension. Callers compile no code that depends on the dimension.
 
 use mms_runtime::body::bounding_box;
 use mms_runtime::scene::Scene;
@@ -21,25 +21,25 @@ use crate::state::{self, Response};
 use crate::table::{self, Measure, Table};
 use crate::{like, ordinary, patterns, place, step, tangent};
 
-/// What there is to look at.
+/// The evidence for a diagnosis.
 pub enum Evidence {
     /// Results of meshes, from coarse to fine.
     Results(Vec<Mesh>),
     /// Accelerations or residuals at an exact state, of the finest mesh.
     State {
-        /// What was computed.
+        /// The computed values.
         response: Response,
         /// h.
         cell_size: f64,
     },
-    /// Stresses beside H: numbers of points, tensors by rows.
+    /// Stresses of a law at given H: numbers point by point, tensors by rows.
     Law(LawOf),
-    /// Tangents beside H.
+    /// Tangents of a law at given H.
     Tangent(TangentOf),
 }
 
 impl Evidence {
-    /// What it is, in words.
+    /// Describes the evidence in words.
     pub fn says(&self) -> String {
         match self {
             Evidence::Results(meshes) => {
@@ -66,43 +66,43 @@ impl Evidence {
 
 /// The stresses of a law.
 pub struct LawOf {
-    /// X; none where it is not given.
+    /// X; empty if it is not given.
     pub reference: Vec<f64>,
     /// H.
     pub gradient: Vec<f64>,
-    /// What the stresses are said to be.
+    /// The declared measure of the stresses.
     pub measure: Measure,
     /// The stresses.
     pub stress: Vec<f64>,
-    /// How far a stress may be off, for how it was stored.
+    /// The uncertainty of a stress, from how it was stored.
     pub rounding: f64,
-    /// How far a component of H may be off.
+    /// The uncertainty of a component of H.
     pub rounding_of_gradient: f64,
 }
 
 /// The tangents of a law.
 pub struct TangentOf {
-    /// X; none where it is not given.
+    /// X; empty if it is not given.
     pub reference: Vec<f64>,
     /// H.
     pub gradient: Vec<f64>,
     /// The tangents row by row, of the components 11, 22, 12 or 11, 22, 33, 12, 13, 23.
     pub tangent: Vec<f64>,
-    /// How far a number may be off, for how it was stored.
+    /// The uncertainty of a number, from how it was stored.
     pub rounding: f64,
 }
 
 /// The most points of a mesh that are compared.
 const MOST_POINTS: usize = 5000;
-/// Fewer points say too little.
+/// The least number of points for a diagnosis.
 pub const FEWEST_POINTS: usize = 8;
-/// The Courant number of a solver whose time step is not known.
+/// The Courant number assumed for a solver whose time step is not known.
 const COURANT: f64 = 0.4;
 
 /// Diagnoses evidence of a field.
 ///
 /// # Errors
-/// Evidence with which that is not possible.
+/// Evidence that cannot be diagnosed.
 pub fn diagnose(
     scene: &Scene<f64>,
     evidence: &Evidence,
@@ -165,7 +165,7 @@ where
     })
 }
 
-/// Which mistakes results exclude whose errors are no more than those of a method.
+/// Lists the mistakes that results exclude, if their errors are no larger than a method's error.
 ///
 /// # Errors
 /// Runs of our own that would take too long, or that stop.
@@ -177,7 +177,7 @@ pub fn excludes(scene: &Scene<f64>, study: &Study) -> Result<Vec<Excluded>, Obst
     }
 }
 
-/// The mistake that gives a closed form from paper; `None` where none does.
+/// The mistake that gives a closed form from paper; `None` if no hypothesis gives it.
 pub fn closed_form(scene: &Scene<f64>, of: ClosedForm, values: &Values<'_>) -> Option<Ranked> {
     match scene {
         Scene::Line(field) => closed_form_of(field.as_ref(), of, values),
@@ -204,8 +204,8 @@ pub fn hypotheses(scene: &Scene<f64>) -> Vec<Listed> {
     }
 }
 
-/// Does something with a field and what a solver with this h takes; without a time step, about that of the largest Courant
-/// number.
+/// Calls a function with a field and the data of a solver with this h. Without a time step it uses about the one of the largest
+/// Courant number.
 fn with_exact<const D: usize, R>(
     field: &dyn ManufacturedField<f64, D>,
     parameters: Option<&dyn Parameters<D>>,
@@ -335,7 +335,7 @@ fn frame<const D: usize>(exact: &Exact<'_, D>, meshes: &[Mesh]) -> Result<Frame<
     Ok(frame)
 }
 
-/// X of so many points of a law: the middle of the body where none are given.
+/// X of `count` points of a law: the middle of the body if none are given.
 fn places<const D: usize>(
     exact: &Exact<'_, D>,
     reference: &[f64],

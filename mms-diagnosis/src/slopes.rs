@@ -1,9 +1,9 @@
-//! How the stress of a law changes with F, by differences: whatever the law is.
+//! How the stress of any law changes with F, by differences.
 
 use mms_runtime::Matrix;
 use mms_runtime::tensor::determinant;
 
-/// How tau changes with F in a point.
+/// The derivatives of tau with respect to F at a point.
 #[derive(Clone, Debug)]
 pub struct Slopes<const D: usize> {
     /// F.
@@ -14,7 +14,7 @@ pub struct Slopes<const D: usize> {
 }
 
 impl<const D: usize> Slopes<D> {
-    /// The rate of tau as F changes by L F.
+    /// The rate of tau if the rate of F is L F.
     pub fn rate(&self, l: &Matrix<f64, D>) -> Matrix<f64, D> {
         let entries = l.iter().zip(&self.along);
         entries.fold(Matrix::zeros(), |sum, (l, along)| sum + along * *l)
@@ -25,19 +25,19 @@ impl<const D: usize> Slopes<D> {
         determinant(&self.f)
     }
 
-    /// What the tangent of Abaqus makes of a symmetric rate of deformation: the Jaumann rate of tau over J. Without spin
-    /// that rate is the one of tau itself, for every law that a rotation of the body only turns.
+    /// The stress rate that the tangent of Abaqus gives for a symmetric rate of deformation: the Jaumann rate of tau over J.
+    /// Without spin it is the rate of tau itself, for every objective law.
     pub fn tangent(&self, rate: &Matrix<f64, D>) -> Matrix<f64, D> {
         self.rate(rate) / self.jacobian()
     }
 }
 
-/// The largest step of the central differences, as a part of F; the others are halves of the one before.
+/// The largest step of the central differences, as a part of F; each further step is half of the one before.
 const STEP: f64 = 0.04;
-/// How many steps there are: each takes two orders more of the error away (Richardson).
+/// The number of steps: each removes two more orders of the error (Richardson).
 const STEPS: usize = 4;
 
-/// How tau changes with F in each point, from a function that gives tau of all points at their H.
+/// The derivatives of tau at each point, from a function that computes tau of all points at their H.
 pub fn slopes<const D: usize>(
     gradient: &[Matrix<f64, D>],
     stress: impl Fn(&[Matrix<f64, D>]) -> Vec<Matrix<f64, D>>,

@@ -1,4 +1,4 @@
-//! Smooth functions on a body: polynomials of a total degree, products of Legendre's along the axes.
+//! Smooth functions on a body: polynomials up to a total degree, products of Legendre polynomials along the axes.
 
 use mms_runtime::Vector;
 use mms_runtime::body::bounding_box;
@@ -14,13 +14,13 @@ pub struct Smooth<const D: usize> {
     degrees: Vec<[usize; D]>,
 }
 
-/// How many points there are at least for each function.
+/// The least number of points for each function.
 const POINTS: usize = 3;
-/// Functions that points do not tell apart, by their singular values.
+/// The relative singular value below which points do not tell functions apart.
 const RANK: f64 = 1e-6;
 
 impl<const D: usize> Smooth<D> {
-    /// As many as this number of points can tell apart, up to a degree in one to three dimensions.
+    /// Sets up as many functions as this number of points can tell apart, up to the degrees `most` for one to three dimensions.
     ///
     /// # Errors
     /// A body without extent.
@@ -74,7 +74,7 @@ impl<const D: usize> Smooth<D> {
         let rows: Vec<f64> = points.iter().flat_map(|x| self.values(x)).collect();
         let matrix = DMatrix::from_row_slice(points.len(), self.count(), &rows);
         let transposed = matrix.transpose();
-        // By the normal equations, whose size is that of the functions.
+        // By the normal equations, which have one row per function.
         let normal = &transposed * &matrix;
         let rank = RANK * RANK * normal.norm();
         Fitting { matrix, transposed, normal: normal.svd(true, true), rank }
@@ -83,18 +83,18 @@ impl<const D: usize> Smooth<D> {
 
 /// Finds the functions nearest to values at some points.
 pub struct Fitting {
-    /// The values of the functions at the points, and the same transposed.
+    /// The values of the functions at the points, and the transposed matrix.
     matrix: DMatrix<f64>,
     transposed: DMatrix<f64>,
     /// The product of both.
     normal: SVD<f64, Dyn, Dyn>,
-    /// Its singular values that are taken for 0.
+    /// The size up to which singular values count as 0.
     rank: f64,
 }
 
 impl Fitting {
-    /// The coefficients of the functions nearest to values at the points, of each component one after the other; and
-    /// which part of their squares these functions hold.
+    /// Finds the coefficients of the functions nearest to values at the points, component by component; and the part of the
+    /// squared values that these functions represent.
     pub fn fit(&self, values: &[f64]) -> (Vec<f64>, f64) {
         let (points, count) = self.matrix.shape();
         let components = values.len() / points.max(1);
@@ -108,7 +108,7 @@ impl Fitting {
     }
 }
 
-/// All degrees along the axes whose sum is at most this.
+/// All combinations of degrees along the axes whose sum is at most `most`.
 fn degrees<const D: usize>(most: usize) -> Vec<[usize; D]> {
     let count = (most + 1).pow(D as u32);
     let digits = |number: usize| {
@@ -134,8 +134,8 @@ pub(crate) fn legendre(most: usize, x: f64) -> Vec<(f64, f64)> {
     all.into_iter().enumerate().map(scaled).collect()
 }
 
-/// Coefficients c that bring the sum of c times some columns nearest to a vector. A column that is nothing, or the same as
-/// others, has the least coefficients that serve.
+/// The coefficients c for which the sum of c times some columns is nearest to a vector. For columns that are 0 or depend on
+/// others, the smallest such coefficients.
 pub fn nearest(columns: &[Vec<f64>], to: &[f64]) -> Vec<f64> {
     if columns.is_empty() {
         return Vec::new();

@@ -14,6 +14,6 @@ pub struct Solver {
     pub like: Option<Method>,
     /// How its errors fall from mesh to mesh, of results of two meshes and more.
     pub falls: Option<Falls>,
-    /// Whether its results are compared with those of a right run of the same solver, which has the same errors.
+    /// Whether the results are compared with a right run of the same solver, which has the same errors.
     pub is_beside: bool,
 }

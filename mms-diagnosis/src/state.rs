@@ -1,9 +1,9 @@
 //! Diagnosis of accelerations or residuals at an exact state, in the weak form.
 //!
-//! Values at points of a right solver need not be near the exact ones: on irregular meshes they are not, while their sums
-//! with smooth functions w are. So the balance is asked for such sums: int rho0 a.w = -int P:grad w + int rho0 b.w + int
-//! T.w over faces with tractions, with w = 0 where the motion is given. Every mistake in b, P, T or rho0 changes them in a
-//! way that is known without a solver.
+//! Values of a right solver at points need not be near the exact ones: on irregular meshes they are not, but their sums with
+//! smooth functions w are. So the balance is evaluated for such sums: int rho0 a.w = -int P:grad w + int rho0 b.w + int T.w
+//! over faces with tractions, with w = 0 where the motion is given. Every mistake in b, P, T or rho0 changes the sums in a way
+//! that is known without a solver.
 
 use mms_runtime::{Refusal, Vector};
 
@@ -20,37 +20,38 @@ use crate::weak::{OfElements, Right, Weak, add};
 /// Accelerations or residuals of a solver at an exact state.
 #[derive(Clone, Debug)]
 pub struct Response {
-    /// What they are.
+    /// The kind of the values.
     pub computed: Computed,
     /// The time of the state.
     pub time: f64,
-    /// X, the numbers of a point together.
+    /// X, point by point.
     pub reference: Vec<f64>,
-    /// The values, likewise.
+    /// The values, point by point.
     pub values: Vec<f64>,
-    /// The volume of each point; none where all have the same, and of what is integrated already.
+    /// The volume of each point; `None` if all have the same volume, or if the values are integrated already.
     pub volumes: Option<Vec<f64>>,
     /// The terms that were left out.
     pub without: Without,
     /// The degree of the cells, where these are known.
     pub degree: Option<u32>,
-    /// The step over which accelerations are the mean, where they are found from velocities after one.
+    /// The step over which accelerations are the mean, if they come from velocities after one step.
     pub step: Option<f64>,
 }
 
-/// Which part of the error a mistake that is named may leave.
+/// The part of the error that a named mistake may leave.
 const LEFT: f64 = 0.2;
-/// At one state mistakes of several sizes are one formula.
+/// The largest error left, over the error that an impossible size leaves. At one state mistakes of several sizes are one
+/// formula.
 const NEARER: f64 = 1.3;
-/// The error that right methods may make besides, over that of the terms of elements of degree 1: of residuals, and of
-/// accelerations, which a consistent mass makes depend on their neighbours.
+/// The additional error that right methods may make, over the size of the terms of elements of degree 1: for residuals, and for
+/// accelerations, which depend on their neighbours if the mass is consistent.
 const METHOD: [f64; 2] = [0.75, 1.25];
-/// The part of sums that arithmetic may leave, over the largest.
+/// The part of the sums that rounding may leave, over the largest sum.
 const ARITHMETIC: f64 = 1e-10;
 
 impl Response {
-    /// The sums of the values less those of a right solver, which are `right`; and what their scatter from point to point leaves
-    /// of these: half the difference of sums over every second point and over the others.
+    /// The sums of the values less the sums `right` of a right solver; and the error of these sums from scatter between points:
+    /// half the difference between sums over every second point and over the others.
     fn error<const D: usize>(&self, weak: &Weak<'_, D>, right: &[f64]) -> [Vec<f64>; 2] {
         let points: Vec<Vector<f64, D>> = crate::exact::vectors(&self.reference);
         let total: f64 = weak.quadrature.volumes.iter().sum();
@@ -63,7 +64,7 @@ impl Response {
             Computed::Acceleration => weak.per_volume(&points, values),
             Computed::Residual | Computed::NodalResidual => values,
         };
-        // The smooth part of what is right is taken away at the points, so that the user's sums need not be exact for it.
+        // The smooth part of the right values is subtracted at the points, so that the user's sums need not be exact for it.
         let own = self.smooth_part(weak, &weak.quadrature.points);
         let at_points = self.smooth_part(weak, &points);
         let mut halves = [vec![0.0; weak.count()], vec![0.0; weak.count()]];
@@ -79,8 +80,8 @@ impl Response {
         [all, less(&first, 1.0, &second)]
     }
 
-    /// Per volume, what a right solver computes in the body, without what tractions add on faces; nothing of nodes, for what
-    /// belongs to a node is not known here.
+    /// The values per volume of a right solver in the body, without tractions on faces; empty for values at nodes, because the
+    /// volume of a node is not known here.
     fn smooth_part<const D: usize>(
         &self,
         weak: &Weak<'_, D>,
@@ -108,7 +109,7 @@ pub fn diagnose<const D: usize>(
     let is_shown = |change: &Change<D>| match change {
         Change::Force(_) | Change::Stress(..) | Change::Surface(_) => true,
         Change::Loads(..) | Change::Density => true,
-        // After one step it is a start at another time.
+        // After one step, a wrong mass acts like a start at another time.
         Change::Mass => response.step.is_none(),
         Change::Start(_) => response.step.is_some(),
         Change::Condition(_) | Change::Output(_) | Change::Wall(_) => false,
@@ -119,7 +120,7 @@ pub fn diagnose<const D: usize>(
     let scale = sums.scale();
     let scaled = |it: Vec<f64>| -> Vec<f64> { it.iter().map(|it| it / scale).collect() };
     let [all, scatter] = response.error(weak, &right).map(scaled);
-    // Within a step, an integrator may take the acceleration of any time.
+    // Within a step, an integrator may use the acceleration of any time.
     let drift = response.step.map(|step| {
         let x = &weak.quadrature.points;
         let later = exact.acceleration(response.time + step, x);
@@ -129,14 +130,14 @@ pub fn diagnose<const D: usize>(
     });
     let OfElements { methods, size: of_elements } =
         weak.of_elements(response.computed, &response.without);
-    // Elements of degree 2 make h^3 where those of degree 1 make h^2.
+    // The error of elements of degree 2 is of order h^3, of elements of degree 1 h^2.
     let is_solved = response.computed == Computed::Acceleration;
     let smooth = METHOD[usize::from(is_solved)] * of_elements / scale;
     let (methods, smooth) = match response.degree {
         Some(2..) => (Vec::new(), smooth * smooth.min(1.0).sqrt()),
         _ => (methods.into_iter().map(scaled).collect(), smooth),
     };
-    // Cells say what belongs to each point; without them the sums scatter.
+    // With cells, the volume of each point is known; without them the sums scatter.
     let scatter = if response.degree.is_some() { 0.0 } else { size(&scatter) };
     let floor = [smooth, scatter, *off, ARITHMETIC].into_iter().fold(0.0, f64::hypot);
     let methods: Vec<Vec<f64>> = drift.into_iter().chain(methods).collect();

@@ -1,10 +1,10 @@
-//! The errors that mistakes make at equilibrium: no waves, no time step, and none of our own method.
+//! The errors that mistakes make at equilibrium: without waves, a time step, or errors of a method of our own.
 //!
-//! The motion is the exact one and d besides, a sum of [smooth functions that vanish where the motion is given](crate::weak). A
-//! right solver has d = 0. A mistake puts int (P' - P):grad w - int (rho0 b' - rho0 b).w - int (T' - T).w out of balance, where
-//! P', b' and T' are those of the mistake, P' and T' at the motion with d. Galerkin's method finds d, by Newton's method with the
-//! tangent of the right law and Anderson's acceleration (Walker & Ni, "Anderson acceleration for fixed-point iterations", SIAM J.
-//! Numer. Anal. 49 (2011)).
+//! The motion is the exact one plus d, a sum of [smooth functions that vanish where the motion is given](crate::weak). A right
+//! solver has d = 0. A mistake puts int (P' - P):grad w - int (rho0 b' - rho0 b).w - int (T' - T).w out of balance. P', b' and
+//! T' contain the mistake; P' and T' are evaluated at the motion with d. Galerkin's method finds d, by Newton's method with the
+//! tangent of the right law and Anderson's acceleration (Walker & Ni, "Anderson acceleration for fixed-point iterations", SIAM
+//! J. Numer. Anal. 49 (2011)).
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -26,27 +26,27 @@ use crate::weak::{Weak, add, first};
 /// The degree of functions, and the points of quadrature along an axis, in one to three dimensions.
 const DEGREE: [usize; 3] = [12, 9, 5];
 const POINTS: [usize; 3] = [24, 16, 10];
-/// How often d is mended, and how many steps before the last one are used.
+/// The most iterations for d, and the number of earlier steps that the acceleration uses.
 const ROUNDS: usize = 30;
 const DEPTH: usize = 6;
-/// d is found if it changes by no more than this part of it.
+/// The iteration ends if d changes by at most this part.
 const FOUND: f64 = 1e-6;
-/// In so many bits a large mistake is made.
+/// The number of increments in which a large mistake is applied.
 const BITS: u32 = 6;
 /// The step of differences of P.
 const STEP: f64 = 1e-6;
-/// The part of the stress below which forces that are out of balance are of rounding.
+/// The part of the stress below which unbalanced forces are rounding.
 const ROUNDING: f64 = 1e-12;
-/// A step that leads to a singular F is halved so often at most.
+/// The most halvings of a step that leads to a singular F.
 const HALVES: usize = 6;
 
-/// Equilibrium at a time, with what holds on the faces.
+/// Equilibrium at a time, under the conditions on the faces.
 struct System<'a, const D: usize> {
     weak: Weak<'a, D>,
     /// H and P of the exact motion, at the points of the quadrature.
     gradient: Vec<Matrix<f64, D>>,
     stress: Vec<Matrix<f64, D>>,
-    /// rho0 b there.
+    /// rho0 b at these points.
     force: Vec<Vector<f64, D>>,
     /// H and P N of the exact motion on the pieces of faces without given motion.
     faces: Vec<OnFace<D>>,
@@ -64,7 +64,7 @@ struct Put {
     all: Option<DVector<f64>>,
 }
 
-/// How the parts of the functions are found that bring a mistake into balance.
+/// A way to find the coefficients of the functions that bring a mistake into balance.
 type By<'a, const D: usize> = fn(&System<'a, D>, &Changed<'_, D>, &Put) -> Option<DVector<f64>>;
 
 /// A piece of a face.
@@ -112,7 +112,7 @@ impl<'a, const D: usize> System<'a, D> {
         system.tangent.is_invertible().then_some(system)
     }
 
-    /// The sums that b and tractions of a mistake put out of balance, whatever the motion.
+    /// The sums that b and tractions of a mistake put out of balance; they do not depend on the motion.
     fn loads(&self, field: &Changed<'_, D>) -> DVector<f64> {
         let weak = &self.weak;
         let (x, time) = (&weak.quadrature.points, weak.time);
@@ -135,7 +135,7 @@ impl<'a, const D: usize> System<'a, D> {
         DVector::from_vec(sums)
     }
 
-    /// By how much each sum is out of balance with these loads, at the exact motion and parts of the functions.
+    /// The imbalance of each sum with these loads, at the exact motion plus functions with the coefficients `parts`.
     fn unbalanced(
         &self,
         field: &Changed<'_, D>,
@@ -159,17 +159,18 @@ impl<'a, const D: usize> System<'a, D> {
         Put { loads, all }
     }
 
-    /// Whether a mistake puts anything out of balance at the exact motion, but for rounding.
+    /// Whether a mistake puts more than rounding out of balance at the exact motion.
     fn sees(&self, put: &Put) -> bool {
         put.all.as_ref().is_none_or(|all| all.norm() > ROUNDING * self.resisted)
     }
 
-    /// The parts of the functions that bring a mistake into balance if it is small, and it is scaled.
+    /// The coefficients of the functions that bring a small mistake into balance, by linearisation.
     fn linear(&self, _: &Changed<'_, D>, put: &Put) -> Option<DVector<f64>> {
         self.tangent.solve(put.all.as_ref()?)
     }
 
-    /// The parts of the functions at which a mistake is in balance; `None` if there are none. A large mistake is made bit by bit.
+    /// The coefficients of the functions at which a mistake is in balance; `None` if there are none. Applies a large mistake in
+    /// increments.
     fn balance(&self, field: &Changed<'_, D>, Put { loads, all }: &Put) -> Option<DVector<f64>> {
         let (none, all) = (DVector::zeros(self.weak.count()), all.as_ref()?);
         if let Some(found) = self.near(field, &self.tangent, (&none, all), loads) {
@@ -188,7 +189,7 @@ impl<'a, const D: usize> System<'a, D> {
         Some(parts)
     }
 
-    /// Finds the parts of the functions in balance with loads, from parts that are near, each with what is out of balance there.
+    /// Finds the coefficients of the functions in balance with loads, starting from coefficients nearby and their imbalance.
     fn near(
         &self,
         field: &Changed<'_, D>,
@@ -218,7 +219,7 @@ impl<'a, const D: usize> System<'a, D> {
     }
 }
 
-/// The step of Anderson's acceleration, from steps before, each with the change that it made in what is left, and the last.
+/// The step of Anderson's acceleration, from earlier steps, each with its change of the remainder, and from the last step.
 fn accelerated(history: &[[DVector<f64>; 2]], last: &DVector<f64>) -> DVector<f64> {
     let columns: Vec<Vec<f64>> = history.iter().map(|[_, left]| left.as_slice().to_vec()).collect();
     let weights = smooth::nearest(&columns, last.as_slice());
@@ -276,7 +277,7 @@ fn tangent<const D: usize>(
                 .map(|((before, after), volume)| (after - before) * (volume / (2.0 * STEP)))
                 .collect();
             for (i, made) in made.iter_mut().enumerate() {
-                // The rows of a column are those of the points, D of each.
+                // The rows of a column belong to the points, D rows to each.
                 let rows = changes.len() * D;
                 let columns = made.as_mut_slice().chunks_exact_mut(rows);
                 for (made, of_j) in columns.zip(of_j.as_slice().chunks_exact(rows)) {
@@ -295,7 +296,7 @@ fn tangent<const D: usize>(
     tangent.iter().all(|it| it.is_finite()).then_some(tangent)
 }
 
-/// A hypothesis and its size, and the parts of the functions that it makes.
+/// The coefficients of the functions for each hypothesis and size.
 type Found = HashMap<(usize, Vec<u64>), Option<DVector<f64>>>;
 
 /// Equilibrium of a field, for results of any mesh.
@@ -304,7 +305,7 @@ pub struct Equilibrium<'a, const D: usize> {
     system: System<'a, D>,
     /// The error of elements of degree 1, for the cell size of the exact solution.
     of_elements: DVector<f64>,
-    /// The responses to mistakes, and those to small mistakes.
+    /// The responses to mistakes, and the responses to small mistakes.
     found: [Mutex<Found>; 2],
 }
 
@@ -327,7 +328,7 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
         }))
     }
 
-    /// The parts of the functions that a mistake makes, be it as if it were small; found once.
+    /// The coefficients of the functions that a mistake makes, linearised if `is_small`; computed once.
     fn response(
         &self,
         hypothesis: &Hypothesis<D>,
@@ -347,7 +348,7 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
         own
     }
 
-    /// The parts of the functions that a mistake makes, none where it changes nothing at rest; `None` without an equilibrium.
+    /// The coefficients of the functions that a mistake makes, 0 if it changes nothing at rest; `None` without an equilibrium.
     fn made(
         &self,
         hypothesis: &Hypothesis<D>,
@@ -369,7 +370,7 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
                 let own = System::new(self.exact, self.system.weak.time, &field.domain())?;
                 by(&own, &field, &own.put(&field))
             }
-            // At rest the others change nothing that is computed.
+            // At rest the other mistakes change nothing that is computed.
             _ => nothing(),
         }
     }
@@ -383,9 +384,9 @@ pub struct Statics<'a, const D: usize> {
     frame: &'a Frame<D>,
     /// The mesh.
     mesh: &'a Mesh,
-    /// Its h, or a larger one.
+    /// The h of the mesh, or a larger one.
     cell_size: f64,
-    /// The functions at its points, of each time and quantity; `None` without results.
+    /// The functions at the points of the mesh, for each time and quantity; `None` without results.
     functions: OnceLock<Option<Vec<AtPoints<D>>>>,
 }
 
@@ -396,12 +397,12 @@ impl<'a, const D: usize> Statics<'a, D> {
         Statics { equilibrium, frame, mesh, cell_size, functions }
     }
 
-    /// The errors that a mistake adds to those of a right solver; `None` if it has no equilibrium near the exact one.
+    /// The errors that a mistake adds to the errors of a right solver; `None` if it has no equilibrium near the exact one.
     pub fn added(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
         self.errors(&self.equilibrium.made(hypothesis, size, System::balance)?)
     }
 
-    /// The errors at the user's points, of each time and quantity.
+    /// The errors at the user's points, for each time and quantity.
     fn errors(&self, parts: &DVector<f64>) -> Option<Vec<Vec<f64>>> {
         let own = self.functions.get_or_init(|| {
             let weak = &self.equilibrium.system.weak;
@@ -415,11 +416,11 @@ impl<'a, const D: usize> Statics<'a, D> {
     }
 }
 
-/// The parts of the functions that make a quantity at some points.
+/// The values of the functions that make up a quantity at some points.
 enum AtPoints<const D: usize> {
     /// The functions, point by point.
     Displacement(Vec<f64>),
-    /// The number of points, in which nothing moves.
+    /// The number of points; nothing moves at them.
     Velocity(usize),
     /// The gradients of the functions, point by point.
     DisplacementGradient(Vec<Vector<f64, D>>),

@@ -7,7 +7,7 @@ use crate::evidence::Mesh;
 use crate::exact::{Exact, Quantity, numbers, vectors};
 use crate::state::{Computed, Response};
 
-/// The accelerations that velocities of the finest mesh tell, where no wave has crossed a cell since the start.
+/// Computes accelerations from velocities of the finest mesh, if no wave has crossed a cell since the start.
 pub fn response<const D: usize>(
     exact: &Exact<'_, D>,
     meshes: &[Mesh],
@@ -24,7 +24,7 @@ pub fn response<const D: usize>(
     let x: Vec<Vector<f64, D>> = vectors(&snapshot.reference);
     let right = numbers(&exact.velocity(snapshot.time, &x));
     let now = numbers(&exact.acceleration(start, &x));
-    // What the velocity is off by came into it within the step.
+    // The error of the velocity arose within the step.
     let pairs = v.iter().zip(right).zip(now);
     let values = pairs.map(|((v, right), now)| now + (v - right) / step).collect();
     Some(Response {

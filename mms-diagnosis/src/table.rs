@@ -1,4 +1,4 @@
-//! Diagnosis of a law alone: stresses beside the F at which they were computed, without a solver.
+//! Diagnosis of a law alone: stresses at given F, without a solver.
 
 use mms_runtime::tensor::{determinant, inverse};
 use mms_runtime::{Matrix, Vector};
@@ -23,12 +23,12 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// The measure under which a field knows this one: at small strain there is one stress, P.
+    /// The measure of the field that this one corresponds to: at small strain there is one stress, P.
     fn known<const D: usize>(self, exact: &Exact<'_, D>) -> Self {
         if exact.field.is_small_strain() { Measure::FirstPiola } else { self }
     }
 
-    /// This measure of tau = P F^T at F; what is not finite where F is singular.
+    /// Converts tau = P F^T at F to this measure; returns NaN if F is singular.
     pub fn of<const D: usize>(self, f: &Matrix<f64, D>, tau: &Matrix<f64, D>) -> Matrix<f64, D> {
         let inverse = inverse(f).unwrap_or(Matrix::repeat(f64::NAN));
         match self {
@@ -40,29 +40,30 @@ impl Measure {
     }
 }
 
-/// What a law gave.
+/// Stresses that a law gave.
 #[derive(Clone, Debug)]
 pub struct Table<const D: usize> {
-    /// X; it matters where moduli depend on it.
+    /// X; only needed where moduli depend on it.
     pub reference: Vec<Vector<f64, D>>,
     /// H.
     pub gradient: Vec<Matrix<f64, D>>,
-    /// What the stresses are said to be.
+    /// The declared measure of the stresses.
     pub measure: Measure,
     /// The stresses.
     pub stress: Vec<Matrix<f64, D>>,
-    /// How far each stress may be from what was computed, for how it was stored.
+    /// The uncertainty of each stress, from how it was stored.
     pub rounding: f64,
-    /// How far each component of H may be from that at which the law was asked, for how it was stored.
+    /// The uncertainty of each component of H at which the law was evaluated, from how it was stored.
     pub rounding_of_gradient: f64,
 }
 
-/// What a law may lose of its digits, over the largest stress.
+/// The error of a right law from rounding, over the largest stress.
 pub const ARITHMETIC: f64 = 1e-11;
-/// Which part of the squared error a named mistake explains at least: it is there to round-off.
+/// The least part of the squared error that a named mistake explains: it fits to round-off.
 const EXPLAINED: f64 = 1.0 - 1e-6;
 
-/// In a table mistakes of several sizes may be one formula.
+/// The largest error left, over the error that an impossible size leaves. In a table mistakes of several sizes may be one
+/// formula.
 const NEARER: f64 = 1.3;
 
 /// Diagnoses a law. `None` where an exact stress is not finite.
@@ -76,7 +77,7 @@ pub fn diagnose<const D: usize>(
         hypotheses.extend([Hypothesis::first_piola(), over_jacobian()]);
     }
     hypotheses.retain(|it| matches!(it.change, Change::Stress(of, _) if of != Of::Motion));
-    // P is not symmetric, and has nine components, where it is called P.
+    // The measure P is not symmetric and has nine components.
     if table.measure != Measure::FirstPiola {
         hypotheses.extend(voigt_orders());
     }
@@ -97,7 +98,7 @@ pub fn diagnose<const D: usize>(
     }
     let largest = right.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
     let count = (right.len() as f64).sqrt();
-    // What rounding of F makes of the stress, by its tangent.
+    // The stress error from rounding of F, by the tangent.
     let by_gradient = |entry: usize| {
         let mut moved = table.gradient.clone();
         moved.iter_mut().for_each(|h| h[entry] += table.rounding_of_gradient);
@@ -136,7 +137,7 @@ pub fn diagnose<const D: usize>(
     Some(to_round_off(exact, &hypotheses, all, floor, &wrong))
 }
 
-/// Puts the shear components 12, 13, 23 of a symmetric tensor in space into another order.
+/// Permutes the shear components 12, 13, 23 of a symmetric tensor in space.
 fn reorder(tensor: &mut [f64], order: [usize; 3]) {
     const PLACES: [[usize; 2]; 3] = [[1, 3], [2, 6], [5, 7]];
     let shears = PLACES.map(|[above, _]| tensor[above]);
@@ -145,8 +146,8 @@ fn reorder(tensor: &mut [f64], order: [usize; 3]) {
     }
 }
 
-/// Diagnoses numbers that mistakes make to round-off, from how far they are off; up to `floor` that is nothing. `wrong` says
-/// how far a hypothesis puts them off.
+/// Diagnoses numbers in which mistakes show to round-off, from their errors; errors up to `floor` count as none. `wrong`
+/// computes the errors that a hypothesis makes.
 pub fn to_round_off<const D: usize>(
     exact: &Exact<'_, D>,
     hypotheses: &[Hypothesis<D>],

@@ -1,7 +1,7 @@
-//! Diagnosis of a law alone by its tangent, beside the F at which it was computed.
+//! Diagnosis of a law alone by its tangent at given F.
 //!
-//! The tangent is DDSDDE of Abaqus' UMAT: of the Jaumann rate of tau with the rate of deformation D, over J, by engineering shears.
-//! Differences of tau give it for any law ([`slopes`](crate::slopes)).
+//! The tangent is DDSDDE of Abaqus' UMAT: it maps the rate of deformation D, with engineering shears, to the Jaumann rate of
+//! tau over J. Differences of tau give it for any law ([`slopes`](crate::slopes)).
 
 use mms_runtime::{Matrix, Vector};
 
@@ -12,21 +12,21 @@ use crate::slopes::{Slopes, slopes};
 use crate::smooth::size;
 use crate::table::{Measure, to_round_off};
 
-/// What a law gave.
+/// Tangents that a law gave.
 #[derive(Clone, Debug)]
 pub struct Table<const D: usize> {
-    /// X; it matters where moduli depend on it.
+    /// X; only needed where moduli depend on it.
     pub reference: Vec<Vector<f64, D>>,
     /// H.
     pub gradient: Vec<Matrix<f64, D>>,
     /// The tangents row by row, of the components 11, 22, 12 or 11, 22, 33, 12, 13, 23.
     pub tangent: Vec<f64>,
-    /// How far each number may be from what was computed, for how it was stored.
+    /// The uncertainty of each number, from how it was stored.
     pub rounding: f64,
 }
 
-/// How far a right tangent may be off, over the largest number: by so much as differences of stresses in double precision are,
-/// which many laws take. Those that are right here err by 1e-10.
+/// The largest error of a right tangent, over its largest number: the error of differences of stresses in double precision,
+/// which many laws use. The exact tangents here have errors of 1e-10.
 const DIFFERENCES: f64 = 1e-6;
 
 /// The components of Abaqus' vectors, in their order.
@@ -38,7 +38,7 @@ fn components(dimension: usize) -> &'static [[usize; 2]] {
     }
 }
 
-/// A tangent, row by row, from what it makes of a rate of deformation.
+/// The rows of a tangent, from the stress rate that it gives for a rate of deformation.
 fn rows<const D: usize>(of: impl Fn(&Matrix<f64, D>) -> Matrix<f64, D>) -> Vec<f64> {
     let places = components(D);
     let columns: Vec<Matrix<f64, D>> = places
@@ -54,14 +54,14 @@ fn rows<const D: usize>(of: impl Fn(&Matrix<f64, D>) -> Matrix<f64, D>) -> Vec<f
     places.iter().flat_map(entries).collect()
 }
 
-/// A tangent in space whose shear components stand in another order.
+/// A tangent in space with permuted shear components.
 fn reordered(tangent: &[f64], order: [usize; 3]) -> Vec<f64> {
     let at = |k: usize| if k < 3 { k } else { 3 + order[k - 3] };
     (0..36).map(|k| tangent[6 * at(k / 6) + at(k % 6)]).collect()
 }
 
-/// The slopes of tau at each H, where `change` changes it; at small strain those of P, which turns with nothing: as if F were
-/// I.
+/// The slopes of tau at each H, changed by `change`. At small strain, the slopes of P as if F were I, because P does not rotate
+/// with the body.
 fn slopes_of<const D: usize>(
     exact: &Exact<'_, D>,
     table: &Table<D>,
@@ -84,7 +84,7 @@ fn slopes_of<const D: usize>(
     })
 }
 
-/// Diagnoses a law by its tangent. `None` where the exact one is not finite.
+/// Diagnoses a law by its tangent. `None` if the exact tangent is not finite.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
     table: &Table<D>,

@@ -1,5 +1,5 @@
-//! The balance in the weak form, paired with smooth functions w that vanish where the motion is given:
-//! int rho0 a.w = -int P:grad w + int rho0 b.w + int T.w over faces with tractions.
+//! The balance in the weak form, with smooth functions w that vanish where the motion is given: int rho0 a.w = -int P:grad w +
+//! int rho0 b.w + int T.w over faces with tractions.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -18,9 +18,9 @@ use crate::smooth::{Smooth, less, size};
 
 /// The highest degree of functions, in one to three dimensions.
 const DEGREE: [usize; 3] = [7, 5, 3];
-/// Points of quadrature along an axis, in one to three dimensions: the first rule that agrees with the one before is taken.
+/// Points of quadrature along an axis, in one to three dimensions. The first rule that agrees with the one before is used.
 const RULES: [&[usize]; 3] = [&[12, 24, 48, 96, 192], &[9, 12, 18, 27, 40], &[6, 9, 12, 18]];
-/// By how much rules may differ that agree, over the largest sum.
+/// The largest difference between rules that agree, over the largest sum.
 const AGREED: f64 = 1e-9;
 /// The step of differences over the size of the body.
 const STEP: f64 = 1e-4;
@@ -36,15 +36,15 @@ pub struct Weak<'a, const D: usize> {
     smooth: Smooth<D>,
     /// The body, with the conditions on its faces.
     domain: Domain<f64, D>,
-    /// A length that is small in the body.
+    /// A length that is small compared with the body.
     step: f64,
-    /// All functions at the points, point by point: every hypothesis asks for them.
+    /// All functions at the points, point by point; every hypothesis uses them.
     at_points: Vec<f64>,
-    /// Their gradients.
+    /// The gradients of all functions at the points.
     pub slopes_at_points: Vec<Vector<f64, D>>,
 }
 
-/// The sums of a field, apart by their terms: of a, of P in the body, of b, of tractions.
+/// The sums of a field by terms: a, P in the body, b, tractions.
 pub struct Sums {
     /// int rho0 a.w.
     pub inertia: Vec<f64>,
@@ -66,13 +66,13 @@ impl Sums {
         self.terms().map(|it| size(it)).into_iter().fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    /// The size of the largest difference of a term.
+    /// The size of the largest difference between two terms of one kind.
     fn apart(&self, other: &Sums) -> f64 {
         let pairs = self.terms().into_iter().zip(other.terms());
         pairs.map(|(a, b)| size(&less(a, 1.0, b))).fold(0.0, f64::max)
     }
 
-    /// The sums that a solver computes whose density is so many times the right one.
+    /// The sums that a solver computes if its density is `density` times the right one.
     pub fn computed(&self, computed: Computed, density: f64) -> Vec<f64> {
         let Sums { inertia, stress, force, traction } = self;
         let all = inertia.iter().zip(stress).zip(force).zip(traction);
@@ -86,18 +86,18 @@ impl Sums {
     }
 }
 
-/// The sums of what is right, and how far those of another quadrature are from them, over the largest.
+/// The sums of the right field, and their relative difference from another quadrature.
 pub struct Right<'a, const D: usize> {
     /// The functions and the quadrature.
     pub weak: Weak<'a, D>,
     /// The sums.
     pub sums: Sums,
-    /// How far they may be off, over the largest.
+    /// The error of the sums, over the largest sum.
     pub off: f64,
 }
 
 impl<'a, const D: usize> Right<'a, D> {
-    /// By as many points of quadrature as it takes, and as many functions as so many points of a user's tell apart.
+    /// Uses as many points of quadrature as the sums need, and as many functions as this number of a user's points tells apart.
     ///
     /// # Errors
     /// A body without extent.
@@ -138,7 +138,7 @@ impl<'a, const D: usize> Weak<'a, D> {
         Self::of(exact, time, &exact.domain, smooth, count)
     }
 
-    /// With functions of these degrees in one to three dimensions, that vanish where a domain has a given motion.
+    /// Uses functions of these degrees in one to three dimensions that vanish where the domain prescribes the motion.
     ///
     /// # Errors
     /// A body without extent.
@@ -178,7 +178,7 @@ impl<'a, const D: usize> Weak<'a, D> {
         Ok(weak)
     }
 
-    /// 0 where the motion of a component is given, and of the size of 1 in the body.
+    /// A factor that is 0 where the motion of a component is given, and about 1 in the body.
     fn bubble(&self, component: usize, x: &Vector<f64, D>) -> f64 {
         let body = &self.domain.body;
         let factor = |face: Face| match self.domain.condition(face) {
@@ -192,14 +192,14 @@ impl<'a, const D: usize> Weak<'a, D> {
         faces(body).into_iter().map(factor).product()
     }
 
-    /// The values of all functions with one component, at X.
+    /// The values of all functions of each component, at X.
     pub fn functions(&self, x: &Vector<f64, D>) -> Vec<f64> {
         let values = self.smooth.values(x);
         let bubbles: [f64; D] = std::array::from_fn(|component| self.bubble(component, x));
         bubbles.iter().flat_map(|bubble| values.iter().map(move |it| it * bubble)).collect()
     }
 
-    /// Their gradients.
+    /// The gradients of all functions of each component, at X.
     pub fn gradients(&self, x: &Vector<f64, D>) -> Vec<Vector<f64, D>> {
         let (values, slopes) = (self.smooth.values(x), self.smooth.gradients(x));
         let of_bubble = |i: usize| {
@@ -226,7 +226,7 @@ impl<'a, const D: usize> Weak<'a, D> {
         D * self.smooth.count()
     }
 
-    /// int q.w over the body, of q at the points of the quadrature.
+    /// int q.w over the body, from q at the points of the quadrature.
     pub fn paired(&self, values: &[Vector<f64, D>]) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         let functions = self.at_points.chunks(self.count());
@@ -236,7 +236,7 @@ impl<'a, const D: usize> Weak<'a, D> {
         sums
     }
 
-    /// -int P:grad w, of P at the points of the quadrature.
+    /// -int P:grad w, from P at the points of the quadrature.
     pub fn resisted(&self, stress: impl Iterator<Item = Matrix<f64, D>>) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         let slopes = self.slopes_at_points.chunks(self.count());
@@ -257,7 +257,7 @@ impl<'a, const D: usize> Weak<'a, D> {
         sums
     }
 
-    /// Turns what is given per mass at points into what is per volume.
+    /// Converts values per mass at points to values per volume.
     pub fn per_volume(
         &self,
         x: &[Vector<f64, D>],
@@ -281,7 +281,7 @@ impl<'a, const D: usize> Weak<'a, D> {
         }
     }
 
-    /// P of a field at these H of the points of the quadrature.
+    /// P of a field for these H at the points of the quadrature.
     pub fn stress(&self, field: &Changed<'_, D>, h: &[Matrix<f64, D>]) -> Vec<Matrix<f64, D>> {
         let mut tau = vec![Matrix::zeros(); h.len()];
         field.kirchhoff_stress(self.time, &self.quadrature.points, h, &mut tau);
@@ -309,7 +309,7 @@ impl<'a, const D: usize> Weak<'a, D> {
         loaded.iter().copied().zip(forces.collect::<Vec<_>>()).collect()
     }
 
-    /// Div P + rho0 b at X, less what is left out.
+    /// Div P + rho0 b at X, without the omitted terms.
     pub fn applied(&self, without: &Without, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
         let (a, b) = (self.exact.acceleration(self.time, x), self.exact.body_force(self.time, x));
         let [force, stress] =
@@ -318,7 +318,7 @@ impl<'a, const D: usize> Weak<'a, D> {
         each.map(|((a, b), density)| ((a - b) * stress + b * force) * density).collect()
     }
 
-    /// rho0 a less that.
+    /// rho0 a less Div P + rho0 b at X, without the omitted terms.
     pub fn left_over(&self, without: &Without, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
         let inertia = self.per_volume(x, self.exact.acceleration(self.time, x));
         let applied = self.applied(without, x);
@@ -326,19 +326,20 @@ impl<'a, const D: usize> Weak<'a, D> {
     }
 }
 
-/// The errors that right elements of degree 1 make in such sums, which fall with h^2.
+/// The errors of right elements of degree 1 in the sums, which fall with h^2.
 pub struct OfElements {
     /// The errors of right methods, with a lumped and with a consistent mass.
     pub methods: Vec<Vec<f64>>,
-    /// The size of their terms.
+    /// The size of the error terms.
     pub size: f64,
 }
 
 impl<const D: usize> Weak<'_, D> {
-    /// Finds them by their terms. Whatever is interpolated between nodes is larger by h^2/12 times its second derivatives along
-    /// the axes, as a mean over cells, h being the longest edge. So are w in all that acts, u in the stress, and a in the
-    /// inertia of a consistent mass. A lumped mass takes a.w as one, which differs by h^2/6 int rho0 grad a:grad w. Accelerations
-    /// are compared with the exact ones at nodes, so that what acts is interpolated in both.
+    /// Finds the errors of elements by their terms. The interpolant of a function between nodes exceeds it, as a mean over
+    /// cells, by h^2/12 times the second derivatives along the axes, where h is the longest edge. This applies to w in all that
+    /// acts, to u in the stress, and to a in the inertia of a consistent mass. A lumped mass interpolates a.w as one function,
+    /// which differs by h^2/6 int rho0 grad a:grad w. Accelerations are compared with the exact ones at nodes, so that what
+    /// acts is interpolated in both.
     pub fn of_elements(&self, computed: Computed, without: &Without) -> OfElements {
         let factor = self.exact.cell_size.powi(2) / 12.0;
         let axes: Axes<D> =
@@ -381,7 +382,8 @@ impl<const D: usize> Weak<'_, D> {
             .map(|step| of(&x.iter().map(|x| x + axis * step).collect::<Vec<_>>()))
     }
 
-    /// The sum over axes of second derivatives of a function at the points of the quadrature, each by the factor of its axis.
+    /// The sum over axes of second derivatives of a function at the points of the quadrature, each times the factor of its
+    /// axis.
     fn curved<T>(&self, of: impl Fn(&[Vector<f64, D>]) -> Vec<T>, axes: &Axes<D>) -> Vec<T>
     where
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
@@ -398,7 +400,8 @@ impl<const D: usize> Weak<'_, D> {
         sum
     }
 
-    /// The term of w: in what acts on the body and in the inertia, of forces at nodes; else in what acts on faces alone.
+    /// The error from interpolating w: for forces at nodes, in what acts on the body and in the inertia; otherwise in what acts
+    /// on faces alone.
     fn of_functions(&self, computed: Computed, without: &Without, axes: &Axes<D>) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         if computed == Computed::NodalResidual {
@@ -409,7 +412,7 @@ impl<const D: usize> Weak<'_, D> {
             }
         }
         let sign = if computed == Computed::Acceleration { 1.0 } else { -1.0 };
-        // On a face there are nodes; only along it is w interpolated. Without its stress a body has the tractions alone, and
+        // Faces have nodes, so w is interpolated only along them. A body without its stress has the tractions alone, and a body
         // without tractions the stress alone.
         let factor = sign * (f64::from(without.stress) - f64::from(without.traction));
         let right = Changed::right(self.exact, Without::default());
@@ -421,7 +424,7 @@ impl<const D: usize> Weak<'_, D> {
         sums
     }
 
-    /// The term of u in the stress: a small part of the change of H is taken, and its effect scaled.
+    /// The error from interpolating u in the stress: the effect of a small part of the change of H, scaled.
     fn of_displacements(&self, without: &Without, axes: &Axes<D>) -> Vec<f64> {
         let h = self.exact.gradient(self.time, &self.quadrature.points);
         let bent = self.curved(|x| self.exact.gradient(self.time, x), axes);
@@ -434,7 +437,7 @@ impl<const D: usize> Weak<'_, D> {
         less(&bent, 1.0, &straight).iter().map(|it| it / part).collect()
     }
 
-    /// The term of a.w less those of a and of w, each by itself.
+    /// The error of a.w as one function, less the errors of a and of w by themselves.
     fn of_products(
         &self,
         inertia: impl Fn(&[Vector<f64, D>]) -> Vec<Vector<f64, D>>,
@@ -453,7 +456,7 @@ impl<const D: usize> Weak<'_, D> {
         sums
     }
 
-    /// Second derivatives of all functions along axes, each by its factor.
+    /// Second derivatives of all functions along axes, each times its factor.
     fn curvature(&self, x: &Vector<f64, D>, axes: &Axes<D>) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         let here = self.functions(x);
@@ -476,13 +479,13 @@ type Axes<const D: usize> = [(Vector<f64, D>, f64); D];
 /// A change of H that is small.
 const SMALL: f64 = 1e-4;
 
-/// P = tau F^-T; what is not finite where F is singular.
+/// P = tau F^-T; NaN if F is singular.
 pub fn first<const D: usize>(tau: &Matrix<f64, D>, h: &Matrix<f64, D>) -> Matrix<f64, D> {
     let f = h + Matrix::identity();
     inverse(&f).map_or(Matrix::repeat(f64::NAN), |inverse| tau * inverse.transpose())
 }
 
-/// Adds q.w for all functions, whose components come one after the other.
+/// Adds q.w for all functions, which are listed component by component.
 pub fn add<const D: usize>(sums: &mut [f64], functions: &[f64], q: &Vector<f64, D>) {
     let count = functions.len() / D;
     let each = sums.chunks_exact_mut(count).zip(functions.chunks_exact(count));

@@ -36,7 +36,7 @@ fn rotation<const D: usize>(f: &Matrix<f64, D>) -> Matrix<f64, D> {
     (0..ROUNDS).fold(*f, |r, _| (r + inverse(&r).transpose()) / 2.0)
 }
 
-/// Enough for stretches up to 10.
+/// Enough iterations for stretches up to 10.
 const ROUNDS: usize = 10;
 
 fn held<const D: usize>(face: Face) -> Hypothesis<D> {
@@ -54,7 +54,7 @@ fn of_load<const D: usize>(exact: &Exact<'_, D>, face: Face) -> Vec<Hypothesis<D
     of_tractions(exact).into_iter().map(|it| it.on(face)).chain([held(face)]).collect()
 }
 
-/// Tractions of an earlier time, by the size.
+/// Replaces tractions by those at a time earlier by the size.
 fn earlier<const D: usize>(at: &Given<'_, D>, _: Face, tau: &mut [Matrix<f64, D>]) {
     let before = at.exact.gradient(at.time - at.size[0], at.reference);
     let stress = at.exact.stress(at.time - at.size[0], at.reference, &before);
@@ -65,7 +65,7 @@ fn earlier<const D: usize>(at: &Given<'_, D>, _: Face, tau: &mut [Matrix<f64, D>
     }
 }
 
-/// All loads of an earlier time: b as well.
+/// The hypothesis that all loads, b and tractions, belong to an earlier time.
 fn loads_late<const D: usize>(exact: &Exact<'_, D>) -> Hypothesis<D> {
     let says = "b and tractions of an earlier time; the size is by how much";
     let change = Change::Loads(force::earlier, earlier);

@@ -68,7 +68,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
                 let a = at.exact.acceleration(at.time, at.reference);
                 let v = at.exact.velocity(at.time, at.reference);
                 for ((b, a), v) in b.iter_mut().zip(a).zip(v) {
-                    // At rest it has no direction.
+                    // At rest the damping force has no direction.
                     let sign = |v: f64| v / v.abs().max(f64::MIN_POSITIVE);
                     *b -= Vector::from_fn(|i, _| a[i].abs() * sign(v[i])) * at.size[0];
                 }
@@ -95,7 +95,7 @@ fn swap<const D: usize, const A: usize, const B: usize>(
     b.iter_mut().for_each(|b| b.swap_rows(A, B));
 }
 
-/// b of an earlier time, by the size.
+/// Replaces b by its value at a time earlier by the size.
 pub(super) fn earlier<const D: usize>(at: &Given<'_, D>, b: &mut [Vector<f64, D>]) {
     b.copy_from_slice(&at.exact.body_force(at.time - at.size[0], at.reference));
 }
@@ -120,7 +120,7 @@ fn of_components<const D: usize>() -> Vec<Hypothesis<D>> {
     all.into_iter().take(D).map(|(which, change)| of(which, change)).collect()
 }
 
-/// What b has besides in a frame that rotates about axes through the origin.
+/// The inertial forces besides b in a frame that rotates about axes through the origin.
 fn of_rotating_frame<const D: usize>(exact: &Exact<'_, D>) -> [Hypothesis<D>; 2] {
     let window = exact.domain.time[1] - exact.domain.time[0];
     let radius = exact.places().iter().map(|x| x.norm()).fold(f64::MIN_POSITIVE, f64::max);
@@ -138,7 +138,7 @@ fn of_rotating_frame<const D: usize>(exact: &Exact<'_, D>) -> [Hypothesis<D>; 2]
         .choice(),
         Hypothesis::amount(
             "centrifugal",
-            "the centrifugal force omega^2 x besides b; the size is omega^2, in space that about each axis",
+            "the centrifugal force omega^2 x besides b; the size is omega^2, in space about each axis",
             vec![scale(exact) / radius * 0.1; axes],
             Change::Force(|at, b| {
                 let all: f64 = at.size.iter().sum();

@@ -26,7 +26,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     all
 }
 
-/// What may be wrong with lambda and mu.
+/// The mistakes in lambda and mu.
 fn of_moduli<const D: usize>() -> [Hypothesis<D>; 3] {
     [
         Hypothesis::factor(
@@ -142,7 +142,7 @@ fn of_law<const D: usize, const K: usize>(at: &Given<'_, D>, tau: &mut [Matrix<f
     }
 }
 
-/// Computes each tau with other moduli. What given fields add to it, as a temperature does, stays.
+/// Computes each tau with other moduli. Keeps the contributions of given fields, such as a temperature.
 fn with_moduli<const D: usize>(
     at: &Given<'_, D>,
     tau: &mut [Matrix<f64, D>],

@@ -1,7 +1,7 @@
-//! Hypotheses: mistakes that people make, each as a change of what a solver is given or computes.
+//! Hypotheses: mistakes that people make, each as a change of the input of a solver or of what it computes.
 //!
-//! Each family is a file; its list is `all`. A [`Hypothesis`] has a size, one number for most: a factor, a time, a
-//! part of a vector ([`Size`]); one of them is that of a right solver. Sizes with names of their own are [`Known`].
+//! Each family is a file; its list is `all`. A [`Hypothesis`] has a size, for most a single number: a factor, a time, a
+//! component of a vector ([`Size`]). One size is the size of a right solver. Sizes with names of their own are [`Known`].
 
 mod density;
 mod face;
@@ -27,7 +27,7 @@ pub use ring::Ring;
 pub use stress::over_jacobian;
 pub use tangent::{of_tangent, voigt_orders};
 
-/// Where a hypothesis is evaluated: X, and H where that is known.
+/// The place where a hypothesis is evaluated: X, and H if it is known.
 pub struct Given<'a, const D: usize> {
     /// The exact solution.
     pub exact: &'a Exact<'a, D>,
@@ -37,51 +37,52 @@ pub struct Given<'a, const D: usize> {
     pub time: f64,
     /// X.
     pub reference: &'a [Vector<f64, D>],
-    /// H of the solver; none where only X matters.
+    /// H of the solver; empty where only X matters.
     pub gradient: &'a [Matrix<f64, D>],
 }
 
-/// A part of a motion, at the start or of walls.
+/// A part of a motion, at the start or on walls.
 pub enum MotionPart<'a, const D: usize> {
     /// u.
     Displacement(&'a mut [Vector<f64, D>]),
     /// v.
     Velocity(&'a mut [Vector<f64, D>]),
-    /// a, of walls alone.
+    /// a, on walls alone.
     Acceleration(&'a mut [Vector<f64, D>]),
     /// H.
     Gradient(&'a mut [Matrix<f64, D>]),
 }
 
-/// Changes b, from what is right.
+/// Changes b, starting from the right one.
 pub type OfForce<const D: usize> = fn(&Given<'_, D>, &mut [Vector<f64, D>]);
 
-/// Changes stresses, from what is right.
+/// Changes stresses, starting from the right ones.
 pub type OfStress<const D: usize> = fn(&Given<'_, D>, &mut [Matrix<f64, D>]);
 
-/// Changes stresses whose tractions act on a face, from what is right.
+/// Changes stresses whose tractions act on a face, starting from the right ones.
 pub type OfTraction<const D: usize> = fn(&Given<'_, D>, Face, &mut [Matrix<f64, D>]);
 
-/// Changes a motion, from what is right.
+/// Changes a motion, starting from the right one.
 pub type OfMotion<const D: usize> = fn(&Given<'_, D>, MotionPart<'_, D>);
 
-/// What a tangent of this size makes of a symmetric rate of deformation, from how tau changes with F there and at F = I.
+/// The stress rate that a tangent with a mistake of this size gives for a symmetric rate of deformation, from the slopes of tau
+/// there and at F = I.
 pub type OfTangent<const D: usize> = fn([&Slopes<D>; 2], &[f64], &Matrix<f64, D>) -> Matrix<f64, D>;
 
-/// What a mistake in the stress is of, for one who sees the law alone.
+/// The part of a material model that a mistake in the stress changes, as seen from the law alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Of {
-    /// The law: its stress shows it, and its tangent.
+    /// The law: both its stress and its tangent show it.
     Law,
-    /// The stress alone: its tangent is one of another mistake, or there is none, for the law is not objective.
+    /// The stress alone: its tangent is the tangent of another mistake, or there is none, because the law is not objective.
     Stress,
-    /// The measure: this one stands for P, whatever the stress is said to be.
+    /// The measure: this stress replaces P, and in a table the declared measure.
     Measure,
-    /// The motion besides F: no law shows it.
+    /// The motion besides F: a law alone does not show it.
     Motion,
 }
 
-/// What a hypothesis changes. The functions are given what is right.
+/// The part of a problem that a hypothesis changes. The functions get the right values.
 pub enum Change<const D: usize> {
     /// b.
     Force(OfForce<D>),
@@ -91,30 +92,30 @@ pub enum Change<const D: usize> {
     Surface(OfTraction<D>),
     /// b, and tau whose tractions act on all loaded faces.
     Loads(OfForce<D>, OfTraction<D>),
-    /// rho0, by the size as a factor.
+    /// rho0, times the size.
     Density,
-    /// The mass, by the size as a factor, and no force: neither that of the stress nor b.
+    /// The mass, times the size. Forces are right: both the force of the stress and b.
     Mass,
     /// The initial state.
     Start(OfMotion<D>),
-    /// The motion that is prescribed on faces, and at the start that of the body.
+    /// The motion that is prescribed on faces, and the motion of the body at the start.
     Wall(OfMotion<D>),
-    /// What holds on the face.
+    /// The condition on the face.
     Condition(Condition),
-    /// Nothing that is computed: what is written of a quantity.
+    /// The values that are written of a quantity. Nothing that is computed changes.
     Output(fn(&Given<'_, D>, Quantity) -> Vec<f64>),
     /// b, stresses or tractions of an axisymmetric field, in space: the mistake has the components R, Z and theta.
     InSpace(Box<Hypothesis<3>>),
-    /// The body that a solver takes for a ring.
+    /// The body that a solver uses in place of a ring.
     Ring(Ring),
-    /// The tangent of the law, that no explicit solver has.
+    /// The tangent of the law, which no explicit solver has.
     Tangent(OfTangent<D>),
-    /// Nothing that is computed: the shear components 12, 13, 23 of what a law gives are these of the right ones.
+    /// The order of components: the shear components 12, 13, 23 of what a law returns are these of the right ones.
     Order([usize; 3]),
 }
 
 impl<const D: usize> Change<D> {
-    /// What is changed, in a word.
+    /// The changed part, in a word or two.
     pub fn name(&self) -> &'static str {
         match self {
             Change::Force(_) => "body force",
@@ -140,7 +141,7 @@ pub struct Known {
     pub size: f64,
     /// The name of the mistake.
     pub name: &'static str,
-    /// What it is.
+    /// The description of the mistake.
     pub says: String,
 }
 
@@ -150,7 +151,7 @@ impl Known {
     }
 }
 
-/// Whether somebody made a mistake, or chose something else.
+/// Whether a hypothesis is a mistake or a choice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A mistake.
@@ -160,7 +161,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Its name.
+    /// The name of the kind.
     pub fn name(self) -> &'static str {
         match self {
             Kind::Mistake => "mistake",
@@ -169,55 +170,55 @@ impl Kind {
     }
 }
 
-/// By how many steps what belongs to another time may be off.
+/// The most time steps by which something may belong to another time.
 const STEPS: f64 = 8.0;
 
-/// Factors that people forget or add.
+/// Factors that people often forget or add.
 const FACTORS: [f64; 5] = [-1.0, 0.0, 0.5, 2.0 / 3.0, 2.0];
 
 /// The sizes that a hypothesis may have.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Size {
-    /// None but the one that it is.
+    /// No size: the mistake is as it is.
     Fixed,
-    /// Any; the response to it is found at this one first.
+    /// A size; the response is first computed at `first`.
     Any {
         /// The size of a right solver.
         right: Vec<f64>,
-        /// The size at which the response is found first.
+        /// The size at which the response is computed first.
         first: Vec<f64>,
-        /// Sizes that may be.
+        /// The possible sizes.
         range: [f64; 2],
     },
 }
 
 /// A mistake that a solver may make.
 pub struct Hypothesis<const D: usize> {
-    /// Its identifier.
+    /// The identifier.
     pub name: &'static str,
-    /// What it is, in a sentence.
+    /// A description in a sentence.
     pub says: &'static str,
     /// Whether it is a mistake.
     pub kind: Kind,
-    /// What it changes.
+    /// The part of the problem that it changes.
     pub change: Change<D>,
-    /// Its size.
+    /// The possible sizes.
     pub size: Size,
-    /// Other sizes at which the response is found first, where what is large is not linear.
+    /// Other sizes at which the response is computed first, for mistakes whose large sizes act nonlinearly.
     pub also: Vec<f64>,
-    /// Sizes with names of their own, of this field.
+    /// The sizes of this field that have names of their own.
     pub known: fn(&Exact<'_, D>) -> Vec<Known>,
-    /// The name below the right size, where that has one.
+    /// The name for sizes below the right one, if there is one.
     pub below: Option<&'static str>,
     /// The face that it is on.
     pub face: Option<Face>,
-    /// Which of several it is.
+    /// The variant, if there are several.
     pub which: Option<Cow<'static, str>>,
     /// The one quantity whose output it changes.
     pub only: Option<Quantity>,
-    /// Whether it is a mistake of its own only beside other quantities that are right.
+    /// Whether it is a mistake of its own only if other quantities of the results are right.
     pub is_beside: bool,
-    /// Whether its size is a part of a time step or of a cell, and so is smaller on a finer mesh.
+    /// Whether its size is proportional to a time step or a cell, and so is smaller on a finer mesh.
     pub is_of_mesh: bool,
 }
 
@@ -241,7 +242,7 @@ impl<const D: usize> Hypothesis<D> {
         }
     }
 
-    /// A mistake with a factor, of 1 in a right solver.
+    /// A mistake with a factor, which is 1 in a right solver.
     fn factor(
         name: &'static str,
         says: &'static str,
@@ -253,13 +254,13 @@ impl<const D: usize> Hypothesis<D> {
         Hypothesis { size, known, ..Self::fixed(name, says, change) }
     }
 
-    /// A mistake with an amount of something, of 0 in a right solver.
+    /// A mistake with an amount of something, which is 0 in a right solver.
     fn amount(name: &'static str, says: &'static str, first: Vec<f64>, change: Change<D>) -> Self {
         let size = Size::Any { right: vec![0.0; first.len()], first, range: [f64::MIN, f64::MAX] };
         Hypothesis { size, ..Self::fixed(name, says, change) }
     }
 
-    /// Something of an earlier time, by some steps at most; the second name is that of a later time.
+    /// A mistake that uses a value of an earlier time, by a few steps at most; the second name is for a later time.
     fn delay(
         exact: &Exact<'_, D>,
         [late, early]: [&'static str; 2],
@@ -270,7 +271,7 @@ impl<const D: usize> Hypothesis<D> {
         Hypothesis { below: Some(early), ..late }
     }
 
-    /// The same, where sizes beyond these are another mistake.
+    /// Limits the sizes to a range; sizes beyond it are another mistake.
     fn within(mut self, range: [f64; 2]) -> Self {
         if let Size::Any { range: all, .. } = &mut self.size {
             *all = range;
@@ -278,18 +279,18 @@ impl<const D: usize> Hypothesis<D> {
         self
     }
 
-    /// P in place of another measure, where a law is asked for that.
+    /// P in place of another measure, in a table of that measure.
     pub fn first_piola() -> Self {
-        let says = "P in place of the measure that it is said to be";
+        let says = "P in place of the declared measure";
         Self::fixed("stress_first_piola", says, Change::Stress(Of::Measure, |_, _| {}))
     }
 
-    /// The same, with a size that is a part of a time step or of a cell: smaller on a finer mesh.
+    /// Marks the size as proportional to a time step or a cell: smaller on a finer mesh.
     fn of_mesh(self) -> Self {
         Hypothesis { is_of_mesh: true, ..self }
     }
 
-    /// The same, with a size that is a time: more than some steps is another mistake.
+    /// Limits a size that is a time to a few steps; more is another mistake.
     fn of_steps(self, exact: &Exact<'_, D>) -> Self {
         let most = STEPS * exact.time_step;
         self.within([-most, most]).of_mesh()
@@ -299,7 +300,7 @@ impl<const D: usize> Hypothesis<D> {
         Hypothesis { kind: Kind::Choice, ..self }
     }
 
-    /// The same, as one of several.
+    /// Marks the hypothesis as one of several variants.
     fn of(self, which: impl Into<Cow<'static, str>>) -> Self {
         Hypothesis { which: Some(which.into()), ..self }
     }
@@ -308,8 +309,8 @@ impl<const D: usize> Hypothesis<D> {
         Hypothesis { face: Some(face), ..self }
     }
 
-    /// The size whose effect is that of this one, scaled: as if it grew with the distance from the right size, or of a
-    /// density or mass with that of its inverse.
+    /// The size whose effect is the effect of `size`, scaled: as if the effect grew with the distance from the right size, or,
+    /// for a density or mass, with the distance of its inverse.
     pub fn rescaled(&self, right: f64, size: f64, scale: f64) -> f64 {
         match self.change {
             Change::Density | Change::Mass => {
@@ -319,7 +320,7 @@ impl<const D: usize> Hypothesis<D> {
         }
     }
 
-    /// The name, with which it is and the face.
+    /// The name, with the variant and the face.
     pub fn title(&self) -> String {
         title(self.name, self.which.as_deref(), self.face)
     }
@@ -330,7 +331,7 @@ impl<const D: usize> Hypothesis<D> {
         is_there && (quantities.len() > 1 || !self.is_beside)
     }
 
-    /// Sizes with names of their own, of a field.
+    /// The sizes of a field that have names of their own.
     pub fn known(&self, exact: &Exact<'_, D>) -> Vec<Known> {
         match (&self.change, exact.space) {
             (Change::InSpace(it), Some(space)) => (it.known)(space),
@@ -338,7 +339,7 @@ impl<const D: usize> Hypothesis<D> {
         }
     }
 
-    /// The sizes that people make mistakes of: those with names, and of a factor some more.
+    /// The usual sizes of the mistake: the named ones, and for a factor some more.
     pub fn usual(&self, exact: &Exact<'_, D>) -> Vec<f64> {
         let Size::Any { right, range: [_, most], .. } = &self.size else { return Vec::new() };
         let known = self.known(exact).into_iter().map(|it| it.size);
@@ -350,7 +351,8 @@ impl<const D: usize> Hypothesis<D> {
         all
     }
 
-    /// How far from the right size a mistake is looked for: of a factor of any size where a term is missing, or there twice.
+    /// The largest difference from the right size that is searched; for an unlimited factor the difference of a missing or
+    /// doubled term.
     pub fn farthest(&self) -> f64 {
         let Size::Any { right, range: [least, most], .. } = &self.size else { return 0.0 };
         match right.as_slice() {
@@ -359,7 +361,7 @@ impl<const D: usize> Hypothesis<D> {
         }
     }
 
-    /// Whether a size may be.
+    /// Whether a size is possible.
     pub fn allows(&self, size: &[f64]) -> bool {
         match self.size {
             Size::Fixed => true,
@@ -370,7 +372,7 @@ impl<const D: usize> Hypothesis<D> {
     }
 }
 
-/// All hypotheses about a field that a solver shows; of a law alone there are [`of_tangent`] and [`voigt_orders`] besides.
+/// All hypotheses about a field that a solver can show; for a law alone [`of_tangent`] and [`voigt_orders`] list more.
 pub fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     if let Some(space) = exact.space {
         let in_space = [force::all(space), stress::all(space), law::all(space), face::all(space)];
@@ -393,7 +395,7 @@ pub fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     families.into_iter().flatten().collect()
 }
 
-/// The mistakes of a swap of two components, given for the pairs 0 and 1, 1 and 2, 0 and 2: as many as there are pairs.
+/// The mistakes of a swap of two components, given for the pairs 0 and 1, 1 and 2, 0 and 2; keeps as many as there are pairs.
 fn of_swaps<const D: usize>(all: [Hypothesis<D>; 3]) -> Vec<Hypothesis<D>> {
     match D {
         2 => all.into_iter().take(1).collect(),
@@ -406,14 +408,14 @@ fn of_swaps<const D: usize>(all: [Hypothesis<D>; 3]) -> Vec<Hypothesis<D>> {
     }
 }
 
-/// The name of a mistake, with which of several it is, and the face that it is on.
+/// The name of a mistake, with its variant and its face.
 pub fn title(name: &str, which: Option<&str>, face: Option<Face>) -> String {
     let which = which.map_or(String::new(), |it| format!(" [{it}]"));
     let face = face.map_or(String::new(), |it| format!(" on {it}"));
     format!("{name}{which}{face}")
 }
 
-/// Replaces each tau by what a function makes of F and P.
+/// Replaces each tau by the value of a function of F and P.
 fn of_first<const D: usize>(
     at: &Given<'_, D>,
     tau: &mut [Matrix<f64, D>],
@@ -425,7 +427,7 @@ fn of_first<const D: usize>(
     }
 }
 
-/// The inverse; of a singular F what is not finite, which a solver refuses.
+/// The inverse; for a singular F a matrix of NaN, which a solver refuses.
 fn inverse<const D: usize>(f: &Matrix<f64, D>) -> Matrix<f64, D> {
     tensor::inverse(f).unwrap_or(Matrix::repeat(f64::NAN))
 }

@@ -1,17 +1,17 @@
-//! Mistakes in what is written and read, of a solver that is right.
+//! Mistakes in writing and reading results of a right solver.
 
 use mms_runtime::Vector;
 
 use super::{Change, Given, Hypothesis, Known, law};
 use crate::exact::{Exact, Quantity};
 
-/// By how many cells results may be off: more is another mistake.
+/// The most cells by which points of results may be off; more is another mistake.
 const CELLS: f64 = 2.0;
 
-/// In how many parts of the time window results of another time are looked for.
+/// The number of parts of the time window in which results of another time are searched.
 const PARTS: i32 = 16;
 
-/// Results of another time, whatever the time step: as those of another frame.
+/// Results of another time, at any distance in time, such as of another frame.
 fn another_time<const D: usize>(exact: &Exact<'_, D>) -> Hypothesis<D> {
     let window = exact.domain.time[1] - exact.domain.time[0];
     let part = |k: i32| f64::from(k) * window / f64::from(PARTS);
@@ -20,7 +20,7 @@ fn another_time<const D: usize>(exact: &Exact<'_, D>) -> Hypothesis<D> {
     let change = Change::Output(|at: &Given<'_, D>, quantity| {
         let (time, [first, last]) = (at.time + at.size[0], at.exact.domain.time);
         let values = at.exact.values(quantity, time, at.reference);
-        // No frame is of a time outside the window.
+        // No frame has a time outside the window.
         let is_within = first <= time && time <= last;
         if is_within { values } else { vec![f64::NAN; values.len()] }
     });
@@ -71,7 +71,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             "position_for_reference",
             "x is given as X",
             Change::Output(|at, quantity| {
-                // To first order; what moves far is seen by its points outside the body.
+                // To first order; for large displacements, points outside the body show the mistake.
                 let u = at.exact.displacement(at.time, at.reference);
                 let places: Vec<_> = at.reference.iter().zip(&u).map(|(x, u)| x - u).collect();
                 at.exact.values(quantity, at.time, &places)
@@ -122,9 +122,9 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     });
     if D > 1 {
         let fixed = |says, change| Hypothesis::fixed("components_swapped", says, change);
-        all.push(fixed("components stand in another order", Change::Output(swapped)));
+        all.push(fixed("components are in another order", Change::Output(swapped)));
         if D == 3 {
-            let says = "two components stand under each other's names";
+            let says = "two components have each other's names";
             all.extend([
                 fixed(says, Change::Output(two_swapped::<D, 0, 1>)).of("x and y"),
                 fixed(says, Change::Output(two_swapped::<D, 1, 2>)).of("y and z"),
@@ -138,7 +138,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         ];
         all.extend(only.into_iter().zip(QUANTITIES).map(|((which, change), quantity)| {
             let says =
-                "components of this quantity stand in another order, beside others that are right";
+                "components of this quantity are in another order, beside others that are right";
             Hypothesis { only: Some(quantity), is_beside: true, ..fixed(says, change).of(which) }
         }));
         let transposed = Hypothesis::fixed(
@@ -160,11 +160,11 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     all
 }
 
-/// The quantities of results.
+/// The quantities that results may have.
 const QUANTITIES: [Quantity; 3] =
     [Quantity::Displacement, Quantity::Velocity, Quantity::DisplacementGradient];
 
-/// Velocities of an earlier time than they say, as leapfrog has them: that is no mistake. The size is by how much.
+/// Velocities of a time earlier by the size than their label, as leapfrog has them: that is no mistake.
 pub fn earlier_velocity<const D: usize>() -> Hypothesis<D> {
     let change = Change::Output(|at, quantity| {
         let before = if quantity == Quantity::Velocity { at.size[0] } else { 0.0 };
@@ -174,7 +174,7 @@ pub fn earlier_velocity<const D: usize>() -> Hypothesis<D> {
         .of_mesh()
 }
 
-/// Two components swapped, of a tensor in both places.
+/// Swaps two components; of a tensor, both rows and columns.
 fn two_swapped<const D: usize, const A: usize, const B: usize>(
     at: &Given<'_, D>,
     quantity: Quantity,
@@ -191,7 +191,7 @@ fn two_swapped<const D: usize, const A: usize, const B: usize>(
     values
 }
 
-/// Components of one quantity shifted by one place.
+/// Shifts the components of one quantity by one place.
 fn swapped_only<const D: usize, const WHICH: usize>(
     at: &Given<'_, D>,
     quantity: Quantity,
@@ -203,7 +203,7 @@ fn swapped_only<const D: usize, const WHICH: usize>(
     }
 }
 
-/// Components shifted by one place.
+/// Shifts components by one place.
 fn swapped<const D: usize>(at: &Given<'_, D>, quantity: Quantity) -> Vec<f64> {
     let mut values = at.exact.values(quantity, at.time, at.reference);
     for point in values.chunks_mut(quantity.components(D)) {

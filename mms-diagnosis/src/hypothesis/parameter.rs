@@ -1,11 +1,11 @@
-//! Mistakes in parameters of the material, whatever the material is.
+//! Mistakes in the parameters of any material.
 
 use mms_runtime::Matrix;
 
 use super::{Change, Given, Hypothesis, Known, Of, OfStress};
 use crate::exact::Exact;
 
-/// Parameters that other hypotheses are about, where the law is a published one.
+/// Parameters that other hypotheses cover if the law is a published one.
 const KNOWN: [&str; 4] = ["lambda", "mu", "young", "kappa"];
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
@@ -39,7 +39,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     .collect()
 }
 
-/// The stress of a law whose parameter at each place is times the size.
+/// The stress of a law with the parameter of each index times the size.
 struct Times<const D: usize>;
 
 impl<const D: usize> Times<D> {

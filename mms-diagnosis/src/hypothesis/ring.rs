@@ -1,4 +1,4 @@
-//! Mistakes about an axisymmetric field: those of rings, and those that are made in any coordinates.
+//! Mistakes about an axisymmetric field: mistakes about rings, and mistakes that occur in any coordinates.
 
 use std::borrow::Cow;
 
@@ -7,21 +7,21 @@ use mms_runtime::{Condition, Face, Matrix};
 use super::{Change, Given, Hypothesis, Of, OfStress};
 use crate::exact::Exact;
 
-/// The body that a solver takes for a ring.
+/// The body that a solver uses in place of a ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ring {
-    /// Its box, in a plane: volumes and masses lack the radius.
+    /// The meridian section as a plane box: volumes and masses lack the radius.
     Box,
-    /// A ring whose radius is larger than that of the middle, by the size.
+    /// A ring whose radius is larger than the radius of the middle, by the size.
     Wider,
-    /// Its box, and nothing around the axis: F_tt is 1, and no force comes of P_tt.
+    /// The meridian section as a plane box, without anything around the axis: F_tt is 1, and P_tt makes no force.
     Plane,
 }
 
-/// Hypotheses that have another meaning around an axis, or none.
+/// Hypotheses that mean something else around an axis, or nothing.
 const OTHERS: [&str; 3] = ["constant_force", "coriolis", "centrifugal"];
 
-/// Mistakes about rings, those of b, stresses and tractions in space, and those of the meridian that are no such.
+/// Mistakes about rings; mistakes of b, stresses and tractions in space; and the other mistakes in the meridian.
 pub(super) fn all<const D: usize>(
     exact: &Exact<'_, D>,
     space: &Exact<'_, 3>,
@@ -44,12 +44,12 @@ pub(super) fn all<const D: usize>(
     of_rings(exact, space).into_iter().chain(shared).chain(in_meridian.filter(is_own)).collect()
 }
 
-/// Whether a mistake of some components is one in the meridian.
+/// Whether a mistake of some components lies in the meridian.
 fn is_of_meridian(which: &str) -> bool {
     !(which.contains('z') || which.contains('3'))
 }
 
-/// A mistake in space, for the field of the meridian.
+/// Wraps a mistake in space for the field of the meridian.
 fn lifted<const D: usize>(it: Hypothesis<3>) -> Hypothesis<D> {
     let which = it.which.as_deref().map(|which| -> Cow<'static, str> {
         match which {
@@ -108,7 +108,7 @@ fn of_rings<const D: usize>(exact: &Exact<'_, D>, space: &Exact<'_, 3>) -> Vec<H
         ),
         Hypothesis::amount(
             "ring_volume",
-            "volumes, masses and faces of rings of another radius than that of the middle, as of an edge; the size is by \
+            "volumes, masses and faces of rings at another radius than the middle, as of an edge; the size is by \
              how much",
             vec![exact.cell_size / 2.0],
             Change::Ring(Ring::Wider),

@@ -1,4 +1,4 @@
-//! Mistakes in the stress of the body, whatever the law: measures, transpositions, kinematics.
+//! Mistakes in the stress of the body under any law: measures, transpositions, kinematics.
 
 use mms_runtime::Matrix;
 use mms_runtime::tensor::determinant;
@@ -129,7 +129,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     all
 }
 
-/// The mistakes in the components of P aside of the diagonal.
+/// The mistakes in the off-diagonal components of P.
 fn of_components<const D: usize>() -> Vec<Hypothesis<D>> {
     let says = "the components of P aside of the diagonal times a factor";
     let shear: OfStress<D> = |at, tau| {
@@ -165,7 +165,7 @@ fn of_components<const D: usize>() -> Vec<Hypothesis<D>> {
     std::iter::once(factor).chain(missing).collect()
 }
 
-/// Takes a component of P out.
+/// Removes a component of P.
 fn without<const D: usize>(at: &Given<'_, D>, tau: &mut [Matrix<f64, D>], [i, j]: [usize; 2]) {
     of_first(at, tau, |f, mut p| {
         p[(i, j)] = 0.0;
@@ -173,7 +173,7 @@ fn without<const D: usize>(at: &Given<'_, D>, tau: &mut [Matrix<f64, D>], [i, j]
     });
 }
 
-/// A stress divided by J, in whatever measure it is asked for.
+/// The stress divided by J, in any measure that a table has.
 pub fn over_jacobian<const D: usize>() -> Hypothesis<D> {
     let change = Change::Stress(Of::Stress, |at: &Given<'_, D>, tau: &mut [Matrix<f64, D>]| {
         for (tau, h) in tau.iter_mut().zip(at.gradient) {

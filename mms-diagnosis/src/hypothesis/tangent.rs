@@ -1,8 +1,8 @@
-//! Mistakes in the tangent of a law, and in the order of what it gives: rates, volumes, strains, Voigt's components.
+//! Mistakes in the tangent of a law and in the order of its components: rates, volumes, strains, Voigt's components.
 
 use super::{Change, Hypothesis, Known, OfTangent, inverse};
 
-/// What may be wrong with a tangent alone.
+/// The mistakes in a tangent alone.
 pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
     let tangent =
         |name, says, change: OfTangent<D>| Hypothesis::fixed(name, says, Change::Tangent(change));
@@ -20,7 +20,7 @@ pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
         ),
         tangent(
             "tangent_cauchy",
-            "of the rate of sigma in place of that of tau over J: without sigma tr D",
+            "of the rate of sigma in place of the rate of tau over J: without sigma tr D",
             |[at, _], _, rate| (at.rate(rate) - at.tau * rate.trace()) / at.jacobian(),
         ),
         tangent("tangent_material", "dS/dE, that was not pushed forward", |[at, _], _, strain| {
@@ -28,7 +28,7 @@ pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
             let rate = back.transpose() * strain * back;
             back * (at.rate(&rate) - rate * at.tau - at.tau * rate) * back.transpose()
         }),
-        tangent("tangent_small_strain", "that of small strains, at any F", |[_, rest], _, rate| {
+        tangent("tangent_small_strain", "of small strains, at any F", |[_, rest], _, rate| {
             rest.tangent(rate)
         }),
         tangent("tangent_sign", "with the other sign", |[at, _], _, rate| -at.tangent(rate)),
@@ -58,9 +58,9 @@ pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
     all
 }
 
-/// Orders of the shear components 12, 13, 23 that others have.
+/// The other common orders of the shear components 12, 13, 23.
 pub fn voigt_orders<const D: usize>() -> Vec<Hypothesis<D>> {
-    let says = "the shear components stand in another order than 12, 13, 23";
+    let says = "the shear components are in another order than 12, 13, 23";
     let order = |which: &'static str, order| Hypothesis {
         which: Some(which.into()),
         ..Hypothesis::fixed("voigt_order", says, Change::Order(order))

@@ -1,4 +1,4 @@
-//! Mistakes in motions that are prescribed on faces.
+//! Mistakes in motions prescribed on faces.
 
 use mms_runtime::{Condition, Vector};
 
@@ -20,13 +20,13 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     );
     let late_acceleration = Hypothesis::amount(
         "wall_late",
-        "the acceleration of prescribed faces is that of an earlier time; the size is by how much",
+        "the acceleration of prescribed faces belongs to an earlier time; the size is by how much",
         vec![exact.time_step],
         Change::Wall(accelerated_late),
     );
     let mut offset = Hypothesis::amount(
         "start_half_step",
-        "the initial velocity is that of a later time, and that of prescribed faces, which their acceleration moves; the size \
+        "the initial velocity belongs to a later time, also on prescribed faces, which their acceleration moves; the size \
          is by how much",
         vec![exact.time_step / 2.0],
         Change::Wall(started_late),
@@ -54,14 +54,14 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             which: Some("walls".into()),
             ..fixed(
                 "start_at_rest",
-                "the initial velocity is 0, and that of prescribed faces, which their acceleration moves",
+                "the initial velocity is 0, also on prescribed faces, which their acceleration moves",
                 from_rest,
             )
         },
     ]
 }
 
-/// The motion of another time; the start is as it is.
+/// Sets the motion of another time; the start stays right.
 fn follow<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>, time: f64) {
     if at.time <= at.exact.domain.time[0] {
         return;
@@ -78,7 +78,7 @@ fn follow<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>, time: f6
     }
 }
 
-/// The motion that an acceleration of an earlier time makes from the start.
+/// The motion that results if an acceleration of an earlier time acts from the start.
 fn accelerated_late<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
     let (start, late) = (at.exact.domain.time[0], at.size[0]);
     let [own, early] = [start, start - late].map(|time| moves(at, time));
@@ -104,7 +104,7 @@ fn accelerated_late<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>
     }
 }
 
-/// The motion with the velocity at the start.
+/// The motion with the constant velocity of the start.
 fn unaccelerated<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
     let start = at.exact.domain.time[0];
     let (first, velocity) = moves(at, start);
@@ -120,7 +120,7 @@ fn unaccelerated<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
     }
 }
 
-/// The motion from an initial velocity of a later time.
+/// The motion with an initial velocity of a later time.
 fn started_late<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
     let start = at.exact.domain.time[0];
     let later = at.exact.velocity(start + at.size[0], at.reference);
@@ -128,13 +128,13 @@ fn started_late<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
     add_velocity(at, motion, &added);
 }
 
-/// The motion less that of the velocity at the start.
+/// The motion less the motion of the constant initial velocity.
 fn from_rest<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
     let first = at.exact.velocity(at.exact.domain.time[0], at.reference);
     add_velocity(at, motion, &first.iter().map(|v| -v).collect::<Vec<_>>());
 }
 
-/// Adds the motion of a constant velocity from the start on.
+/// Adds the motion of a constant velocity from the start.
 fn add_velocity<const D: usize>(
     at: &Given<'_, D>,
     motion: MotionPart<'_, D>,

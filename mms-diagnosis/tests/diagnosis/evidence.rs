@@ -5,7 +5,7 @@ use mms_diagnosis::exact::Quantity;
 
 use super::points;
 
-/// Points of a large mesh are thinned evenly, whatever their order, and keep their values.
+/// Large meshes of any point order are thinned evenly and keep their values.
 #[test]
 fn large_meshes_are_thinned_evenly() {
     for count in [300, 331, 256] {

@@ -1,13 +1,13 @@
-//! A field typed by hand, whose b is found by differences: nothing of it is shared with the compiler.
+//! A field typed by hand, with b by differences: it shares nothing with the compiler.
 
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use mms_runtime::{Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Vector};
 
-/// A square of neo-Hookean material, whose motion is given on its sides, but for the right one if that has a load.
+/// A square of neo-Hookean material with given motion on its sides; the right side may have a load instead.
 pub struct Square {
-    /// Whether it has.
+    /// Whether the right side has a load.
     pub is_loaded: bool,
 }
 
@@ -88,11 +88,11 @@ pub fn body_force(time: f64, x: &Point) -> Point {
     acceleration(time, x) - divergence(time, x, |h| first(h, [LAMBDA, MU])) / DENSITY
 }
 
-/// Times and places, bit by bit, with b there.
+/// b by the bits of times and places.
 type Known = Mutex<HashMap<Vec<u64>, Arc<[Point]>>>;
 
-/// b at some places, which is found once: the runs of all hypotheses ask for it at the same times and places, and its
-/// differences take longer than all that the runs do besides.
+/// b at some places, computed once: all hypotheses run at the same times and places, and the differences for b take longer than
+/// the rest of the runs.
 fn known(time: f64, x: &[Point]) -> Arc<[Point]> {
     static KNOWN: LazyLock<Known> = LazyLock::new(Mutex::default);
     let bits = x.iter().flat_map(|x| x.iter().map(|it| it.to_bits()));

@@ -1,4 +1,4 @@
-//! Laws that a given field adds to: their moduli and their laws are changed, and what is added stays.
+//! Laws with an added given field: hypotheses change the moduli or the law, and keep the addition.
 
 use mms_diagnosis::changed::{Changed, Without};
 use mms_diagnosis::exact::Exact;
@@ -67,7 +67,7 @@ impl ManufacturedField<f64, 2> for Heated {
     }
 }
 
-/// By how much a mistake changes tau, when it is warm.
+/// The change of tau by a mistake, while the square is warm.
 fn change(mistake: &str, which: Option<&str>, size: f64, h: &Tensor) -> Tensor {
     let (time, x) = (0.03, [Point::new(0.3, 0.6)]);
     let exact = Exact::new(&Heated, 0.1, 1e-3);

@@ -1,4 +1,4 @@
-//! Mistakes that are typed by hand, in results of a solver, in accelerations at an exact state, and in a law.
+//! Mistakes typed by hand, in results of a solver, in accelerations at an exact state, and in a law.
 
 mod evidence;
 mod field;
@@ -33,7 +33,7 @@ use sampled::sampled;
 type Point = Vector<f64, 2>;
 type Tensor = Matrix<f64, 2>;
 
-/// The name of what is found: that of the mistake, or the finding.
+/// The name of the mistake if one is named, otherwise the finding.
 fn name(diagnosis: &Diagnosis) -> &'static str {
     match diagnosis.finding {
         Finding::Named => diagnosis.ranked[0].name,
@@ -41,7 +41,7 @@ fn name(diagnosis: &Diagnosis) -> &'static str {
     }
 }
 
-/// With a load, and without one.
+/// The square with a load, and without one.
 const LOADED: Square = Square { is_loaded: true };
 const HELD: Square = Square { is_loaded: false };
 
@@ -49,7 +49,7 @@ fn exact(field: &'static Square, cells: f64) -> Exact<'static, 2> {
     Exact::new(field, 1.0 / cells, 0.4 / cells / ((LAMBDA + 2.0 * MU) / DENSITY).sqrt())
 }
 
-/// Points in the middle of cells, and on the loaded face none.
+/// Points in the middle of cells, none on the loaded face.
 fn points(count: usize) -> Vec<Point> {
     let middle = |k: usize| (k as f64 + 0.5) / count as f64;
     (0..count * count).map(|k| Point::new(middle(k % count), middle(k / count))).collect()
@@ -63,7 +63,7 @@ fn the_law_and_its_moduli_are_recognised() {
     assert!((lambda / LAMBDA - 1.0).abs() < 1e-9 && (mu / MU - 1.0).abs() < 1e-9);
 }
 
-/// What is said of a law that gives these stresses for P.
+/// Diagnoses a law that gives these stresses as P.
 fn of_law(stress: impl Fn(&Tensor) -> Tensor) -> Diagnosis {
     let exact = exact(&LOADED, 20.0);
     let gradient: Vec<Tensor> = points(5).iter().map(|x| field::gradient(0.0, x) * 3.0).collect();
@@ -112,11 +112,11 @@ fn a_law_is_named_to_round_off() {
     });
     assert_eq!(name(&quadratic), "material");
     assert_eq!(quadratic.ranked[0].which.as_deref(), Some("neo_hookean_quadratic"));
-    // What nobody has thought of.
+    // An addition that no hypothesis covers.
     assert_eq!(name(&of_law(|h| right(h) + h * h * 100.0)), "unexplained");
 }
 
-/// What is said of a closed form of b, whose values are these.
+/// Diagnoses a closed form of b with these values.
 fn of_form(force: impl Fn(f64, &Point) -> Point) -> Option<&'static str> {
     let exact = exact(&LOADED, 20.0);
     let values = |time: f64, x: &[f64]| {
@@ -155,11 +155,11 @@ fn a_closed_form_of_b_is_named() {
     };
     assert_eq!(of_form(|t, x| with(t, x, viscous)), Some("viscosity"));
     assert_eq!(of_form(|t, x| with(t, x, shocked)), Some("artificial_viscosity"));
-    // What nobody has thought of.
+    // An addition that no hypothesis covers.
     assert_eq!(of_form(|t, x| b(t, x) + Point::new(x[0] * x[1], t)), None);
 }
 
-/// What is said of these accelerations at the exact state.
+/// Diagnoses these accelerations at the exact state.
 fn of_accelerations(acceleration: impl Fn(&Point) -> Point) -> Diagnosis {
     let exact = exact(&HELD, 24.0);
     let (time, points) = (0.013, points(24));
@@ -209,7 +209,7 @@ fn accelerations_at_an_exact_state_name_a_term() {
         |x: &Point| b(x) + field::divergence(time, x, |h| field::first(h, [MU, LAMBDA])) / DENSITY;
     assert_eq!(name(&of_accelerations(swapped)), "moduli_swapped");
     let v = |x: &Point| field::velocity(time, x);
-    // All points of this field turn at once: at one state a part of |a| is one of v.
+    // All points of this field turn back at the same time: at one state a part of |a| is a part of v.
     let local = |x: &Point| a(x) - a(x).abs().component_mul(&v(x).map(f64::signum)) * 0.2;
     let local = of_accelerations(local);
     let names = [&[name(&local).to_owned()], local.ranked[0].equivalent_here.as_slice()].concat();
@@ -227,7 +227,7 @@ fn accelerations_at_an_exact_state_name_a_term() {
 
 const ETA: f64 = 1.5;
 
-/// grad v, of a field whose H all goes with cos(FREQUENCY t).
+/// grad v, for a field whose H is proportional to cos(FREQUENCY t).
 fn velocity_gradient(time: f64, h: &Tensor) -> Tensor {
     let rate = h * (-FREQUENCY * (FREQUENCY * time).tan());
     rate * (h + Tensor::identity()).try_inverse().unwrap()
@@ -239,7 +239,7 @@ fn viscous(time: f64, h: &Tensor) -> Tensor {
     (rate + rate.transpose()) * ETA * (h + Tensor::identity()).try_inverse().unwrap().transpose()
 }
 
-/// -q J F^-T with q = 3 rho h c0 |div v| where the body is compressed, of 12 cells: on 24 that is 6.
+/// -q J F^-T with q = 3 rho h c0 |div v| where the body is compressed, for 12 cells; for 24 cells the factor is 6.
 fn shocked(time: f64, h: &Tensor) -> Tensor {
     let speed = ((LAMBDA + 2.0 * MU) / DENSITY).sqrt();
     let change = velocity_gradient(time, h).trace().min(0.0);
@@ -247,7 +247,7 @@ fn shocked(time: f64, h: &Tensor) -> Tensor {
     back * (3.0 * DENSITY / 12.0 * speed * change)
 }
 
-/// What is said of velocities after one step whose accelerations are these.
+/// Diagnoses these velocities after one step.
 fn of_step(velocity: impl Fn(&Point) -> Point) -> Diagnosis {
     let exact = exact(&HELD, 24.0);
     let points = points(24);
@@ -295,13 +295,13 @@ fn results_after_many_steps_are_none_of_one() {
     assert!(response(of(vec![at(STEP), at(2.0 * STEP)])).is_none());
 }
 
-/// The same field with mistakes, for the solver.
+/// The square with mistakes, for the solver.
 struct Mistaken {
     moduli: [f64; 2],
     force: fn(f64, &Point) -> Point,
-    /// By how much the motion of walls is late.
+    /// The delay of the motion of walls.
     delay: f64,
-    /// Tractions are times this.
+    /// The factor of tractions.
     load: f64,
 }
 
@@ -376,7 +376,7 @@ impl Observer for Last {
     }
 }
 
-/// The last state of a run of cubic splines, which are none of the shape functions of diagnosis.
+/// The last state of a run with cubic splines, which no method of the diagnosis uses.
 fn solved(mistaken: &Mistaken) -> State {
     let setup = Setup { end_time: Some(0.03), ..Setup::default() };
     let (shape, formulation) = (ShapeName::CubicBspline, FormulationName::Total);
@@ -389,7 +389,7 @@ fn solved(mistaken: &Mistaken) -> State {
     last.0.unwrap()
 }
 
-/// What is said of it.
+/// Diagnoses the displacement of a run with mistakes.
 fn of_solver(mistaken: &Mistaken) -> Diagnosis {
     let state = solved(mistaken);
     let pairs = state.position.iter().zip(&state.displacement);
@@ -417,20 +417,20 @@ fn a_mistake_in_a_solver_is_named() {
         let factor = found.ranked[0].factor[0];
         assert!(expected != "force_late" || (factor / 6e-3 - 1.0).abs() < 0.05, "{factor}");
     }
-    // With twice the mass, where forces are right, all of them are half as large.
+    // With twice the mass and right forces, all accelerations are half as large.
     let heavy = Mistaken {
         moduli: [LAMBDA / 2.0, MU / 2.0],
         force: |time, x| field::body_force(time, x) / 2.0,
         load: 0.5,
         ..right
     };
-    // One mesh is too coarse to name it.
+    // One mesh is too coarse for a name.
     let best = &of_solver(&heavy).ranked[0];
     assert_eq!(best.name, "mass_factor");
     assert!((best.factor[0] / 2.0 - 1.0).abs() < 0.02 && best.is_plausible, "{best:?}");
 }
 
-/// A tenth of the mass too much is also as if some of the inertia were missing: the same error, which has no such size.
+/// A mass that is 10 % too large acts like some missing inertia: the same error, at an impossible size.
 #[test]
 fn what_acts_as_the_first_does_not_hold_its_name_back() {
     let all = of_accelerations(|x| field::acceleration(0.013, x) / 1.1).ranked;
@@ -448,7 +448,7 @@ fn what_acts_as_the_first_does_not_hold_its_name_back() {
     assert!(same.acts_as_first && !same.is_plausible && !another.acts_as_first);
 }
 
-/// Walls that start late make a front, which methods compute with errors of their own: too large to name it on one mesh.
+/// Walls that start late make a front, in which methods have errors of their own: too large for a name on one mesh.
 #[test]
 fn walls_that_are_late_explain_most() {
     let late = Mistaken { moduli: [LAMBDA, MU], force: field::body_force, delay: 4e-3, load: 1.0 };
@@ -476,7 +476,7 @@ fn what_a_small_error_excludes_would_make_a_larger_one() {
         Shown::From { least, .. } => least,
         other => panic!("{title}: {other:?}"),
     };
-    // What a mistake adds to a run, over that error.
+    // The error that a mistake adds to a run, over that error.
     let added = |mistaken: &Mistaken| {
         let state = solved(mistaken);
         let pairs = state.displacement.iter().zip(&own.displacement);
@@ -494,9 +494,9 @@ fn what_a_small_error_excludes_would_make_a_larger_one() {
         Shown::Always(Some(times)) => assert!((times / swapped - 1.0).abs() < 0.3),
         other => panic!("{other:?}"),
     }
-    // Moduli that are the same everywhere are so at x.
+    // Uniform moduli are the same at x.
     assert!(matches!(shown("moduli_at_present"), Shown::Never(times) if times < 1e-9));
-    // An error as large as the body excludes no mistake that leaves it whole.
+    // An error as large as the body excludes no mistake that keeps the body whole.
     let coarse = Study { errors: vec![(Quantity::Displacement, 1.0)], ..study };
     let all = excluded(&exact, &coarse, &hypothesis::all(&exact)).unwrap();
     for name in ["lambda_factor", "mu_factor", "moduli_swapped", "start_at_rest"] {
@@ -504,7 +504,7 @@ fn what_a_small_error_excludes_would_make_a_larger_one() {
     }
 }
 
-/// What is said of results of meshes.
+/// Diagnoses results of meshes.
 fn said(meshes: &[Mesh]) -> Diagnosis {
     let exact = exact(&LOADED, 12.0);
     let snapshots: Vec<&Snapshot> = meshes[0].snapshots.iter().collect();
@@ -524,7 +524,7 @@ fn said(meshes: &[Mesh]) -> Diagnosis {
 /// u as a function of t and X.
 type Motion = fn(f64, &Point) -> Point;
 
-/// What is said of results with this displacement.
+/// Diagnoses results with this displacement.
 fn of_results(displacement: impl Fn(f64, &Point) -> Point) -> Diagnosis {
     let points = points(24);
     let snapshot = |time: f64| {
@@ -563,7 +563,7 @@ fn what_is_written_wrongly_is_named() {
     let offset = of_results(|t, x| u(t, &(x + Point::new(1.0 / 24.0, 1.0 / 24.0))));
     assert_eq!(name(&offset), "points_offset");
     assert!((offset.ranked[0].factor[0] * 24.0 - 1.0).abs() < 0.1, "{:?}", offset.ranked[0].factor);
-    // An error that sits beside a face, and one beside a plane that is none.
+    // An error beside a face, and one beside a plane that is no face.
     let bump = |from: f64| {
         move |x: &Point| Point::new(0.02 * (-((x[0] - from) * 30.0).powi(2)).exp(), 0.0)
     };

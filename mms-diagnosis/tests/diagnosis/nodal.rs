@@ -10,7 +10,7 @@ use super::{LOADED, Point, Tensor, exact, name, shocked};
 
 const TIME: f64 = 0.013;
 
-/// A code: cells along a side, P of H, b of X, and the traction on the right side, of H.
+/// A code: cells along a side, P as a function of H, b of X, and the traction on the right side of H.
 struct Code {
     cells: usize,
     stress: fn(&Tensor) -> Tensor,
@@ -119,7 +119,7 @@ fn nodal_residuals_name_a_term() {
     assert_eq!(name(&diagnosed(&transposed)), "stress_transposed");
     let swapped = Code { stress: |h| field::first(h, [MU, LAMBDA]), ..RIGHT };
     assert_eq!(name(&diagnosed(&swapped)), "moduli_swapped");
-    // The kink where compression ends costs coarse elements more.
+    // Coarse elements have larger errors at the kink where compression ends.
     let shocked =
         Code { cells: 24, stress: |h| field::first(h, [LAMBDA, MU]) + shocked(TIME, h), ..RIGHT };
     let shocked = diagnosed(&shocked);
@@ -133,7 +133,7 @@ fn nodal_residuals_name_a_term() {
         Tensor::new(cos, -sin, sin, cos) * traction(h)
     });
     assert_eq!(turned, "traction_follower on x_max");
-    // How long a part of the side has become.
+    // The local stretch of the side.
     let present = loaded(|h| traction(h) * h[(0, 1)].hypot(1.0 + h[(1, 1)]));
     assert_eq!(present, "traction_present_area on x_max");
 }

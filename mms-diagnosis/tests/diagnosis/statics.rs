@@ -1,5 +1,5 @@
-//! Mistakes at equilibrium, of a rod whose stress follows from its loads on paper: P(X) = T + int rho0 b from X to the end. H is
-//! then found by bisection, and u by integration.
+//! Mistakes at equilibrium of a rod whose stress follows on paper from its loads: P(X) = T + int rho0 b from X to the end. H
+//! then follows by bisection, and u by integration.
 
 use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity};
@@ -19,7 +19,7 @@ use super::name;
 type Point = Vector<f64, 1>;
 type Tensor = Matrix<f64, 1>;
 
-/// Clamped at 0, loaded at 1.
+/// A rod clamped at 0 and loaded at 1.
 struct Rod;
 
 fn stretch(x: f64) -> f64 {
@@ -30,7 +30,7 @@ fn displacement(x: f64) -> f64 {
     0.15 / 1.4 * (1.4 * x).sin() + 0.05 * x * x
 }
 
-/// P of H: neo-Hookean, of uniaxial strain.
+/// P as a function of H: neo-Hookean, uniaxial strain.
 fn stress(h: f64) -> f64 {
     let f = 1.0 + h;
     MU * (f - 1.0 / f) + LAMBDA * f.ln() / f
@@ -87,7 +87,7 @@ impl ManufacturedField<f64, 1> for Rod {
 /// Factors of b, of the traction and of the stress.
 type Factors = [f64; 3];
 
-/// By how much a mistake moves each point, on paper.
+/// The displacement that a mistake adds at each point, on paper.
 fn moved([force, load, law]: Factors, points: &[f64]) -> Vec<f64> {
     let end = stress(stretch(1.0));
     let wrong = |x: f64| {
@@ -125,7 +125,7 @@ fn points(cells: usize) -> Vec<f64> {
     (0..=cells).map(|k| k as f64 / cells as f64).collect()
 }
 
-/// Results with so much besides the exact displacement, and an error that falls with h^2.
+/// Results with `beside` added to the exact displacement, and an error that falls with h^2.
 fn mesh(cells: usize, beside: &[f64]) -> Mesh {
     let (h, reference) = (1.0 / cells as f64, points(cells));
     let error = |x: f64| 0.02 * h * h * x * (1.0 + x);
@@ -227,7 +227,7 @@ fn what_a_pass_excludes_adds_twice_its_error_on_paper() {
         let Shown::From { right, least } = of(name).shown else { panic!("{:?}", of(name)) };
         assert_eq!(right, 1.0);
         let [less, more] = [1.0 - least, 1.0 + least].map(|factor| mean(with(name, factor)));
-        // It is found in steps of a fifth at most.
+        // The search accepts an error within a fifth of the noticed one.
         let nearest = (less / (2.0 * error) - 1.0).abs().min((more / (2.0 * error) - 1.0).abs());
         assert!(nearest < 0.2, "{name} {least:e}: {less:e} {more:e}");
     }
@@ -237,7 +237,7 @@ fn what_a_pass_excludes_adds_twice_its_error_on_paper() {
     };
     let expected = mean([-1.0, 1.0, 1.0]) / error;
     assert!((times / expected - 1.0).abs() < 1e-3, "{times} {expected}");
-    // Without motion there is none, and in one dimension no stress that is transposed.
+    // Without motion these mistakes add nothing, and in one dimension a transposed stress is the same.
     for name in ["damping", "start_at_rest", "force_late", "stress_transposed"] {
         assert_eq!(of(name).shown, Shown::Never(0.0), "{name}");
     }

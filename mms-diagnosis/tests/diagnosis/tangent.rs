@@ -1,4 +1,4 @@
-//! Tangents of closed form, typed by hand from the pushed-forward elasticities, with mistakes.
+//! Tangents in closed form, typed by hand from the pushed-forward elasticities, with mistakes.
 
 use mms_diagnosis::answer::Diagnosis;
 use mms_diagnosis::exact::Exact;
@@ -10,7 +10,7 @@ use mms_runtime::{Body, Domain, ManufacturedField, Material, Matrix, Vector};
 use super::field::{self, LAMBDA, MU};
 use super::{LOADED, Tensor, exact, name, points};
 
-/// A tangent row by row, of what stresses become at unit rates of deformation.
+/// A tangent by rows, from the stress rates at unit rates of deformation.
 fn rows<const D: usize>(
     places: &[[usize; 2]],
     rate: impl Fn(&Matrix<f64, D>) -> Matrix<f64, D>,
@@ -28,7 +28,7 @@ fn rows<const D: usize>(
         .collect()
 }
 
-/// Neo-Hookean material at one F, in a plane.
+/// Neo-Hookean material at one F in plane strain.
 struct At {
     f: Tensor,
     j: f64,
@@ -42,7 +42,8 @@ impl At {
         At { f, j: f.determinant(), tau: field::first(h, moduli) * f.transpose(), moduli }
     }
 
-    /// lambda C^-1 x C^-1 + 2 (mu - lambda ln J) C^-1 . C^-1, of G = C for dS/dE and of G = I for what is pushed forward.
+    /// lambda C^-1 x C^-1 + 2 (mu - lambda ln J) C^-1 . C^-1, with C for dS/dE and I in place of C for the pushed-forward
+    /// tangent.
     fn elasticity(&self, metric: &Tensor, strain: &Tensor) -> Tensor {
         let [lambda, mu] = self.moduli;
         let inverse = metric.try_inverse().unwrap();
@@ -62,7 +63,7 @@ impl At {
 
 const PLANE: [[usize; 2]; 3] = [[0, 0], [1, 1], [0, 1]];
 
-/// What is said of a law with this stress at unit rates.
+/// Diagnoses a law with these moduli and stress rates at unit rates of deformation.
 fn of_moduli(moduli: [f64; 2], rate: impl Fn(&At, &Tensor) -> Tensor) -> Diagnosis {
     let exact = exact(&LOADED, 20.0);
     let reference = points(4);
@@ -94,14 +95,14 @@ fn a_tangent_is_named_to_round_off() {
     assert_eq!(name(&of_moduli([MU, LAMBDA], right)), "moduli_swapped");
     assert_eq!(name(&of_moduli([LAMBDA + 2.0 / 3.0 * MU, MU], right)), "lambda_bulk");
     assert_eq!(name(&of_moduli([LAMBDA, 2.0 * MU], right)), "mu_twice");
-    // One by differences of the stress, as many laws have it.
+    // A tangent by differences of the stress, as in many laws.
     let step = 1e-8;
     let differences = |at: &At, rate: &Tensor| {
         let h = at.f + rate * at.f * step - Tensor::identity();
         (At::new(&h, at.moduli).tau - at.tau) / (step * at.j)
     };
     assert_eq!(of(&differences), "nothing");
-    // What nobody has thought of.
+    // An addition that no hypothesis covers.
     assert_eq!(of(&|at, rate| right(at, rate) + at.f * rate * 50.0), "unexplained");
 }
 
@@ -111,7 +112,7 @@ struct Cube;
 type Solid = Matrix<f64, 3>;
 type Place = Vector<f64, 3>;
 
-/// S of E, and as well its rate of that of E.
+/// S as a function of E; since it is linear, also the rate of S as a function of the rate of E.
 fn second(strain: &Solid) -> Solid {
     Solid::identity() * (LAMBDA * strain.trace()) + strain * (2.0 * MU)
 }
