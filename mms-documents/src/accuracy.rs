@@ -44,7 +44,7 @@ pub struct AccuracyRow {
     pub max_scaled_eps: Option<f64>,
     /// The number of components that were compared.
     pub compared: usize,
-    /// The number of components that came out infinite or not a number.
+    /// The number of components that are infinite or not a number.
     pub not_finite: usize,
     /// The number of components whose true value exceeds the range of the precision.
     pub overflowed: usize,

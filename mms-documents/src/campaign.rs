@@ -13,7 +13,7 @@ pub struct Campaign {
     pub solver: String,
     /// The version of the solver; null if the file has none.
     pub solver_version: Option<String>,
-    /// The studies that were asked for.
+    /// The requested studies.
     pub studies: Vec<CampaignStudy>,
     /// The mistakes that all passing studies exclude together; null if nothing is known.
     pub excluded: Option<Vec<ExcludedTogether>>,
@@ -48,14 +48,15 @@ pub struct CampaignStudy {
     pub set: Vec<String>,
     /// The name of the field.
     pub field: String,
-    /// The runs that were asked for.
+    /// The requested runs.
     pub runs: Vec<CampaignRun>,
     /// The reason why its results cannot be judged.
     pub mistake: Option<String>,
     /// The verdict; null if nothing was judged.
     pub verdict: Option<String>,
-    /// With `--canary`, the same study with -b in place of b: `fails`, as it must, `passes`, so that the study measures nothing, or
-    /// `open`, if it does not pass with b either. Null without the option, and for a field without a body force.
+    /// With `--canary`, the result of the same study with -b in place of b: `fails`, as it must; `passes`, so that the study
+    /// measures nothing; or `open`, if it does not pass with b either. Null without the option, and for a field without a body
+    /// force.
     pub canary: Option<String>,
     /// The judgement of the results.
     pub judgement: Option<Judge>,
@@ -115,7 +116,7 @@ pub struct ListedRun {
     pub steps: Option<u64>,
     /// True if the store has the run.
     pub done: bool,
-    /// The words of the solver's command; with `--list` those of `mms`.
+    /// The words of the solver's command; with `--list` the words of the `mms` command.
     pub command: Vec<String>,
 }
 
@@ -125,7 +126,7 @@ pub struct ListedRun {
 pub struct CampaignSuggest {
     /// The proposed fields, the cheapest one first.
     pub fields: Vec<ProposedField>,
-    /// A field for time alone.
+    /// A field that tests the time integrator alone.
     pub affine: Option<AffineMotion>,
     /// Terms that no proposed field shows.
     pub unseen: Vec<UnseenTerm>,
@@ -143,7 +144,7 @@ pub struct ProposedField {
     pub shows: Vec<String>,
 }
 
-/// A field that linear shape functions hold.
+/// A field that linear shape functions represent exactly.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AffineMotion {

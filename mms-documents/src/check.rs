@@ -22,17 +22,17 @@ pub struct CheckedFile {
     /// The mistakes in the text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diagnostics: Option<Vec<Diagnostic>>,
-    /// The parameters whose names are also those of quantities, each in a sentence; missing if there are none.
+    /// The parameters whose names are also names of quantities, each in a sentence; missing if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     /// The claims on the faces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub claims: Option<Vec<Claim>>,
-    /// The properties that are proved of the whole field; null if it has no body.
+    /// The properties that are proved for the whole field; null if it has no body.
     #[cfg_attr(feature = "schema", schemars(extend("x-or-null" = true)))]
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
     pub certificate: Option<Option<Certificate>>,
-    /// Claims that are refuted or not proved, at their places in the file.
+    /// Claims that are refuted or not proved, with their places in the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub objections: Option<Vec<Diagnostic>>,
     /// The closed forms.
@@ -120,7 +120,7 @@ pub struct Claim {
     pub value: Option<f64>,
 }
 
-/// The bounds that are proved. A bound that is not known is null.
+/// The proved bounds. A bound that is not known is null.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Certificate {
@@ -135,9 +135,9 @@ pub struct Certificate {
     pub finite: bool,
     /// True if every quantity is finite in `f32`.
     pub finite_f32: bool,
-    /// The digits after the point that are left of angles in `f64`; null if there is no angle or no proof.
+    /// The digits after the point that remain of angles in `f64`; null if there is no angle or no proof.
     pub angle_digits: Option<usize>,
-    /// The digits after the point that are left of angles in `f32`; null if there is no angle or no proof.
+    /// The digits after the point that remain of angles in `f32`; null if there is no angle or no proof.
     pub angle_digits_f32: Option<usize>,
     /// An upper bound of the principal stretches.
     pub principal_stretch: Option<f64>,
@@ -169,7 +169,7 @@ pub struct Stability {
     pub softest_wave: Option<PlaceInTheMotion>,
     /// The faces that are loaded, free or on rollers, in two and three dimensions.
     pub faces: Vec<Surface>,
-    /// The corners of such faces, except those of two rollers.
+    /// The corners where such faces meet, except corners of two rollers.
     pub corners: Vec<Corner>,
     /// The factor by which a disturbance grows over the time window; 1 if none grows.
     pub growth: Option<f64>,
@@ -252,11 +252,11 @@ pub struct ClosedForm {
     pub points: usize,
     /// The result of the comparison.
     pub status: String,
-    /// The number of points at which one of both has no value.
+    /// The number of points at which one of the two has no value.
     pub undefined_points: usize,
     /// The first difference that is too large.
     pub difference: Option<Difference>,
-    /// The mistake that gives a closed form of b or a stress that differs.
+    /// If the closed form is of b or a stress and differs: the mistake that gives it.
     pub acts_as: Option<Mistaken>,
 }
 

@@ -20,9 +20,9 @@ pub struct Diagnose {
     pub finding: String,
     /// The error over the size of the solution.
     pub error: f64,
-    /// The least error of a right solver, as far as it is known.
+    /// The least error of a right solver, if it is known.
     pub least_expected_error: f64,
-    /// The largest error that may be that of a right solver.
+    /// The largest error that a right solver may have.
     pub expected_error: f64,
     /// The fall of the error from mesh to mesh, for results on two meshes or more.
     pub order: Option<ErrorOrder>,
@@ -30,7 +30,7 @@ pub struct Diagnose {
     pub ranked: Vec<Hypothesis>,
     /// The mistakes that these results cannot show.
     pub cannot_be_seen: Vec<String>,
-    /// Two mistakes that explain the error together, if none does alone.
+    /// Two mistakes that explain the error together, if none explains it alone.
     pub pair: Option<Pair>,
     /// A right method of the project's own solver with such an error, or the method of `--like`.
     pub like: Option<Like>,
@@ -90,15 +90,15 @@ pub struct Pair {
     pub explained: f64,
 }
 
-/// A method of the solver of this project whose error is alike.
+/// A method of the solver of this project whose error is similar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Like {
     /// The method, as `--like` takes it.
     pub method: String,
-    /// The error over that of the method.
+    /// The error over the method's error.
     pub factor: f64,
-    /// The difference of both errors, over the error.
+    /// The difference between the two errors, over the error.
     pub apart: f64,
 }
 
@@ -114,7 +114,7 @@ pub struct Place {
     pub face: Option<String>,
     /// A plane inside the body that has more than half of the squared error beside it.
     pub plane: Option<Plane>,
-    /// The order from the mesh before to the finest one.
+    /// The order from the second finest mesh to the finest one.
     pub order: Option<f64>,
     /// The smooth part of the squared error.
     pub smooth: f64,
@@ -142,7 +142,7 @@ pub struct ErrorFields {
     pub points: Vec<Vec<f64>>,
     /// The smooth part of the error.
     pub error: Vec<Vec<f64>>,
-    /// The error of the hypothesis that is named; null if none is.
+    /// The error of the named hypothesis; null if none is named.
     pub named: Option<Vec<Vec<f64>>>,
 }
 
@@ -168,7 +168,7 @@ pub struct Hypothesis {
     pub plausible: bool,
     /// The name of the face.
     pub face: Option<String>,
-    /// The law, for a mistake that has several.
+    /// The variant of the mistake, such as a law or a component; null if it has none.
     pub which: Option<String>,
     /// Mistakes with the same formula, for such data on any field.
     pub equivalent_always: Vec<String>,
@@ -224,15 +224,15 @@ pub struct ListedHypothesis {
     pub changes: String,
     /// `mistake` or `choice`.
     pub kind: String,
-    /// The data that show it: `law`, `exact state`, `step` or `results`.
+    /// The data that show the mistake: `law`, `exact state`, `step` or `results`.
     pub shown_by: String,
     /// The mistake in a sentence.
     pub says: String,
-    /// The hypothesis that the name is a size of; null for others.
+    /// The hypothesis of which this name is a size; null for others.
     pub of: Option<SizeOf>,
 }
 
-/// The hypothesis that a name stands for, with its size.
+/// The hypothesis and the size that a name refers to.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SizeOf {

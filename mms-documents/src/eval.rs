@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::value::Names;
 
-/// The document of `mms eval FIELD`. A point has a key for each quantity that was asked for.
+/// The document of `mms eval FIELD`. A point has a key for each requested quantity.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Eval {

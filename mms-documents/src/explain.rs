@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Explain {
-    /// The words that were asked for; all of them, if none was.
+    /// The requested words; all words, if none was requested.
     pub terms: Vec<Term>,
 }
 
@@ -16,6 +16,6 @@ pub struct Explain {
 pub struct Term {
     /// The word.
     pub term: String,
-    /// Its meaning, in sentences.
+    /// The meaning of the word, in sentences.
     pub text: String,
 }

@@ -50,8 +50,8 @@ pub struct Judge {
     /// faces`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samplings: Option<Names<String>>,
-    /// The units of h, dt and the quantities, if the field states units; those of the quantities are of their errors in l1, l2
-    /// and linf.
+    /// The units of h, dt and the quantities, if the field states units. The unit of a quantity is the unit of its errors in
+    /// l1, l2 and linf.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<Names<String>>,
     /// The warnings.

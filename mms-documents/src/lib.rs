@@ -1,11 +1,10 @@
 //! The results of `mms`: one type for each document of `--json`.
 //!
-//! A command computes a value of such a type. Text, tables, JSON and pages show it. Keys come in the order of the
-//! fields, and names of keys are those of the fields. The page `docs/reference/json.md` is made of these types and
-//! their comments.
+//! A command computes a value of such a type. Text, tables, JSON and pages show it. Keys come in the order of the fields, and
+//! have their names. The page `docs/reference/json.md` is made of these types and their comments.
 //!
-//! A number that is not finite is null in JSON. A key whose value is not known is null. A key that a document may lack is
-//! an `Option` that is left out.
+//! A number that is not finite is null in JSON. A key whose value is not known is null. A key that a document may lack is an
+//! `Option` that is left out.
 
 pub mod accuracy;
 pub mod campaign;

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The version of the forms of documents. It grows when a key changes its meaning or is lost; a new key does not change it.
+/// The version of the forms of documents. It grows when a key changes its meaning or is removed; a new key does not change it.
 pub const VERSION: u32 = 2;
 
-/// The version of documents that do not say theirs.
+/// The version of documents without the key.
 fn unsaid() -> u32 {
     1
 }

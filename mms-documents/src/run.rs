@@ -96,7 +96,7 @@ pub struct Diagnostics {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Balance {
-    /// The time at which the energies are taken.
+    /// The time of the energies.
     pub time: f64,
     /// The kinetic energy.
     pub kinetic_energy: f64,
@@ -104,7 +104,7 @@ pub struct Balance {
     pub strain_energy: Option<f64>,
     /// The work of b.
     pub body_work: f64,
-    /// The energy that is missing; null if the material has no strain energy.
+    /// The missing energy; null if the material has no strain energy.
     pub energy_residual: Option<f64>,
     /// The force on the faces.
     pub surface_force: Vec<f64>,

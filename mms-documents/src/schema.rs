@@ -1,4 +1,4 @@
-//! The JSON Schemas of all documents, and the reference page that is made of them.
+//! The JSON Schemas of all documents, and the tables of the reference page.
 
 use std::fmt::Write as _;
 
@@ -47,7 +47,7 @@ const DOCUMENTS: [Document; 28] = [
     ("provenance", of::<provenance::Provenance>),
 ];
 
-/// The schemas of all types as one JSON Schema: each has its heading on the page as the name of its definition.
+/// The schemas of all types as one JSON Schema. The name of each definition is its heading on the page.
 pub fn schemas() -> Value {
     let mut generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
     for (_, add) in DOCUMENTS {
@@ -65,7 +65,7 @@ pub fn schemas() -> Value {
     })
 }
 
-/// `judged-norm` for `JudgedNorm`.
+/// Converts a name such as `JudgedNorm` to a heading such as `judged-norm`.
 fn heading(name: &str) -> String {
     let mut heading = String::new();
     for letter in name.chars() {
@@ -77,7 +77,7 @@ fn heading(name: &str) -> String {
     heading
 }
 
-/// The mark of a key that may be missing, and may be null as well.
+/// The mark of a key that may be missing and may also be null.
 const OR_NULL: &str = "x-or-null";
 
 /// Removes null from the types of keys that are left out instead.
@@ -97,7 +97,7 @@ fn nulls_told(schema: &mut Value) {
     }
 }
 
-/// A schema whose links have the names of headings.
+/// A schema with its links renamed to headings.
 fn linked(schema: Value) -> Value {
     match schema {
         Value::Object(keys) => {
@@ -120,7 +120,7 @@ fn target(schema: &Value) -> Option<&str> {
     schema["$ref"].as_str()?.strip_prefix("#/$defs/")
 }
 
-/// The type of a value in the words of the page; `null` is told apart.
+/// The type of a value in the words of the page, and whether it may be null.
 fn words(schema: &Value) -> (String, bool) {
     if let Some(target) = target(schema) {
         return (format!("[{target}](#{target})"), false);
@@ -188,7 +188,7 @@ fn table(page: &mut String, level: &str, heading: &str, schema: &Value) {
     }
 }
 
-/// The tables of all documents; a part stands below the first document that has it.
+/// The tables of all documents. The table of a part follows the first document that has it.
 pub fn tables(schemas: &Value) -> String {
     let mut page = String::new();
     let documents = DOCUMENTS.map(|(name, _)| name);

@@ -22,7 +22,7 @@ pub struct Show {
     pub strain_energy: String,
     /// The formulas of the material's parameters.
     pub material_parameters: Names<String>,
-    /// P at F = I in Pa; in three dimensions if P is 0 in those of the field. Null if it is 0 or not known.
+    /// P at F = I in Pa; if P is 0 in the dimensions of the field, P in three dimensions. Null if it is 0 or not known.
     pub rest_stress: Option<Vec<f64>>,
     /// The moduli at F = I in the middle of the body; null if the material is not isotropic there.
     pub moduli_at_rest: Option<Moduli>,
@@ -39,11 +39,11 @@ pub struct Show {
     pub definitions: Names<String>,
     /// The claim on each face.
     pub boundary: Names<String>,
-    /// The quantities that were asked for.
+    /// The requested quantities.
     pub quantities: Names<ShownQuantity>,
     /// The operations of all these quantities.
     pub operations: OperationCounts,
-    /// The terms that the field sees; null if only some quantities were asked for.
+    /// The terms that the field shows; null if only some quantities were requested.
     pub visibility: Option<Visibility>,
 }
 
@@ -103,19 +103,19 @@ pub struct OperationCounts {
     pub by_kind: Names<usize>,
 }
 
-/// The terms of the equations that the field sees.
+/// The terms of the equations that the field shows.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Visibility {
-    /// The terms that the field sees.
+    /// The terms that the field shows.
     pub present: Vec<String>,
-    /// The terms that the field does not see.
+    /// The terms that the field does not show.
     pub absent: Vec<AbsentTerm>,
-    /// Terms without a value that could tell.
+    /// Terms that are undecided because they have no value.
     pub undecided: Vec<String>,
-    /// The number of points at which terms were evaluated that are not zero as formulas.
+    /// The number of points at which the terms that are not zero as formulas were evaluated.
     pub points: usize,
-    /// The shape functions that hold u exactly: `linear`, `multilinear` or `quadratic`; null if none does.
+    /// The shape functions that represent u exactly: `linear`, `multilinear` or `quadratic`; null if none does.
     pub span: Option<String>,
     /// True if an integrator of constant acceleration is exact.
     pub exact_in_time: bool,
@@ -123,7 +123,7 @@ pub struct Visibility {
     pub symmetric_gradient: bool,
 }
 
-/// A term that the field does not see.
+/// A term that the field does not show.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AbsentTerm {

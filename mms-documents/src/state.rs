@@ -27,7 +27,7 @@ pub struct State {
     pub domain: StateDomain,
 }
 
-/// The data of a field that a solver needs once. The file beside a table of states has it alone.
+/// The data of a field that a solver needs once. The file beside a table of states contains only these data.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StateDomain {
@@ -35,11 +35,11 @@ pub struct StateDomain {
     pub time_window: Option<[f64; 2]>,
     /// The body in the reference configuration; null if the field has none.
     pub body: Option<StateBody>,
-    /// A box that holds x over the time window, from samples.
+    /// A box that contains x over the time window, from samples.
     pub motion: StateBox,
     /// The faces of the body.
     pub faces: Vec<StateFace>,
-    /// The measure of volumes and masses where points stand for rings, `per radian`; it is there if the field is axisymmetric.
+    /// `per radian` if points represent rings: volumes and masses are per radian. Missing if the field is not axisymmetric.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub volumes: Option<String>,
 }

@@ -349,7 +349,7 @@ pub struct Studies {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StudyOfOne {
-    /// The name that tells the method from the others.
+    /// The name that distinguishes the method from the others.
     pub name: String,
     /// The study.
     #[serde(flatten)]

@@ -13,7 +13,7 @@ pub struct Tradeoff {
     /// The unit of the displacement and of its errors, if the field states units.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
-    /// The cost that is to be small: `seconds`, `particle_steps` or `memory`.
+    /// The cost to minimise: `seconds`, `particle_steps` or `memory`.
     pub cost: Cost,
     /// The error that the run must reach, with `--target-linf`.
     pub target_linf: Option<f64>,
@@ -27,13 +27,13 @@ pub struct Tradeoff {
     pub predicted: Option<Prediction>,
     /// A run of the default method that would meet the goal.
     pub default: Option<Prediction>,
-    /// The cost of the default method over that of the choice; for a budget, the ratio of the errors.
+    /// The cost of the default method over the cost of the choice; for a budget, the ratio of the errors.
     pub gain: Option<f64>,
     /// The exponent s of cost = C linf^-s.
     pub exponent: Option<f64>,
     /// The options that are never worth their cost.
     pub dominated: Vec<String>,
-    /// The words of the command to type next, `mms` first; missing if no run came to its end.
+    /// The words of the command to type next, `mms` first; missing if no run finished.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub next_command: Option<Vec<String>>,
     /// How the document was made.
@@ -50,7 +50,7 @@ pub enum Cost {
     Seconds,
     /// The number of particles times the number of steps.
     ParticleSteps,
-    /// The most bytes at a time.
+    /// The largest memory in bytes.
     Memory,
 }
 

@@ -1,4 +1,4 @@
-//! Values that a JSON document writes in a way of its own.
+//! Values with a JSON form of their own.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Values by their names, in the order in which the document has them.
+/// Values by their names, in the order of the document.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Names<T>(pub Vec<(String, T)>);
 
@@ -24,7 +24,7 @@ impl<T> Names<T> {
 }
 
 impl<N: Into<String>, T> FromIterator<(N, T)> for Names<T> {
-    /// Names with their values. If a name comes again, its last value stands at its first place.
+    /// Collects names with their values. If a name occurs again, its last value replaces the first one in place.
     fn from_iter<I: IntoIterator<Item = (N, T)>>(items: I) -> Self {
         let mut names = Names::default();
         for (name, value) in items {

@@ -90,13 +90,13 @@ pub struct ListedRow {
 pub struct VerifyDefects {
     /// The names of the rows.
     pub rows: Vec<String>,
-    /// True if each defect was shown to all rows.
+    /// True if each defect was tried on all rows.
     pub every_row: bool,
     /// The defects.
     pub defects: Vec<ShownDefect>,
     /// The names of defects that no row caught.
     pub uncaught: Vec<String>,
-    /// Pairs of a row and a defect that the row claims to catch, and did not.
+    /// Pairs of a row and a defect that the row claims to catch and did not catch.
     pub missed: Vec<[String; 2]>,
     /// The rows that catch nothing that few other rows catch.
     pub idle: Vec<String>,
@@ -104,7 +104,7 @@ pub struct VerifyDefects {
     pub provenance: Provenance,
 }
 
-/// A defect, and the rows that it was shown to.
+/// A defect, and the rows on which it was tried.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ShownDefect {
@@ -114,13 +114,13 @@ pub struct ShownDefect {
     pub place: String,
     /// The defect in a sentence.
     pub what: String,
-    /// The rows that the defect was shown to.
+    /// The rows on which the defect was tried.
     pub rows: Vec<ShownRow>,
     /// True for each check of plausibility that objects; null if the check cannot tell.
     pub pseudo: Names<Option<bool>>,
 }
 
-/// A row that a defect was shown to.
+/// A row on which a defect was tried.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ShownRow {

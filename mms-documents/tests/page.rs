@@ -7,7 +7,7 @@ use mms_documents::schema::{schemas, tables};
 /// The line of the page that its tables follow.
 const MARK: &str = "<!-- The tables below are made of the types in mms-documents. -->\n";
 
-/// Compares a file with its new text. With `MMS_WRITE_PAGES=1`, writes it.
+/// Compares a file with its new text. If `MMS_WRITE_PAGES=1`, writes the file instead.
 fn hold(name: &str, text: impl FnOnce(&str) -> String) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
     let old = std::fs::read_to_string(&path).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The machine: its processor, and the memory that is free.
+//! The machine: its processor and its free memory.
 
 use std::path::Path;
 
@@ -11,8 +11,7 @@ pub fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
 }
 
-/// The bytes of memory that are free here, within the limit of a container if there is one; `u64::MAX` if the system does
-/// not tell.
+/// The bytes of free memory, within the limit of a container if there is one; `u64::MAX` if the system does not report them.
 pub fn memory() -> u64 {
     let mut system = sysinfo::System::new();
     system.refresh_memory();
@@ -23,7 +22,7 @@ pub fn memory() -> u64 {
     if free == 0 { u64::MAX } else { free }
 }
 
-/// The name of the processor; that of its architecture if the system does not tell.
+/// The name of the processor; if the system does not report it, the name of the architecture.
 pub fn processor() -> String {
     let described = read::first(Path::new("/proc/cpuinfo"), MAX_FILE as u64);
     let described = described.unwrap_or_default();

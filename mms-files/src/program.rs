@@ -1,4 +1,4 @@
-//! The program that this code is in: its file, the words that start it, and the arguments that it was given.
+//! The running program: its file, the words that start it, and its arguments.
 
 use std::ffi::OsString;
 use std::io;
@@ -9,21 +9,21 @@ use std::time::SystemTime;
 use anyhow::Context as _;
 use mms_spec::foreign;
 
-/// A program that is no executable file of its own: a library which another program runs as a command.
+/// A program without an executable file of its own: a library that another program runs as a command.
 #[derive(Debug)]
 pub struct Program {
     /// The file with the code.
     pub file: PathBuf,
     /// The words that start it, before its arguments.
     pub words: Vec<OsString>,
-    /// The arguments that it was given, without a name of the program.
+    /// The arguments, without the name of the program.
     pub arguments: Vec<OsString>,
 }
 
-/// The program, where it is none of its own.
+/// The program, if it is a library.
 static PROGRAM: OnceLock<Program> = OnceLock::new();
 
-/// Says once, before anything asks for it, that this code is in a library.
+/// Declares, before the first use, that this code is in a library.
 pub fn set(program: Program) {
     PROGRAM.get_or_init(|| program);
 }
@@ -36,7 +36,7 @@ pub fn arguments() -> Vec<OsString> {
     }
 }
 
-/// The words that start this program, also where its file has been replaced.
+/// Finds the words that start this program, even if its file has been replaced.
 ///
 /// # Errors
 /// This program cannot be found.
@@ -49,10 +49,10 @@ pub fn words() -> anyhow::Result<Vec<OsString>> {
     }
 }
 
-/// The text that tells this program from any other: no result outlives the code that computed it.
+/// Identifies the build of this program: results of another build are not used.
 ///
 /// # Errors
-/// This program cannot be found or looked at.
+/// This program's file cannot be found, or its length and time cannot be read.
 pub fn identity() -> anyhow::Result<String> {
     let path = file()?;
     let built = || {

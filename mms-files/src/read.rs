@@ -1,11 +1,10 @@
-//! How files are read: plain ones alone, and none beyond what a file of its kind may hold.
+//! Reads files: only plain ones, and none longer than its kind allows.
 //!
-//! Every file of the command is read here. A `Kind` says how many bytes one may have: 1 MiB of a field, a material
-//! or a study, 16 MiB of a document, a result in a store or a list of states, 256 MiB of a state. No more than
-//! that and one byte is read. A checkpoint may have as many as there is memory; its first line 64 MiB; of a
-//! history as many are read as its checkpoint says. A FIFO, a device, a socket or a folder is not opened: it is
-//! named, and left out where others are read as well (`mms report`, stores). A pipe without a name may be given,
-//! as `/dev/stdin`. `mms-macros` does the same for `field!`.
+//! All files of the command are read here. A `Kind` sets the limit: 1 MiB for a field, a material or a study, 16 MiB for a
+//! document, a result in a store or a list of states, 256 MiB for a state. At most one byte more than the limit is read. The
+//! limit of a checkpoint is the free memory, of its first line 64 MiB; of a history as much is read as its checkpoint says. A
+//! FIFO, a device, a socket or a folder is not opened: it is named in the error, and skipped where other files are read as well
+//! (`mms report`, stores). A pipe without a name is allowed, as `/dev/stdin`. `mms-macros` applies the same rules for `field!`.
 
 use std::fmt;
 use std::fs::{self, File, FileType, Metadata};
@@ -24,13 +23,13 @@ pub enum Kind {
     Field,
     /// A saved study.
     Study,
-    /// How a solver is run.
+    /// A description of how to run a solver.
     Campaign,
-    /// The names that a code writes.
+    /// The names of arrays in the files of a code.
     Profile,
     /// A table of errors.
     Errors,
-    /// What a solver wrote.
+    /// Results that a solver wrote.
     Results,
     /// A document that a command wrote.
     Result,
@@ -38,14 +37,14 @@ pub enum Kind {
     Stored,
     /// The list of the states of a run.
     States,
-    /// One of these states.
+    /// One state of a run.
     State,
-    /// What a compiler made of emitted code.
+    /// Compiled code of an emitted field.
     Object,
 }
 
 impl Kind {
-    /// What a person calls it.
+    /// The name of the kind in messages.
     fn name(self) -> &'static str {
         match self {
             Kind::Field => "a field or material file",
@@ -62,7 +61,7 @@ impl Kind {
         }
     }
 
-    /// How many bytes it may have.
+    /// The largest number of bytes.
     pub fn most(self) -> u64 {
         match self {
             Kind::Field | Kind::Study | Kind::Campaign | Kind::Profile | Kind::Errors => {
@@ -74,7 +73,7 @@ impl Kind {
         }
     }
 
-    /// What to do about one that is longer.
+    /// Advice for a file that is too long.
     fn advice(self) -> &'static str {
         match self {
             Kind::Field => {
@@ -96,16 +95,16 @@ impl Kind {
     }
 }
 
-/// Why a file was not read.
+/// The reasons why a file was not read.
 #[derive(Debug)]
 pub enum Unread {
-    /// The system says so.
+    /// The system reports an error.
     Failed(io::Error),
-    /// It is something else, and what.
+    /// The file is not plain, but of this type.
     NotPlain(&'static str),
-    /// It is longer than a file of its kind may be.
+    /// The file is longer than its kind allows.
     TooLong(Kind),
-    /// It has more bytes than there is memory.
+    /// The file has more bytes than there is memory: its length, and the memory.
     NoRoom([u64; 2]),
 }
 
@@ -147,12 +146,13 @@ impl Unread {
     }
 }
 
-/// Opens a plain file. What is none is not opened: one may wait for a FIFO for ever, and devices may do something.
+/// Opens a plain file. Refuses others before opening them: opening a FIFO may wait for ever, and opening a device may have
+/// effects.
 pub fn open(path: &Path) -> Result<File, Unread> {
     open_where(path, Metadata::is_file)
 }
 
-/// The same, or a pipe without a name, as `/dev/stdin` may be one: somebody is at its other end.
+/// Opens a plain file or a pipe without a name, such as `/dev/stdin`: a pipe has a process at its other end.
 fn open_given(path: &Path) -> Result<File, Unread> {
     open_where(path, |found| found.is_file() || is_pipe(found))
 }
@@ -165,12 +165,12 @@ fn open_where(path: &Path, fits: impl Fn(&Metadata) -> bool) -> Result<File, Unr
     hold(fs::metadata(path).map_err(|error| lost(path, error))?)?;
     #[expect(clippy::disallowed_methods, reason = "this is where files are opened")]
     let file = File::open(path)?;
-    // It may have been replaced since.
+    // The file may have been replaced since.
     hold(file.metadata()?)?;
     Ok(file)
 }
 
-/// Whether this is a pipe that no file system has.
+/// Whether this is a pipe outside of all file systems.
 #[cfg(unix)]
 fn is_pipe(found: &Metadata) -> bool {
     use std::os::fd::OwnedFd;
@@ -186,7 +186,7 @@ fn is_pipe(_: &Metadata) -> bool {
     false
 }
 
-/// What a file is that is not plain.
+/// Names the type of a file that is not plain.
 pub fn what(file_type: FileType) -> &'static str {
     #[cfg(unix)]
     {
@@ -208,7 +208,7 @@ pub fn what(file_type: FileType) -> &'static str {
     }
 }
 
-/// That nothing is found behind a link is said of the link.
+/// Reports a link that leads nowhere as such, and not as a missing file.
 fn lost(path: &Path, error: io::Error) -> Unread {
     let leads_nowhere = error.kind() == io::ErrorKind::NotFound && path.is_symlink();
     if leads_nowhere { Unread::NotPlain("a link that leads nowhere") } else { error.into() }
@@ -219,7 +219,7 @@ pub fn bytes(path: &Path, kind: Kind) -> Result<Vec<u8>, Unread> {
     all(open(path)?, kind)
 }
 
-/// The same, if they are no more than that.
+/// All bytes of a file of some kind; fails if they exceed `room`.
 pub fn bytes_within(path: &Path, kind: Kind, room: u64) -> Result<Vec<u8>, Unread> {
     let file = open(path)?;
     match file.metadata()?.len() {
@@ -233,13 +233,13 @@ fn all(file: File, kind: Kind) -> Result<Vec<u8>, Unread> {
     if bytes.len() as u64 > kind.most() { Err(Unread::TooLong(kind)) } else { Ok(bytes) }
 }
 
-/// The first bytes of a file, so many at most.
+/// The first bytes of a file, at most `most`.
 pub fn first(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
     Ok(first_of(open(path)?, most)?)
 }
 
 fn first_of(file: File, most: u64) -> io::Result<Vec<u8>> {
-    // Room for the whole file at once; what is no file has no length.
+    // Reserves room for the whole file at once; the length of what is no file is 0.
     let length = file.metadata().map_or(0, |it| it.len().min(most));
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(length as usize + 1)?;
@@ -247,7 +247,7 @@ fn first_of(file: File, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The text of a file of some kind that a user has named, in UTF-8.
+/// Reads the text of a file of some kind that a user has named, in UTF-8.
 ///
 /// # Errors
 /// A file that cannot be read, or is no text, and where.
@@ -264,7 +264,7 @@ pub fn text(path: &Path, kind: Kind) -> anyhow::Result<String> {
     })
 }
 
-/// That a file cannot be read, by its name.
+/// The message that a file cannot be read.
 pub fn cannot_read(path: &Path) -> String {
     format!("cannot read `{}`", foreign::path(path))
 }
@@ -276,7 +276,7 @@ mod tests {
 
     use super::*;
 
-    /// A file of so many bytes that takes no room.
+    /// Makes a file of this length that occupies no blocks.
     fn sparse(path: &Path, length: u64) {
         File::create(path).unwrap().set_len(length).unwrap();
     }

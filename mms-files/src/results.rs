@@ -10,10 +10,10 @@ use mms_spec::foreign;
 use crate::machine::memory;
 use crate::read::{self, Kind, cannot_read};
 
-/// The ends of files that list pieces of one mesh; the pieces are no meshes of their own.
+/// The extensions of files that list pieces of one mesh; the pieces are no meshes of their own.
 const PIECES: &[&str] = &["vtm", "vtpc", "pvtu", "pvtp", "pvti", "pvtr", "pvts"];
 
-/// The ends of files of results, in groups: a folder with files of one group is not searched for the next.
+/// The extensions of files of results, in groups: if a folder has files of one group, the next group is not searched.
 const ENDS: [&[&str]; 2] = [
     &["vtu", "vtp", "vti", "vtr", "vts", "vtk", "npz", "npy", "csv", "tsv"],
     &["xdmf", "vtkhdf", "e", "exo", "h5", "hdf5", "nc", "mat", "frd", "msh", "dat", "tec", "dump"],
@@ -37,10 +37,10 @@ impl Files for Disk {
     }
 }
 
-/// The files of a name, all of which are there.
+/// Finds the files of a name, and checks that all of them exist.
 ///
 /// # Errors
-/// There are none.
+/// No file of this name.
 pub fn existing(given: &str) -> anyhow::Result<Vec<PathBuf>> {
     let found = paths(given)?;
     match found.iter().find(|path| !path.is_file()) {
@@ -49,8 +49,8 @@ pub fn existing(given: &str) -> anyhow::Result<Vec<PathBuf>> {
     }
 }
 
-/// The pieces of a name: text, then the digits behind it without leading zeros, after their count. In their order
-/// `out_9` comes before `out_10`.
+/// Splits a name into pieces: text, the number of the following digits without leading zeros, and these digits. In their order
+/// `out_9` precedes `out_10`.
 fn pieces(path: &Path) -> Vec<(String, usize, String)> {
     let name = path.to_string_lossy();
     let (mut pieces, mut rest) = (Vec::new(), &*name);
@@ -65,12 +65,12 @@ fn pieces(path: &Path) -> Vec<(String, usize, String)> {
     pieces
 }
 
-/// Sorts files by their names, numbers in them by their size.
+/// Sorts files by name, and the numbers in names by value.
 fn sort(files: &mut [PathBuf]) {
     files.sort_by_cached_key(|it| (pieces(it), it.clone()));
 }
 
-/// The files that are named, in the order of their names; numbers in names stand in their own order.
+/// Finds the files of a name, sorted by name with numbers in numeric order.
 fn paths(given: &str) -> anyhow::Result<Vec<PathBuf>> {
     let path = Path::new(given);
     if path.is_dir() {
@@ -89,7 +89,7 @@ fn paths(given: &str) -> anyhow::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// The list of states of a folder, or its files of results.
+/// Finds the list of states in a folder, or its files of results.
 fn folder(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let entries = path.read_dir().with_context(|| cannot_read(path))?;
     let mut files: Vec<PathBuf> = entries.filter_map(|it| it.ok().map(|it| it.path())).collect();

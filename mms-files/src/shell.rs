@@ -4,7 +4,7 @@ use std::ffi::OsString;
 
 use mms_spec::foreign;
 
-/// A word, on one line. What cannot be seen in it stands as the bytes of its escape, which shells read back since POSIX.1-2024.
+/// Quotes a word, on one line. Escapes invisible characters byte by byte, as shells read them since POSIX.1-2024.
 pub fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-+=.,:/@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
@@ -21,13 +21,13 @@ pub fn quoted(word: &str) -> String {
     format!("$'{}'", word.chars().map(escaped).collect::<String>())
 }
 
-/// `mms` with these arguments.
+/// The command line of `mms` with these arguments.
 pub fn command<W: AsRef<str>>(arguments: impl IntoIterator<Item = W>) -> String {
     let words = arguments.into_iter().map(|word| format!(" {}", quoted(word.as_ref())));
     format!("mms{}", words.collect::<String>())
 }
 
-/// The words of a command line; what is no text in them is shown as it can be.
+/// The words of a command line; replaces bytes that are no text.
 pub fn words(arguments: impl IntoIterator<Item = OsString>) -> Vec<String> {
     arguments.into_iter().map(|word| word.to_string_lossy().into_owned()).collect()
 }

@@ -1,14 +1,14 @@
 //! A cache of results of runs, kept in a folder as they finish.
 //!
-//! A result depends on its key: what tells this program from any other (its version, its length and when it was
-//! built), the field's text, method, precision and form, cells, parameters and motion, the deliberate mistake if there
-//! is one, and of what errors are measured; what one of a campaign depends on says `mms-harness/src/plan.rs`. There is
-//! one file per result, named by a digest of the key, with the key and a checksum in it. A file appears whole or not
-//! at all, and is trusted only if its checksum, its key and its name agree. Opening a store checks every file in it:
-//! one that is cut off, changed, of another format, or not what its name says is renamed to `.aside1` and so on, said
-//! to be, and neither read again nor deleted. Processes may share a folder: each locks a file beside a result while it
-//! computes it. Locks end with their process, however that ends; others make what is left and then wait. The next process
-//! that opens the store removes the files of such locks.
+//! A result depends on its key: the identity of this program (version, length and build time), the field's text, method,
+//! precision and form, cells, parameters and motion, the deliberate mistake if there is one, and the quantity whose errors are
+//! measured. `mms-harness/src/plan.rs` documents the keys of campaigns. There is one file per result, named by a digest of the
+//! key, with the key and a checksum in it. A file appears whole or not at all, and is trusted only if its checksum, its key and
+//! its name agree. Opening a store checks every file in it. A file that is cut off, changed, of another format, or not the one
+//! that its name says is renamed to `.aside1` and so on, reported, and neither read again nor deleted. Processes may share a
+//! folder: each locks a file beside a result while it computes it. Locks end with their process, however it ends. Other
+//! processes compute the remaining results and then wait. The next process that opens the store removes the files of such
+//! locks.
 
 use std::fs::{self, File};
 use std::io;
@@ -27,7 +27,7 @@ use crate::read::{self, Kind, Unread};
 use crate::write::write_own;
 use crate::write::{leads_to, remove_stale};
 
-/// What the first key of every file says.
+/// The value of the first key of every file.
 pub const FORMAT: &str = "mms result 1";
 
 /// A folder of results.
@@ -35,32 +35,32 @@ pub struct Store {
     folder: PathBuf,
 }
 
-/// What is known of a result.
+/// The stored state of a result.
 #[derive(Debug, PartialEq)]
 pub enum Entry<T> {
-    /// Nothing.
+    /// There is no file.
     Missing,
-    /// What was saved.
+    /// The saved result.
     Stored(T),
-    /// There was a file that is not to be trusted: what is said of it.
+    /// A file that is not trusted was set aside, with a message.
     SetAside(String),
 }
 
 /// The right to compute a result, until it is dropped.
 pub struct Claim {
-    /// Locked by this process.
+    /// The lock of this process.
     _lock: File,
     path: PathBuf,
 }
 
 impl Drop for Claim {
-    /// Whoever waits for the lock of a removed file finds the result first.
+    /// A process that waits for the lock of a removed file finds the result first.
     fn drop(&mut self) {
         let _ = fs::remove_file(&self.path);
     }
 }
 
-/// A file: `checksum` is the digest of the texts of `key` and `result`.
+/// The content of a file: `checksum` is the digest of the texts of `key` and `result`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Envelope {
@@ -71,8 +71,7 @@ struct Envelope {
 }
 
 impl Store {
-    /// The store in a folder, which is made if there is none; and what is said of the files in it that had to be
-    /// set aside.
+    /// Opens the store in a folder, which is made if there is none; returns also messages about the files that were set aside.
     ///
     /// # Errors
     /// A folder that cannot be made or read, a file that cannot be renamed.
@@ -86,13 +85,13 @@ impl Store {
             let path = entry.with_context(|| format!("cannot read `{shown}`"))?.path();
             let ends = |with: &str| path.extension().is_some_and(|extension| extension == with);
             if ends("lock") {
-                // Left by a process that was killed. Where it cannot be removed, it is in nobody's way.
+                // A killed process left this file. If it cannot be removed, it does no harm.
                 let _ = remove_stale(&path);
             }
             if !ends("json") || path.is_dir() {
                 continue;
             }
-            // What has been renamed is said even if the next file cannot be read.
+            // Reports the files renamed so far even if the next file cannot be read.
             let found = store
                 .read::<Value>(&path, None)
                 .map_err(|error| set_aside.iter().cloned().fold(error, anyhow::Error::context))?;
@@ -104,7 +103,7 @@ impl Store {
         Ok((store, set_aside))
     }
 
-    /// What is stored for a key.
+    /// Loads the stored result of a key.
     ///
     /// # Errors
     /// A file that cannot be read or renamed.
@@ -113,7 +112,7 @@ impl Store {
         self.read(&self.path(&key, "json"), Some(&key))
     }
 
-    /// Sets the result of a key aside, for a reason that is said.
+    /// Sets the result of a key aside, and returns a message with the reason.
     ///
     /// # Errors
     /// A file that cannot be renamed.
@@ -135,8 +134,8 @@ impl Store {
             .with_context(|| format!("cannot write `{}`", foreign::path(&path)))
     }
 
-    /// Claims the result of a key; nothing, if a process has claimed it already. With `wait`, only when that
-    /// process has ended or given it up.
+    /// Claims the result of a key; `None` if another process has claimed it. If `wait`, waits until that process has ended or
+    /// dropped its claim.
     ///
     /// # Errors
     /// A file that cannot be made or locked.
@@ -151,14 +150,14 @@ impl Store {
         self.folder.join(digest([key])).with_extension(extension)
     }
 
-    /// Reads a file: that of a key, or any.
+    /// Reads a file, and checks it against a key if one is given.
     fn read<T: DeserializeOwned>(
         &self,
         path: &Path,
         key: Option<&str>,
     ) -> anyhow::Result<Entry<T>> {
         let found = match read::bytes(path, Kind::Stored) {
-            // Another process that shares the folder may have set it aside since.
+            // Another process that shares the folder may have set the file aside since.
             Err(error) if error.is_missing() => return Ok(Entry::Missing),
             Err(error @ Unread::Failed(_)) => {
                 return Err(error).with_context(|| read::cannot_read(path));
@@ -172,7 +171,7 @@ impl Store {
         })
     }
 
-    /// The result in a file; otherwise what is wrong with it.
+    /// The result in a file; otherwise the reason why it is not trusted.
     fn check<T: DeserializeOwned>(
         &self,
         path: &Path,
@@ -195,7 +194,7 @@ impl Store {
     }
 }
 
-/// Makes and locks a file; nothing, if another process has locked it and this one is not to wait.
+/// Makes and locks a file; `None` if another process has locked it and `wait` is false.
 fn lock(path: &Path, wait: bool) -> io::Result<Option<File>> {
     loop {
         if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
@@ -206,14 +205,14 @@ fn lock(path: &Path, wait: bool) -> io::Result<Option<File>> {
             Err(error) if error.kind() == io::ErrorKind::WouldBlock => return Ok(None),
             locked => locked?,
         }
-        // Whoever had locked the file may have removed it, and a third process may have made another one.
+        // The process that had locked the file may have removed it, and a third process may have made another one.
         if leads_to(path, &lock) {
             return Ok(Some(lock));
         }
     }
 }
 
-/// Renames a file to the first free name behind its own, and says so.
+/// Renames a file to the first free name after its own, and returns a message.
 fn set_aside(path: &Path, reason: &str) -> anyhow::Result<String> {
     let name = path.file_name().unwrap_or_default();
     let mut aside = path.to_owned();
@@ -235,11 +234,11 @@ fn set_aside(path: &Path, reason: &str) -> anyhow::Result<String> {
     Ok(format!("`{shown}` is not trusted: {reason}; it is now `{}`", foreign::path(&aside)))
 }
 
-/// What `one` makes of jobs, on several threads, in their order. It is asked first for what nobody has begun, and makes
-/// nothing of what another process has claimed; then once more for that, and waits.
+/// Computes jobs on several threads, and returns their results in the order of the jobs. Calls `one` first without waiting,
+/// where it returns `None` for a job that another process has claimed, then once more for these jobs with waiting.
 ///
 /// # Errors
-/// The first that it makes.
+/// The first error of `one`.
 pub fn side_by_side<J: Sync, R: Send>(
     jobs: &[J],
     threads: NonZero<usize>,
@@ -266,11 +265,11 @@ pub fn side_by_side<J: Sync, R: Send>(
             done.into_iter().for_each(|(at, result)| results[at] = result);
         }
     }
-    // With waiting, nothing is left out.
+    // With waiting, every job has a result.
     Ok(results.into_iter().flatten().collect())
 }
 
-/// 128 bits of texts one after the other, in hexadecimal.
+/// The digest of texts one after the other: 128 bits, in hexadecimal.
 pub fn digest<const N: usize>(texts: [impl AsRef<[u8]>; N]) -> String {
     let mut digest = Digest::default();
     for text in texts {
@@ -280,10 +279,9 @@ pub fn digest<const N: usize>(texts: [impl AsRef<[u8]>; N]) -> String {
     digest.text()
 }
 
-/// 128 bits of what is added, piece by piece.
+/// A digest of 128 bits of the added pieces.
 ///
-/// Fowler, Noll, Vo, Eastlake, "The FNV non-cryptographic hash algorithm", FNV-1a. It finds accidents, not
-/// attacks.
+/// Fowler, Noll, Vo, Eastlake, "The FNV non-cryptographic hash algorithm", FNV-1a. It finds accidents, not attacks.
 pub struct Digest(u128);
 
 impl Default for Digest {
@@ -342,11 +340,11 @@ mod tests {
         assert_eq!(again.load(&"two").unwrap(), Entry::Stored(vec![2.0]));
     }
 
-    /// Each damage, once when the folder is opened and once when the result is asked for.
+    /// Applies each damage, and tests it once when opening the folder and once when loading the result.
     #[test]
     fn no_damaged_file_is_trusted_and_none_is_deleted() {
         let whole = |store: &Store| fs::read(file(store, "one")).unwrap();
-        /// What is made of one result, and of the other.
+        /// Makes a damaged file from the files of both results.
         type Damage = fn(&[u8], &[u8]) -> Vec<u8>;
         let damages: [(&str, Damage); 7] = [
             ("not a whole result", |one, _| one[..one.len() / 2].to_vec()),
@@ -395,7 +393,7 @@ mod tests {
         assert_eq!(contents.collect::<Vec<_>>(), ["first", "second", "third"]);
     }
 
-    /// Other files in the folder are none of its business.
+    /// Other files in the folder are not touched.
     #[test]
     fn what_does_not_look_like_a_result_is_left_alone() {
         let (folder, _) = store();
@@ -436,7 +434,7 @@ mod tests {
         assert_eq!(locks().count(), 0);
     }
 
-    /// A claim that is given up again and again belongs to one process at a time.
+    /// One process at a time has a claim that is dropped again and again.
     #[test]
     fn a_lock_of_a_removed_file_is_no_claim() {
         let (_folder, store) = store();
@@ -456,7 +454,7 @@ mod tests {
         });
     }
 
-    /// The vectors of the algorithm's authors, but for the byte that ends a text here.
+    /// The test vectors of the algorithm's authors, apart from the byte that ends a text here.
     #[test]
     fn the_digest_is_that_of_its_authors() {
         assert_eq!(digest::<0>([] as [&str; 0]), "6c62272e07bb014262b821756295c58d");

@@ -1,4 +1,4 @@
-//! Quantities of a machine in words.
+//! Durations and sizes in words.
 
 /// A duration in seconds, with its unit.
 pub fn duration(seconds: f64) -> String {

@@ -1,11 +1,10 @@
-//! How files are written: whole or not at all, without a change to what else is at their place.
+//! Writes files whole or not at all, and changes nothing else at their place.
 //!
-//! All files of the command are written here. A link stays, a file that is replaced keeps its permissions, and a
-//! device or a FIFO is written to, once. What is no plain file, in a folder that was named, is not written to: who
-//! named the folder named neither what is behind a link, nor a FIFO that may have no reader. Until it is whole, a
-//! file is called `.NAME.mms-unfinished0` (or 1, 2, ...) beside its place, and is locked. One that nobody has
-//! locked was left by a process that was killed: the next process that writes the same file removes it, and
-//! nothing else.
+//! All files of the command are written here. Links stay, and a replaced file keeps its permissions. A device or a FIFO is
+//! written to, once. In a named folder only plain files are written to: a user who names a folder means neither the target of a
+//! link in it, nor a FIFO that may have no reader. Until a file is whole, it is called `.NAME.mms-unfinished0` (or 1, 2, ...)
+//! in the same folder, and is locked. A file of this name without a lock was left by a killed process. The next process that
+//! writes the same file removes it, and nothing else.
 
 use std::ffi::OsString;
 use std::fs::{self, File, Metadata, OpenOptions};
@@ -18,11 +17,11 @@ use tempfile::TempPath;
 
 use crate::read;
 
-/// Where a path leads.
+/// The target of a path.
 enum Target {
-    /// To a plain file, here without links on the way, or to none yet.
+    /// A plain file, with links resolved; without metadata if it does not exist yet.
     Plain(PathBuf, Option<Metadata>),
-    /// To a device, a FIFO, or the stdout or stderr of this process: what is written there is gone.
+    /// A device, a FIFO, or the stdout or stderr of this process: written bytes cannot be taken back.
     Stream,
 }
 
@@ -42,29 +41,29 @@ impl Target {
     }
 }
 
-/// Whether what is written to a path is gone, as to a device or a FIFO, and so can be written once and in one go.
+/// Whether a path is a stream, such as a device or a FIFO, that must be written once and in one go.
 pub fn is_stream(path: &Path) -> bool {
     matches!(Target::of(path), Ok(Target::Stream))
 }
 
-/// The folder that holds a file, behind its links.
+/// The folder that contains a file, with links resolved.
 pub fn folder(path: &Path) -> PathBuf {
     let folder = without_links(path).parent().map(Path::to_owned).unwrap_or_default();
     if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder }
 }
 
-/// Never leaves half a file under its final name.
+/// Writes a file; never leaves half a file under its final name.
 pub fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
     write_with(path, |file| Ok(file.write_all(content.as_bytes())?))
 }
 
-/// The same, of a file in a folder that was named, by a name of ours. Nothing but a plain file is written to there: who
-/// named the folder named neither what is behind a link, nor a FIFO that may have no reader.
+/// Writes a file under a name of ours in a folder that the user named. Refuses anything but plain files: a user who names a
+/// folder means neither the target of a link in it, nor a FIFO that may have no reader.
 pub fn write_own(path: &Path, content: &str) -> anyhow::Result<()> {
     write_own_with(path, |file| Ok(file.write_all(content.as_bytes())?))
 }
 
-/// As [`write_own`], with whatever is written.
+/// Writes a file as [`write_own`] does, with a function that writes its content.
 pub fn write_own_with(
     path: &Path,
     write: impl FnOnce(&mut File) -> anyhow::Result<()>,
@@ -75,7 +74,7 @@ pub fn write_own_with(
     }
 }
 
-/// Refuses a link, whose user named the link and not what it leads to; `other` says what to name in its place.
+/// Refuses a link, because the user who named it may not mean its target; `other` says what to name instead.
 pub fn refuse_link(path: &Path, other: &str) -> anyhow::Result<()> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_symlink() => Err(not_written_to(&found, other)),
@@ -88,19 +87,19 @@ fn not_written_to(found: &Metadata, other: &str) -> anyhow::Error {
     anyhow::anyhow!("it is {what}, which is not written to: remove it, or name another {other}")
 }
 
-/// The same, of a file that must not be there yet: an error of the kind `AlreadyExists` if it is.
+/// Writes a file that must not exist yet: if it does, returns an error of the kind `AlreadyExists`.
 pub fn write_new(path: &Path, content: &str) -> io::Result<()> {
     let mut new = Unfinished::of(path)?;
     new.file.write_all(content.as_bytes())?;
     new.path.persist_noclobber(path).map_err(|error| error.error)
 }
 
-/// Whether two paths lead to the same file, there or not, by whatever folders and links.
+/// Whether two paths lead to the same file through any folders and links, even if it does not exist.
 pub fn is_same(one: &Path, other: &Path) -> bool {
     place(one) == place(other)
 }
 
-/// The one path of a file.
+/// The unique path of a file.
 fn place(path: &Path) -> PathBuf {
     let path = without_links(path);
     let folder = folder(&path);
@@ -108,8 +107,8 @@ fn place(path: &Path) -> PathBuf {
     path.file_name().map_or_else(|| folder.clone(), |name| folder.join(name))
 }
 
-/// As [`write_whole`], with whatever is written. A link stays, and so do the permissions of a file that is replaced; a device or a
-/// FIFO is written to.
+/// Writes a file as [`write_whole`] does, with a function that writes its content. Links stay, and so do the permissions of a
+/// replaced file; a device or a FIFO is written to.
 pub fn write_with(
     path: &Path,
     write: impl FnOnce(&mut File) -> anyhow::Result<()>,
@@ -126,8 +125,7 @@ pub fn write_with(
     Ok(new.path.persist(&path).map_err(|error| error.error)?)
 }
 
-/// Writes texts to files of one stem in a folder, which is made if there is none, by their extensions; returns
-/// their paths.
+/// Writes texts to files of one stem in a folder, which is made if there is none, by their extensions; returns their paths.
 pub fn write_files<const N: usize>(
     folder: &Path,
     stem: &str,
@@ -144,7 +142,7 @@ pub fn write_files<const N: usize>(
     files.into_iter().map(write).collect()
 }
 
-/// The content of a file with a JSON document.
+/// The text of a file with a JSON document.
 pub fn pretty(document: &impl serde::Serialize) -> anyhow::Result<String> {
     Ok(serde_json::to_string_pretty(document)? + "\n")
 }
@@ -154,10 +152,10 @@ pub fn try_to_write(path: &Path) -> io::Result<()> {
     Unfinished::of(&without_links(path)).map(drop)
 }
 
-/// As many processes that write one file at the same time are cleaned up after.
+/// The number of unfinished files of one name that are removed after killed processes.
 const WRITERS: u32 = 16;
 
-/// Removes what earlier processes left of a file that they were killed over.
+/// Removes the unfinished files that killed processes left of a file.
 pub fn remove_unfinished(path: &Path) {
     let path = without_links(path);
     for number in 0..WRITERS {
@@ -165,25 +163,25 @@ pub fn remove_unfinished(path: &Path) {
     }
 }
 
-/// A file on its way to its name: it has another one in the same folder until then, which says of what it is a part, and is
-/// locked as long as it is written. One that nobody has locked is left of a process that ended.
+/// A file that is being written under another name in the same folder, and is locked meanwhile. Such a file without a lock was
+/// left by a process that ended.
 struct Unfinished {
-    // Dropped first: removed while it is locked.
+    // Dropped first: the file is removed while it is locked.
     path: TempPath,
     file: File,
 }
 
 impl Unfinished {
-    /// The part of a file, by the first name that nobody uses.
+    /// Makes the unfinished file of a file, under the first unused name.
     fn of(path: &Path) -> io::Result<Self> {
         for number in 0.. {
             let at = unfinished(path, number);
-            // Once more, if it was stale, or somebody took it for stale.
+            // Tries again if the file was stale, or another process removed it as stale.
             loop {
                 match create(&at) {
                     Ok(file) => {
                         let path = TempPath::try_from_path(&at)?;
-                        // Where there are no locks, nothing is taken for stale.
+                        // On systems without locks, no file counts as stale.
                         if file.lock().is_err() || leads_to(&at, &file) {
                             return Ok(Self { path, file });
                         }
@@ -202,10 +200,10 @@ impl Unfinished {
     }
 }
 
-/// As much of a file's name as leaves room for what makes it that of a part.
+/// The most bytes of a file's name in the name of its unfinished file.
 const MOST_OF_NAME: usize = 200;
 
-/// The name of a part of a file.
+/// The name of an unfinished file.
 fn unfinished(path: &Path, number: u32) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let end = (0..=name.len().min(MOST_OF_NAME)).rev().find(|&end| name.is_char_boundary(end));
@@ -213,14 +211,14 @@ fn unfinished(path: &Path, number: u32) -> PathBuf {
     folder(path).join(OsString::from(own))
 }
 
-/// Opens a file that is not there yet. These are results, as open as any other file.
+/// Creates a file, which must not exist. Its permissions are the usual ones.
 fn create(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true).write(true).create_new(true);
     options.open(path)
 }
 
-/// Removes a file that no process has locked; whether it did.
+/// Removes a file that no process has locked; returns whether it did.
 pub fn remove_stale(path: &Path) -> io::Result<bool> {
     match fs::symlink_metadata(path) {
         Ok(found) if !found.is_file() => return Ok(false),
@@ -242,7 +240,7 @@ pub fn remove_stale(path: &Path) -> io::Result<bool> {
     Ok(true)
 }
 
-/// Whether a name is still that of a file.
+/// Whether a name still refers to a file.
 #[cfg(unix)]
 pub fn leads_to(path: &Path, file: &File) -> bool {
     use std::os::unix::fs::MetadataExt as _;
@@ -255,10 +253,10 @@ pub fn leads_to(_: &Path, _: &File) -> bool {
     true
 }
 
-/// How many links lead on from each other before they are taken for a circle, as systems do.
+/// The most links in a chain that is not taken for a circle, as in systems.
 const MOST_LINKS: usize = 40;
 
-/// The place that a path leads to, a file or none. Links in circles are followed for a while.
+/// The path with links resolved, whether its file exists or not. Follows at most [`MOST_LINKS`] links.
 fn without_links(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -268,7 +266,7 @@ fn without_links(path: &Path) -> PathBuf {
     path
 }
 
-/// Opens what is no plain file.
+/// Opens a file that is not plain.
 fn stream(path: &Path) -> io::Result<File> {
     match own(&fs::metadata(path)?)? {
         Some(file) => Ok(file),
@@ -276,8 +274,8 @@ fn stream(path: &Path) -> io::Result<File> {
     }
 }
 
-/// The stdout or stderr of this process, if that is what was found: under its name, as in `/dev/stdout`, a plain file would
-/// be written from its start.
+/// The stdout or stderr of this process, if `found` is it: opened by its name, as in `/dev/stdout`, a plain file would be
+/// written from its start.
 #[cfg(unix)]
 fn own(found: &Metadata) -> io::Result<Option<File>> {
     use std::os::fd::AsFd as _;
@@ -314,7 +312,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("x");
         let parts = [0, 1, 2].map(|number| unfinished(&path, number));
-        // Of a killed process, of a living one, of another file.
+        // Files of a killed process, of a living one, and of another file.
         fs::write(&parts[0], "half").unwrap();
         let living = create(&parts[1]).unwrap();
         living.lock().unwrap();

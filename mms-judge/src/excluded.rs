@@ -8,12 +8,12 @@ use crate::results::Exclusions;
 
 /// The mistakes that several results exclude together.
 pub struct Together {
-    /// The name of each mistake, and which results exclude it.
+    /// The name of each mistake, with the first results that exclude it.
     pub all: Vec<(String, Option<String>)>,
 }
 
 impl Together {
-    /// Collects the mistakes of named results; nothing if no result has a list of them.
+    /// Collects the mistakes of named results; `None` if no result has a list of them.
     pub fn new<'a>(of: impl Iterator<Item = (&'a str, &'a Exclusions)>) -> Option<Together> {
         let mut all: Vec<(String, Option<String>)> = Vec::new();
         for (source, exclusions) in of {
@@ -31,7 +31,7 @@ impl Together {
         (!all.is_empty()).then_some(Together { all })
     }
 
-    /// The list of a document.
+    /// The list for a document.
     pub fn document(&self) -> Vec<ExcludedTogether> {
         let entry = |(name, by): &(String, Option<String>)| ExcludedTogether {
             hypothesis: name.clone(),
@@ -42,7 +42,7 @@ impl Together {
 }
 
 impl Exclusions {
-    /// The list of a document; nothing if the mistakes could not be run.
+    /// The list for a document; `None` if the mistakes could not be run.
     pub fn document(&self) -> Option<Vec<judge::Excluded>> {
         Some(self.all.as_ref().ok()?.iter().map(document).collect())
     }

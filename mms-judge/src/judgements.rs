@@ -10,9 +10,9 @@ use mms_exact::{Exact, Input, units};
 use crate::measured::{Judged, Measured, Norm, Objection, Quantity, Refined, worst};
 use crate::results::{Exclusions, Measurement, exclusions};
 
-/// Errors with what they say.
+/// Errors and their verdicts.
 pub struct Judgements {
-    /// Where the errors are from, in a word or two.
+    /// The source of the errors, in a word or two.
     pub source: String,
     /// The errors.
     pub measured: Measured,
@@ -30,15 +30,15 @@ pub struct Judgements {
     pub next: Option<Vec<String>>,
     /// The keys of results of files.
     results: Results,
-    /// Where the verdicts are from.
+    /// The provenance of the document.
     pub provenance: Provenance,
 }
 
-/// The norms that levels have in the document of a study.
+/// The norms of levels in the document of a study.
 const NORMS: [&str; 3] = ["l1", "l2", "linf"];
 
 impl Judgements {
-    /// Judges what was measured.
+    /// Judges measured errors.
     ///
     /// # Errors
     /// Runs that cannot be compared.
@@ -67,8 +67,8 @@ impl Judgements {
         })
     }
 
-    /// Judges what was measured of results in files. If they pass, the solver of this project runs with each mistake, to list those
-    /// that the results exclude.
+    /// Judges the errors of results in files. If they pass, the solver of this project runs with each mistake, to list the
+    /// mistakes that the results exclude.
     ///
     /// # Errors
     /// Runs that cannot be compared.
@@ -88,7 +88,7 @@ impl Judgements {
         Ok(Self { exclusions, ..report })
     }
 
-    /// Judges what was measured of results in files, and runs nothing.
+    /// Judges the errors of results in files, and runs nothing.
     ///
     /// # Errors
     /// Runs that cannot be compared.
@@ -104,7 +104,7 @@ impl Judgements {
         Ok(Self { notes, part, results, ..report })
     }
 
-    /// The quantity that decides, its position and the verdict.
+    /// The position of the deciding quantity, and its verdict.
     pub fn decided(&self) -> (usize, Verdict) {
         worst(&self.judged).unwrap_or((0, Verdict::NotAsymptotic))
     }
@@ -124,7 +124,7 @@ impl Judgements {
         self.results.samplings.as_ref()
     }
 
-    /// The number of points of the mesh that has the fewest.
+    /// The number of points of the mesh with the fewest points.
     pub fn points(&self) -> usize {
         self.results.points
     }
@@ -134,7 +134,7 @@ impl Judgements {
         self.results.files.as_deref().unwrap_or_default()
     }
 
-    /// How a level is called.
+    /// The name of a level.
     fn name(&self, length: f64) -> String {
         match self.refined {
             Refined::Space => format!("h {length:.3e}"),
@@ -143,7 +143,7 @@ impl Judgements {
         }
     }
 
-    /// The levels of a norm, each with the order that led to it; none of a grid of h and dt.
+    /// The levels of a norm, each with the order from the level before; empty for a grid of h and dt.
     pub fn levels(&self, norm: &Norm) -> Vec<(Level, Option<f64>)> {
         if self.refined == Refined::Grid {
             return Vec::new();
@@ -153,12 +153,12 @@ impl Judgements {
         levels.into_iter().zip(std::iter::once(None).chain(orders)).collect()
     }
 
-    /// The verdict of a quantity in words, all of them.
+    /// The verdict of a quantity in words, with all details.
     fn says(&self, quantity: &Quantity, judged: &Judged) -> Vec<String> {
         self.sentences(quantity, judged, true)
     }
 
-    /// The verdict of a quantity in words; `is_full` says where intervals are from as well.
+    /// The verdict of a quantity in words; if `is_full`, with the source of each interval.
     pub fn sentences(&self, quantity: &Quantity, judged: &Judged, is_full: bool) -> Vec<String> {
         let fits = quantity.norms.iter().zip(&judged.fits);
         let fits = fits.filter_map(|(norm, fit)| Some(fit.as_ref()?.sentence(&norm.name.shown())));
@@ -220,7 +220,7 @@ impl Judgements {
         }
     }
 
-    /// The levels of the first quantity, as a study writes them; of a grid its runs.
+    /// The levels of the first quantity, as a study writes them; for a grid, its runs.
     fn rows(&self) -> Vec<documents::JudgeLevel> {
         let Some(first) = self.measured.quantities.first() else { return Vec::new() };
         let norm = |name: &str| first.norms.iter().find(|it| it.name == *name);
@@ -285,7 +285,7 @@ impl Judgements {
     }
 }
 
-/// The keys that the document has for results of files.
+/// The keys of the document that belong to results in files.
 #[derive(Clone, Default)]
 struct Results {
     field: Option<String>,
@@ -295,7 +295,7 @@ struct Results {
     units: Option<Names<String>>,
     warnings: Option<Vec<String>>,
     iterative_errors: Option<Names<f64>>,
-    /// The number of points of the mesh that has the fewest, which the document does not have.
+    /// The number of points of the mesh with the fewest points, which the document does not contain.
     points: usize,
 }
 

@@ -1,8 +1,8 @@
 //! Judges and diagnoses the results of any solver.
 //!
-//! [`table`] reads errors that somebody measured; [`results`] measures those of results against a field. Both give
-//! [`Measured`](measured::Measured), whose orders [`Judgements`] judges, and of which it makes the document.
-//! [`diagnose`] makes of results the evidence of a diagnosis. Nothing here opens a file: `mms_results::Files` does.
+//! [`table`] reads measured errors; [`results`] measures the errors of results against a field. Both return
+//! [`Measured`](measured::Measured). [`Judgements`] judges its orders, and makes the document. [`diagnose`] turns results into
+//! the evidence of a diagnosis. Nothing here opens a file: `mms_results::Files` does.
 
 pub mod diagnose;
 mod excluded;

@@ -1,6 +1,6 @@
-//! Errors that somebody measured, of any solver: what they say of its order.
+//! Measured errors of any solver, and the orders that they show.
 //!
-//! [`table`](crate::table) reads them from a file. Whoever computes them from results makes a [`Measured`], too.
+//! [`table`](crate::table) reads them from a file. Code that computes errors from results makes a [`Measured`], too.
 
 use anyhow::bail;
 use mms_convergence::{Expected, Fit, Judgement, Sample, Sequence, Verdict, fit};
@@ -9,9 +9,9 @@ use mms_spec::foreign::Foreign;
 /// Errors of some quantities in some runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// The runs, in any sequence; those of one length are replicates.
+    /// The runs, in any sequence; runs of one length are replicates.
     pub runs: Vec<Run>,
-    /// The quantities, one at least.
+    /// The quantities, at least one.
     pub quantities: Vec<Quantity>,
 }
 
@@ -20,49 +20,49 @@ pub struct Measured {
 pub struct Run {
     /// h.
     pub cell_size: f64,
-    /// dt, where it is known.
+    /// dt, if it is known.
     pub time_step: Option<f64>,
 }
 
 /// The errors of a quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
-    /// Its name.
+    /// The name of the quantity.
     pub name: Foreign,
-    /// Its norms, one at least.
+    /// The norms of the quantity, at least one.
     pub norms: Vec<Norm>,
 }
 
 /// The errors of a quantity in one norm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Norm {
-    /// `l1`, `l2`, `linf`, `h1`, or what its column is called.
+    /// `l1`, `l2`, `linf`, `h1`, or the name of the column.
     pub name: Foreign,
-    /// The orders that are expected of it in h, and of a grid of h and dt in dt.
+    /// The expected orders of the norm in h and, for a grid of h and dt, in dt.
     pub expected: [Expected; 2],
-    /// The error in each run; none in one that stopped.
+    /// The error in each run; `None` if the run stopped.
     pub errors: Vec<Option<f64>>,
-    /// Below this an error in each run may be nothing but round-off; 0 where that is not known.
+    /// The error in each run below which it may be round-off alone; 0 if that is not known.
     pub floors: Vec<f64>,
-    /// Half a unit of the last digit that was printed of the errors; 0 if they were not rounded.
+    /// Half a unit of the last printed digit of the errors; 0 if they were not rounded.
     pub rounding: f64,
-    /// Whether every error is known to be nothing but round-off.
+    /// Whether every error is known to be round-off alone.
     pub is_exact: bool,
 }
 
-/// What differs between runs.
+/// The lengths that differ between runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refined {
-    /// h, and dt with it or not.
+    /// h, possibly with dt.
     Space,
     /// dt alone.
     Time,
-    /// Each by itself.
+    /// h and dt, each by itself.
     Grid,
 }
 
 impl Refined {
-    /// How the document calls it.
+    /// The name in the document.
     pub fn name(self) -> &'static str {
         match self {
             Refined::Space => "space",
@@ -71,33 +71,33 @@ impl Refined {
         }
     }
 
-    /// The lengths of levels, in formulas.
+    /// The symbol of the levels' length in formulas.
     pub fn symbol(self) -> &'static str {
         if self == Refined::Time { "dt" } else { "h" }
     }
 }
 
-/// What is said of a quantity.
+/// The judgement of a quantity.
 pub struct Judged {
-    /// Its norms with their verdicts.
+    /// The norms with their verdicts.
     pub judgement: Judgement,
-    /// Space and time in one formula, in each norm, of a grid of h and dt.
+    /// For a grid of h and dt, the fit in space and time in each norm.
     pub fits: Vec<Option<Fit>>,
-    /// Why it is no evidence, where that is so.
+    /// The reason why the quantity is no evidence, if there is one.
     pub objection: Option<Objection>,
 }
 
-/// Why results show nothing, or do not show that a solver is right.
+/// The reason why results show nothing, or do not show that a solver is right.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Objection {
-    /// In a sentence.
+    /// The reason in a sentence.
     pub why: String,
-    /// Whether they show no mistake either.
+    /// Whether the results do not show a mistake either.
     pub is_to_all: bool,
 }
 
 impl Judged {
-    /// Takes back what an objection is to.
+    /// Withdraws the findings to which there is an objection.
     pub fn object(&mut self, objection: Option<&Objection>) {
         let verdict = self.judgement.verdict();
         self.objection = objection.filter(|it| it.is_to_all || verdict.is_good()).cloned();
@@ -108,14 +108,14 @@ impl Judged {
     }
 }
 
-/// How many runs a grid of h and dt takes: four unknowns, and three more to tell how well they fit.
+/// The least number of runs of a grid of h and dt: four unknowns, and three more runs to measure the fit.
 const GRID: usize = 7;
 
 impl Measured {
-    /// What differs between the runs.
+    /// Finds which lengths differ between the runs.
     ///
     /// # Errors
-    /// A grid of h and dt that is too small to tell the two apart.
+    /// A grid of h and dt that is too small to separate the two.
     pub fn refined(&self) -> anyhow::Result<Refined> {
         let steps: Option<Vec<f64>> = self.runs.iter().map(|run| run.time_step).collect();
         let Some(steps) = steps else { return Ok(Refined::Space) };
@@ -132,10 +132,10 @@ impl Measured {
         }
     }
 
-    /// Judges all quantities, and takes back what there is an objection to.
+    /// Judges all quantities, and withdraws the findings to which there is an objection.
     ///
     /// # Errors
-    /// A grid of h and dt that is too small to tell the two apart.
+    /// A grid of h and dt that is too small to separate the two.
     pub fn judged(&self, objection: Option<&Objection>) -> anyhow::Result<(Refined, Vec<Judged>)> {
         let refined = self.refined()?;
         let judge = |quantity| self.judge(refined, quantity);
@@ -144,7 +144,7 @@ impl Measured {
         Ok((refined, judged))
     }
 
-    /// What is refined in a run.
+    /// The refined length of a run.
     pub fn length(&self, refined: Refined, run: &Run) -> f64 {
         match refined {
             Refined::Time => run.time_step.unwrap_or(run.cell_size),
@@ -181,7 +181,7 @@ impl Measured {
         Some(Judged { judgement: Judgement::of(judged)?, fits: Vec::new(), objection: None })
     }
 
-    /// h, dt and e of each run; of one that stopped no number, so that nothing fits.
+    /// h, dt and e of each run; NaN for a run that stopped, so that nothing fits.
     fn grid(&self, norm: &Norm) -> Vec<[f64; 3]> {
         let runs = self.runs.iter().zip(&norm.errors);
         let number = |it: Option<f64>| it.unwrap_or(f64::NAN);
@@ -189,7 +189,7 @@ impl Measured {
     }
 }
 
-/// How many pairs of these there are.
+/// The number of different pairs.
 fn count(a: &[f64], b: &[f64]) -> usize {
     let mut pairs: Vec<_> = a.iter().zip(b).map(|(a, b)| [*a, *b]).collect();
     pairs.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
@@ -198,7 +198,7 @@ fn count(a: &[f64], b: &[f64]) -> usize {
     pairs.len()
 }
 
-/// The worst verdict of some quantities, and which of them has it first.
+/// The worst verdict of some quantities, and the position of the first quantity with it.
 pub fn worst(judged: &[Judged]) -> Option<(usize, Verdict)> {
     let verdicts = judged.iter().map(|it| it.judgement.verdict()).enumerate();
     verdicts.rev().max_by_key(|(_, verdict)| *verdict)

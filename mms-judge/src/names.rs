@@ -1,26 +1,26 @@
-//! What the columns of a table of errors are called.
+//! The names of the columns in a table of errors.
 
-/// What a column holds.
+/// The content of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Column {
     /// h.
     CellSize,
     /// dt.
     TimeStep,
-    /// What round-off alone leaves of the errors of a run.
+    /// The part of the errors of a run that round-off alone makes.
     Floor,
-    /// What is no error: counts, orders, times, remarks.
+    /// Other content: counts, orders, times, remarks.
     Other,
     /// Errors of a quantity in a norm.
     Error {
-        /// The quantity; empty where the column is called by its norm alone.
+        /// The quantity; empty if the column's name is a norm alone.
         quantity: String,
-        /// The norm; that of a column that names none is the column's name.
+        /// The norm; if the column names none, the column's name.
         norm: String,
     },
 }
 
-/// The norms that are known, and how people call them.
+/// The known norms, and their usual names.
 const NORMS: [(&str, &[&str]); 4] = [
     ("l1", &["l1", "mean", "average", "avg", "mae"]),
     ("l2", &["l2", "rms", "rmse"]),
@@ -28,10 +28,10 @@ const NORMS: [(&str, &[&str]); 4] = [
     ("h1", &["h1"]),
 ];
 
-/// Words that tell nothing.
+/// Words without meaning.
 const FILLERS: [&str; 7] = ["error", "errors", "err", "e", "norm", "of", "in"];
 
-/// Words that say that a column is no error, wherever they stand in its name: orders, and what a run took.
+/// Words that mark a column as no error anywhere in its name: orders, and the cost of a run.
 const NO_ERRORS: [&str; 24] = [
     "order",
     "orders",
@@ -59,7 +59,7 @@ const NO_ERRORS: [&str; 24] = [
     "iters",
 ];
 
-/// Words that say so at the head of a name: what is counted and numbered, and times.
+/// Words that mark a column as no error at the head of its name: counts, numbers and times.
 const COUNTS: [&str; 41] = [
     "cells",
     "cell",
@@ -104,11 +104,11 @@ const COUNTS: [&str; 41] = [
     "failure",
 ];
 
-/// Words before what is counted.
+/// Words before a count.
 const ARTICLES: [&str; 5] = ["num", "no", "number", "total", "solve"];
 
 impl Column {
-    /// By the name of a column.
+    /// Recognises a column by its name.
     pub fn named(name: &str) -> Self {
         let lower = name.to_lowercase();
         match lower.as_str() {

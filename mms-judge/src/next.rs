@@ -1,6 +1,6 @@
 //! The next command to type after a verdict that is no pass: its words, `mms` first.
 //!
-//! Files and options are those of the command that has ended, so that the line can be typed as it stands.
+//! Files and options are taken from the command that has ended, so that the line can be typed as printed.
 
 use std::fmt::Display;
 
@@ -13,9 +13,9 @@ use crate::Judgements;
 /// The words of a command.
 pub type Words = Vec<String>;
 
-/// Results of a field on meshes, with the options that say how they are read.
+/// Results of a field on meshes, with the options for reading them.
 pub struct Meshes {
-    /// The field, as it was named.
+    /// The field, as the user named it.
     pub field: String,
     /// The files, one for each mesh.
     pub files: Vec<String>,
@@ -23,7 +23,7 @@ pub struct Meshes {
     pub options: Vec<String>,
 }
 
-/// The option of this name with several values; nothing without a value.
+/// The option of this name with several values; `None` without a value.
 pub fn list<T: Display>(name: &str, values: &[T]) -> Option<String> {
     let texts: Vec<String> = values.iter().map(T::to_string).collect();
     (!texts.is_empty()).then(|| format!("--{name}={}", texts.join(",")))
@@ -41,24 +41,24 @@ pub fn command<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> Words {
 }
 
 impl Meshes {
-    /// A command about these results.
+    /// A command on these results.
     fn asks(&self, name: &str, more: impl IntoIterator<Item = String>) -> Words {
         let head = [name.to_owned(), self.field.clone()];
         let words = head.into_iter().chain(self.files.iter().cloned());
         command(words.chain(self.options.iter().cloned()).chain(more))
     }
 
-    /// The steps of a diagnosis, from the first on.
+    /// The command for the plan of a diagnosis.
     fn plan(&self) -> Words {
         command(["diagnose", &self.field, "--plan"])
     }
 }
 
-/// The quantities of results that `mms diagnose` looks at.
+/// The quantities of results that `mms diagnose` uses.
 const DIAGNOSED: [&str; 4] =
     ["displacement", "velocity", "displacement_gradient", "deformation_gradient"];
 
-/// After a judgement of results, or of a table if there are no meshes. `is_chosen` says that quantities were asked for.
+/// The command after a judgement of results, or of a table if there are no meshes. `is_chosen` if the user chose quantities.
 pub fn after_judgement(
     judgements: &Judgements,
     meshes: Option<&Meshes>,
@@ -91,7 +91,8 @@ pub fn after_judgement(
     }
 }
 
-/// After a diagnosis by a command of these words: once the mistake is fixed, or if nothing explains the error.
+/// The command after a diagnosis by a command of these words: to judge the fixed code, or the next step if nothing explains the
+/// error.
 pub fn after_diagnosis(diagnosis: &Diagnosis, meshes: &Meshes, words: &[String]) -> Option<Words> {
     let field = meshes.field.as_str();
     match (diagnosis.finding, diagnosis.rung) {

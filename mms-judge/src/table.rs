@@ -14,7 +14,7 @@ use crate::measured::{Measured, Norm, Quantity, Run};
 use crate::names::Column;
 use crate::results::Start;
 
-/// An order, and of what, as in `2` or `H1=1`.
+/// An order, optionally of a named norm, as in `2` or `H1=1`.
 #[derive(Clone, Debug)]
 pub struct Order {
     name: Option<String>,
@@ -37,31 +37,31 @@ fn finite(text: &str) -> Result<f64, &'static str> {
     text.trim().parse().ok().filter(|it: &f64| it.is_finite()).ok_or("expected a finite number")
 }
 
-/// The orders that are expected: of all norms, or of those that a name is given of.
+/// The expected orders: of all norms, or of named ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orders {
-    /// The order of what no other is given of.
+    /// The order of everything without an order of its own.
     pub usual: f64,
-    /// The degree of the cells, where these are known.
+    /// The degree of the cells, if it is known.
     pub degree: Option<u32>,
-    /// Whether that was given.
+    /// Whether the user gave the usual order.
     pub is_given: bool,
-    /// Of a norm, a quantity or a column; that of `time` is of dt, in a grid of h and dt.
+    /// The orders of named norms, quantities or columns; the order of `time` is the one of dt in a grid of h and dt.
     pub named: Vec<(String, f64)>,
-    /// How far an order may be from the expected one.
+    /// The tolerance of an order.
     pub tolerance: f64,
-    /// How the solver starts, where that was said.
+    /// The start of the solver, if the user gave it.
     pub start: Option<Start>,
 }
 
-/// What stands between a quantity and its norm.
+/// The character between a quantity and its norm.
 pub const OF: char = ':';
 
-/// The name that the order in dt goes by.
+/// The name of the order in dt.
 pub const TIME: &str = "time";
 
 impl Orders {
-    /// Orders that were given; the last of a name counts, and the usual one is 2 if none is given.
+    /// Collects given orders; the last one of a name counts, and the usual order is 2 if none is given.
     pub fn new(given: &[Order], tolerance: f64) -> Self {
         let usual = given.iter().rev().find(|it| it.name.is_none());
         let named = given.iter().rev().filter_map(|it| Some((it.name.clone()?, it.order)));
@@ -81,7 +81,8 @@ impl Orders {
         self.of_gradient(self.usual)
     }
 
-    /// The order of the gradient of what has an order: the degree of the cells, if nothing else limits the order; else one less.
+    /// The order of the gradient of a quantity with this order: the degree of the cells, if nothing else limits the order;
+    /// otherwise one less.
     fn of_gradient(&self, order: f64) -> f64 {
         self.degree.map_or(order - 1.0, |degree| order.min(degree.into()))
     }
@@ -90,7 +91,7 @@ impl Orders {
         self.named.iter().find(|(name, _)| names.contains(&name.as_str()))
     }
 
-    /// Of a norm of a quantity in this column, in h and in dt.
+    /// The expected orders of a norm of a quantity in this column, in h and in dt.
     pub(super) fn of(&self, column: &str, quantity: &str, norm: &str) -> [Expected; 2] {
         let usual = if norm == "h1" { self.of_gradients() } else { self.usual };
         let space = self.given(column, quantity, norm).unwrap_or(usual);
@@ -98,13 +99,13 @@ impl Orders {
         [space, time].map(|order| self.expected(order))
     }
 
-    /// What is expected of an order.
+    /// The range of orders that are expected around an order.
     pub(super) fn expected(&self, order: f64) -> Expected {
         Expected::new(order, self.tolerance)
     }
 
-    /// The order that is given of a norm of a quantity: of both, of the column, or of one of the two. The order of a quantity is
-    /// that of its values; in H1 it has the order of their gradient.
+    /// The given order of a norm of a quantity: given for both together, for the column, or for one of the two. The order of a
+    /// quantity is the order of its values; in H1 it has the order of their gradient.
     pub(super) fn given(&self, column: &str, quantity: &str, norm: &str) -> Option<f64> {
         let both = [column, quantity].map(|it| format!("{it}{OF}{norm}"));
         let of_both = self.find(&[&both[0], &both[1]]);
@@ -114,7 +115,7 @@ impl Orders {
         Some(if norm == "h1" && !says_h1() { self.of_gradient(*order) } else { *order })
     }
 
-    /// Refuses orders of what is not in the table.
+    /// Refuses orders of names that are not in the table.
     fn hold(&self, columns: &[Cell]) -> anyhow::Result<()> {
         let mut known = vec![TIME.to_owned()];
         for cell in columns {
@@ -139,7 +140,7 @@ impl Orders {
     }
 }
 
-/// A field of the table, and where it stands.
+/// A field of the table, and its place.
 #[derive(Clone)]
 struct Cell {
     text: String,
@@ -147,7 +148,7 @@ struct Cell {
     column: usize,
 }
 
-/// A table of as many fields in each row as in its header.
+/// A table whose rows have as many fields as its header.
 struct Table {
     path: String,
     header: Vec<Cell>,
@@ -155,10 +156,10 @@ struct Table {
     rows: Vec<Vec<Cell>>,
 }
 
-/// Reads the table that a file holds, and names the columns that are no errors.
+/// Reads a table from the text of a file, and lists the columns that are no errors.
 ///
 /// # Errors
-/// It is no such table, with the place.
+/// A text that is no such table, with the place.
 pub fn read(path: &Path, text: &str, orders: &Orders) -> anyhow::Result<(Measured, Vec<String>)> {
     let table = Table::parse(foreign::path(path), text)?;
     orders.hold(&table.header)?;
@@ -237,7 +238,7 @@ impl Table {
         })
     }
 
-    /// The cells of a column, if there is one.
+    /// The cells of a column, if the table has it.
     fn column(&self, wanted: &Column) -> Option<impl Iterator<Item = &Cell>> {
         let at = self.columns.iter().position(|it| it == wanted)?;
         Some(self.rows.iter().map(move |row| &row[at]))
@@ -338,7 +339,7 @@ fn places(text: &str) -> i32 {
     i32::try_from(places).unwrap_or(i32::MAX).saturating_sub(exponent)
 }
 
-/// What stands between fields: what the first line that is no comment has first of these; else blanks.
+/// The delimiter of fields: the first of these characters in the first line that is no comment; otherwise a blank.
 fn delimiter(text: &str) -> u8 {
     let is_comment = |line: &&str| line.starts_with('#') || line.trim().is_empty();
     let header = text.lines().find(|line| !is_comment(line)).unwrap_or_default();
@@ -368,7 +369,7 @@ fn cells(text: &str) -> anyhow::Result<Vec<Vec<Cell>>> {
     Ok(rows)
 }
 
-/// The fields of a record. Its position is that of the comments and empty lines before it.
+/// The fields of a record. Its position is before the comments and empty lines that precede it.
 fn fields(text: &str, record: &StringRecord, delimiter: char) -> Vec<Cell> {
     let (byte, first) = record.position().map_or((0, 1), |it| (it.byte() as usize, it.line()));
     let is_skipped = |line: &&str| line.is_empty() || line.starts_with('#');

@@ -10,22 +10,22 @@ use mms_results::write::{self, Fact};
 use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Face};
 
-/// How many samples the body has along each edge, in one to three dimensions.
+/// The number of samples of the body along each edge, in one to three dimensions.
 const ALONG: [usize; 3] = [257, 33, 9];
 
-/// How many times are looked at.
+/// The number of sampled times.
 const TIMES: usize = 65;
 
 /// The data of a field.
 #[derive(Clone, Debug)]
 pub struct Domain {
-    /// The time window; none of a static field.
+    /// The time window; `None` for a static field.
     window: Option<[f64; 2]>,
     body: Extent<f64>,
     /// The least and the greatest coordinates x of samples.
     reach: [Vec<f64>; 2],
     faces: Vec<(Face, Claim)>,
-    /// Whether points stand for rings.
+    /// Whether points represent rings.
     is_axisymmetric: bool,
 }
 
@@ -33,7 +33,7 @@ pub struct Domain {
 const OF_RINGS: &str = "per radian";
 
 impl Domain {
-    /// Collects the data of a field with numbers for its parameters.
+    /// Collects the data of a field with numeric parameters.
     ///
     /// # Errors
     /// A motion that cannot be evaluated.
@@ -45,7 +45,7 @@ impl Domain {
         Ok(Domain { reach: reach(exact)?, window, body, faces, is_axisymmetric })
     }
 
-    /// In lines for a person.
+    /// The data in lines for a person.
     pub fn text(&self) -> String {
         let [lower, upper] = &self.reach;
         let mut text = match self.window {
@@ -62,7 +62,7 @@ impl Domain {
         text
     }
 
-    /// As data of a file: numbers, and of each face its claim.
+    /// The data as facts in a file: numbers, and the claim of each face.
     pub fn facts(&self) -> Vec<Fact> {
         let fact = |name: &str, value| Fact { name: name.to_owned(), value };
         let [lower, upper] = &self.reach;
@@ -78,7 +78,7 @@ impl Domain {
         facts
     }
 
-    /// The measure of volumes and masses, if it is not that of the whole body.
+    /// The measure of volumes and masses, if it is not the whole body.
     fn volumes(&self) -> Option<String> {
         self.is_axisymmetric.then(|| OF_RINGS.to_owned())
     }
@@ -100,7 +100,7 @@ impl Domain {
     }
 }
 
-/// The body as a part of a document; nothing if there is none.
+/// The body as a part of a document; `None` if there is none.
 fn body(extent: &Extent<f64>) -> Option<StateBody> {
     if matches!(extent, Extent::Nothing(_)) {
         return None;
@@ -124,7 +124,7 @@ fn body(extent: &Extent<f64>) -> Option<StateBody> {
     Some(body)
 }
 
-/// The least and the greatest coordinates of samples of the body, its corners among them, over the time window.
+/// The least and the greatest coordinates of samples of the body, including its corners, over the time window.
 fn reach(exact: &mut Exact) -> anyhow::Result<[Vec<f64>; 2]> {
     let dimension = exact.dimension;
     let along = ALONG[dimension - 1];
@@ -148,7 +148,7 @@ fn reach(exact: &mut Exact) -> anyhow::Result<[Vec<f64>; 2]> {
         let time = first + (last - first) * fraction(index, TIMES);
         let components = exact.components(Quantity::Position);
         for position in exact.values(Quantity::Position, time, &points)?.chunks(components) {
-            // Along the hoop a point leaves its meridian, and its distance from the axis counts.
+            // Under a swirl a point leaves its meridian, so its distance from the axis counts.
             let mut position = position.to_vec();
             position[0] = position[dimension..].iter().fold(position[0], |r, it| r.hypot(*it));
             for axis in 0..dimension {

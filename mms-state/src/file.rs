@@ -1,4 +1,4 @@
-//! Where states are written, in which format, by the ending of the file.
+//! Files of states, in the format of their extension.
 
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
@@ -19,7 +19,7 @@ use crate::domain::Domain;
 use crate::points::Points;
 use crate::{Names, Wanted};
 
-/// A file to write, or several of one stem.
+/// A file to write, or several with one stem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Target {
     path: PathBuf,
@@ -49,7 +49,7 @@ impl FromStr for Target {
     }
 }
 
-/// A state, and the mesh that it is on.
+/// A state, and its mesh.
 pub struct Frame {
     /// The state.
     pub state: State,
@@ -57,7 +57,7 @@ pub struct Frame {
     pub position: Vec<f64>,
     /// The cells.
     pub cells: Cells,
-    /// Where the points are from.
+    /// The source of the points.
     pub how: String,
 }
 
@@ -79,12 +79,12 @@ impl Frame {
 }
 
 impl Target {
-    /// The file, or what the files of several times are named after.
+    /// The path of the file, from which the names of several files are made.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The kind of names that the columns have.
+    /// The kind of names of the columns.
     pub fn names(&self) -> Names {
         match self.format {
             Format::Csv | Format::Npz => Names::Symbols,
@@ -92,9 +92,9 @@ impl Target {
         }
     }
 
-    /// Writes the states of all times, not through links: a table as one file, others as one for each time, and a list of those in VTK. What is
-    /// known of the field stands in them, and of a table, which has no place for it, in a file beside it. Returns the files,
-    /// the one to open first.
+    /// Writes the states of all times, refusing links: a table as one file, other formats as one file for each time, with a
+    /// list of the files in VTK. The data of the field are stored in the files; for a table, which has no place for them, in a
+    /// file beside it. Returns the files, the one to open first.
     ///
     /// # Errors
     /// A file that cannot be written, by its name.
@@ -110,7 +110,7 @@ impl Target {
         }
     }
 
-    /// The data of the field, beside a table.
+    /// Writes the data of the field beside a table.
     fn beside(&self, domain: &Domain) -> anyhow::Result<String> {
         let mut name = self.path.file_name().unwrap_or_default().to_owned();
         name.push(".json");
@@ -163,7 +163,7 @@ impl Target {
     }
 }
 
-/// A list of files of one mesh at times, as `.pvd`.
+/// The text of a `.pvd` file, which lists files of one mesh at times.
 pub fn list(written: &[(f64, String)]) -> String {
     let mut text = write::head("Collection");
     text += "<Collection>\n";
@@ -174,7 +174,7 @@ pub fn list(written: &[(f64, String)]) -> String {
     text + "</Collection>\n</VTKFile>\n"
 }
 
-/// The text as the value of an attribute.
+/// Escapes a text for the value of an attribute.
 fn attribute(text: &str) -> String {
     foreign::markup(text).replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

@@ -1,8 +1,8 @@
 //! Exact states of a field, at any points and times, for any solver.
 //!
-//! [`points`] says where: at the points of a file, at the particles of a grid, or at what is at given places
-//! ([`present`](mms_analysis::present)). [`State`]s are made of the field's quantities there, and [`file`](mod@file) writes them;
-//! [`domain`] tells beside them what a solver needs to know once.
+//! [`points`] determines the places: points of a file, particles of a grid, or the material at given places
+//! ([`present`](mms_analysis::present)). [`State`]s contain the field's quantities there, and [`file`](mod@file) writes them;
+//! [`domain`] adds the data that a solver needs once.
 
 pub mod domain;
 pub mod file;
@@ -20,7 +20,7 @@ use mms_spec::quantity::{self, Quantity};
 use self::domain::Domain;
 use self::points::Points;
 
-/// A term that a solver is not given.
+/// A term that is withheld from a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Term {
     /// b, in all its forms.
@@ -32,15 +32,15 @@ pub enum Term {
 }
 
 impl Term {
-    /// All of them.
+    /// All terms.
     pub const ALL: [Term; 3] = [Term::BodyForce, Term::Stress, Term::Traction];
 
-    /// The term of that name.
+    /// The term of this name.
     pub fn from_name(name: &str) -> Option<Term> {
         Term::ALL.into_iter().find(|term| term.name() == name)
     }
 
-    /// A description of it.
+    /// A description of the term.
     pub fn says(self) -> &'static str {
         match self {
             Term::BodyForce => "b, in all its forms",
@@ -51,7 +51,7 @@ impl Term {
         }
     }
 
-    /// How the command calls it.
+    /// The name of the term in commands.
     pub fn name(self) -> &'static str {
         match self {
             Term::BodyForce => "body_force",
@@ -81,7 +81,7 @@ impl Term {
     }
 }
 
-/// What columns are called: by symbols in tables and NumPy, in words in VTK, as `mms run --vtk` does.
+/// The names of columns: symbols in tables and NumPy, words in VTK, as `mms run --vtk` writes them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Names {
     /// X, u, F.
@@ -107,7 +107,7 @@ impl Names {
     }
 }
 
-/// The quantities of a state that names none.
+/// The quantities of a state if the user names none.
 pub const USUAL: [Quantity; 9] = [
     Quantity::Position,
     Quantity::Displacement,
@@ -120,24 +120,24 @@ pub const USUAL: [Quantity; 9] = [
     Quantity::Traction,
 ];
 
-/// What a state holds.
+/// The requested content of a state.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted<'a> {
-    /// The quantities; tractions are those of the faces that have points.
+    /// The quantities; tractions belong to the faces that have points.
     pub quantities: &'a [Quantity],
-    /// Terms that are 0 in it.
+    /// Terms that are set to 0.
     pub without: &'a [Term],
-    /// What columns are called.
+    /// The names of columns.
     pub names: Names,
-    /// What a solver needs to know of the field once.
+    /// The data of the field that a solver needs once.
     pub domain: &'a Domain,
 }
 
 impl Wanted<'_> {
-    /// Refuses states at so many times that do not fit into what memory is free.
+    /// Refuses states at this many times if they do not fit into free memory.
     ///
     /// # Errors
-    /// How much they take, and how much there is.
+    /// The memory that they need, and the free memory.
     pub fn hold_memory(&self, exact: &Exact, points: &Points, times: usize) -> anyhow::Result<()> {
         let points = points.reference.len() / exact.dimension;
         let numbers: usize = self.quantities.iter().map(|it| exact.components(*it)).sum();
@@ -190,7 +190,7 @@ impl Wanted<'_> {
         Ok(State { time, dimension, axes, facts: self.domain.facts(), columns })
     }
 
-    /// A quantity that takes a normal at the points of a face; 0 at all others.
+    /// The values of a quantity that depends on a normal, at the points of a face; 0 at all others.
     fn on_face(
         &self,
         quantity: Quantity,
@@ -212,7 +212,7 @@ impl Wanted<'_> {
         Ok(all)
     }
 
-    /// The values, or 0 where their term is left out.
+    /// The values, or 0 if their term is withheld.
     fn held(
         &self,
         quantity: Quantity,
@@ -246,8 +246,8 @@ fn shape(quantity: Quantity, exact: &Exact) -> Shape {
     }
 }
 
-/// Present and reference volume, which are one at small strain, and the mass, where volumes are known: mass = density x
-/// volume, if the field gives a density. Those of rings are per radian.
+/// The present and the reference volume, which are equal at small strain, and the mass, if volumes are known: mass = density x
+/// volume, if the field has a density. Volumes and masses of rings are per radian.
 fn weights(exact: &mut Exact, points: &Points, time: f64) -> anyhow::Result<Vec<Column>> {
     let Some(reference) = &points.volume else { return Ok(Vec::new()) };
     let stretched = match exact.is_small_strain() {

@@ -1,4 +1,4 @@
-//! At which points a state is: of a file, of a grid, or those that are at given places.
+//! The points of a state: of a file, of a grid, or the material points at given places.
 
 use std::borrow::Cow;
 
@@ -16,25 +16,25 @@ use mms_runtime::{Division, Setup};
 use mms_spec::Face;
 use mms_spec::foreign::shown;
 
-/// Particles in each direction of a cell where nothing is said.
+/// The default number of particles in each direction of a cell.
 pub const PER_CELL: Division = Division::Uniform(2);
 
 /// Points of a body.
 #[derive(Clone, Debug, Default)]
 pub struct Points {
-    /// X, the coordinates of a point together.
+    /// X, point by point.
     pub reference: Vec<f64>,
-    /// How far each coordinate may be from what was meant.
+    /// The rounding of each coordinate.
     pub rounding: f64,
-    /// V0, where it is known.
+    /// V0, if it is known.
     pub volume: Option<Vec<f64>>,
-    /// Cells between them, where there are such.
+    /// The cells between the points, if there are any.
     pub cells: Cells,
-    /// Where they are from.
+    /// The source of the points.
     pub how: String,
 }
 
-/// Where points lie that are given as x.
+/// Points that are given by their present places x.
 #[derive(Debug)]
 pub struct Places {
     snapshot: Snapshot,
@@ -42,11 +42,11 @@ pub struct Places {
     volume: Option<Vec<f64>>,
 }
 
-/// What a user gave to say where.
+/// Points or places that a user gave.
 pub enum Given {
-    /// Points, which are the same at all times.
+    /// Points, the same at all times.
     Reference(Points),
-    /// Places x, where at each time other points are.
+    /// Places x, at which other material points are at each time.
     Present(Box<Places>),
 }
 
@@ -54,7 +54,7 @@ impl Given {
     /// The points at a time.
     ///
     /// # Errors
-    /// A place where no point of the body is, or two are; or where that is not decided.
+    /// A place with no point of the body, with two, or for which this is not decided.
     pub fn at(
         &self,
         exact: &Exact,
@@ -91,10 +91,10 @@ impl Points {
         Ok(Points { reference, volume: Some(volume), how, ..Points::default() })
     }
 
-    /// The points of a file. How far they are from the body is what `outside` says.
+    /// Reads the points of a file; `outside` measures their distance from the body.
     ///
     /// # Errors
-    /// What is wrong with the file, or points outside the body, and where.
+    /// A file that cannot be read, or points outside the body, and where.
     pub fn of_file(
         path: &str,
         names: &Names,
@@ -116,17 +116,17 @@ impl Points {
         Ok(Points { reference, rounding, volume, cells, how })
     }
 
-    /// The points on each face that has such, by position.
+    /// The indices of the points on each face that has points.
     pub fn faces(&self, exact: &Exact) -> Vec<(Face, Vec<usize>)> {
         exact.faces(&self.reference, self.rounding)
     }
 }
 
 impl Places {
-    /// The points of a file, whatever it calls them, as places x.
+    /// Reads the points of a file as places x, under any of the names of positions.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// A file that cannot be read, and where.
     pub fn of_file(path: &str, names: &Names, dimension: usize) -> anyhow::Result<Self> {
         let snapshot = one(path, names)?;
         let meanings = recognise(&snapshot, names, &is_place).map_err(placed)?;
@@ -149,10 +149,10 @@ impl Places {
         Ok(Places { present, volume: volume(&snapshot, names)?, snapshot })
     }
 
-    /// The points that are there at a time.
+    /// The points at these places at a time.
     ///
     /// # Errors
-    /// A place where no point of the body is, or two are; or where that is not decided.
+    /// A place with no point of the body, with two, or for which this is not decided.
     pub fn points(
         &self,
         inverse: &mut Inverse<'_>,
@@ -185,7 +185,7 @@ fn unplaced(x: &[f64], time: f64, why: &Unplaced) -> String {
     format!("x = {x:?}, t = {time:?}: {}; {advice}", says(why))
 }
 
-/// The one result of a file.
+/// Reads a file with one result.
 fn one(path: &str, names: &Names) -> anyhow::Result<Snapshot> {
     let wanted = everything(names).within(memory(), "name a file of fewer points");
     let mut found = Results::find(path, &wanted, &Disk)?.snapshots;
@@ -205,7 +205,7 @@ fn is_place(role: Role) -> bool {
     )
 }
 
-/// V0: the array of that name, or the volume, which is that of points at X.
+/// V0: the array of that name, or, for points at X, the volume.
 fn volume(snapshot: &Snapshot, names: &Names) -> anyhow::Result<Option<Vec<f64>>> {
     let is_named = |array: &&Array| array.name == "reference_volume" && array.components == 1;
     let own = snapshot.of_points.iter().find(is_named).map(|array| array.values.clone());

@@ -1,4 +1,4 @@
-//! Results beside those of a right run of the same solver: what the method makes is in both.
+//! Compares results with a right run of the same solver, so that the error of the method cancels.
 
 use anyhow::ensure;
 use mms_diagnosis::evidence::Mesh;
@@ -7,13 +7,13 @@ use mms_exact::Exact;
 use mms_spec::foreign::shown;
 use mms_spec::quantity;
 
-/// Points are the same if they are no further apart than this part of the largest coordinate: single precision.
+/// The largest distance of points that count as the same, over the largest coordinate: single precision.
 const SAME: f64 = 1e-6;
 
-/// Replaces values by the exact ones and what they differ by from those of a right run.
+/// Replaces values by the exact ones plus their differences from a right run.
 ///
 /// # Errors
-/// Runs of other times, points or quantities.
+/// Runs with other times, points or quantities.
 pub fn compare(
     found: &mut Mesh,
     right: &Mesh,

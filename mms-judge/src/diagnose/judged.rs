@@ -1,4 +1,4 @@
-//! Results of meshes, held to an order as `mms judge` holds them: no diagnosis is milder than that.
+//! The orders of results, judged as `mms judge` does: a diagnosis is never milder.
 
 use mms_convergence::Verdict;
 use mms_diagnosis::falls::Falls;
@@ -11,7 +11,7 @@ use crate::measured::worst;
 use crate::results::{Comparison, Over, Reading as Judging, Results, measure};
 use crate::table::Orders;
 
-/// Finds how the errors of results fall from mesh to mesh; nothing of one mesh.
+/// Finds how the errors of results fall from mesh to mesh; `None` for one mesh.
 ///
 /// # Errors
 /// Results that `mms judge` refuses.

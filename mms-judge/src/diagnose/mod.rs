@@ -1,4 +1,4 @@
-//! From the results of a solver to what diagnosis looks at: results, accelerations at an exact state, or a table of a law.
+//! Turns the results of a solver into evidence for a diagnosis: results, accelerations at an exact state, or a table of a law.
 
 mod beside;
 mod judged;
@@ -24,33 +24,34 @@ use self::nodes::{Nodes, volumes};
 use crate::results::{Results, motion, placed, room};
 use mms_exact::Exact;
 
-/// How results are read.
+/// The options for reading results.
 pub struct Reading<'a> {
     /// The names of arrays.
     pub names: &'a Names,
-    /// Times of results that have none.
+    /// Times for results without one.
     pub times: &'a [f64],
-    /// A time of a field in which nothing moves, for results that have none.
+    /// A time for results without one, of a field in which nothing moves.
     pub rest: Option<f64>,
-    /// h of the FILEs, in their order.
+    /// h of each FILE, in their order.
     pub sizes: &'a [f64],
-    /// The time step of all FILEs, or of each in their order.
+    /// The time step of all FILEs, or of each FILE in their order.
     pub time_steps: &'a [f64],
-    /// What of a law alone is looked at; none of results.
+    /// The quantity of a law alone; `None` for results.
     pub law: Option<Alone>,
     /// The sign of residuals: r = sign (rho0 a - Div P - rho0 b).
     pub residual_sign: f64,
     /// Whether residuals are integrated with the shape functions of nodes.
     pub is_nodal: bool,
-    /// Right runs of the same solver on the same meshes, in the order of the files; none, if the exact solution is the reference.
+    /// Right runs of the same solver on the same meshes, in the order of the files; empty if the exact solution is the
+    /// reference.
     pub right: &'a [Results],
-    /// The quantities of results that are looked at; all, if there are none.
+    /// The quantities of results to compare; empty for all.
     pub wanted: &'a [quantity::Quantity],
     /// The files that results are read from.
     pub files: &'a dyn Files,
 }
 
-/// The names that `--quantity` has for what diagnosis looks at in results.
+/// The names in `--quantity` of the quantities that diagnosis compares.
 const OF_RESULTS: [(Quantity, &[quantity::Quantity]); 3] = [
     (Quantity::Displacement, &[quantity::Quantity::Displacement]),
     (Quantity::Velocity, &[quantity::Quantity::Velocity]),
@@ -61,7 +62,7 @@ const OF_RESULTS: [(Quantity, &[quantity::Quantity]); 3] = [
 ];
 
 impl Reading<'_> {
-    /// Whether a quantity of results is looked at.
+    /// Whether a quantity of results is to be compared.
     fn wants(&self, quantity: Quantity) -> bool {
         let names = OF_RESULTS.iter().find(|(it, _)| *it == quantity);
         self.wanted.is_empty()
@@ -83,7 +84,7 @@ impl Reading<'_> {
     }
 }
 
-/// What a law may be asked for without a solver.
+/// A quantity of a law that is diagnosed without a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Alone {
     /// P, S, sigma or tau.
@@ -92,10 +93,10 @@ pub enum Alone {
     Tangent,
 }
 
-/// Reads what was named, as far as diagnosis knows it; in so many MB of memory, or in what is free.
+/// Reads a named file, as far as diagnosis uses it, with `memory` MB of memory or all that is free.
 ///
 /// # Errors
-/// As of [`Results::find`].
+/// Those of [`Results::find`].
 pub fn find(
     given: &str,
     names: &Names,
@@ -106,10 +107,10 @@ pub fn find(
     Results::find(given, &wanted(names, &|_| true).within(room, advice), files)
 }
 
-/// Reads files: from coarse to fine.
+/// Reads files, from coarse to fine, as evidence.
 ///
 /// # Errors
-/// What is wrong with a file, and where; evidence that is none.
+/// A file that cannot be read, and where; results that are no evidence.
 pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow::Result<Evidence> {
     if let Some(alone) = reading.law {
         let snapshot = all.iter().flat_map(|it| &it.snapshots).next();
@@ -147,10 +148,10 @@ pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow
     Ok(Evidence::Results(levels))
 }
 
-/// The names under which results hold the gradient of u: H, F, or both.
+/// The names under which results contain the gradient of u: H, F, or both.
 ///
 /// # Errors
-/// As of [`read`].
+/// Those of [`read`].
 pub fn gradients(
     all: &[Results],
     reading: &Reading<'_>,
@@ -168,7 +169,7 @@ pub fn gradients(
     Ok(named.into_iter().filter(|(role, _)| is_there(*role)).map(|(_, it)| it).collect())
 }
 
-/// The quantities that diagnosis looks for; without a law alone, these are arrays of the right shape.
+/// The quantities that diagnosis looks for; except for a law alone, only arrays of the right shape.
 ///
 /// # Errors
 /// A name that may mean two quantities.
@@ -184,14 +185,14 @@ fn meanings(
     Ok(found)
 }
 
-/// Why an array has another shape than the quantity of its name; none if it has that shape.
+/// Why an array has another shape than the quantity of its name; `None` if it has that shape.
 fn unlike(meaning: &Meaning, snapshot: &Snapshot, exact: &Exact) -> Option<String> {
     let is_tensor = matches!(meaning.role.form(), Form::Tensor | Form::Symmetric);
     let rows = if is_tensor { exact.space().rows() } else { exact.dimension };
     meaning.unlike(snapshot, rows, None)
 }
 
-/// The quantities that diagnosis looks for, whatever the shape of their arrays.
+/// The quantities that diagnosis looks for, with arrays of any shape.
 ///
 /// # Errors
 /// A name that may mean two quantities.
@@ -199,12 +200,12 @@ fn recognised(snapshot: &Snapshot, reading: &Reading<'_>) -> anyhow::Result<Vec<
     if reading.law.is_none() {
         return recognise(snapshot, reading.names, &|role| !is_stress(role)).map_err(placed);
     }
-    // A law alone has the symbols of this project; results of other codes may call another stress S.
+    // Tables of a law use the symbols of this project; in results of other codes S may be another stress.
     let profile = reading.names.profile.clone().or_else(|| Some(Profile::symbols()));
     recognise(snapshot, &Names { profile, ..reading.names.clone() }, &|_| true).map_err(placed)
 }
 
-/// The arrays of known names that are left out for their shape, of the first result.
+/// The arrays of known names in the first result that are left out because of their shape.
 ///
 /// # Errors
 /// A name that may mean two quantities.
@@ -219,7 +220,7 @@ pub fn left_out(
     Ok(found.iter().filter_map(|it| unlike(it, snapshot, exact)).collect())
 }
 
-/// Whether it is a stress, which results are not diagnosed by.
+/// Whether the quantity is a stress, which diagnosis does not use in results.
 fn is_stress(role: Role) -> bool {
     MEASURES.iter().any(|(it, _)| *it == role)
 }
@@ -235,7 +236,7 @@ fn values<'a>(
     Ok(values.filter(|it| !it.is_of_cells))
 }
 
-/// H, from H or F; of an axisymmetric field the part in the meridian.
+/// H, from H or F; for an axisymmetric field its part in the meridian.
 fn gradient<'a>(
     meanings: &[Meaning],
     snapshot: &'a Snapshot,
@@ -270,7 +271,7 @@ fn whole_gradient<'a>(
     Ok(f)
 }
 
-/// What the columns of stress are said to be.
+/// The columns of stress and their measures.
 const MEASURES: [(Role, Measure); 4] = [
     (Role::FirstPiolaKirchhoff, Measure::FirstPiola),
     (Role::SecondPiolaKirchhoff, Measure::SecondPiola),
@@ -393,7 +394,7 @@ fn state(
     Ok(None)
 }
 
-/// A state is the exact one within this part of it: rounding of a file, and no error of a method.
+/// The largest relative distance from an exact state: rounding of a file, but no error of a method.
 const EXACT: f64 = 1e-6;
 
 fn is_near(a: &[f64], b: &[f64]) -> bool {
@@ -409,7 +410,7 @@ fn time(snapshot: &Snapshot, reading: &Reading<'_>, at: usize) -> anyhow::Result
     time.with_context(|| format!("{}: it has no time; give it with `--time`", snapshot.path))
 }
 
-/// h: as given, of cells, or about that of so many points.
+/// h: the given one, from cells, or estimated from the number of points.
 fn size(given: Option<f64>, mesh: &Mesh<'_>, exact: &Exact) -> f64 {
     let points = mesh.points.len() / exact.dimension;
     given.or(mesh.sizes().map(|[_, longest]| longest)).unwrap_or_else(|| exact.spacing(points))

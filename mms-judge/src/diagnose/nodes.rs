@@ -1,4 +1,4 @@
-//! Points at which accelerations or residuals were computed: each once, with its volume.
+//! Points with computed accelerations or residuals: each once, with its volume.
 
 use anyhow::{bail, ensure};
 use mms_exact::Exact;
@@ -11,23 +11,23 @@ use crate::results::{distances, placed};
 
 /// Points with one vector each.
 pub struct Nodes {
-    /// X, the numbers of a point together.
+    /// X, point by point.
     pub reference: Vec<f64>,
-    /// The vectors, likewise.
+    /// The vectors, point by point.
     pub values: Vec<f64>,
-    /// Reference volumes, which add up to about that of the body.
+    /// Reference volumes, which add up to about the volume of the body.
     pub volumes: Option<Vec<f64>>,
 }
 
-/// How near to each other points are one, over the distance of neighbours.
+/// The largest distance of points that are one point, over the distance of neighbours.
 const ONE: f64 = 1e-6;
-/// By how much values of points may differ that are one, over the largest.
+/// The largest difference between values of points that are one point, over the largest value.
 const SAME: f64 = 1e-6;
 
-/// Finds the reference volumes of points: from a column, which may hold present ones, from cells, or from even distances.
+/// Finds the reference volumes of points: from a column of reference or present volumes, from cells, or from even distances.
 ///
 /// # Errors
-/// Cells that are turned over; points whose volumes nothing tells.
+/// Inverted cells; points whose volumes cannot be found.
 pub fn volumes(
     column: Option<Values<'_>>,
     mesh: &Mesh<'_>,
@@ -52,7 +52,7 @@ pub fn volumes(
     Ok(if off(&before) < off(&volumes) { before } else { volumes })
 }
 
-/// Volumes of points in a box that are evenly apart: on a face half of it, on an edge a quarter.
+/// The volumes of evenly spaced points in a box: half a cell on a face, a quarter on an edge.
 fn by_distance(points: &[f64], rounding: f64, exact: &Exact) -> Option<Vec<f64>> {
     let count = points.len() / exact.dimension;
     if exact.body.box_bounds().is_none() || count < 2 {
@@ -69,11 +69,10 @@ fn by_distance(points: &[f64], rounding: f64, exact: &Exact) -> Option<Vec<f64>>
 }
 
 impl Nodes {
-    /// Makes points that are in one place one, as those that neighbouring cells write each for itself: with the sum of their
-    /// volumes.
+    /// Merges points in one place, which each neighbouring cell may write, and adds up their volumes.
     ///
     /// # Errors
-    /// Points in one place with other values.
+    /// Points in one place with different values.
     pub fn merged(self, exact: &Exact, path: &str) -> anyhow::Result<Self> {
         let dimension = exact.dimension;
         let count = self.reference.len() / dimension;

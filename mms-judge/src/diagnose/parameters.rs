@@ -1,4 +1,4 @@
-//! The parameters of a field's material, each times a factor.
+//! The parameters of a field's material, multiplied by factors.
 
 use std::sync::{Arc, OnceLock};
 
@@ -8,14 +8,14 @@ use mms_codegen::{Options, Selection};
 use mms_exact::Exact;
 use mms_runtime::scene::Scene;
 
-/// A field whose material has factors; it is compiled when one is asked for.
+/// A field whose material has factors; compiled on first use.
 pub struct Factors<'a> {
     exact: &'a Exact,
     compiled: OnceLock<Option<Arc<Compiled>>>,
 }
 
 impl<'a> Factors<'a> {
-    /// The parameters of a field's material; nothing is compiled yet.
+    /// The parameters of a field's material; compiles nothing yet.
     pub fn new(exact: &'a Exact) -> Self {
         Factors { exact, compiled: OnceLock::new() }
     }

@@ -1,4 +1,4 @@
-//! One level against a judgement that was saved: its errors may change by as little as the constant of a method.
+//! Compares one level with a saved judgement: errors may change by as little as the constant of a method.
 
 use anyhow::{Context as _, bail};
 use mms_convergence::is_near;
@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::measured::Measured;
 
-/// What is read of a saved judgement.
+/// The part of a saved judgement that is read.
 #[derive(Debug, Deserialize)]
 pub struct Baseline {
     quantities: Vec<Quantity>,
@@ -30,7 +30,7 @@ struct Level {
     error: Option<f64>,
 }
 
-/// An error, and what it was.
+/// An error, and its saved value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compared {
     /// The quantity.
@@ -41,34 +41,34 @@ pub struct Compared {
     pub length: f64,
     /// The error.
     pub error: f64,
-    /// The error that was saved.
+    /// The saved error.
     pub saved: f64,
-    /// Below this it may be nothing but round-off.
+    /// The error below which it may be round-off alone.
     pub floor: f64,
 }
 
 impl Compared {
-    /// Whether it is within one percent of what it was; or both are round-off.
+    /// Whether it is within one percent of its saved value; or both are round-off.
     pub fn is_near(&self) -> bool {
         is_near(self.error, self.saved) || self.error.max(self.saved) <= self.floor
     }
 }
 
-/// How far lengths may differ that are those of one mesh.
+/// The largest relative difference of lengths that belong to one mesh.
 const SAME: f64 = 1e-6;
 
 impl Baseline {
     /// Reads a judgement, as `mms judge --output` writes it.
     ///
     /// # Errors
-    /// A text that is none.
+    /// A text that is no judgement.
     pub fn read(text: &str) -> anyhow::Result<Self> {
         serde_json::from_str(text).context(
             "not a judgement: expected convergence.json, as `mms judge --output` writes it",
         )
     }
 
-    /// Compares errors with those of the same meshes that were saved.
+    /// Compares errors with the saved errors of the same meshes.
     ///
     /// # Errors
     /// A mesh or a quantity that the judgement does not have.

@@ -1,4 +1,4 @@
-//! The degree of a solution on linear cells: a file may write a quadratic one on them.
+//! The degree of a solution on linear cells: a file may contain a quadratic solution on them.
 
 use anyhow::bail;
 use mms_spec::quantity::Quantity;
@@ -7,12 +7,12 @@ use super::Level;
 use super::level::{Errors, Sampling};
 use crate::table::Orders;
 
-/// The orders of errors at points that a quadratic solution has, and those of its interpolation by linear cells.
+/// The orders at points of a quadratic solution, and the orders over cells of its linear interpolation.
 const AT_POINTS: [f64; 2] = [2.6, 3.4];
 const OVER_CELLS: [f64; 2] = [1.5, 2.4];
 
-/// Refuses linear cells of which two readings are possible: errors over them have order 2, and those at points the order
-/// of a quadratic solution, or one that the user expects and linear cells cannot have.
+/// Refuses linear cells with two possible readings: errors over them have order 2, and errors at points the order of a
+/// quadratic solution, or an order that the user expects and linear cells cannot have.
 ///
 /// # Errors
 /// Both readings, with their orders and with the option that chooses each.

@@ -8,11 +8,11 @@ use mms_runtime::scene::Scene;
 
 use super::Measured;
 
-/// Which mistakes results exclude, or why that is not known.
+/// The mistakes that results exclude, or the reason why that is not known.
 pub struct Exclusions {
-    /// Of which errors that is said.
+    /// The errors that exclude them, in words.
     pub of: String,
-    /// Each hypothesis.
+    /// Each hypothesis, and whether it is excluded.
     pub all: Result<Vec<Excluded>, String>,
 }
 
@@ -23,12 +23,12 @@ const QUANTITIES: [(&str, Quantity); 3] = [
     ("deformation_gradient", Quantity::DisplacementGradient),
 ];
 
-/// The time at which a static field is evaluated, the same as at any other.
+/// The time at which a static field is evaluated; any other is the same.
 const AT_REST: f64 = 1.0;
 
 impl Exclusions {
-    /// What the finest errors of u, v or F at some times exclude, root mean squares by the name of the quantity; nothing without
-    /// one. Times that are none are of a field which is static, and so is at rest.
+    /// Finds what the finest root mean square errors of u, v or F at some times exclude; `error` returns the error of a
+    /// quantity by name. `None` if there is no error. `times` is `None` for a static field.
     pub fn new(
         scene: &Scene<f64>,
         error: impl Fn(&str) -> Option<f64>,
@@ -50,8 +50,8 @@ impl Exclusions {
     }
 }
 
-/// The mistakes that results with these errors at some times exclude, whose finest has this time step; none without errors of the
-/// motion or, of a static field, of its equilibrium, and for a field with a swirl, which the solver cannot run.
+/// Finds the mistakes that results with these errors at some times exclude; `time_step` belongs to the finest. `None` without
+/// errors of the motion or, for a static field, of its equilibrium, and for a field with a swirl, which the solver cannot run.
 ///
 /// # Errors
 /// The field cannot be run.
@@ -70,7 +70,7 @@ pub fn exclusions(
     Ok(Exclusions::new(&exact.scene()?, error, (finest, time_step), times))
 }
 
-/// The root mean square error of a quantity on the finest mesh, or its floor; of replicates the largest.
+/// The root mean square error of a quantity on the finest mesh, or its floor if that is larger; the largest of replicates.
 fn error(measured: &Measured, name: &str, finest: f64) -> Option<f64> {
     let quantity = measured.quantities.iter().find(|it| it.name == *name)?;
     let norm = quantity.norms.iter().find(|it| it.name == *"l2")?;

@@ -1,4 +1,4 @@
-//! Which order each quantity should have, by its norm and by where it is measured.
+//! The expected order of each quantity, by its norm and its sampling.
 
 use anyhow::bail;
 use mms_convergence::Expected;
@@ -13,7 +13,7 @@ use crate::table::{OF, Orders, TIME};
 /// The norms of results.
 const NORMS: [&str; 4] = ["l1", "l2", "linf", "h1"];
 
-/// Whether it is u, its derivatives by time, or what is given: of others theory promises one order less, for they
+/// Whether the quantity is u, a derivative of u by time, or given. For others theory promises one order less, because they
 /// follow from the gradient of u.
 fn is_of_motion(quantity: Quantity) -> bool {
     if let Quantity::Own(own) = quantity {
@@ -31,15 +31,15 @@ fn is_of_motion(quantity: Quantity) -> bool {
 }
 
 impl Sampling {
-    /// Whether cells are known, so that theory says which order gradients have: everywhere one less than u, and at some
-    /// places, or after an average over cells, as much as u.
+    /// Whether cells are known, so that theory gives the order of gradients: everywhere one less than u, and at some places, or
+    /// after an average over cells, as much as u.
     fn knows_cells(self) -> bool {
         matches!(self, Sampling::Cells | Sampling::Middles)
     }
 }
 
-/// The orders that are expected of a norm in h and in dt. Gradients have one order less than u, or as much where they are
-/// more accurate than elsewhere; a start may lower that of v and a.
+/// The expected orders of a norm in h and in dt. Gradients have one order less than u, or the order of u where they are more
+/// accurate than elsewhere; a start may lower the orders of v and a.
 pub fn expected(
     (orders, lowered): (&Orders, &Lowered),
     (quantity, sampling): (Quantity, Sampling),
@@ -58,7 +58,7 @@ pub fn expected(
     [Expected { order: least.min(space.order), settles, ..space }, time]
 }
 
-/// Orders under the names that results have: PK1 is `first_piola_kirchhoff`, and H1 is `h1`.
+/// Renames orders to the names in results: PK1 is `first_piola_kirchhoff`, and H1 is `h1`.
 pub fn named(orders: &Orders) -> Orders {
     let quantity = |name: &str| match Quantity::from_name(name) {
         Some(quantity) if quantity.symbol() != name => quantity.name().to_owned(),
@@ -76,7 +76,7 @@ pub fn named(orders: &Orders) -> Orders {
     Orders { named, ..orders.clone() }
 }
 
-/// Refuses orders of what is not judged.
+/// Refuses orders of quantities or norms that are not judged.
 pub fn hold_orders(
     quantities: &[(Quantity, Sampling)],
     orders: &Orders,

@@ -15,17 +15,17 @@ use super::Results;
 use super::extent::motion;
 use super::level::{Reading, values};
 
-/// How one file is read.
+/// The reading of one file.
 pub struct Explained {
     /// The file.
     file: String,
-    /// The name of its format.
+    /// The name of the format.
     format: &'static str,
-    /// The times of its results.
+    /// The times of the results.
     times: Vec<f64>,
     /// The number of points.
     points: usize,
-    /// How X is found.
+    /// The source of X.
     positions: String,
     /// The cells by kinds, in words.
     cells: Vec<String>,
@@ -36,7 +36,7 @@ pub struct Explained {
 }
 
 impl Explained {
-    /// How results are read, as their first time shows it.
+    /// Explains how results are read, by their first time.
     ///
     /// # Errors
     /// Positions or names that cannot be read, or no results.
@@ -91,7 +91,7 @@ impl Explained {
         })
     }
 
-    /// The explanation as text, a row for each thing that is known.
+    /// The explanation as text, a row for each item.
     pub fn text(&self) -> String {
         let times = match self.times.as_slice() {
             [] => "none in the file: give them with `--time`".into(),

@@ -1,4 +1,4 @@
-//! The part of the body that results cover, and how far their points are from each other.
+//! The part of the body that results cover, and the distances of their points.
 
 use std::f64::consts::TAU;
 
@@ -17,44 +17,44 @@ use super::ALIKE;
 use super::files::placed;
 use crate::measured::Objection;
 
-/// The part of the body that may be missing by rounding and by the meshing of curved sides.
+/// The part of the body that may be missing because of rounding and the meshing of curved sides.
 const ROUNDING: f64 = 1e-7;
 
-/// How far the ends of an edge may be from a curved side that it lies on, in parts of its length.
+/// The largest distance of the ends of an edge from a curved side that it belongs to, over its length.
 const BESIDE: f64 = 0.05;
 
-/// How many spacings of points may be without one.
+/// The largest gap without a point, in spacings of points.
 const EMPTY: f64 = 3.0;
 
-/// How many points tell how far neighbours are from each other.
+/// The number of points from which the distances of neighbours are found.
 const LOOKED_AT: usize = 1000;
 
-/// How much of the body is there.
+/// The part of the body that results cover.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Covered {
-    /// Cells, or none.
+    /// The number of cells; 0 without cells.
     pub cells: usize,
-    /// Points.
+    /// The number of points.
     pub points: usize,
-    /// h: the edge of a cube as large as a cell, or as what belongs to a point; or how far neighbouring points are.
+    /// h: the edge of a cube as large as a cell, or as the region of a point; or the distance of neighbouring points.
     pub size: f64,
-    /// Whether there are no cells, and neighbouring points are all as far from each other.
+    /// Whether there are no cells, and neighbouring points are evenly spaced.
     pub is_even: bool,
     /// The missing part in words: `the cells cover 0.5 of the body`.
     pub part: Option<String>,
 }
 
-/// Finds how much of the body cells cover.
+/// Finds the part of the body that cells cover.
 ///
 /// # Errors
-/// They do not cover all of it, unless a part is enough; or some lie over others.
+/// Cells that do not cover all of it, unless a part is enough; or that overlap.
 pub fn of_cells(
     mesh: &Mesh<'_>,
     (exact, is_part): (&Exact, bool),
     rounding: f64,
     path: &str,
 ) -> anyhow::Result<Covered> {
-    // The share of a body of revolution is that of its meridian.
+    // The share of a body of revolution is the share of its meridian.
     let flat = Mesh { is_meridian: false, ..*mesh };
     let volumes = flat.volumes().map_err(|mistake| placed(mistake.of(path)))?;
     let measure: f64 = volumes.iter().sum();
@@ -70,7 +70,7 @@ pub fn of_cells(
     if let Some(part) = part.as_ref().filter(|_| !is_part) {
         let unknown = mesh
             .unknown()
-            .map(|kind| format!("; those of type {kind} of VTK are not known, and are left out"));
+            .map(|kind| format!("; cells of type {kind} of VTK are not known, and are left out"));
         anyhow::bail!(
             "{path}: {part}{}; expected all of it; `--part` judges a part, as a symmetric half",
             unknown.unwrap_or_default()
@@ -97,11 +97,11 @@ pub fn motion<'a>(
     resolve(snapshot, meanings, exact.dimension, &outside, Some(&mut back)).map_err(placed)
 }
 
-/// The body of a field, which points or the cells between them may fill.
+/// The body of a field, for points or for the cells between them.
 struct Filled<'a> {
     exact: &'a Exact,
     cells: &'a Cells,
-    /// Whether a part of the body is enough, so that filling it tells nothing.
+    /// Whether a part of the body is enough, so that filling it shows nothing.
     is_part: bool,
 }
 
@@ -121,10 +121,10 @@ impl Body for Filled<'_> {
     }
 }
 
-/// The rounding of coordinates that were written in single precision, for a body as large as 1.
+/// The rounding of coordinates in single precision, for a body of size 1.
 const SINGLE: f64 = 1e-7;
 
-/// A share with three digits, of nearly all with what is missing.
+/// A share with three digits; if nearly all is there, the missing share.
 fn of(share: f64) -> String {
     match (1.0 - share).abs() < 5e-4 {
         true => format!("all but {:.1e}", 1.0 - share),
@@ -144,8 +144,8 @@ fn thickness(body: &Extent<f64>) -> f64 {
     }
 }
 
-/// The part of a body in space that facets of cells may miss of its curved faces, or have beyond them: where the corners of
-/// a facet of the longest edge s lie on a circle of radius R, it is no farther from it than s^2/(8 R).
+/// The part of a body in space by which facets of cells may miss or exceed its curved faces: a facet with longest edge s and
+/// its corners on a circle of radius R is at most s^2/(8 R) from the circle.
 fn facets(mesh: &Mesh<'_>, body: &Extent<f64>) -> f64 {
     let Extent::Block(block) = body else { return 0.0 };
     if block.system == System::Cartesian || block.bounds.len() < 3 {
@@ -155,7 +155,7 @@ fn facets(mesh: &Mesh<'_>, body: &Extent<f64>) -> f64 {
     let on = |radius: f64| {
         let mut sides: Vec<Side> = block.bounds.iter().copied().map(Side::Between).collect();
         sides[0] = Side::At(radius);
-        // Along two directions on a sphere.
+        // A sphere is curved in two directions.
         let ways = if block.system == System::Spherical { 2.0 } else { 1.0 };
         ways * block.system.measure(&sides) * longest.powi(2) / (8.0 * radius)
     };
@@ -163,8 +163,8 @@ fn facets(mesh: &Mesh<'_>, body: &Extent<f64>) -> f64 {
     radii.map(on).sum::<f64>() / body.measure()
 }
 
-/// The area between the edges of cells and the circles that they stand for: outside them on the outer one, and, with the
-/// other sign, inside them on the inner one.
+/// The area between the edges of cells and the circles that they approximate: outside the edges on the outer circle, and, with
+/// the other sign, inside them on the inner circle.
 fn beside_curves(mesh: &Mesh<'_>, body: &Extent<f64>) -> f64 {
     let Extent::Block(block) = body else { return 0.0 };
     if block.system != System::Polar || block.bounds.len() != 2 {
@@ -183,7 +183,7 @@ fn beside_curves(mesh: &Mesh<'_>, body: &Extent<f64>) -> f64 {
     on(Face::Outer, outer) - on(Face::Inner, inner)
 }
 
-/// The area between an edge and an arc of that radius about the origin, from the rays through its ends.
+/// The area between an edge and an arc of a radius about the origin, within the rays through the ends of the edge.
 fn beside(edge: &[&[f64]], radius: f64) -> f64 {
     let cross = |a: &[f64], b: &[f64]| a[0] * b[1] - a[1] * b[0];
     let (a, b) = (edge[0], edge[1]);
@@ -191,7 +191,7 @@ fn beside(edge: &[&[f64]], radius: f64) -> f64 {
     (radius * radius * angle / 2.0).abs() - swept(edge).abs()
 }
 
-/// Finds how much of the body points without cells fill.
+/// Finds the part of the body that points without cells fill.
 pub fn of_points(points: &[f64], exact: &Exact, rounding: f64) -> Covered {
     let (body, dimension) = (&exact.body, exact.dimension);
     let count = points.len() / dimension;
@@ -213,7 +213,7 @@ pub fn of_points(points: &[f64], exact: &Exact, rounding: f64) -> Covered {
     Covered { cells: 0, points: count, size, is_even: neighbour.is_some(), part: part.or(few) }
 }
 
-/// The mean distance of neighbours among so many points, and whether all are as far from each other.
+/// The mean distance of neighbours among `count` points, and whether the points are evenly spaced.
 pub fn distances(lattice: &Lattice<'_>, count: usize) -> (f64, bool) {
     let all = lattice.distances(count / LOOKED_AT + 1);
     let range = |pick: fn(f64, f64) -> f64| all.iter().copied().reduce(pick);
@@ -221,8 +221,8 @@ pub fn distances(lattice: &Lattice<'_>, count: usize) -> (f64, bool) {
     (all.iter().sum::<f64>() / all.len() as f64, is_even)
 }
 
-/// A place of the body that is far from all points, in lengths and in parts of its edges too: a plate may have as many points
-/// across as along.
+/// Finds a place of the body that is far from all points, in lengths and also in parts of its edges: a plate may have as many
+/// points across as along.
 fn empty(
     lattice: &Lattice<'_>,
     points: &[f64],
@@ -239,8 +239,8 @@ fn empty(
     Some(found)
 }
 
-/// Where a point is from one end of the body to the other, along each edge of a box, along the angle, the radius and the third
-/// coordinate of what is round; nowhere in another body.
+/// The position of a point from one end of the body to the other: along each edge of a box; along the angle, the radius and the
+/// third coordinate of a round body; empty for another body.
 fn parts(body: &Extent<f64>, point: &[f64]) -> Vec<f64> {
     let Extent::Block(block) = body else { return Vec::new() };
     let padded = std::array::from_fn(|axis| point.get(axis).copied().unwrap_or(0.0));
@@ -259,7 +259,8 @@ fn parts(body: &Extent<f64>, point: &[f64]) -> Vec<f64> {
     order.into_iter().map(part).collect()
 }
 
-/// A place of the body that is as far from all points; or one at a side of a box beside which a layer of half that has none.
+/// Finds a place of the body farther than `reach` from all points; or one at a side of a box, if a layer beside it of half that
+/// width has no point.
 fn far(lattice: &Lattice<'_>, points: &[f64], body: &Extent<f64>, reach: f64) -> Option<Vec<f64>> {
     let dimension = body.dimension();
     let lengths = match body {
@@ -290,7 +291,7 @@ fn far(lattice: &Lattice<'_>, points: &[f64], body: &Extent<f64>, reach: f64) ->
         }
         _ => vec![2.0 * body.size(); dimension],
     };
-    // Places so near to each other that none of them misses an empty part by much.
+    // The places are so dense that they miss no empty part by much.
     let counts: Vec<usize> =
         lengths.iter().map(|it| (1.5 * it / reach).ceil().max(1.0) as usize).collect();
     let place = |mut index: usize| -> Vec<f64> {
@@ -308,7 +309,7 @@ fn far(lattice: &Lattice<'_>, points: &[f64], body: &Extent<f64>, reach: f64) ->
 /// The objection to points that leave part of the body empty.
 pub fn objection(part: &str) -> Objection {
     let why = format!(
-        "{part}. What is not there may be wrong: give all points, or judge a part, such as a line or a probe, with `--part`"
+        "{part}. The missing part may be wrong: give all points, or judge a part, such as a line or a probe, with `--part`"
     );
     Objection { why, is_to_all: false }
 }

@@ -17,10 +17,10 @@ pub struct Results {
 }
 
 impl Results {
-    /// Reads what is wanted of the files of a name.
+    /// Reads the wanted content of the files of a name.
     ///
     /// # Errors
-    /// Nothing there, or what is wrong with a file, and where; more than there is memory for.
+    /// No file of this name; a file that cannot be read, and where; more content than memory.
     pub fn find(given: &str, wanted: &Wanted<'_>, files: &dyn Files) -> anyhow::Result<Results> {
         let mut snapshots = Vec::new();
         let open = |path: &Path, room: u64| files.bytes(path, room);
@@ -31,16 +31,16 @@ impl Results {
         Ok(Results { name: given.to_owned(), snapshots })
     }
 
-    /// Keeps the last result alone, without its time: the results before it are steps on the way to a static field.
+    /// Keeps only the last result, without its time: earlier results are iterations towards a static field.
     pub fn keep_last(&mut self) {
         self.snapshots.drain(..self.snapshots.len().saturating_sub(1));
         self.snapshots.iter_mut().for_each(|it| it.time = None);
     }
 
-    /// Leaves out ghosts, and cells that stand there twice; returns how many there are in the first snapshot.
+    /// Removes ghosts and duplicate cells; returns how many there are in the first snapshot.
     ///
     /// # Errors
-    /// A cell that stands there twice, with other values.
+    /// A duplicate cell with different values.
     pub fn keep_own(&mut self) -> anyhow::Result<LeftOut> {
         let mut all = Vec::new();
         for snapshot in &mut self.snapshots {
@@ -50,7 +50,7 @@ impl Results {
     }
 }
 
-/// The bytes of memory that reading may take, `most` in MB or those that are free; and the advice if that is too little.
+/// The bytes of memory for reading, `most` in MB or all that is free; and advice if that is too little.
 pub fn room(most: Option<u64>, files: &dyn Files) -> (u64, &'static str) {
     let bytes = most.map_or_else(|| files.memory(), |most| most.saturating_mul(1_000_000));
     (bytes, "read fewer quantities with `--quantity`, or allow more with `--max-memory MB`")

@@ -1,4 +1,4 @@
-//! Values that a solver is given, and does not compute: they are no evidence.
+//! Values that a solver is given and does not compute: they are no evidence.
 
 use mms_spec::Claim;
 use mms_spec::quantity::Quantity;
@@ -32,7 +32,7 @@ impl Taken<'_> {
     }
 }
 
-/// The objection to results all values of which are given.
+/// The objection to results whose values are all given.
 pub fn objection() -> Objection {
     let why = "a solver is given all these values: they are at the start, on walls whose motion is prescribed, or loads. They \
                show nothing of what it computes: give results of later times that all meshes have, inside the body";

@@ -1,4 +1,4 @@
-//! The iterative error of a solver: how far results are from those of a smaller tolerance on the same mesh.
+//! The iterative error of a solver: the difference between results of two tolerances on the same mesh.
 
 use anyhow::{Context as _, bail, ensure};
 use mms_exact::Exact;
@@ -12,12 +12,12 @@ use super::Level;
 use super::files::{Results, placed};
 use super::level::Reading;
 
-/// How much smaller than an error of discretisation an iterative error must be, that an order is not changed by it: one
-/// percent of the error moves it by 0.01 or so (Eca & Hoekstra, Int. J. Numer. Meth. Fluids 60, 2009, 499-530).
+/// The least ratio of an error of discretisation to an iterative error that leaves its order unchanged: one percent of the
+/// error changes the order by about 0.01 (Eca & Hoekstra, Int. J. Numer. Meth. Fluids 60, 2009, 499-530).
 pub const HUNDRED: f64 = 100.0;
 
-/// Raises the floors of all levels to a hundred times the iterative error that is found on one: tolerances are the same on
-/// all meshes. Which of them it is, the number of points tells.
+/// Raises the floors of all levels to a hundred times the iterative error found on one level, since tolerances are the same on
+/// all meshes. The number of points identifies the level.
 ///
 /// # Errors
 /// Results of none of the meshes.
@@ -61,7 +61,7 @@ pub fn raise(
                 "l1" => *l1,
                 "l2" => *l2,
                 "linf" => *linf,
-                // As that of rounding.
+                // As for the error of rounding.
                 _ => 2.0 * dimension * l2 / size,
             };
             measure.floor = measure.floor.max(HUNDRED * own);
@@ -76,7 +76,7 @@ pub fn raise(
     ))
 }
 
-/// The mean, the root of the mean square and the largest difference of each quantity.
+/// The mean, the root mean square and the largest difference of each quantity.
 fn differences(
     [one, other]: [&Snapshot; 2],
     reading: &Reading<'_>,

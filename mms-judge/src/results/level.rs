@@ -17,33 +17,33 @@ use super::files::{Results, placed, room};
 use super::taken::Taken;
 use super::units;
 
-/// The number of a polygon among the types of cells in VTK.
+/// The type number of a polygon in VTK.
 const POLYGON: u8 = 7;
 
-/// Over what a norm is taken.
+/// The points, cells or faces over which a norm is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
-    /// Over points, all alike; of an axisymmetric field by their radii.
+    /// Over points with equal weights; for an axisymmetric field weighted by their radii.
     Points,
-    /// Over points, by their weights.
+    /// Over points, with given weights.
     Weighted,
     /// Over the body, by quadrature over cells.
     Cells,
     /// Over the middles of cells.
     Middles,
-    /// Over the points of faces, all alike.
+    /// Over the points of faces, with equal weights.
     Faces,
 }
 
 impl Sampling {
-    /// The norms, and why they are these.
+    /// Describes the norms, and why they are used.
     pub fn says(self) -> &'static str {
         match self {
             Sampling::Points => {
                 "mean (l1), root mean square (l2) and maximum (linf) over points, which carry no weight"
             }
             Sampling::Weighted => {
-                "l1, l2 and linf over points, means by the weight that was asked for"
+                "l1, l2 and linf over points, means with the weight of `--weight`"
             }
             Sampling::Cells => {
                 "l1, l2 and linf over the body, and the seminorm of H1 where the gradient is known, by quadrature over \
@@ -60,7 +60,7 @@ impl Sampling {
         }
     }
 
-    /// Its name in a document.
+    /// The name in a document.
     pub fn name(self) -> &'static str {
         match self {
             Sampling::Points => "points",
@@ -72,17 +72,17 @@ impl Sampling {
     }
 }
 
-/// The points or the cells over which norms are taken.
+/// The points or the cells over which norms are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over {
-    /// The points, all alike.
+    /// The points, with equal weights.
     Points,
-    /// The cells, whose functions carry the values of their points.
+    /// The cells, whose shape functions interpolate the values of their points.
     Cells,
 }
 
 impl Over {
-    /// The one of that name.
+    /// The value of this name.
     ///
     /// # Errors
     /// Another name.
@@ -95,7 +95,7 @@ impl Over {
     }
 }
 
-/// An error, and what rounding of the file alone may leave of it.
+/// An error, and the part of it that rounding of the file alone may make.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measure {
     /// The error.
@@ -109,74 +109,74 @@ pub struct Measure {
 pub struct Errors {
     /// The quantity.
     pub quantity: Quantity,
-    /// Over what.
+    /// The sampling of the norms.
     pub sampling: Sampling,
-    /// By the names of norms.
+    /// The errors by the names of norms.
     pub norms: Vec<(&'static str, Measure)>,
-    /// What its values are times the exact ones, where that is a power of ten.
+    /// The power of ten by which the values exceed the exact ones, if they do by one.
     pub unit: Option<i32>,
-    /// How it was stored.
+    /// The precision of the stored values.
     pub stored: Stored,
     /// The largest exact number.
     pub largest: f64,
-    /// The root mean square over points, of errors over cells.
+    /// For errors over cells, the root mean square over points.
     pub at_points: Option<f64>,
-    /// The root mean square of its iterative error, where that is known.
+    /// The root mean square of the iterative error, if it is known.
     pub iterative: Option<f64>,
-    /// The floor that the digits of a time make, and that time.
+    /// The floor from the rounding of a time, and that time.
     pub of_time: [f64; 2],
-    /// Whether a solver is given all its values.
+    /// Whether a solver is given all values.
     pub is_given: bool,
 }
 
-/// How snapshots are read.
+/// The options for reading snapshots.
 pub struct Reading<'a> {
     /// The names of arrays.
     pub names: &'a Names,
-    /// The quantities that are wanted; all, if there are none.
+    /// The wanted quantities; empty for all.
     pub wanted: &'a [Quantity],
-    /// Weights of points.
+    /// The weights of points.
     pub weight: Option<Role>,
-    /// The memory that reading a file may take, in MB; without it what is free.
+    /// The memory for reading a file, in MB; `None` for all that is free.
     pub memory: Option<u64>,
     /// The files that results are read from.
     pub files: &'a dyn Files,
     /// Whether a part of the body is enough.
     pub is_part: bool,
-    /// Whether norms are over points or over cells; without it over cells if there are such.
+    /// Whether norms are over points or over cells; `None` for cells if there are any.
     pub over: Option<Over>,
 }
 
-/// What was found in a snapshot.
+/// The findings of a snapshot.
 pub struct Found {
     /// Errors of quantities.
     pub errors: Vec<Errors>,
-    /// The shortest and the longest of the longest edges of cells, where there are such.
+    /// The shortest and the longest of the longest edges of cells, if there are cells.
     pub sizes: Option<[f64; 2]>,
-    /// The lowest degree of its cells, if there are such.
+    /// The lowest degree of the cells, if there are cells.
     pub degree: Option<u32>,
-    /// How far cells around inner edges are out of balance, where that may lower an order.
+    /// The imbalance of cells around inner edges, where it may lower an order.
     pub imbalance: Option<f64>,
-    /// The part of the body that is there, and how fine.
+    /// The part of the body that is covered, and the size of cells.
     pub covered: Covered,
-    /// The type of cells between whose points nothing is known, where norms are over points for them.
+    /// The type of cells with unknown shape functions, because of which norms are over points.
     pub unknown: Option<u8>,
-    /// How X was found.
+    /// The source of X.
     pub how: String,
-    /// Quantities that are there and cannot be judged, and arrays that are something else than their name says.
+    /// Quantities that cannot be judged, and arrays that contain something else than their name says.
     pub passed_over: Vec<String>,
 }
 
-/// What means may be taken by.
+/// Parses the weight of means.
 ///
 /// # Errors
-/// It is no such column.
+/// A name other than volume or mass.
 pub fn weight(text: &str) -> Result<Role, &'static str> {
     let role = Role::from_name(text).filter(|it| matches!(it, Role::Volume | Role::Mass));
     role.ok_or("expected volume or mass; `--map volume=NAME` says which column that is")
 }
 
-/// The mistake of a file in which neither X nor x and u is found: all its arrays, and the option that names the columns that may be X.
+/// The error for a file with neither X nor x and u: lists its arrays, and the option that names the columns that may be X.
 pub fn without_positions(
     whole: &Snapshot,
     dimension: usize,
@@ -193,7 +193,7 @@ pub fn without_positions(
     )
 }
 
-/// The letters of components in files about a field.
+/// The letters of components in files of results of a field.
 pub fn axes(field: &FieldSpec) -> Axes {
     match field.space {
         Space::Cartesian(_) => Axes::Cartesian,
@@ -201,7 +201,7 @@ pub fn axes(field: &FieldSpec) -> Axes {
     }
 }
 
-/// The quantities of a field's own, as arrays may be.
+/// The field's own quantities, as roles of arrays.
 pub fn own_roles(own: &[Own]) -> Vec<OwnRole> {
     let form = |own: &Own| match own.part.shape() {
         Shape::Scalar => Form::Scalar,
@@ -211,12 +211,12 @@ pub fn own_roles(own: &[Own]) -> Vec<OwnRole> {
     own.iter().map(|it| OwnRole { name: &it.described().name, form: form(it) }).collect()
 }
 
-/// The quantity of the compiler that this is.
+/// The compiler's quantity of a role.
 fn quantity(role: Role, exact: &Exact) -> Option<Quantity> {
     exact.input().compiled.quantity(role.name()).ok()
 }
 
-/// The numbers of a meaning, in the dimension of the field; of tensors in space where that was asked for.
+/// The numbers of a meaning, in the dimension of the field; for tensors in three dimensions if requested.
 pub fn values<'a>(
     meaning: &Meaning,
     snapshot: &'a Snapshot,
@@ -232,10 +232,10 @@ pub fn values<'a>(
 }
 
 impl Reading<'_> {
-    /// Reads what was named, as far as it is needed.
+    /// Reads the needed content of a named file.
     ///
     /// # Errors
-    /// As of [`Results::find`].
+    /// Those of [`Results::find`].
     pub fn find(&self, given: &str, exact: &Exact) -> anyhow::Result<Results> {
         let (room, advice) = room(self.memory, self.files);
         let wants = |role: Role| self.wants(role, exact);
@@ -243,7 +243,8 @@ impl Reading<'_> {
         Results::find(given, &wanted, self.files)
     }
 
-    /// Whether an array of that meaning is needed. A strain is the small one where the material knows no other, or by name.
+    /// Whether an array of that meaning is needed. `strain` means the small strain if the material has no other, or by its
+    /// name.
     fn wants(&self, role: Role, exact: &Exact) -> bool {
         let is_place =
             matches!(role, Role::Reference | Role::Position | Role::Place | Role::Displacement);
@@ -258,10 +259,10 @@ impl Reading<'_> {
         quantity(role, exact).is_some_and(|it| self.wanted.contains(&it))
     }
 
-    /// Measures a snapshot at a time.
+    /// Measures the errors of a snapshot at a time.
     ///
     /// # Errors
-    /// What is wrong with it, and where.
+    /// A snapshot that cannot be measured, and where.
     pub fn measure(
         &self,
         snapshot: &Snapshot,
@@ -305,7 +306,7 @@ impl Reading<'_> {
                 passed_over.push(why);
                 continue;
             }
-            // One after the other: all of them at once would take as much memory as the file.
+            // One quantity after the other: all at once would need as much memory as the file.
             match quantity(meaning.role, taken.exact) {
                 Some(quantity) => {
                     let values = values(meaning, snapshot, taken.exact)?;
@@ -354,10 +355,10 @@ impl Reading<'_> {
         Ok(Found { errors, sizes, degree, imbalance, covered, unknown, how, passed_over })
     }
 
-    /// All quantities of a snapshot that are judged, but tractions.
+    /// All judged quantities of a snapshot, except tractions.
     ///
     /// # Errors
-    /// What is wrong with it, and where.
+    /// A snapshot that cannot be read, and where.
     pub fn all<'b>(
         &self,
         snapshot: &'b Snapshot,
@@ -383,8 +384,8 @@ impl Reading<'_> {
         self.wanted.is_empty() || self.wanted.contains(&Quantity::Displacement)
     }
 
-    /// The reason why an array is not the quantity that its name says; none if it may be, or if the user asks for the quantity
-    /// or for all nine components.
+    /// The reason why an array is not the quantity that its name says; `None` if it may be, or if the user asks for the
+    /// quantity or for all nine components.
     pub(super) fn unlike(
         &self,
         meaning: &Meaning,
@@ -404,7 +405,7 @@ impl Reading<'_> {
         why.filter(|_| !is_asked)
     }
 
-    /// The meanings of arrays, with positions among them.
+    /// The meanings of arrays, including positions.
     ///
     /// # Errors
     /// A name that may mean two quantities, or no positions, with the columns that may be X.
@@ -425,7 +426,7 @@ impl Reading<'_> {
         Err(without_positions(&self.whole(snapshot)?, exact.dimension, &outside))
     }
 
-    /// The snapshot with all its arrays, those with unknown names too.
+    /// Reads the snapshot with all its arrays, including those with unknown names.
     fn whole(&self, snapshot: &Snapshot) -> anyhow::Result<Snapshot> {
         let (room, advice) = room(self.memory, self.files);
         let wanted = everything(self.names).within(room, advice);
@@ -437,8 +438,8 @@ impl Reading<'_> {
         same.or(first).ok_or_else(|| anyhow!("{}: no results", snapshot.path))
     }
 
-    /// Whether an array of that meaning is judged by itself: u if it is of cells, and else as it was found; x where it is asked
-    /// for; tractions are of faces.
+    /// Whether an array of that meaning is judged by itself. u is judged as it was found, or over cells; x only if requested;
+    /// tractions on faces.
     fn is_judged(&self, meaning: &Meaning, motion: &Motion<'_>) -> bool {
         match meaning.role {
             Role::Displacement => motion.displacement.is_none() && self.wants_u(),

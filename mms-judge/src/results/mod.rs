@@ -1,8 +1,8 @@
 //! Results of any solver against a field: their errors, as [`Measured`].
 //!
-//! `files` reads them, with `mms-results`; `times` finds those at which meshes can be compared; `level` measures a
-//! snapshot against the field's program ([`Exact`]), and finds the floor that the rounding of the file makes;
-//! `baseline` and `same` compare results with results; `excluded` finds the mistakes that a small error excludes.
+//! `files` reads them, with `mms-results`; `times` finds the times at which meshes can be compared; `level` measures a snapshot
+//! against the field's program ([`Exact`]), and finds the error floor from the rounding of the file; `baseline` and `same`
+//! compare results with results; `excluded` finds the mistakes that a small error excludes.
 
 mod baseline;
 mod degree;
@@ -42,61 +42,61 @@ use crate::measured::{Measured, Norm, Objection, Run};
 use crate::table::Orders;
 use mms_exact::Exact;
 
-/// What was measured, and what is to be said of it.
+/// The measured errors, with notes and warnings about them.
 pub struct Measurement {
     /// The errors.
     pub measured: Measured,
-    /// Over what each quantity was measured.
+    /// The sampling of each quantity.
     pub samplings: Vec<Sampling>,
     /// The times at which levels were compared.
     pub times: Vec<f64>,
-    /// Iterative errors, root mean squares, of quantities of which they are known.
+    /// Iterative errors as root mean squares, for the quantities of which they are known.
     pub iterative: Vec<(&'static str, f64)>,
-    /// Why they are no evidence, where that is so.
+    /// The reason why the results are no evidence, if there is one.
     pub objection: Option<Objection>,
     /// The part of the body that results cover, if a part is enough.
     pub part: Option<String>,
-    /// The number of points of the mesh that has the fewest.
+    /// The number of points of the mesh with the fewest points.
     pub points: usize,
-    /// What was done, and why.
+    /// Notes on how errors were measured, and why.
     pub notes: Vec<String>,
-    /// What may be wrong.
+    /// Warnings about possible mistakes.
     pub warnings: Vec<String>,
 }
 
-/// What part of the largest value may be hidden by rounding in a file whose values are called exact: a little more than
-/// single precision hides.
+/// The largest part of the largest value that rounding may hide in a file whose values count as exact: slightly more than the
+/// rounding of single precision.
 const FINE: f64 = 1e-6;
 
 /// One mesh, measured at all times.
 struct Level {
     name: String,
-    /// Of quantities, the largest errors over times.
+    /// The errors of quantities, the largest over times.
     errors: Vec<Errors>,
     found: Found,
 }
 
-/// By how much cells of one mesh, or meshes of one study, may differ before it is said.
+/// The largest ratio of sizes, of cells in a mesh or of meshes in a study, that is not reported.
 const ALIKE: f64 = 1.01;
 
-/// How meshes are compared.
+/// The options for comparing meshes.
 pub struct Comparison<'a> {
-    /// h, in the order of the results; without them they are those of cells, or of points.
+    /// h, in the order of the results; empty for sizes from cells or points.
     pub sizes: &'a [f64],
-    /// The times that are wanted; without them all that meshes have in common.
+    /// The wanted times; empty for all that meshes have in common.
     pub times: &'a [f64],
     /// The expected orders.
     pub orders: &'a Orders,
-    /// Whether dt of each mesh is known, so that an order in time may be expected.
+    /// Whether dt of each mesh is known, so that an order in time can be expected.
     pub has_steps: bool,
     /// Results of one of the meshes with a smaller tolerance of the solver.
     pub tighter: Option<Results>,
 }
 
-/// Measures results of meshes.
+/// Measures the errors of results on meshes.
 ///
 /// # Errors
-/// Results that are none of the field, and where.
+/// Results that do not belong to the field, and where.
 pub fn measure(
     mut all: Vec<Results>,
     reading: &Reading<'_>,
@@ -213,18 +213,18 @@ fn level(
 }
 
 impl Errors {
-    /// Whether no error is more than rounding of the file makes.
+    /// Whether no error exceeds the rounding of the file.
     fn is_noise(&self) -> bool {
         self.norms.iter().all(|(_, measure)| measure.error <= measure.floor)
     }
 
-    /// Whether none is, and the file has digits enough to tell.
+    /// Whether no error exceeds the rounding, and the file has enough digits to show it.
     fn is_exact(&self) -> bool {
         let is_fine = |(_, measure): &(_, Measure)| measure.floor <= FINE * self.largest;
         self.is_noise() && self.norms.iter().filter(|(name, _)| *name != "h1").all(is_fine)
     }
 
-    /// Keeps the larger of each norm.
+    /// Keeps the larger error in each norm.
     fn raise(&mut self, other: Errors) {
         self.largest = self.largest.max(other.largest);
         self.at_points = self.at_points.zip(other.at_points).map(|(a, b)| a.max(b));
@@ -267,8 +267,8 @@ fn quantities(levels: &[Level]) -> anyhow::Result<Vec<(Quantity, Sampling)>> {
     Ok(all)
 }
 
-/// Refuses to judge a mesh by points or by middles of cells alone: orders there may be higher than elsewhere. Polygons have
-/// nothing else.
+/// Refuses to judge a mesh by points or by middles of cells alone, because orders there may be higher than elsewhere. Polygons
+/// are exempt, since their functions are not known.
 fn hold_evidence(
     level: &Level,
     quantities: &[(Quantity, Sampling)],
@@ -321,7 +321,7 @@ fn lengths(
         if ratios.iter().any(|it| it / ratios[0] > ALIKE || ratios[0] / it > ALIKE) {
             let ratios: Vec<_> = ratios.iter().map(|it| format!("{it:.2}")).collect();
             warnings.push(format!(
-                "h_max/h_min varies from mesh to mesh ({}): orders are those of meshes that are refined evenly",
+                "h_max/h_min varies from mesh to mesh ({}): orders assume meshes that are refined evenly",
                 ratios.join(", ")
             ));
         }
@@ -329,7 +329,7 @@ fn lengths(
     Ok(covered().map(|it| it.size).collect())
 }
 
-/// What is judged of a quantity.
+/// The errors of a quantity in the form for a judgement.
 fn quantity(
     (of, sampling): (Quantity, Sampling),
     levels: &[Level],
@@ -351,7 +351,7 @@ fn quantity(
             is_exact: errors.iter().all(|it| it.is_exact()),
         }
     };
-    // A start excites waves whose energy is bounded, and so means of errors, but no maximum.
+    // A start excites waves of bounded energy, which bounds means of errors, but no maximum.
     let is_judged = |at: &usize| lowered.of(of).is_none() || errors[0].norms[*at].0 != "linf";
     crate::measured::Quantity {
         name: of.name().into(),

@@ -1,4 +1,4 @@
-//! What is told beside errors: how they were measured, and what may be wrong.
+//! Notes beside errors: how they were measured, and what may be wrong.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use super::level::{Errors, Sampling};
 use super::times::Common;
 use crate::table::Orders;
 
-/// The times.
+/// The compared times.
 pub fn compared(common: &Common) -> String {
     match common.times.as_slice() {
         _ if common.is_static => "static: the last result of each file".into(),
@@ -27,7 +27,7 @@ pub fn compared(common: &Common) -> String {
     }
 }
 
-/// The meshes.
+/// The compared meshes.
 pub fn meshes(levels: &[Level]) -> String {
     let of = |level: &Level| {
         let (name, covered) = (shown(&level.name), &level.found.covered);
@@ -39,7 +39,7 @@ pub fn meshes(levels: &[Level]) -> String {
     format!("meshes: {}", levels.iter().map(of).collect::<Vec<_>>().join(", "))
 }
 
-/// The norms, said once for those that are alike.
+/// The norms, once for all quantities with the same sampling.
 pub fn norms(quantities: &[(Quantity, Sampling)]) -> Vec<String> {
     let mut by_sampling: BTreeMap<&'static str, (Vec<&'static str>, &'static str)> =
         BTreeMap::new();
@@ -62,7 +62,7 @@ pub fn rings(exact: &Exact) -> Option<String> {
     })
 }
 
-/// The order that elements of degree 2 and more promise, unless another was given.
+/// The expected order for elements of degree 2 and more, unless the user gave one.
 pub fn order(degree: Option<u32>, orders: &Orders) -> Option<String> {
     let degree = degree.filter(|degree| *degree > 1 && !orders.is_given)?;
     Some(format!(
@@ -72,7 +72,7 @@ pub fn order(degree: Option<u32>, orders: &Orders) -> Option<String> {
     ))
 }
 
-/// A sentence about all that was left out, and why.
+/// A sentence about all content that was left out, and why.
 pub fn left_out(common: &Common, levels: &[Level], own: &[LeftOut]) -> String {
     let mut all = Vec::new();
     let mut count = |count: usize, one: &str, several: &str| match count {
@@ -105,7 +105,7 @@ pub fn left_out(common: &Common, levels: &[Level], own: &[LeftOut]) -> String {
     format!("left out: {}", if all.is_empty() { "nothing".into() } else { all.join("; ") })
 }
 
-/// What may be wrong with what was measured.
+/// Warnings about the measured errors.
 pub fn suspicions(levels: &[Level], is_given: bool, warnings: &mut Vec<String>) {
     let mut exact = Vec::new();
     for errors in &levels[0].errors {
@@ -142,10 +142,10 @@ pub fn suspicions(levels: &[Level], is_given: bool, warnings: &mut Vec<String>) 
     }
 }
 
-/// From what part of a floor on the digits of the time are named.
+/// The least part of a floor at which the digits of the time are mentioned.
 const A_PART: f64 = 0.01;
 
-/// Says which levels are at their floor.
+/// Notes the levels whose errors are at their floor.
 pub fn floors(quantities: &[crate::measured::Quantity], levels: &[Level], notes: &mut Vec<String>) {
     for quantity in quantities {
         let Some(norm) = quantity.norms.iter().find(|norm| norm.name == *"l2" && !norm.is_exact)

@@ -1,4 +1,4 @@
-//! Two results of one run: how far they differ, and where. Points may stand in another order.
+//! Compares two results of one run: how far they differ, and where. Points may be in another order.
 
 use std::collections::BTreeMap;
 
@@ -14,33 +14,33 @@ use super::{Results, placed};
 pub struct Difference {
     /// The array.
     pub name: String,
-    /// The time, where it is known.
+    /// The time, if it is known.
     pub time: Option<f64>,
     /// The largest difference of a number.
     pub largest: f64,
-    /// The largest number of both.
+    /// The largest number of both arrays.
     pub magnitude: f64,
-    /// Where it is.
+    /// The place of the largest difference.
     pub place: String,
 }
 
 impl Difference {
-    /// The largest difference over the largest number; 0 where both are.
+    /// The largest difference over the largest number; 0 if both are 0.
     pub fn relative(&self) -> f64 {
         if self.largest == 0.0 { 0.0 } else { self.largest / self.magnitude }
     }
 }
 
-/// Two results, compared.
+/// The comparison of two results.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Same {
     /// The differences of all arrays that both have, the largest over times.
     pub differences: Vec<Difference>,
-    /// The names of those that one has.
+    /// The names of arrays that only one has.
     pub alone: Vec<String>,
-    /// The names of those that hold words, and are not compared.
+    /// The names of arrays of words, which are not compared.
     pub words: Vec<String>,
-    /// How points were paired.
+    /// The pairing of points.
     pub paired: String,
     /// The positions of the differences, by their names.
     known: BTreeMap<String, usize>,
@@ -49,7 +49,7 @@ pub struct Same {
 /// Compares two results, point by point.
 ///
 /// # Errors
-/// Results of other times or of other points.
+/// Results with other times or other points.
 pub fn same(a: &Results, b: &Results, names: &Names) -> anyhow::Result<Same> {
     ensure!(
         a.snapshots.len() == b.snapshots.len(),
@@ -104,7 +104,7 @@ impl Same {
                 false => ([one, other].map(|it| it.cells.len()), &cells),
             };
             let rows = [array, second].map(Array::rows);
-            // What is neither of points nor of cells has an order of its own.
+            // Arrays that belong neither to points nor to cells keep their own order.
             let in_order = Pairs::InOrder(rows[0]);
             let pairs = if rows == of_all { pairs } else { &in_order };
             ensure!(
@@ -136,7 +136,7 @@ impl Same {
         Ok(())
     }
 
-    /// Keeps the larger difference of each array; what is no number is the largest.
+    /// Keeps the larger difference of each array; NaN counts as the largest.
     fn keep(&mut self, one: Difference) {
         match self.known.get(&one.name).map(|&at| &mut self.differences[at]) {
             Some(most) if one.largest > most.largest || one.largest.is_nan() => *most = one,
@@ -149,7 +149,7 @@ impl Same {
     }
 }
 
-/// The largest difference of a number, and the row of it in the first array.
+/// The largest difference of a number, and its row in the first array.
 fn farthest(one: &Array, other: &Array, pairs: &Pairs) -> (usize, f64) {
     let size = one.components;
     let mut most = (0, 0.0_f64);
@@ -157,7 +157,7 @@ fn farthest(one: &Array, other: &Array, pairs: &Pairs) -> (usize, f64) {
         let numbers = one.values[a * size..][..size].iter().zip(&other.values[b * size..][..size]);
         for (x, y) in numbers {
             let far = if x == y && x.is_finite() { 0.0 } else { (x - y).abs() };
-            // What is no number differs most of all.
+            // A difference that is NaN counts as the largest.
             if far > most.1 || far.is_nan() && !most.1.is_nan() {
                 most = (a, far);
             }
@@ -166,7 +166,7 @@ fn farthest(one: &Array, other: &Array, pairs: &Pairs) -> (usize, f64) {
     most
 }
 
-/// Arrays by their names, and whether they are of points.
+/// Arrays by their names and by whether they belong to points.
 type Arrays<'a> = BTreeMap<(&'a str, bool), &'a Array>;
 
 /// All arrays.

@@ -1,6 +1,6 @@
-//! Orders that a start lowers. Finite elements that begin with exact values at their nodes begin beside the projection that
-//! their errors oscillate about. The distance is of order k + 1 in u, but it is rough where cells have neighbours of another
-//! shape or where k is 2. It excites waves as long as a cell, which lower the order of v by one and that of a by two.
+//! Orders that a start lowers. Finite elements that start with exact values at their nodes differ from the projection about
+//! which their errors oscillate. The difference in u is of order k + 1, but it is rough where cells have neighbours of another
+//! shape or where k is 2. It excites waves as long as a cell, which lower the order of v by one and the order of a by two.
 
 use mms_exact::Exact;
 use mms_spec::quantity::Quantity;
@@ -9,7 +9,7 @@ use super::Level;
 use crate::measured::Objection;
 use crate::table::Orders;
 
-/// How a solver finds its first displacements and velocities.
+/// The first displacements and velocities of a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// The exact values at its nodes.
@@ -19,10 +19,10 @@ pub enum Start {
 }
 
 impl Start {
-    /// The start of that name.
+    /// The start of this name.
     ///
     /// # Errors
-    /// There is none.
+    /// There is no such start.
     pub fn of(name: &str) -> Result<Self, String> {
         match name {
             "interpolation" => Ok(Start::Interpolation),
@@ -32,7 +32,7 @@ impl Start {
     }
 }
 
-/// The least orders of velocities and of accelerations; none where they are not lowered.
+/// The least orders of velocities and of accelerations; `None` where they are not lowered.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lowered {
     velocity: Option<f64>,
@@ -40,20 +40,20 @@ pub struct Lowered {
     why: &'static str,
 }
 
-/// The imbalance of cells that may be round-off of their corners.
+/// The largest imbalance of cells that may be round-off of their corners.
 const BALANCED: f64 = 0.01;
 
-/// The least power of h by which imbalance falls if cells are the image of regular ones under a smooth map.
+/// The least power of h by which imbalance falls, if cells are the image of regular ones under a smooth map.
 const SMOOTH: f64 = 0.5;
 
-/// The part of the largest value by which rounding alone may bend an affine function.
+/// The largest curvature that rounding alone makes in an affine function, over the largest value.
 const ROUNDING: f64 = 1e-9;
 
 impl Lowered {
-    /// Finds them from what is said of the start, the field, and the meshes with their h.
+    /// Finds the lowered orders from the option for the start, the field, and the meshes with their h.
     ///
     /// # Errors
-    /// As of [`Exact::values`].
+    /// Those of [`Exact::values`].
     pub fn new(
         orders: &Orders,
         (levels, sizes): (&[Level], &[f64]),
@@ -97,7 +97,7 @@ impl Lowered {
             && orders.given(quantity.name(), quantity.symbol(), "l2").is_none()
     }
 
-    /// Says what is expected, and why, of quantities whose order is lowered.
+    /// Explains the expected order of a quantity whose order is lowered.
     pub fn note(&self, quantity: Quantity, orders: &Orders) -> Option<String> {
         let (least, symbol) = (self.of(quantity)?, quantity.symbol());
         if orders.given(quantity.name(), symbol, "l2").is_some() {
@@ -147,7 +147,7 @@ fn bends(quantity: Quantity, exact: &mut Exact) -> anyhow::Result<bool> {
     }))
 }
 
-/// The objection to results of which nothing is left to judge.
+/// The objection to results if no quantity is left to judge.
 pub fn objection() -> Objection {
     let why = "after this start a right error need not fall: judge u as well";
     Objection { why: why.into(), is_to_all: true }

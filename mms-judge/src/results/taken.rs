@@ -14,50 +14,50 @@ use mms_spec::quantity::Quantity;
 use super::files::placed;
 use super::level::{Errors, Measure, Sampling};
 
-/// A snapshot with what is known of it.
+/// A snapshot with its mesh, its motion and the exact solution.
 pub struct Taken<'a> {
     /// The snapshot.
     pub snapshot: &'a Snapshot,
-    /// Its mesh.
+    /// The mesh of the snapshot.
     pub mesh: Mesh<'a>,
-    /// Whether that has cells of its dimension, and it is known what is between their points.
+    /// Whether the mesh has cells of its dimension with known shape functions.
     pub is_mesh: bool,
     /// X and u.
     pub motion: &'a Motion<'a>,
     /// The time.
     pub time: f64,
-    /// How far it may be from that of the solver.
+    /// The rounding of the time.
     pub rounding: f64,
     /// The exact solution.
     pub exact: &'a mut Exact,
 }
 
-/// The exact solution at a time and at places X, the first of which is that of this row.
+/// Computes the exact solution at a time and at places X, from the row of the first place.
 pub type Solution<'a> = &'a dyn Fn(&mut Exact, f64, usize, &[f64]) -> anyhow::Result<Vec<f64>>;
 
-/// Values against the exact ones.
+/// Values compared with the exact ones.
 pub struct AgainstExact<'a> {
-    /// All of them.
+    /// The comparison of all values.
     all: Comparison<'a>,
-    /// What rounding may make of an error.
+    /// The error that rounding may make.
     floor: f64,
-    /// The part of it that the digits of the time make.
+    /// The part of the floor that the digits of the time make.
     of_time: f64,
     /// Whether a solver is given all values.
     is_given: bool,
 }
 
-/// Points whose exact values are there at once: threads share them, and a cache holds them.
+/// The number of points whose exact values are computed at once: enough for all threads, and small enough for the cache.
 const BLOCK: usize = 1 << 16;
 
-/// The distance of two densities that are alike, as a part of the largest.
+/// The largest difference of densities that count as equal, over the largest.
 const NEAR: f64 = 1e-6;
 
-/// How many times the round-off of double precision a computation has at least.
+/// The least round-off of a computation, in units of double precision.
 const ARITHMETIC: f64 = 16.0;
 
 impl Taken<'_> {
-    /// The errors of a quantity: over cells where these and values of their points are known, else over points.
+    /// The errors of a quantity: over cells if these and values of their points are known, otherwise over points.
     ///
     /// # Errors
     /// Values of other points; an exact value that is not finite.
@@ -108,7 +108,7 @@ impl Taken<'_> {
         }
     }
 
-    /// The norms over points, by their weights or all alike.
+    /// The norms over points, weighted or with equal weights.
     pub fn over_points(
         &self,
         quantity: Quantity,
@@ -125,8 +125,8 @@ impl Taken<'_> {
         Ok(self.result(quantity, values, sampling, norms, compared))
     }
 
-    /// Refuses a density by a name that leaves open whether it is the present or the reference one, if its numbers are the
-    /// reference density and the present one is another.
+    /// Refuses a density whose name may mean the present or the reference one, if its numbers are the reference density and the
+    /// present density differs.
     ///
     /// # Errors
     /// A density that may be either; an exact density that is not finite.
@@ -188,7 +188,7 @@ impl Taken<'_> {
         let value = found.value;
         let mut norms = vec![("l1", value.l1), ("l2", value.l2), ("linf", value.linf)];
         norms.extend(gradient.map(|_| ("h1", found.h1)));
-        // Rounding in a value is one in a gradient over the size of a cell.
+        // Rounding of a value causes an error in a gradient of this rounding over the size of a cell.
         let size = self.mesh.sizes().map_or(1.0, |[shortest, _]| shortest);
         let of_norm =
             |name: &str| if name == "h1" { 2.0 * dimension as f64 * floor / size } else { floor };
@@ -198,8 +198,8 @@ impl Taken<'_> {
         Ok(self.result(quantity, values, Sampling::Cells, norms, compared))
     }
 
-    /// Compares values with the exact ones at places X, and finds what rounding may make of the difference: that of the values,
-    /// of X, and of the time, and that of double precision.
+    /// Compares values with the exact ones at places X, and finds the part of the difference that rounding may make: rounding
+    /// of the values, of X and of the time, and round-off of double precision.
     ///
     /// # Errors
     /// An exact value that is not finite.
@@ -213,10 +213,10 @@ impl Taken<'_> {
         let (components, dimension) = (self.exact.components(quantity), self.mesh.dimension);
         let mut all = Comparison::new(&values.numbers, components, weights);
         let reference = &self.motion.reference;
-        // u = x - X has the rounding of X already, and of it what the exact u makes besides.
+        // u = x - X already contains the rounding of X; the change of the exact u with X is added here.
         let moves = !matches!(reference.stored, Stored::Double | Stored::Whole);
         let passes = self.rounding > ARITHMETIC * f64::EPSILON * self.time.abs();
-        // Components of sigma cancel in them.
+        // In these quantities components of sigma cancel.
         let cancels = matches!(quantity, Quantity::Pressure | Quantity::VonMises);
         let (mut of_places, mut of_time, mut cancelled) = (0.0_f64, 0.0_f64, 0.0_f64);
         for (block, places) in places.chunks(BLOCK * dimension).enumerate() {

@@ -1,4 +1,4 @@
-//! At which times levels are compared.
+//! The times at which levels are compared.
 
 use anyhow::bail;
 use mms_exact::{Exact, SAME};
@@ -6,23 +6,23 @@ use mms_results::{Array, Snapshot, Stored, Time};
 
 use super::files::Results;
 
-/// Times at which all meshes have results, or those that are wanted; and how many each has that are left out.
+/// The times at which all meshes have results, or the wanted ones; and the number of results left out.
 #[derive(Default)]
 pub struct Common {
     /// The times.
     pub times: Vec<f64>,
-    /// The snapshots of each mesh at them, by position.
+    /// The indices of each mesh's snapshots at these times.
     pub snapshots: Vec<Vec<usize>>,
-    /// How many times no other mesh has, over all of them.
+    /// The number of results at other times, over all meshes.
     pub left_out: usize,
     /// Whether the field is static, so that the last result of each mesh counts.
     pub is_static: bool,
 }
 
-/// Gives snapshots without a time those of `--time`, and finds the times that all have.
+/// Gives snapshots without a time the times of `--time`, and finds the times that all meshes have.
 ///
 /// # Errors
-/// No time; a time outside the window; two snapshots at one time; no time that all have.
+/// No time; a time outside the window; two snapshots at one time; no time that all meshes have.
 pub fn common(all: &mut [Results], wanted: &[f64], exact: &Exact) -> anyhow::Result<Common> {
     if exact.input().is_static() {
         return Ok(at_rest(all, exact.window[1]));
@@ -40,7 +40,7 @@ pub fn common(all: &mut [Results], wanted: &[f64], exact: &Exact) -> anyhow::Res
     let span = window[1] - window[0];
     let same =
         |a: Time, b: Time| (a.value - b.value).abs() <= a.rounding + b.rounding + SAME * span;
-    // Of those that rounding lets be the same, the nearest.
+    // The nearest of the times that are equal within rounding.
     let at = |results: &Results, time: Time| {
         let times =
             results.snapshots.iter().enumerate().filter_map(|(at, it)| Some((at, it.time?)));
@@ -103,7 +103,7 @@ fn complete(results: &mut Results, wanted: &[f64]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Refuses results that end before others do, where one step more of their own would not go beyond these: their run stopped.
+/// Refuses results that end earlier than others by at least one of their own steps: their run stopped.
 fn hold_ends(all: &[Results], [first, last]: [f64; 2]) -> anyhow::Result<()> {
     let times = |results: &Results| -> Vec<Time> {
         results.snapshots.iter().filter_map(|it| it.time).collect()
@@ -136,7 +136,7 @@ fn hold_ends(all: &[Results], [first, last]: [f64; 2]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Takes a time that is wanted in place of one that a file prints with fewer digits.
+/// Replaces a time that a file prints with fewer digits by the wanted time.
 fn say(results: &mut Results, wanted: &[f64]) {
     for &value in wanted {
         let times = results.snapshots.iter_mut().filter_map(|it| it.time.as_mut());
@@ -147,8 +147,8 @@ fn say(results: &mut Results, wanted: &[f64]) {
     }
 }
 
-/// Lets times be exact, unless other numbers show that they were rounded: those of the file, which have no more digits
-/// than they; their own bits; or other times, from which they are as far as from each other but for their last digit.
+/// Treats times as exact, unless other numbers show that they were rounded: numbers of the file with no more digits than the
+/// times; the times' own bits; or uneven steps that differ only in the last digit.
 fn hold_roundings(results: &mut Results) {
     let times: Vec<f64> = results.snapshots.iter().filter_map(|it| Some(it.time?.value)).collect();
     let most = |of: &dyn Fn(f64) -> i32| times.iter().map(|it| of(*it)).max().unwrap_or(0);
@@ -171,7 +171,7 @@ fn hold_roundings(results: &mut Results) {
     }
 }
 
-/// How many digits a number has: all of them, and those after the point.
+/// The numbers of digits of a number: all of them, and those after the point.
 fn digits(value: f64) -> (i32, i32) {
     let text = format!("{value:e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -179,7 +179,7 @@ fn digits(value: f64) -> (i32, i32) {
     (digits, (digits - 1 - exponent.parse::<i32>().unwrap_or(0)).max(0))
 }
 
-/// Whether steps between times are alike but for the last digit that these have.
+/// Whether steps between times differ only in the last digit of the times.
 fn is_uneven(times: &[f64], decimals: i32) -> bool {
     let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let unit = 0.1_f64.powi(decimals);
@@ -213,7 +213,7 @@ fn hold_times(results: &Results, [first, last]: [f64; 2]) -> anyhow::Result<()> 
     Ok(())
 }
 
-/// The file, and the line of its first point where it has lines.
+/// The file, and the line of its first point if it has lines.
 fn place(snapshot: &Snapshot) -> String {
     match snapshot.lines.first() {
         Some(_) => snapshot.place(0),

@@ -1,4 +1,4 @@
-//! Tractions of faces: at their points, by their normals.
+//! The errors of tractions at points of faces, by their normals.
 
 use anyhow::{anyhow, bail, ensure};
 use mms_results::Stored;
@@ -10,10 +10,10 @@ use super::files::placed;
 use super::level::{Errors, Sampling};
 use super::taken::{Solution, Taken};
 
-/// How far the length of a normal may be from 1.
+/// The largest difference between the length of a normal and 1.
 const UNIT: f64 = 1e-3;
 
-/// Points of faces with their normals, and the tractions that were computed there.
+/// Points of faces with their normals and computed tractions.
 #[derive(Default)]
 struct Loaded {
     places: Vec<f64>,
@@ -42,7 +42,7 @@ impl Loaded {
 }
 
 impl Taken<'_> {
-    /// The errors of tractions, where there are such: of those of a face at its points; of others by the normals beside them,
+    /// The errors of tractions, if there are any: tractions of a named face at its points; others by the normals beside them,
     /// or at the points that lie on one face alone.
     ///
     /// # Errors
@@ -75,7 +75,7 @@ impl Taken<'_> {
         self.over_points(Quantity::Traction, &values, Sampling::Faces, &compared).map(Some)
     }
 
-    /// A vector of so many components at each point.
+    /// A vector with `components` components at each point.
     fn of_points(&self, meaning: &Meaning, components: usize) -> anyhow::Result<Values<'_>> {
         let values = meaning.values(self.snapshot, components).map_err(placed)?;
         let rows = values.numbers.len() / components;
@@ -106,7 +106,7 @@ impl Taken<'_> {
         loaded.add(points, values, rows, &self.exact.normals(face, &places));
     }
 
-    /// Where a normal is not 0.
+    /// Adds tractions at points where the normal is not 0.
     fn of_normals(
         &self,
         values: &Values<'_>,
@@ -134,7 +134,7 @@ impl Taken<'_> {
         Ok(())
     }
 
-    /// At points of one face alone: those of two have two tractions.
+    /// Adds tractions at points of one face alone, because points of two faces have two tractions.
     fn of_faces(&self, values: &Values<'_>, loaded: &mut Loaded) -> anyhow::Result<()> {
         let faces = self.exact.faces(self.mesh.points, self.motion.reference.rounding);
         let mut count = vec![0; self.mesh.points.len() / self.mesh.dimension];

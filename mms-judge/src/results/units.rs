@@ -1,4 +1,4 @@
-//! The units in the headers of tables, against those of the field.
+//! Compares the units in the headers of tables with the units of the field.
 
 use anyhow::bail;
 use mms_exact::Exact;
@@ -8,8 +8,8 @@ use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 use mms_spec::units::{Dimension, Unit, system};
 
-/// Refuses a column whose unit measures something else than its quantity, or is of another system than the units of the
-/// field's parameters. A unit that is unknown says nothing.
+/// Refuses a column whose unit measures something else than its quantity, or belongs to another system than the units of the
+/// field's parameters. Ignores unknown units.
 ///
 /// # Errors
 /// The column, its unit, and the unit that is expected.
@@ -69,7 +69,7 @@ fn dimension(role: Role, exact: &Exact) -> Option<Dimension> {
     Some(Unit::known(unit)?.dimension)
 }
 
-/// The unit that a header means, also without marks of powers, as in `N/mm2`.
+/// The unit of a header; powers may lack their marks, as in `N/mm2`.
 pub fn known(text: &str) -> Option<Unit> {
     let text = if matches!(text, "-" | "" | "--") { "1" } else { text };
     Unit::known(text).or_else(|| {
