@@ -1,4 +1,4 @@
-//! What a solver says that it can.
+//! The abilities of a solver.
 
 use mms_spec::Shape;
 use mms_spec::diagnostic::{Diagnostic, quoted};
@@ -7,18 +7,18 @@ use mms_spec::suggest::advice;
 
 use crate::table::{Reader, Table};
 
-/// What a solver says that it can, in `can`. What it does not say, it cannot.
+/// The abilities that a solver states in `can`. It lacks those that it does not state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Can {
     /// The dimensions, 1 to 3.
     pub dimensions: Vec<usize>,
-    /// The laws, by the names of materials; neo-Hookean where nothing is said.
+    /// The laws, by the names of materials; by default neo-Hookean.
     pub materials: Vec<String>,
-    /// The shapes of bodies, one of `BODIES`; boxes where nothing is said.
+    /// The shapes of bodies, some of `BODIES`; by default boxes.
     pub bodies: Vec<String>,
-    /// Whether it takes tractions on faces.
+    /// Whether it supports tractions on faces.
     pub tractions: bool,
-    /// Whether faces may move as they are told.
+    /// Whether faces can have a prescribed motion.
     pub moving_walls: bool,
     /// Whether it can start with v other than 0.
     pub start_moving: bool,
@@ -28,7 +28,7 @@ pub struct Can {
     pub graded: bool,
     /// Whether it solves in R and Z, on bodies of revolution.
     pub axisymmetric: bool,
-    /// Whether bodies may move at all, as they may where nothing is said; else all is at rest.
+    /// Whether bodies can move, which is the default; otherwise all is at rest.
     pub dynamics: bool,
 }
 
@@ -45,7 +45,7 @@ const KEYS: &[&str] = &[
     "dynamics",
 ];
 
-/// What a solver may say of loads.
+/// The loads that a solver may state.
 const LOADS: &[&str] = &["traction"];
 
 pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Can> {
@@ -84,7 +84,7 @@ pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Can> {
     })
 }
 
-/// Refuses a word that is none of those that are known.
+/// Refuses a word that is not a known one.
 pub(crate) fn hold(reader: &mut Reader, key: &str, word: &Spanned<String>, known: &[&str]) {
     if known.contains(&word.value.as_str()) {
         return;

@@ -1,18 +1,18 @@
-//! The fewest candidates that show all that any of them shows.
+//! The smallest set of candidates that shows all that any of them shows.
 
 use std::collections::BTreeSet;
 
 /// Something that shows terms, at some cost.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// What it costs.
+    /// The cost of the candidate.
     pub cost: f64,
-    /// The names of what it shows.
+    /// The names of the terms that it shows.
     pub terms: BTreeSet<String>,
 }
 
-/// The positions of the fewest candidates that together show all that is shown by any; of several such sets the
-/// cheapest, and the cheapest of a set first.
+/// The positions of the smallest set of candidates that together show all terms that any of them shows. Of several such sets
+/// the cheapest, sorted by cost.
 pub fn smallest(candidates: &[Candidate]) -> Vec<usize> {
     let wanted: BTreeSet<&String> = candidates.iter().flat_map(|it| &it.terms).collect();
     let mut search = Search { candidates, best: None };
@@ -33,7 +33,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Tries every candidate that shows the term which the fewest show, until nothing is left to be shown.
+    /// Tries every candidate that shows the rarest remaining term, until all terms are shown.
     fn extend(&mut self, chosen: &mut Vec<usize>, left: &BTreeSet<&String>, more: usize) {
         let showing = |term: &String| {
             let shows = |at: &usize| self.candidates[*at].terms.contains(term);

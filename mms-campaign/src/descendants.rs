@@ -1,18 +1,18 @@
-//! The processes that a run has started, and their end.
+//! The processes that a run has started: finds and ends them.
 //!
-//! On Linux this process adopts descendants whose parent has ended (`PR_SET_CHILD_SUBREAPER`), so that none escapes by
-//! `setsid` or by two forks. Elsewhere, or without `/proc`, only the process group of the run is known.
+//! On Linux this process adopts descendants whose parent has ended (`PR_SET_CHILD_SUBREAPER`), so that none escapes by `setsid`
+//! or by forking twice. On other systems, or without `/proc`, only the process group of the run is known.
 
 use std::fmt;
 
 /// A process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Process {
-    /// Its number.
+    /// The process number.
     pub number: i32,
-    /// Its name, as the system has it.
+    /// The name that the system reports.
     pub name: String,
-    /// Its process group, if all of that are descendants as well.
+    /// The process group, if all members of it are descendants as well.
     pub group: Option<i32>,
 }
 
@@ -26,13 +26,13 @@ impl fmt::Display for Process {
 pub fn adopt() {
     #[cfg(target_os = "linux")]
     {
-        // Without it the process group is still ended.
+        // If this fails, the process group is still ended.
         let _ = nix::sys::prctl::set_child_subreaper(true);
     }
 }
 
-/// Releases adopted processes that have ended; not the child of this number, which has its own waiter. Whether any child
-/// remains: no list of processes is as sure, for they may come and go while it is made.
+/// Releases adopted processes that have ended, except the child of this number, which has its own waiter. Returns whether any
+/// child remains. This is safer than a list of processes, which may change while it is made.
 #[cfg(target_os = "linux")]
 pub fn remain(child: u32) -> bool {
     use nix::sys::wait::{Id, WaitPidFlag, waitid, waitpid};
@@ -58,8 +58,8 @@ pub fn remain(_: u32) -> bool {
     false
 }
 
-/// The living descendants of this process, as far as they can be seen. The process group of the run has the number of
-/// its first process.
+/// The living descendants of this process that can be seen. The number of the run's process group is the number of its first
+/// process.
 #[cfg(unix)]
 pub fn living(first: u32) -> Vec<Process> {
     let first = first as i32;
@@ -74,7 +74,7 @@ pub fn living(_: u32) -> Vec<Process> {
     Vec::new()
 }
 
-/// The descendants of this process, as `/proc` has them.
+/// The descendants of this process from `/proc`.
 #[cfg(unix)]
 fn descendants(first: i32) -> Option<Vec<Process>> {
     let own = i32::try_from(std::process::id()).ok()?;
@@ -87,7 +87,7 @@ fn descendants(first: i32) -> Option<Vec<Process>> {
     while let Some(parent) = parents.pop() {
         for row in all.iter().filter(|row| row.parent == parent) {
             parents.push(row.number);
-            // In this session others may have joined a group.
+            // In this session other processes may have joined a group.
             let is_ours = row.session != session || row.group == first;
             let group = is_ours.then_some(row.group);
             found.push(Process { number: row.number, name: row.name.clone(), group });
@@ -96,7 +96,7 @@ fn descendants(first: i32) -> Option<Vec<Process>> {
     Some(found)
 }
 
-/// A living process, as `/proc` has it.
+/// A living process from `/proc`.
 #[cfg(unix)]
 struct Row {
     number: i32,
@@ -110,7 +110,7 @@ struct Row {
 impl Row {
     /// Reads a line such as `12 (name) S 11 12 10 ..`.
     fn parse(line: &str) -> Option<Self> {
-        // A name may hold blanks and brackets.
+        // A name may contain blanks and brackets.
         let (head, rest) = line.rsplit_once(')')?;
         let (number, name) = head.split_once(" (")?;
         let mut rest = rest.split_whitespace();
@@ -122,7 +122,8 @@ impl Row {
     }
 }
 
-/// Asks processes to end, or ends them; with their groups, as one that forks may be gone when its signal arrives.
+/// Asks processes to end, or kills them if `at_once`. Signals their groups too, because a forking process may be gone when its
+/// signal arrives.
 #[cfg(unix)]
 pub fn signal(processes: &[Process], at_once: bool) {
     use nix::sys::signal::{Signal, kill};

@@ -1,4 +1,4 @@
-//! What a campaign file says.
+//! The contents of a campaign file.
 
 use std::fmt;
 use std::num::NonZero;
@@ -16,108 +16,108 @@ use crate::template::{Placeholder, Template, Wrong};
 /// The formats of exact states, the usual one first.
 const STATES: &[&str] = &["vtu", "npz", "csv"];
 
-/// Seconds that a run may take where nothing is said.
+/// The default time limit of a run, in seconds.
 const TIME_LIMIT: f64 = 3600.0;
 
-/// The Courant number of time steps where nothing is said.
+/// The default Courant number of time steps.
 const COURANT: f64 = 0.4;
 
-/// How far an order may be from the expected one, if nothing is said.
+/// The default tolerance of orders.
 const TOLERANCE: f64 = 0.15;
 
-/// A solver, and what it is run on.
+/// A solver, and the studies that it runs.
 #[derive(Clone, Debug)]
 pub struct Campaign {
     /// The text, for messages about it.
     pub sources: Sources,
     /// How the solver is run.
     pub solver: Solver,
-    /// The studies to run, each of its own name. A study whose parameters are stepped stands here once per step.
+    /// The studies to run, with unique names. A study with stepped parameters has one entry per step.
     pub studies: Vec<Study>,
 }
 
-/// How a solver is run.
+/// The command of a solver, and its surroundings.
 #[derive(Clone, Debug)]
 pub struct Solver {
-    /// What it is called.
+    /// The name of the solver.
     pub name: String,
-    /// What tells it from what it was before.
+    /// A text that changes with the solver's version.
     pub version: Option<String>,
-    /// Files that its results depend on, besides those that the command names: paths and patterns.
+    /// More files that its results depend on, besides the files that the command names: paths and patterns.
     pub sources: Vec<Spanned<String>>,
     /// The words of its command line.
     pub run: Vec<Template>,
-    /// Where it is run; in the folder of the file, if nothing is said.
+    /// The working directory; by default the folder of the file.
     pub directory: Option<Template>,
-    /// Which files are its results: a path or a pattern.
+    /// The files of its results: a path or a pattern.
     pub output: Template,
-    /// How many threads a run takes.
+    /// The number of threads of a run.
     pub threads: NonZero<usize>,
-    /// How long a run may take.
+    /// The time limit of a run.
     pub time_limit: Duration,
-    /// The language that the field is written in before a run.
+    /// The language in which the field is written before a run.
     pub emit: Option<Spanned<String>>,
-    /// The format of the exact state, `vtu`, `npz` or `csv`, where the file says it.
+    /// The format of the exact state, `vtu`, `npz` or `csv`, if the file states it.
     pub state: Option<Spanned<String>>,
-    /// What it can.
+    /// The abilities of the solver.
     pub can: Option<Can>,
 }
 
-/// A field, and the meshes that a solver is run on.
+/// A field, and the meshes on which a solver runs it.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// Its name; of a step, with the parameters that are stepped.
+    /// The name; for a step, with the stepped parameters.
     pub name: String,
-    /// The name of the study in the file, which its steps share.
+    /// The name of the study in the file, shared by its steps.
     pub family: String,
     /// A gallery name, or the path of a field file.
     pub field: Spanned<String>,
     /// Cells along the longest edge of the body, on each level.
     pub cells: Vec<usize>,
-    /// dt on each level, where the file says it.
+    /// dt on each level, if the file states it.
     pub time_steps: Option<Vec<f64>>,
-    /// Whether each time step is taken with each number of cells.
+    /// Whether each time step is combined with each number of cells.
     pub grid: bool,
-    /// Particles in each direction of a cell, where the file says it.
+    /// Particles in each direction of a cell, if the file states it.
     pub particles_per_cell: Option<Spanned<String>>,
-    /// The Courant number that makes dt where the file does not say it.
+    /// The Courant number for dt if the file does not state dt.
     pub courant: f64,
-    /// The last time; that of the field, where nothing is said.
+    /// The last time; by default the last time of the field.
     pub end: Option<f64>,
-    /// The expected orders, as `mms judge` takes them.
+    /// The expected orders, in the form of `mms judge`.
     pub order: Vec<Spanned<String>>,
-    /// How far the order may be from the expected one.
+    /// The tolerance of the order.
     pub tolerance: f64,
-    /// What is judged; all that is found, where nothing is said.
+    /// The quantities to judge; by default all that are found.
     pub quantity: Vec<Spanned<String>>,
-    /// What names of columns mean, as `mms judge` takes it.
+    /// The meanings of column names, in the form of `mms judge`.
     pub map: Vec<Spanned<String>>,
     /// The names of the columns of tables without a header.
     pub columns: Vec<Spanned<String>>,
     /// The profile of the code that writes the results, by name or path.
     pub from: Option<Spanned<String>>,
-    /// Whether norms are over points or over cells, as `mms judge` takes it.
+    /// Whether norms are over points or over cells, in the form of `mms judge`.
     pub over: Option<Spanned<String>>,
-    /// h on each level, where it is not that of the cells.
+    /// h on each level, if it is not the size of the cells.
     pub h: Option<Vec<f64>>,
-    /// The times that are judged.
+    /// The times to judge.
     pub time: Vec<f64>,
-    /// The column that means are taken by.
+    /// The column with the weights of means.
     pub weight: Option<Spanned<String>>,
-    /// How the solver starts, as `mms judge` takes it.
+    /// The start of the solver, in the form of `mms judge`.
     pub start: Option<Spanned<String>>,
     /// Whether results may cover a part of the body.
     pub part: bool,
-    /// The memory that reading a file may take, in MB.
+    /// The memory for reading a file, in MB.
     pub max_memory: Option<u64>,
     /// Parameters, as `name=value`.
     pub set: Vec<String>,
-    /// Its table.
+    /// The place of its table in the file.
     pub span: Span,
 }
 
 impl Study {
-    /// How many runs it takes.
+    /// The number of runs.
     pub fn levels(&self) -> usize {
         match self.grid {
             true => self.cells.len() * self.steps(),
@@ -125,7 +125,7 @@ impl Study {
         }
     }
 
-    /// With the parameters of a step.
+    /// Adds the parameters of a step.
     fn at(self, step: Step) -> Self {
         let name = match step.name.is_empty() {
             true => self.name,
@@ -134,43 +134,43 @@ impl Study {
         Study { name, set: step.set, ..self }
     }
 
-    /// How many time steps are given.
+    /// The number of given time steps.
     fn steps(&self) -> usize {
         self.time_steps.as_ref().map_or(0, Vec::len)
     }
 
-    /// Cells along the longest edge of the body, on a level, counted from 1.
+    /// Cells along the longest edge of the body, on a level from 1 on.
     pub fn cells_of(&self, level: usize) -> usize {
         self.cells.get(self.of_cells(level)).copied().unwrap_or(self.cells[0])
     }
 
-    /// dt of a level, where the file says it.
+    /// dt of a level, if the file states it.
     pub fn time_step_of(&self, level: usize) -> Option<f64> {
         let at = if self.grid { (level - 1) % self.steps() } else { level - 1 };
         self.time_steps.as_ref()?.get(at).copied()
     }
 
-    /// h of a level, where the file says it.
+    /// h of a level, if the file states it.
     pub fn h_of(&self, level: usize) -> Option<f64> {
         self.h.as_ref()?.get(self.of_cells(level)).copied()
     }
 
-    /// Which number of cells a level has: one after the other, each with all time steps of a grid.
+    /// The index of a level in `cells`; in a grid, all time steps of one number of cells precede the next number.
     fn of_cells(&self, level: usize) -> usize {
         if self.grid { (level - 1) / self.steps() } else { level - 1 }
     }
 }
 
-/// What is wrong with a file.
+/// The mistakes in a file.
 #[derive(Clone, Debug)]
 pub struct Mistakes {
-    /// The file, as a message calls it.
+    /// The name of the file in messages.
     pub(crate) subject: &'static str,
     pub(crate) sources: Sources,
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
-/// A campaign file, as a message calls it.
+/// The name of a campaign file in messages.
 const CAMPAIGN: &str = "the campaign file";
 
 impl std::error::Error for Mistakes {}
@@ -191,13 +191,13 @@ impl Campaign {
 }
 
 impl Solver {
-    /// The format of the exact state that a run gets; none, if it gets no such file.
+    /// The format of the exact state that a run gets; `None` if it gets no such file.
     pub fn state(&self) -> Option<&str> {
         let named = self.state.as_ref().map(|it| it.value.as_str());
         named.or_else(|| self.asks_for(Placeholder::State).then_some(STATES[0]))
     }
 
-    /// Whether the command, its folder or its results name a placeholder.
+    /// Whether the command, its folder or its results contain a placeholder.
     fn asks_for(&self, placeholder: Placeholder) -> bool {
         self.templates().any(|it| it.placeholders().any(|own| own == placeholder))
     }
@@ -246,7 +246,7 @@ const STUDY: &[&str] = &[
     "set",
 ];
 
-/// Reads a text with the path that messages show for it.
+/// Parses a text; messages show `path` as its path.
 ///
 /// # Errors
 /// Every mistake of form, at its place.
@@ -304,7 +304,7 @@ fn solver(reader: &mut Reader, root: &Table<'_>) -> Option<Solver> {
     Some(found)
 }
 
-/// Holds `{emitted}` to `emit`.
+/// Requires `emit` if `{emitted}` is used.
 fn hold_emitted(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
     if solver.asks_for(Placeholder::Emitted)
         && solver.emit.is_none()
@@ -318,7 +318,7 @@ fn hold_emitted(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
     }
 }
 
-/// Refuses results in a place that all runs share: those of one would be taken for those of another.
+/// Refuses results in a place that all runs share, where results of one run could be taken for results of another.
 fn hold_output(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
     let names = |template: &Template| template.placeholders().any(|it| it == Placeholder::Output);
     if names(&solver.output) || solver.directory.as_ref().is_some_and(names) {
@@ -331,7 +331,7 @@ fn hold_output(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
     reader.report(Diagnostic::error(span, message).label("no {output} in it").help(help));
 }
 
-/// The words of the command: split here, or an array.
+/// The words of the command: a text is split here, an array is not.
 fn run(reader: &mut Reader, table: &Table<'_>) -> Option<Vec<Template>> {
     let Some(value) = table.value("run") else {
         reader.missing(table, "run", "as in run = \"./solver --cells {cells} --out {output}\"");
@@ -420,7 +420,7 @@ fn studies(reader: &mut Reader, root: &Table<'_>) -> Vec<Study> {
     studies
 }
 
-/// A study, and the steps of its parameters.
+/// Reads a study, and the steps of its parameters.
 fn study(reader: &mut Reader, table: &Table<'_>) -> Option<(Study, Vec<Step>)> {
     let field = reader.text(table, "field");
     if table.value("field").is_none() {
@@ -464,7 +464,7 @@ fn study(reader: &mut Reader, table: &Table<'_>) -> Option<(Study, Vec<Step>)> {
     Some((study, set::steps(reader, table)))
 }
 
-/// The name of a study, which is that of a folder too: its own, or that of its field.
+/// The name of a study, which is also the name of a folder: from `name`, or from its field.
 fn name(reader: &mut Reader, table: &Table<'_>, field: Option<&Spanned<String>>) -> Option<String> {
     let name = match reader.text(table, "name") {
         Some(name) => name,
@@ -479,7 +479,7 @@ fn name(reader: &mut Reader, table: &Table<'_>, field: Option<&Spanned<String>>)
     Some(name.value)
 }
 
-/// What stands behind the last slash of a path, without what files end with.
+/// The file name of a path without its extension.
 fn of_field(field: &Spanned<String>) -> Spanned<String> {
     let file = field.value.rsplit(['/', '\\']).next().unwrap_or_default();
     let stem = file.strip_suffix(".toml").unwrap_or(file);
@@ -500,7 +500,7 @@ fn cells(reader: &mut Reader, table: &Table<'_>) -> Option<Vec<usize>> {
     reader.of_value(value, "cells", expected, |_| each(value, cells))
 }
 
-/// Three of each and no `courant` in a grid of cells and time steps: with fewer nobody can tell the two apart.
+/// Requires at least three of each and no `courant` in a grid of cells and time steps: fewer do not separate the two errors.
 fn hold_grid(reader: &mut Reader, table: &Table<'_>, study: &Study) {
     let lengths = [("cells", study.cells.len()), ("time_steps", study.steps())];
     for (key, length) in lengths.into_iter().filter(|(_, length)| *length < 3) {
@@ -514,11 +514,11 @@ fn hold_grid(reader: &mut Reader, table: &Table<'_>, study: &Study) {
         let span = table.value("h").map_or(table.span, |value| reader.span(value));
         let message = format!("`h` has {of_h} values, and `cells` {}", study.cells.len());
         let found = Diagnostic::error(span, message).label("counted here");
-        reader.report(found.help("as many in a grid: each is that of a number of cells"));
+        reader.report(found.help("as many in a grid: one for each number of cells"));
     }
 }
 
-/// As many of each as there are levels; or one mesh for all time steps.
+/// Requires as many of each as there are levels; or one mesh for all time steps.
 fn hold_levels(reader: &mut Reader, table: &Table<'_>, study: &Study) {
     if study.grid {
         return hold_grid(reader, table, study);
@@ -538,7 +538,7 @@ fn hold_levels(reader: &mut Reader, table: &Table<'_>, study: &Study) {
     }
 }
 
-/// A whole number, or one for each axis in a text.
+/// A whole number, or a text with one for each axis.
 fn per_cell(reader: &mut Reader, table: &Table<'_>) -> Option<Spanned<String>> {
     let expected = "a whole number, or one for each axis, as in \"3x2\"";
     reader.of_key(table, "particles_per_cell", expected, |reader, value| {
@@ -546,7 +546,7 @@ fn per_cell(reader: &mut Reader, table: &Table<'_>) -> Option<Spanned<String>> {
     })
 }
 
-/// A number, or as `--expected-order` takes it.
+/// A number, or texts in the form of `--expected-order`.
 fn orders(reader: &mut Reader, table: &Table<'_>) -> Vec<Spanned<String>> {
     let plain = table.value("order").filter(|value| number(value).is_some());
     match plain.and_then(|value| Some((value, digits(value)?))) {

@@ -1,4 +1,4 @@
-//! Files with what a run prints. Each has a bound: it holds the beginning and the end.
+//! Files with the output of a run. Each has a limit: it keeps the beginning and the end.
 
 use std::collections::VecDeque;
 use std::fs::File;
@@ -11,11 +11,11 @@ pub const HEAD: u64 = 16 << 20;
 /// The bytes of the end that a file keeps.
 pub const TAIL: usize = 64 << 10;
 
-/// Copies to a file until nobody writes any more: the first `HEAD` bytes, the last `TAIL` bytes, and between them how many
-/// were left out.
+/// Copies to a file until all writers have ended: the first `HEAD` bytes, the last `TAIL` bytes, and between them the number of
+/// bytes left out.
 ///
 /// # Errors
-/// A file that cannot be written. All is read nevertheless: a run must not wait for a full disk.
+/// A file that cannot be written. All input is read nevertheless: a run must not wait for a full disk.
 pub fn keep(mut from: impl Read, path: &Path) -> io::Result<()> {
     let mut file = File::create(path);
     let mut room = HEAD;
@@ -43,10 +43,10 @@ pub fn keep(mut from: impl Read, path: &Path) -> io::Result<()> {
     file.write_all(tail.make_contiguous())
 }
 
-/// The bytes of the end of a file in which its last lines are looked for.
+/// The bytes at the end of a file that are searched for its last lines.
 const BYTES: u64 = 4096;
 
-/// The most lines that are told.
+/// The most lines that are returned.
 const LINES: usize = 8;
 
 /// The last lines of a file.

@@ -1,7 +1,7 @@
 //! One run of a solver: a process in a folder of its own, with a limit of time.
 //!
-//! The run has a [`supervisor`](crate::supervisor), which ends it when the campaign ends, however that does. A folder whose
-//! supervisor was killed itself is never used again: something may still write there.
+//! The run has a [`supervisor`](crate::supervisor), which ends it when the campaign ends for any reason. If a supervisor was
+//! killed, its folder is never used again, because the run may still write there.
 
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
@@ -16,32 +16,32 @@ use crate::supervisor::{PAUSES, RUNNING, Report, STDERR, STDOUT, WORD, alone};
 
 /// A program to run, its surroundings and its limit.
 pub struct Order<'a> {
-    /// The words of the program that supervises if the next one is [`WORD`].
+    /// The words of the supervising program, to which [`WORD`] is added.
     pub supervisor: &'a [OsString],
     /// The program, and its arguments.
     pub words: &'a [String],
-    /// Where.
+    /// The working directory.
     pub directory: &'a Path,
     /// Variables of its environment.
     pub variables: &'a [(&'a str, String)],
-    /// How long it may take.
+    /// The time limit.
     pub limit: Duration,
 }
 
-/// A folder that nobody else writes to.
+/// A folder to which no other process writes.
 pub struct Folder {
-    /// Where it is.
+    /// The path of the folder.
     pub path: PathBuf,
     /// Locked, and shared with the supervisor of a run.
     running: File,
 }
 
 impl Folder {
-    /// The first of the folders `1`, `2`, .. below another one in which nothing can be at work; emptied. A supervisor that
-    /// is about to end a run there is waited for. Only one caller at a time may ask for folders below the same one.
+    /// Finds the first of the folders `1`, `2`, .. in `parent` in which no run can be at work, and empties it. Waits for a
+    /// supervisor that is about to end a run there. Only one caller at a time may use the same `parent`.
     ///
     /// # Errors
-    /// It cannot be made or emptied.
+    /// A folder that cannot be made or emptied.
     pub fn free(parent: &Path) -> io::Result<Self> {
         for number in 1.. {
             let path = parent.join(number.to_string());
@@ -55,10 +55,10 @@ impl Folder {
         Err(io::ErrorKind::AlreadyExists.into())
     }
 
-    /// Runs something; what it prints is kept here. If `stop` asks for it, the run is ended.
+    /// Runs a program, and keeps its output in the folder. Ends the run if `stop` returns true.
     ///
     /// # Errors
-    /// Nothing can be said of the supervisor.
+    /// A supervisor whose state cannot be read.
     pub fn run(&self, order: &Order<'_>, stop: &dyn Fn() -> bool) -> io::Result<Report> {
         let [program, words @ ..] = order.supervisor else {
             return Ok(Report::badly("no supervisor"));
@@ -75,7 +75,7 @@ impl Folder {
         }
     }
 
-    /// The last lines of what it said of itself, or else of what it printed.
+    /// The last lines of its stderr, or, if that is empty, of its stdout.
     pub fn last_words(&self) -> Vec<String> {
         let of = |name: &str| last_lines(&self.path.join(name)).unwrap_or_default();
         let said = of(STDERR);
@@ -91,7 +91,7 @@ impl Drop for Folder {
     }
 }
 
-/// Waits for the report of a supervisor. Without its stdin that ends the run.
+/// Waits for the report of a supervisor. Closing its stdin ends the run.
 fn followed(mut supervisor: Child, stop: &dyn Fn() -> bool) -> io::Result<Report> {
     let (mut stdin, mut pause) = (supervisor.stdin.take(), PAUSES[0]);
     let status = loop {
@@ -114,10 +114,10 @@ fn followed(mut supervisor: Child, stop: &dyn Fn() -> bool) -> io::Result<Report
     }))
 }
 
-/// How long a supervisor whose campaign has ended is waited for.
+/// The longest wait for a supervisor whose campaign has ended.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Whether a file could be locked, now or soon.
+/// Tries for a while to lock a file; returns whether it is locked.
 fn is_locked(file: &File) -> io::Result<bool> {
     let started = Instant::now();
     loop {
@@ -130,7 +130,7 @@ fn is_locked(file: &File) -> io::Result<bool> {
     }
 }
 
-/// Removes all of a folder but the file that is locked.
+/// Removes everything in a folder except the locked file.
 fn empty(folder: &Path) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;

@@ -1,4 +1,4 @@
-//! The profile of a code: how its files call quantities.
+//! The profile of a code: the names of quantities in its files.
 //!
 //! ```toml
 //! source = "the public description that this file follows"
@@ -18,10 +18,10 @@ use crate::table::{Reader, Value, each};
 /// The rows and columns of a tensor's entries, counted from 0, in the order of an array's components.
 pub type Order = Vec<(usize, usize)>;
 
-/// A profile; a quantity is what the caller makes of its name.
+/// A profile; `R` is the caller's type of quantities.
 #[derive(Clone, Debug)]
 pub struct Profile<R> {
-    /// The position of points whose both readings lie in the body.
+    /// The meaning of positions for which both readings lie in the body.
     pub points: Option<R>,
     /// The names of arrays.
     pub quantities: Vec<(R, Vec<String>)>,
@@ -29,7 +29,7 @@ pub struct Profile<R> {
     pub orders: Vec<Order>,
 }
 
-/// Reads a text with the path that messages show for it. `role` gives a quantity, or the names that are expected.
+/// Parses a text; messages show `path` as its path. `role` returns a quantity, or the expected names.
 ///
 /// # Errors
 /// Every mistake, at its place.
@@ -96,7 +96,7 @@ fn quantities<R>(
     found
 }
 
-/// A text, or several.
+/// A text, or an array of texts.
 fn texts(value: &Value<'_>) -> Option<Vec<String>> {
     let text = |value: &Value<'_>| value.get_ref().as_str().map(str::to_owned);
     each(value, text).or_else(|| text(value).map(|it| vec![it]))

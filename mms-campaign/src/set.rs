@@ -11,20 +11,20 @@ use crate::table::{Reader, Table, Value, digits};
 /// The parameters of a step.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Step {
-    /// The parameters that are stepped, as part of the name of a folder; empty where there are none.
+    /// The stepped parameters, as part of the name of a folder; empty if there are none.
     pub name: String,
-    /// All of them, as `name=value`.
+    /// All parameters, as `name=value`.
     pub set: Vec<String>,
 }
 
-/// A parameter: its values, and where they stand if they are a list.
+/// A parameter: its values, and, if they are a list, its place.
 struct Setting {
     name: String,
     values: Vec<String>,
     list: Option<Span>,
 }
 
-/// The steps of `set`: one, if no parameter is stepped.
+/// The steps of `set`: one if no parameter is stepped.
 pub(crate) fn steps(reader: &mut Reader, table: &Table<'_>) -> Vec<Step> {
     let Some(value) = table.value("set") else { return vec![Step::default()] };
     let expected = "a table of numbers or of lists of them, as in { young = 1e6, load = [0.5, 1] }";
@@ -59,7 +59,7 @@ fn setting(reader: &mut Reader, name: &str, value: &Value<'_>) -> Option<Setting
     Some(Setting { name: name.to_owned(), values, list })
 }
 
-/// How many steps there are; none where lists do not agree.
+/// The number of steps; `None` if lists have different lengths.
 fn count(reader: &mut Reader, settings: &[Setting]) -> Option<usize> {
     let mut lists = settings.iter().filter_map(|it| Some((it, it.list?)));
     let Some((first, _)) = lists.next() else { return Some(1) };
@@ -85,13 +85,13 @@ fn step(settings: &[Setting], at: usize) -> Step {
         format!("{}={value}", it.name)
     };
     let stepped = settings.iter().filter(|it| it.list.is_some()).map(value);
-    // A fraction has a slash.
+    // A fraction contains a slash.
     let is_odd = |c: char| !(c.is_alphanumeric() || matches!(c, '=' | '.' | '_' | '+' | '-'));
     let name = stepped.map(|it| it.replace(is_odd, "_")).collect::<Vec<_>>().join(",");
     Step { name, set: settings.iter().map(value).collect() }
 }
 
-/// Refuses a step that is there twice: results of both would be those of one.
+/// Refuses duplicate steps, whose results would be confused.
 fn hold_apart(reader: &mut Reader, settings: &[Setting], steps: &[Step]) {
     let twice = (0..steps.len()).find(|&at| steps[..at].iter().any(|it| it.name == steps[at].name));
     let span = settings.iter().find_map(|it| it.list);

@@ -1,10 +1,9 @@
 //! The supervisor of a run: a process between a campaign and the program that it runs.
 //!
-//! It starts the program, keeps what that prints, and ends it with all that it has started: when the program has ended,
-//! when its time is over, when a signal asks for it, and when its own stdin ends, which is a pipe from the campaign. So
-//! a run ends with its campaign, however that ends. Its stderr is the file [`RUNNING`] of the run, whose lock it shares:
-//! it writes there before the program starts, and empties the file when nothing of the run is left. Its stdout is a
-//! [`Report`].
+//! It starts the program and keeps its output. It ends the program with all processes that it has started: when the program has
+//! ended, when its time is over, on a signal, and when its own stdin ends, which is a pipe from the campaign. So a run ends
+//! with its campaign for any cause. Its stderr is the file [`RUNNING`] of the run, whose lock it shares. It writes there
+//! before the program starts, and empties the file when no process of the run is left. Its stdout is a [`Report`].
 
 use std::ffi::OsString;
 use std::fs::File;
@@ -20,45 +19,45 @@ use std::time::{Duration, Instant};
 use crate::descendants::{Process, adopt, living, remain, signal};
 use crate::printed;
 
-/// The first argument that makes a supervisor of a program.
+/// The first argument that turns a program into a supervisor.
 pub const WORD: &str = "supervise-run";
 
-/// The file that is locked and not empty while anything of a run may be at work.
+/// The file that is locked and not empty while any process of a run may be at work.
 pub const RUNNING: &str = "running";
 
-/// The file with what a run prints.
+/// The file with the stdout of a run.
 pub const STDOUT: &str = "stdout.txt";
 
-/// The file with what a run says of itself.
+/// The file with the stderr of a run.
 pub const STDERR: &str = "stderr.txt";
 
-/// How a run ended.
+/// The end of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ended {
-    /// As it should.
+    /// With success.
     Well,
-    /// Otherwise, and how.
+    /// With a failure, described here.
     Badly(String),
-    /// Somebody wanted it to end.
+    /// By an interruption.
     Interrupted,
 }
 
 /// The report of a supervisor on a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
-    /// How it ended.
+    /// The end of the run.
     pub ended: Ended,
-    /// The names of processes that were still at work when its program had ended, and were ended.
+    /// The names of processes that were still at work after its program, and were ended.
     pub left_behind: Vec<String>,
 }
 
 impl Report {
-    /// A run that ended badly.
+    /// The report of a run that failed.
     pub fn badly(how: impl Into<String>) -> Self {
         Report { ended: Ended::Badly(how.into()), left_behind: Vec::new() }
     }
 
-    /// Lines for a pipe.
+    /// The report as lines for a pipe.
     fn lines(&self) -> String {
         let ended = match &self.ended {
             Ended::Well => "well".to_owned(),
@@ -69,7 +68,7 @@ impl Report {
         format!("{ended}\n{}", names.collect::<String>())
     }
 
-    /// Reads such lines; none, if they are no whole report.
+    /// Parses the lines of a report; `None` if they are incomplete.
     pub fn parse(text: &str) -> Option<Self> {
         let mut lines = text.strip_suffix('\n')?.split('\n');
         let ended = match lines.next()?.split_once(' ') {
@@ -82,14 +81,14 @@ impl Report {
     }
 }
 
-/// The arguments of a supervisor, if these make one of a program.
+/// The arguments of a supervisor, if the first argument is [`WORD`].
 pub fn asked(arguments: impl IntoIterator<Item = OsString>) -> Option<Vec<OsString>> {
     let mut arguments = arguments.into_iter().skip(1);
     (arguments.next()? == WORD).then(|| arguments.collect())
 }
 
-/// Supervises a run, and returns an exit code: the arguments are its folder, its working directory, its limit in seconds, its program and the
-/// arguments of that.
+/// Supervises a run, and returns an exit code. The arguments are its folder, its working directory, its limit in seconds, its
+/// program and the program's arguments.
 pub fn run(arguments: &[OsString]) -> u8 {
     let [folder, directory, limit, words @ ..] = arguments else { return 2 };
     let seconds = limit.to_str().and_then(|it| it.parse::<f64>().ok()).unwrap_or(f64::INFINITY);
@@ -102,19 +101,19 @@ pub fn run(arguments: &[OsString]) -> u8 {
     }
 }
 
-/// How often it is looked whether something has ended, at most and at least.
+/// The shortest and the longest pause between checks.
 pub const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(50)];
 
-/// How long processes have to end by themselves when they are asked to.
+/// The time that processes have to end after the first signal.
 const GRACE: Duration = Duration::from_secs(2);
 
-/// How long helpers of a program that has ended have to end as well, before they count as left behind.
+/// The time that helpers of an ended program have to end, before they count as left behind.
 const HELPERS: Duration = Duration::from_secs(1);
 
-/// How long the system has to end processes that were killed.
+/// The time that the system has to end killed processes.
 const KILLED: Duration = Duration::from_secs(5);
 
-/// How long the last words of a run may be on their way.
+/// The longest wait for the last output of a run.
 const LAST_WORDS: Duration = Duration::from_secs(1);
 
 /// The most processes that are named.
@@ -153,7 +152,7 @@ impl Run<'_> {
         Ok(report)
     }
 
-    /// Waits for a program, and ends what is left of its run. Whether nothing is left.
+    /// Waits for a program, and ends the remaining processes of its run. Returns also whether none remain.
     fn followed(&self, mut child: Child, stop: &AtomicBool) -> io::Result<(Report, bool)> {
         let printed = self.printed(&mut child);
         let mut ended = self.ended(&mut child, stop)?;
@@ -181,7 +180,7 @@ impl Run<'_> {
         Ok((Report { ended, left_behind }, staying.is_empty()))
     }
 
-    /// Keeps what a program prints; each file says when it is complete.
+    /// Keeps the output of a program; each receiver reports a complete file.
     fn printed(&self, child: &mut Child) -> Vec<Receiver<()>> {
         let keep = |from: Option<Box<dyn Read + Send>>, name: &str| {
             let (sender, receiver) = channel();
@@ -197,7 +196,7 @@ impl Run<'_> {
         vec![keep(stdout, STDOUT), keep(stderr, STDERR)]
     }
 
-    /// How a program ends, or why it has to.
+    /// Waits until a program ends, or must be ended; returns why.
     fn ended(&self, child: &mut Child, stop: &AtomicBool) -> io::Result<Ended> {
         let (started, mut pause) = (Instant::now(), PAUSES[0]);
         loop {
@@ -220,7 +219,7 @@ impl Run<'_> {
     }
 }
 
-/// How a program with this status ended.
+/// The end of a program with this status.
 fn ended_with(status: ExitStatus) -> Ended {
     if status.success() {
         return Ended::Well;
@@ -231,15 +230,15 @@ fn ended_with(status: ExitStatus) -> Ended {
     })
 }
 
-/// Ends all processes of a run: first they are asked to, as programs that have started others need it. Returns those that
-/// cannot be ended.
+/// Ends all processes of a run: first with a signal that they can handle, so that programs can end the processes that they have
+/// started. Returns those that cannot be ended.
 fn end(child: &mut Child) -> io::Result<Vec<Process>> {
     signal(&living(child.id()), false);
     let staying = left(child, GRACE, false)?;
     if staying.is_empty() { Ok(staying) } else { left(child, KILLED, true) }
 }
 
-/// The processes of a run that are left after a while, or sooner if there are none. They may be killed meanwhile.
+/// The processes of a run that remain after a while, or none as soon as all have ended. Kills them meanwhile if `kill`.
 fn left(child: &mut Child, patience: Duration, kill: bool) -> io::Result<Vec<Process>> {
     let (started, mut pause) = (Instant::now(), PAUSES[0]);
     loop {
@@ -261,13 +260,13 @@ fn left(child: &mut Child, patience: Duration, kill: bool) -> io::Result<Vec<Pro
     }
 }
 
-/// A program that is named by a path has it from the folder that it is run in; another one is looked for.
+/// A program with a path is in the working directory of the run; another one is found on the PATH.
 fn named(program: &OsString, directory: &Path) -> PathBuf {
     let path = Path::new(program);
     if path.components().count() > 1 { directory.join(path) } else { path.to_owned() }
 }
 
-/// A flag that becomes true when the campaign ends, or when a signal asks for it.
+/// A flag that becomes true when the campaign ends, or on a signal.
 fn stop() -> io::Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in signals() {
@@ -281,8 +280,7 @@ fn stop() -> io::Result<Arc<AtomicBool>> {
     Ok(stop)
 }
 
-/// The signals that ask a process to end: of Ctrl-C, of Ctrl-\, of `kill`, and of a terminal that is closed unless `nohup`
-/// had it ignored.
+/// The signals for an end: Ctrl-C, Ctrl-\, `kill`, and a closed terminal unless `nohup` ignores it.
 pub fn signals() -> impl Iterator<Item = i32> {
     #[cfg(unix)]
     let more = Some(signal_hook::consts::SIGHUP).filter(|signal| !is_ignored(*signal));
@@ -291,7 +289,7 @@ pub fn signals() -> impl Iterator<Item = i32> {
     signal_hook::consts::TERM_SIGNALS.iter().copied().chain(more)
 }
 
-/// Whether this process ignores a signal, as Linux has it.
+/// Whether this process ignores a signal, according to Linux.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -300,7 +298,7 @@ fn is_ignored(signal: i32) -> bool {
     ignored.is_some_and(|signals| signals & (1 << (signal - 1)) != 0)
 }
 
-/// The file that says whether something of a run may be at work: it is the stderr of a supervisor.
+/// The stderr of a supervisor, which is the file that marks a run at work.
 fn running() -> io::Result<File> {
     #[cfg(unix)]
     let file = std::os::fd::AsFd::as_fd(&io::stderr()).try_clone_to_owned()?;
@@ -309,7 +307,7 @@ fn running() -> io::Result<File> {
     Ok(file.into())
 }
 
-/// Puts a process into a group of its own, which Ctrl-C at a terminal does not reach.
+/// Puts a process into its own group, which Ctrl-C at a terminal does not reach.
 pub fn alone(command: &mut Command) {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);

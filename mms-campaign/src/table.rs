@@ -1,4 +1,4 @@
-//! Reads tables of TOML, key by key, and collects what is wrong with its place.
+//! Reads tables of TOML, key by key, and collects mistakes with their places.
 
 use mms_spec::diagnostic::{Diagnostic, quoted};
 use mms_spec::source::{SourceId, Sources, Span, Spanned};
@@ -15,13 +15,13 @@ pub(crate) struct Reader {
 }
 
 impl Reader {
-    /// A text with the path that messages show for it, and its outermost table.
+    /// Parses a text into its outermost table; messages show `path` as its path.
     pub fn new<'a>(path: &str, text: &'a str) -> (Self, toml::Spanned<DeTable<'a>>) {
         let mut sources = Sources::default();
         let source = sources.add(path, text);
         let mut reader = Reader { sources, source, diagnostics: Vec::new() };
         let (root, errors) = DeTable::parse_recoverable(text);
-        // The others mostly follow from the first.
+        // The other errors mostly follow from the first.
         if let Some(error) = errors.first() {
             let place = error.span().unwrap_or(0..0);
             let span = reader.sources.span(source, place.start, place.end);
@@ -34,7 +34,7 @@ impl Reader {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Says of a value what it has to be.
+    /// Reports the expected kind of a value.
     pub fn expect(&mut self, span: Span, key: &str, expected: &str) {
         let message = format!("`{key}`: expected {expected}");
         self.report(Diagnostic::error(span, message).label("found this"));
@@ -49,7 +49,7 @@ impl Reader {
         self.known(root, name, self.sources.span(self.source, 0, 0), keys)
     }
 
-    /// The table that a value of a key has to be.
+    /// The table in a value; reports another kind.
     pub fn table<'a>(
         &mut self,
         value: &'a Value<'a>,
@@ -61,7 +61,7 @@ impl Reader {
         Some(self.known(entries, name, self.span(value), keys))
     }
 
-    /// A table, with a word on each key that means nothing in it.
+    /// A table; reports each unknown key.
     fn known<'a>(
         &mut self,
         entries: &'a DeTable<'a>,
@@ -82,7 +82,7 @@ impl Reader {
         table
     }
 
-    /// Reads a value; the message for another one names the expected kind.
+    /// Reads a value; the message for another kind names the expected one.
     pub fn of_value<T>(
         &mut self,
         value: &Value<'_>,
@@ -97,7 +97,7 @@ impl Reader {
         found
     }
 
-    /// Reads the value of a key that may be left out.
+    /// Reads the value of an optional key.
     pub fn of_key<'a, T>(
         &mut self,
         table: &Table<'a>,
@@ -109,19 +109,19 @@ impl Reader {
         self.of_value(value, key, expected, |reader| read(reader, value))
     }
 
-    /// Says that a key is missing.
+    /// Reports a missing key.
     pub fn missing(&mut self, table: &Table<'_>, key: &str, example: &str) {
         let message = format!("missing key `{key}`");
         let label = format!("{} needs it", table.name);
         self.report(Diagnostic::error(table.span, message).label(label).help(example.to_owned()));
     }
 
-    /// A text.
+    /// Reads a text.
     pub fn text(&mut self, table: &Table<'_>, key: &str) -> Option<Spanned<String>> {
         self.of_key(table, key, "a text in quotes", Self::one_text)
     }
 
-    /// A text or several.
+    /// Reads a text or several.
     pub fn texts(&mut self, table: &Table<'_>, key: &str) -> Vec<Spanned<String>> {
         let expected = "a text in quotes, or an array of such";
         let found = self.of_key(table, key, expected, |reader, value| match value.get_ref() {
@@ -136,24 +136,24 @@ impl Reader {
         Some(Spanned { value: text, span: self.span(value) })
     }
 
-    /// True or false, or a default where nothing is said.
+    /// Reads true or false, or returns a default.
     pub fn flag(&mut self, table: &Table<'_>, key: &str, default: bool) -> bool {
         let flag = |_: &Self, value: &Value<'_>| value.get_ref().as_bool();
         self.of_key(table, key, "true or false", flag).unwrap_or(default)
     }
 
-    /// A positive number.
+    /// Reads a positive number.
     pub fn positive(&mut self, table: &Table<'_>, key: &str) -> Option<f64> {
         let positive = |_: &Self, value: &Value<'_>| number(value).filter(|it| *it > 0.0);
         self.of_key(table, key, "a positive number", positive)
     }
 
-    /// A number.
+    /// Reads a number.
     pub fn number(&mut self, table: &Table<'_>, key: &str) -> Option<f64> {
         self.of_key(table, key, "a number", |_, value| number(value))
     }
 
-    /// Numbers, one at least, of a kind.
+    /// Reads an array of at least one number of a kind.
     pub fn numbers(
         &mut self,
         table: &Table<'_>,
@@ -176,7 +176,7 @@ pub(crate) fn number(value: &Value<'_>) -> Option<f64> {
     decimal(value.get_ref())?.parse::<f64>().ok().filter(|it| it.is_finite())
 }
 
-/// A number as it is written.
+/// The digits of a number as written.
 pub(crate) fn digits(value: &Value<'_>) -> Option<String> {
     match value.get_ref() {
         DeValue::Integer(digits) => Some(digits.as_str().to_owned()),

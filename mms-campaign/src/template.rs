@@ -4,14 +4,14 @@ use std::fmt;
 
 macro_rules! placeholders {
     ($($variant:ident $name:literal $is_path:literal $doc:literal,)*) => {
-        /// What a text may have that is another one in each run.
+        /// A value in a template that differs between runs.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Placeholder {
             $(#[doc = $doc] $variant,)*
         }
 
         impl Placeholder {
-            /// All of them.
+            /// All placeholders.
             pub const ALL: &[Placeholder] = &[$(Placeholder::$variant),*];
 
             /// The word between the braces.
@@ -19,13 +19,13 @@ macro_rules! placeholders {
                 match self { $(Placeholder::$variant => $name,)* }
             }
 
-            /// Whether it is a time, or of steps in time.
+            /// Whether it is a time, or concerns time steps.
             pub fn is_time(self) -> bool {
                 use Placeholder::{End, Start, Steps, TimeStep};
                 matches!(self, TimeStep | Steps | Start | End)
             }
 
-            /// Whether it is a path, which is no part of what a run is.
+            /// Whether it is a path, which does not identify a run.
             pub fn is_path(self) -> bool {
                 match self { $(Placeholder::$variant => $is_path,)* }
             }
@@ -62,19 +62,19 @@ enum Piece {
     Parameter(String),
 }
 
-/// The beginning of the name of a placeholder that is the value of a parameter.
+/// The prefix of a placeholder for the value of a parameter.
 pub const PARAMETER: &str = "set.";
 
-/// Why a text is no template.
+/// The reasons why a text is no template.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Wrong {
-    /// Nothing is called so.
+    /// There is no placeholder of this name.
     Unknown(String),
-    /// A brace that has no other.
+    /// A brace without its counterpart.
     Unpaired(char),
     /// A quote that is not closed, or a backslash at the end.
     Unclosed,
-    /// There is nothing in it.
+    /// The text has no word.
     Empty,
 }
 
@@ -92,10 +92,10 @@ impl fmt::Display for Wrong {
 }
 
 impl Template {
-    /// Reads `{name}` as a placeholder, `{set.name}` as that of a parameter, and `{{` and `}}` as braces.
+    /// Parses `{name}` as a placeholder, `{set.name}` as the value of a parameter, and `{{` and `}}` as braces.
     ///
     /// # Errors
-    /// A name that is none, a brace alone.
+    /// An unknown name, or a single brace.
     pub fn new(text: &str) -> Result<Self, Wrong> {
         let (mut pieces, mut plain, mut rest) = (Vec::new(), String::new(), text);
         while let Some(at) = rest.find(['{', '}']) {
@@ -125,10 +125,10 @@ impl Template {
         Ok(Template(pieces))
     }
 
-    /// The words of a command line, split as POSIX does, before anything is put in.
+    /// Splits a command line into words, as POSIX does, before placeholders are filled.
     ///
     /// # Errors
-    /// A quote that is not closed, no word, a placeholder that is none.
+    /// A quote that is not closed, no word, or an unknown placeholder.
     pub fn words(text: &str) -> Result<Vec<Self>, Wrong> {
         match shlex::split(text) {
             None => Err(Wrong::Unclosed),
@@ -137,7 +137,7 @@ impl Template {
         }
     }
 
-    /// The placeholders in it.
+    /// The placeholders in the template.
     pub fn placeholders(&self) -> impl Iterator<Item = Placeholder> {
         self.0.iter().filter_map(|piece| match piece {
             Piece::Text(_) | Piece::Parameter(_) => None,
@@ -145,7 +145,7 @@ impl Template {
         })
     }
 
-    /// The parameters whose values are in it.
+    /// The parameters in the template.
     pub fn parameters(&self) -> impl Iterator<Item = &str> {
         self.0.iter().filter_map(|piece| match piece {
             Piece::Parameter(name) => Some(name.as_str()),
@@ -153,7 +153,7 @@ impl Template {
         })
     }
 
-    /// The text, with values in the place of placeholders and of parameters.
+    /// Fills the template with values of placeholders and of parameters.
     pub fn fill(
         &self,
         value: impl Fn(Placeholder) -> String,

@@ -1,4 +1,4 @@
-//! The fewest fields that show all.
+//! The smallest set of fields that shows all.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +14,7 @@ fn fewest_then_cheapest_and_cheapest_first() {
     for (all, chosen) in [
         (&[][..], &[][..]),
         (&[(1.0, "")], &[]),
-        // Taking the largest first would end with three.
+        // Choosing the largest first would end with three.
         (&[(1.0, "abcd"), (1.0, "abe"), (1.0, "cdf")], &[1, 2]),
         (&[(5.0, "ab"), (3.0, "ab"), (4.0, "c")], &[1, 2]),
         (&[(9.0, "abc"), (1.0, "a"), (1.0, "b"), (1.0, "c")], &[0]),
@@ -24,7 +24,7 @@ fn fewest_then_cheapest_and_cheapest_first() {
     }
 }
 
-/// All subsets, one after the other.
+/// Compares with all subsets, one after the other.
 #[test]
 fn no_smaller_set_shows_as_much() {
     let mut state = 7_u64;

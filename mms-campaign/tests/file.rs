@@ -1,4 +1,4 @@
-//! Campaign files: what is read of them, and what is said of those that are wrong.
+//! Campaign files: how they are read, and the messages for mistakes.
 
 use std::time::Duration;
 
@@ -30,7 +30,7 @@ fn the_first_file_is_read() {
     assert_eq!((solver.name.as_str(), solver.threads.get()), ("my code", 1));
     assert_eq!(solver.time_limit, Duration::from_secs(3600));
     assert_eq!(solver.run.len(), 12);
-    assert_eq!(solver.state(), Some("vtu"), "as nothing is said of its format");
+    assert_eq!(solver.state(), Some("vtu"), "the default format");
     let can = solver.can.as_ref().expect("what it can");
     assert_eq!(
         (can.dimensions.as_slice(), can.materials.as_slice()),
@@ -99,7 +99,7 @@ fn all_keys_are_read() {
     assert_eq!((other.name.as_str(), other.part, other.max_memory), ("x", false, None));
 }
 
-/// Each number of cells with each time step; h is that of the cells.
+/// Combines each number of cells with each time step; h is the size of the cells.
 #[test]
 fn a_grid_has_a_level_for_each_pair() {
     let campaign = parsed(
@@ -124,7 +124,7 @@ fn a_grid_has_a_level_for_each_pair() {
     assert_eq!(study.particles_per_cell.as_ref().map(|it| it.value.as_str()), Some("3x2"));
 }
 
-/// Each mistake with the place and the words that its message has.
+/// Each mistake with the place and some words of its message.
 #[test]
 fn each_mistake_is_told_at_its_place() {
     let solver = "[solver]\nrun = \"a\"\noutput = \"{output}\"\n";
@@ -236,7 +236,7 @@ fn each_mistake_is_told_at_its_place() {
         (&format!("{solver}[study]\n"), "c.toml:4:1", "an array of tables"),
     ] {
         let said = match read("c.toml", text) {
-            Ok(_) => panic!("nothing is said of\n{text}"),
+            Ok(_) => panic!("no mistake in\n{text}"),
             Err(mistakes) => mistakes.to_string(),
         };
         assert!(said.contains(place) && said.contains(words), "{place} `{words}`:\n{said}");

@@ -1,4 +1,4 @@
-//! Runs of small programs: how they end, and what is kept of them.
+//! Runs of small programs: how they end, and which output is kept.
 
 #![cfg(unix)]
 
@@ -24,13 +24,13 @@ fn run_words(folder: &Folder, words: &[String], limit: f64, stop: &dyn Fn() -> b
     folder.run(&order, stop).expect("it is run")
 }
 
-/// Runs a script of the shell, which is the program here.
+/// Runs a shell script.
 fn run_with(folder: &Folder, script: &str, limit: f64, stop: &dyn Fn() -> bool) -> Report {
     let words = ["sh", "-c", script, "name", "it's \"$HOME\" *"].map(str::to_owned);
     run_words(folder, &words, limit, stop)
 }
 
-/// How a script ends that leaves nothing behind.
+/// The end of a script that leaves no processes behind.
 fn run(folder: &Folder, script: &str) -> Ended {
     let report = run_with(folder, script, 20.0, &|| false);
     assert_eq!(report.left_behind, [""; 0], "{script}");
@@ -80,10 +80,10 @@ fn a_run_that_fails_says_how() {
     }
 }
 
-/// A program that has started another one, and does not end when it is asked to.
+/// A program that has started another one, and ignores the signal to end.
 const STUBBORN: &str = "trap '' TERM; sleep 60 & echo $!; wait; wait; sleep 60";
 
-/// Whether there is a process of this number that is no zombie.
+/// Whether a process of this number exists and is no zombie.
 fn is_there(number: &str) -> bool {
     let state =
         Command::new("ps").args(["-o", "stat=", "-p", number]).stderr(Stdio::null()).output();
@@ -91,9 +91,9 @@ fn is_there(number: &str) -> bool {
     !state.trim().is_empty() && !state.trim().starts_with('Z')
 }
 
-/// Waits until there is no process of this number.
+/// Waits until no process of this number exists.
 fn assert_gone(number: &str) {
-    // The system may take a moment.
+    // The system may need a moment.
     let gone = (0..200).any(|_| {
         std::thread::sleep(Duration::from_millis(20));
         !is_there(number.trim())
@@ -121,7 +121,7 @@ fn somebody_may_interrupt() {
     assert_eq!(run_with(&folder, "sleep 60", 50.0, &stop).ended, Ended::Interrupted);
 }
 
-/// In a session of its own, without a parent and without a file of the run.
+/// The process has its own session, no parent, and no file of the run.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_process_that_is_left_behind_is_ended_and_named() {
@@ -176,7 +176,7 @@ fn a_folder_is_emptied_for_the_next_run() {
     );
 }
 
-/// A run whose supervisor was killed goes on: its folder is not used again.
+/// A run whose supervisor was killed goes on: its folder is not reused.
 #[test]
 fn a_folder_in_which_something_may_still_write_is_left_alone() {
     let parent = tempfile::tempdir().unwrap();

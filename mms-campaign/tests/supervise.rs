@@ -1,4 +1,4 @@
-//! A supervisor, as `mms` is one.
+//! A supervisor in place of `mms`.
 
 use std::process::ExitCode;
 

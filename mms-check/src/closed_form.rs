@@ -10,11 +10,11 @@ use mms_spec::foreign::Foreign;
 
 use crate::mistaken;
 
-/// The closed forms of a field, compared, each with the name of its mistake if it has one.
+/// The compared closed forms of a field, each with the name of its mistake if it has one.
 pub struct Compared(Vec<(Comparison, Option<Ranked>)>);
 
 impl Compared {
-    /// Looks for the mistake in each closed form that differs.
+    /// Finds the mistake in each closed form that differs.
     pub fn of(compiled: &Arc<Compiled>, comparisons: Vec<Comparison>) -> Self {
         let named = mistaken::named(compiled, &comparisons);
         Compared(comparisons.into_iter().zip(named).collect())

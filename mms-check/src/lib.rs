@@ -1,6 +1,6 @@
 //! The report on a field: its claims, proofs, stability and closed forms, as lines and as a document.
 //!
-//! [`check`] makes all of it of a compiled field. Nothing here reads a file or prints.
+//! [`check`] makes the report on a compiled field. Nothing here reads a file or prints.
 
 mod closed_form;
 pub mod meaning;
@@ -63,7 +63,7 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: Asked) -> Report {
     let rest = rest::stress(compiled);
     certificate.spent.extend(unseen(compiled, &rest));
     let objections = certificate.objections(compiled);
-    // A check that was made nowhere passes for nothing.
+    // A check at no point does not count as passed.
     let stability = judge(compiled);
     certificate.spent.extend(stability.is_spent.then(|| "what grows on the motion".to_string()));
     let lost = match &certificate.ellipticity {
@@ -111,7 +111,7 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: Asked) -> Report {
     Report { objections, warnings, lines, document, passes }
 }
 
-/// The report on a field without a body: its closed forms, at points of the unit cube. There is nothing to prove.
+/// The report on a field without a body: its closed forms, at points of the unit cube. It has no proofs.
 fn numbers(path: &Foreign, compiled: &Compiled, title: String, compared: &Compared) -> Report {
     let none =
         "  proof  NONE: numbers without claims, for [domain] has no body (`shape = \"none\"`)";
@@ -160,7 +160,7 @@ fn with_mistakes(path: &Foreign, diagnostics: Vec<documents::Diagnostic>) -> Che
     }
 }
 
-/// The parameters whose names mean quantities as well, each in a sentence.
+/// The parameters whose names are also names of quantities, each in a sentence.
 fn doubly_named(compiled: &Compiled) -> Vec<String> {
     let parameters = compiled.model.parameters.iter();
     let note = |name: &str| {
@@ -220,7 +220,7 @@ pub fn located(sources: &Sources, diagnostic: &Diagnostic) -> documents::Diagnos
     }
 }
 
-/// The lines about a component of u that has no value as it is written.
+/// The lines about a component of u without a value as written.
 fn gap_lines(compiled: &Compiled, gap: &Gap) -> [String; 2] {
     let (at, time) = &gap.first;
     let what = match gap.component {
@@ -241,7 +241,7 @@ fn gap_lines(compiled: &Compiled, gap: &Gap) -> [String; 2] {
     ]
 }
 
-/// Where u has no value, and what is to blame.
+/// The place where u has no value, and the function that causes it.
 fn gap_document(compiled: &Compiled, gap: &Gap) -> UndefinedComponent {
     let (line, column) = compiled.sources.location(gap.span);
     UndefinedComponent {

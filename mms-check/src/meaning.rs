@@ -1,6 +1,6 @@
 //! The lines of `mms check`, explained.
 
-/// The first word of a line, and what such lines say.
+/// The first word of a line, and the meaning of such lines.
 const MEANINGS: [(&str, &str); 14] = [
     (
         "proof",
@@ -36,7 +36,7 @@ const MEANINGS: [(&str, &str); 14] = [
     ("check", "a closed form of the file against what is derived, in 77 digits"),
 ];
 
-/// The meanings of the lines of a text, one for each kind of line that it has.
+/// The meanings of the lines in a text, one for each kind of line.
 pub fn of(text: &str) -> String {
     let has = |word: &str| text.lines().any(|line| line.split_whitespace().next() == Some(word));
     let lines = MEANINGS.iter().filter(|(word, _)| has(word));

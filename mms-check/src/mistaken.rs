@@ -1,4 +1,4 @@
-//! The mistake that gives a closed form which differs.
+//! Finds the mistake that gives a closed form which differs.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::sorted::SortedMap;
 
-/// The closed form of a quantity that a diagnosis can take.
+/// The kind of closed form for a diagnosis of a quantity, if there is one.
 fn closed_form_of(quantity: Quantity) -> Option<ClosedForm> {
     match quantity {
         Quantity::BodyForce => Some(ClosedForm::BodyForce),
@@ -25,7 +25,7 @@ fn closed_form_of(quantity: Quantity) -> Option<ClosedForm> {
     }
 }
 
-/// The mistake that each closed form of a field contains, if it has a name.
+/// The mistake that each closed form of a field contains, if a hypothesis gives it.
 pub fn named(compiled: &Arc<Compiled>, comparisons: &[Comparison]) -> Vec<Option<Ranked>> {
     let named = |(check, it): (usize, &Comparison)| match it.finding {
         Finding::Differs(_) => closed_form_of(it.quantity).and_then(|it| of(compiled, check, it)),

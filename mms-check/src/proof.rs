@@ -14,7 +14,7 @@ use mms_codegen::certify::solid::Part;
 use mms_documents::check::{self as documents, PlaceInTheMotion};
 use mms_spec::BoundarySpec;
 
-/// A line for each property that was to be proved.
+/// A line for each property to prove.
 pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
     let [double, single] = &certificate.computed;
     let mut lines = vec![
@@ -71,7 +71,7 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
     }
     if !certificate.spent.is_empty() {
         lines.push(format!(
-            "  budget SPENT before the end of: {}. What is not proved there may hold, bounds may be less sharp: write u \
+            "  budget SPENT before the end of: {}. Unproved properties may hold, bounds may be less sharp: write u \
              shorter, shrink the body or the time window, or fix parameters that have a range (--set)",
             certificate.spent.join(", ")
         ));
@@ -115,7 +115,7 @@ fn finite(proved: &str, computed: &AsComputed) -> String {
     }
 }
 
-/// The digits of an angle that sums of places and times leave.
+/// The remaining digits of an angle that is a sum of places and times.
 fn angles(compiled: &Compiled, computed: &AsComputed) -> Option<String> {
     let (digits, witness) = computed.angles.as_ref()?;
     let count = digits.floor().max(0.0);
@@ -132,7 +132,7 @@ fn angles(compiled: &Compiled, computed: &AsComputed) -> Option<String> {
     })
 }
 
-/// The bounds of rates; a static field has none but the stretch.
+/// The bounds of rates; for a static field only the stretch.
 fn rates(rates: &Rates, is_static: bool) -> Vec<String> {
     let bound = |what: &str, value: f64| match value.is_finite() {
         true => format!("{what} <= {}", up(value)),
@@ -168,7 +168,7 @@ fn rounded(value: f64, direction: f64) -> String {
     }
     let short = |value: f64| -> f64 { format!("{value:.3e}").parse().unwrap_or(value) };
     let mut rounded = short(value);
-    // The last digits of a double are no reason for another digit: JSON has them.
+    // Rounding in the last digits of a double must not raise a digit; JSON has them all.
     if (value - rounded) * direction > 1e-12 * value.abs() {
         let unit = 10f64.powi(value.abs().log10().floor() as i32 - 3);
         rounded = short(rounded + direction * unit);
@@ -177,7 +177,7 @@ fn rounded(value: f64, direction: f64) -> String {
     if plain { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
-/// A claim, and what is known of it.
+/// A claim with its finding.
 pub fn claim((claim, finding): &(BoundarySpec, claims::Finding)) -> documents::Claim {
     let (interval, witness) = match finding {
         claims::Finding::Proved => (None, None),
@@ -197,7 +197,7 @@ pub fn claim((claim, finding): &(BoundarySpec, claims::Finding)) -> documents::C
     }
 }
 
-/// The bounds that are proved of the field as a whole. A bound that is not known is null.
+/// The proved bounds of the field as a whole. A bound that is not known is null.
 pub fn document(certificate: &Certificate) -> documents::Certificate {
     let jacobian = match certificate.jacobian {
         Sign::Positive(bounds) => Some(bounds),
@@ -226,7 +226,7 @@ pub fn document(certificate: &Certificate) -> documents::Certificate {
     }
 }
 
-/// Where a wave is proved to grow.
+/// The place where a wave is proved to grow.
 fn lost(ellipticity: &Ellipticity) -> Option<PlaceInTheMotion> {
     let Ellipticity::Lost(Softening { witness, direction, .. }) = ellipticity else { return None };
     let Witness { coordinates, time, .. } = witness;

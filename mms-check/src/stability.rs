@@ -17,7 +17,7 @@ use mms_stability::solve::Solved;
 use mms_stability::warnings::{list, short};
 use mms_stability::waves::Waves;
 
-/// The values below 0 and the least of the others; all of them where everything is told. `name` is that of a line.
+/// Lines for the values below 0 and the least of the others; for all values if `is_full`. `name` is the name of the line.
 fn told<T>(
     all: &[T],
     is_full: bool,
@@ -35,7 +35,7 @@ fn told<T>(
     lines
 }
 
-/// A line for each property that was sampled; of faces and corners those that matter, unless everything is told.
+/// A line for each sampled property; for faces and corners only the important ones unless `is_full`.
 pub fn text(
     stability: &Stability,
     certificate: &Certificate,
@@ -71,7 +71,7 @@ pub fn text(
     lines
 }
 
-/// The moduli at rest, as another code may name them.
+/// The moduli at rest, under the names of other codes.
 pub fn at_rest(material: &Material) -> String {
     let middle = if material.is_graded { ", in the middle of the body" } else { "" };
     if let Some(mu) = material.middle.shear_alone() {
@@ -101,7 +101,7 @@ pub fn at_rest(material: &Material) -> String {
     }
 }
 
-/// The box that a grid must hold, and the wavelength that a mesh must resolve.
+/// The box for a background grid, and the wavelength that a mesh must resolve.
 pub fn extent(reach: &[[f64; 2]], space: Space, shortest_wavelength: Option<f64>) -> String {
     let side = |(axis, [least, most]): (usize, &[f64; 2])| {
         let direction = space.directions()[axis];
@@ -115,7 +115,7 @@ pub fn extent(reach: &[[f64; 2]], space: Space, shortest_wavelength: Option<f64>
     format!("  extent {}; {wave}", sides.join(", "))
 }
 
-/// The proof about acoustic tensors, in a word or a place.
+/// The proof about acoustic tensors, in a word or with its place.
 fn proved(ellipticity: &Ellipticity) -> String {
     match ellipticity {
         Ellipticity::Strong(_) => "proved".into(),
@@ -168,7 +168,7 @@ fn edge(corner: &Corner, modulus: &str) -> String {
     )
 }
 
-/// The stability of a static field's equilibrium, which is that of a motion that stays there.
+/// The stability of a static field's equilibrium, as of a motion that stays there.
 fn equilibrium(growth: &Growth) -> String {
     let elements: Vec<_> = growth.elements.iter().map(usize::to_string).collect();
     let is = if growth.factor > 1.0 { "UNSTABLE" } else { "stable" };
@@ -248,7 +248,7 @@ fn sentence(warning: &Diagnostic) -> String {
     format!("{}: {}", warning.message, warning.label)
 }
 
-/// Moduli at rest; null of a material that is not isotropic there.
+/// Moduli at rest; `None` for a material that is not isotropic there.
 pub fn moduli(material: Option<&Material>) -> Option<documents::Moduli> {
     let moduli = material?.middle.moduli()?;
     Some(documents::Moduli {
@@ -259,7 +259,7 @@ pub fn moduli(material: Option<&Material>) -> Option<documents::Moduli> {
     })
 }
 
-/// Moduli of a material that is isotropic about an axis at rest, and no more.
+/// Moduli of a material that is at rest isotropic about one axis only.
 pub fn transverse(material: Option<&Material>) -> Option<documents::TransverseModuli> {
     let TransverseModuli { axis, young, nu, shear } = material?.middle.transverse_moduli()?;
     Some(documents::TransverseModuli {

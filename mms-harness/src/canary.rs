@@ -1,4 +1,4 @@
-//! Canaries: the runs of a campaign, given a wrong b. A study that passes with it measures nothing.
+//! Canaries: the runs of a campaign with a wrong b. A study that passes with it measures nothing.
 
 use std::path::Path;
 
@@ -11,10 +11,10 @@ use mms_spec::quantity::Quantity;
 use crate::only::Only;
 use crate::plan::{Plan, Planned, templates};
 
-/// Plans the runs of a file with -b in what each is given. Studies of fields without a body force are left out.
+/// Plans the runs of a file with -b in the data of each run. Leaves out studies of fields without a body force.
 ///
 /// # Errors
-/// As of [`Plan::new`]; a solver that the campaign does not give b to.
+/// Those of [`Plan::new`]; a solver that does not get b from the campaign.
 pub fn plan(
     path: &Path,
     campaign: Campaign,
@@ -33,7 +33,7 @@ fn has_force(input: &Input) -> bool {
     force.is_some_and(|it| it.iter().any(|part| !input.compiled.graph.is_zero(*part)))
 }
 
-/// Refuses a solver whose b does not come from the campaign: no run of it can be given another one.
+/// Refuses a solver that does not get b from the campaign, because its runs cannot get another b.
 fn hold_force(plan: &Plan) -> anyhow::Result<()> {
     let mut words = templates(&plan.campaign).flat_map(Template::placeholders);
     let names_factor = words.any(|it| it == Placeholder::ForceFactor);

@@ -1,5 +1,5 @@
-//! The files that a run depends on: the program that its command starts, the interpreters that this needs, and all files
-//! that words of the command name.
+//! The files that a run depends on: the program that its command starts, the interpreters of that program, and all files named
+//! in words of the command.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,31 +8,31 @@ use mms_files::read;
 
 use super::digests::{Content, Digests};
 
-/// Stands in a word for a path that is not known before the run.
+/// The placeholder in a word for a path that is not known before the run.
 pub const UNKNOWN: char = '\0';
 
 /// A file that a run depends on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dependency {
-    /// Its path from the folder of the campaign file, if it has one; else all of it.
+    /// The path from the folder of the campaign file, if the file is in it; otherwise the whole path.
     pub name: String,
-    /// Where it is.
+    /// The path of the file.
     pub path: PathBuf,
-    /// Its content.
+    /// The content of the file.
     pub content: Content,
 }
 
 impl Dependency {
-    /// A plain file; nothing, if it is none.
+    /// The dependency on a plain file; `None` if there is no such file.
     pub fn new(path: &Path, here: &Path, digests: &Digests) -> Option<Self> {
-        // Without `.` in the middle.
+        // The path without `.` in the middle.
         let path: PathBuf = path.components().collect();
         let content = digests.of(&path)?;
         let name = path.strip_prefix(here).unwrap_or(&path).to_string_lossy().into_owned();
         Some(Dependency { name, path, content })
     }
 
-    /// Whether the file is another one now.
+    /// Whether the file has changed.
     pub fn has_changed(&self, digests: &Digests) -> bool {
         digests.of(&self.path).as_ref() != Some(&self.content)
     }
@@ -42,24 +42,24 @@ impl Dependency {
 pub struct Dependencies {
     /// The files, by their names.
     pub files: BTreeMap<String, Dependency>,
-    /// Whether all that is started has a digest, and a file of the campaign is among it. Otherwise something that no word
-    /// names may be started, such as a module of an interpreter.
+    /// Whether all started programs have digests, and one of them is a file of the campaign. Otherwise the command may start
+    /// something that no word names, such as a module of an interpreter.
     pub is_complete: bool,
 }
 
-/// Where files of a command are looked for.
+/// The folders in which files of a command are searched.
 pub struct Place<'a> {
     /// The folder of the campaign file.
     pub here: &'a Path,
-    /// Where the command is run; nothing, if that is a folder of the run.
+    /// The working directory; `None` if it is a folder of the run.
     pub directory: Option<&'a Path>,
-    /// The digests that are known.
+    /// The known digests.
     pub digests: &'a Digests,
 }
 
 impl Place<'_> {
-    /// The files that the words of a command name. A word that names none is taken apart as a shell or an option would
-    /// have it: `sh -c "./solve > log"` starts `./solve`, and `--input=a.txt` names `a.txt`.
+    /// The files that the words of a command name. A word that names no file is split as a shell or an option would split it:
+    /// `sh -c "./solve > log"` starts `./solve`, and `--input=a.txt` names `a.txt`.
     pub fn dependencies(&self, words: &[String]) -> Dependencies {
         let start = self.directory.unwrap_or(self.here);
         let is_file = |word: &str| start.join(word).is_file();
@@ -86,8 +86,8 @@ impl Place<'_> {
         search.found
     }
 
-    /// The folders that relative paths may start from: where the command is run, and those that it names, as in
-    /// `cd build && ./solve`.
+    /// The folders from which relative paths may start: the working directory, and folders that the command names, as in `cd
+    /// build && ./solve`.
     fn folders(&self, parts: &[&str]) -> Vec<PathBuf> {
         let Some(directory) = self.directory else { return Vec::new() };
         let named = parts.iter().map(|part| directory.join(part)).filter(|path| path.is_dir());
@@ -97,25 +97,25 @@ impl Place<'_> {
     }
 }
 
-/// The most folders that are looked into.
+/// The most folders that are searched.
 const MOST_FOLDERS: usize = 16;
 
-/// The most interpreters that lead to each other by `#!`.
+/// The most interpreters in a chain of `#!` lines.
 const MOST_INTERPRETERS: usize = 4;
 
 /// The search for the files of a command.
 struct Search<'a> {
     place: &'a Place<'a>,
     folders: Vec<PathBuf>,
-    /// As the variable has it.
+    /// The variable PATH.
     path: String,
     found: Dependencies,
-    /// Whether a file that the command names by its path is among what was found.
+    /// Whether a file that the command names by its path was found.
     has_own: bool,
 }
 
 impl Search<'_> {
-    /// Adds what a part of the command names: files, and a program on the PATH. Whether there is one.
+    /// Adds the files, and a program on the PATH, that a part of the command names. Returns whether there is one.
     fn part(&mut self, part: &str, is_program: bool) -> bool {
         if part.contains(UNKNOWN) {
             return false;
@@ -123,7 +123,7 @@ impl Search<'_> {
         let part = &expanded(part);
         let is_name = !part.contains('/');
         let mut is_found = false;
-        // A program without a slash is looked for on the PATH alone.
+        // A program without a slash is searched only on the PATH.
         if !(is_program && is_name) {
             let paths: Vec<PathBuf> = match Path::new(part).is_absolute() {
                 true => vec![PathBuf::from(part)],
@@ -140,7 +140,7 @@ impl Search<'_> {
         is_found
     }
 
-    /// Adds the files of a module that an interpreter is given by `-m`.
+    /// Adds the files of a module that follows `-m`.
     fn module(&mut self, name: &str) -> bool {
         let base = name.replace('.', "/");
         let of = |end: &str| format!("{base}{end}");
@@ -183,7 +183,7 @@ impl Search<'_> {
         line.split_whitespace().filter_map(program).collect()
     }
 
-    /// The program of a name.
+    /// The program of a name on the PATH.
     fn on_path(&self, name: &str) -> Option<PathBuf> {
         let start = self.place.directory.unwrap_or(self.place.here);
         let mut paths = std::env::split_paths(&self.path).map(|it| start.join(it).join(name));
@@ -203,11 +203,11 @@ fn is_program(path: &Path) -> bool {
     path.metadata().is_ok_and(|found| found.is_file() && can_start(&found))
 }
 
-/// The parts of a word between what separates them in a shell, in an option or in a list; not the names of files that a
-/// shell or `tee` would write.
+/// The parts of a word between separators of a shell, an option or a list; without the names of files that a shell or `tee`
+/// would write.
 fn pieces(word: &str) -> Vec<&str> {
     let is_between = |c: char| c.is_whitespace() || "=:;,|&<>()\"'`".contains(c);
-    // A change of the PATH is needed as a whole.
+    // An assignment of PATH is needed as a whole.
     if word.starts_with("PATH=") {
         return vec![word];
     }
@@ -229,7 +229,7 @@ fn pieces(word: &str) -> Vec<&str> {
     }
 }
 
-/// A path whose first part is `~`, `$NAME` or `${NAME}`, as a shell would have it.
+/// Expands a path whose first part is `~`, `$NAME` or `${NAME}`, as a shell does.
 fn expanded(path: &str) -> String {
     let (first, rest) = path.split_at(path.find('/').unwrap_or(path.len()));
     let name = match first {
@@ -313,7 +313,7 @@ mod tests {
                 true,
             ),
             (&build, vec!["sh", "-m", "pkg.sub"], vec!["build/pkg/sub/__main__.py"], true),
-            // What is started is not known in full.
+            // The started programs are not completely known.
             (&build, vec!["sh", "-m", "elsewhere", "c.txt"], vec!["build/c.txt"], false),
             (here, vec!["sh", "-c", "true"], vec![], false),
             (here, vec!["solve"], vec![], false),

@@ -10,15 +10,15 @@ use std::time::SystemTime;
 use mms_files::read;
 use mms_files::store::Digest;
 
-/// The most bytes that a file may have for its digest: 1 GiB takes some seconds.
+/// The most bytes of a file with a digest: 1 GiB takes some seconds.
 pub const MOST: u64 = 1 << 30;
 
-/// The content of a file, as far as it is compared.
+/// The content of a file, for comparison.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Content {
     /// The digest of its bytes.
     Digest(String),
-    /// Its length and when it was changed, where it cannot be read or is too long.
+    /// The length and time of change, for a file that cannot be read or is too long.
     Dated(String),
 }
 
@@ -36,7 +36,7 @@ impl Content {
 struct Stamp {
     length: u64,
     modified: Option<SystemTime>,
-    /// The number of the file and when the system changed anything of it, which no program can set.
+    /// The inode and the time of its last change, which no program can set.
     inode: (u64, u64, i64, i64),
 }
 
@@ -53,12 +53,12 @@ impl Stamp {
     }
 }
 
-/// The digests that are known.
+/// The known digests.
 #[derive(Default)]
 pub struct Digests(Mutex<BTreeMap<PathBuf, (Stamp, Content)>>);
 
 impl Digests {
-    /// The content of a plain file; nothing, if it is none.
+    /// The content of a plain file; `None` if there is no such file.
     pub fn of(&self, path: &Path) -> Option<Content> {
         let found = path.metadata().ok().filter(Metadata::is_file)?;
         let stamp = Stamp::of(&found);
@@ -75,7 +75,7 @@ impl Digests {
     }
 }
 
-/// The digest of a file of this length. Of an empty one nothing is read: in `/proc` such files may wait for ever.
+/// The digest of a file of this length. An empty file is not read, because reading one in `/proc` may wait for ever.
 fn digest(path: &Path, length: u64) -> Option<String> {
     let mut digest = Digest::default();
     if length > MOST {

@@ -1,4 +1,4 @@
-//! The results of a study, judged as `mms judge` does it.
+//! Judges the results of a study, as `mms judge` does.
 
 use mms_documents::provenance::Provenance;
 use mms_exact::Exact;
@@ -11,17 +11,17 @@ use mms_results::Snapshot;
 use super::plan::{Job, Judging, Planned};
 use super::work::{Outcome, Work};
 
-/// What is said of a study.
+/// The judgement of a study.
 pub struct Judged<'a> {
     /// The study.
     pub planned: &'a Planned,
-    /// What came of its runs.
+    /// The outcomes of its runs.
     pub outcomes: Vec<Outcome>,
-    /// Its errors with what they say; nothing, if it has no results, or not all levels were asked for.
+    /// The errors and verdicts; `None` if it has no results, or not all levels were requested.
     pub judgements: Option<Judgements>,
-    /// What is wrong with its results.
+    /// The reason why its results cannot be judged.
     pub mistake: Option<String>,
-    /// What may be wrong with them.
+    /// Warnings about the results.
     pub warnings: Vec<String>,
 }
 
@@ -85,7 +85,7 @@ fn measured(
     let all: Vec<Results> =
         files.iter().map(|file| reading.find(file, exact)).collect::<anyhow::Result<_>>()?;
     let h: Vec<f64> = jobs.iter().map(|job| planned.size(job)).collect();
-    // One file without a time is of the end.
+    // A single file without a time contains the end.
     let is_end = |it: &Results| matches!(it.snapshots.as_slice(), [Snapshot { time: None, .. }]);
     let times = match study.time.is_empty() && all.iter().all(is_end) {
         true => vec![planned.window[1]],
@@ -106,7 +106,7 @@ fn measured(
     Ok(measurement)
 }
 
-/// Adds the runs that have no results.
+/// Adds the runs without results as stopped runs.
 fn stopped(measured: &mut Measured, planned: &Planned, finished: &[&Job]) {
     let is_missing = |job: &&Job| finished.iter().all(|other| other.level != job.level);
     for job in planned.jobs.iter().filter(is_missing) {
@@ -120,7 +120,7 @@ fn stopped(measured: &mut Measured, planned: &Planned, finished: &[&Job]) {
 }
 
 impl Planned {
-    /// h of a run, as the file says it or that of its cells.
+    /// h of a run, as the file states it, or the size of its cells.
     pub fn size(&self, job: &Job) -> f64 {
         self.study.h_of(job.level).unwrap_or(job.cell_size)
     }

@@ -1,10 +1,10 @@
 //! Campaigns: somebody else's solver on the meshes of several studies, each judged as `mms judge` does it.
 //!
-//! [`plan`] makes the runs of a file, each with what its result depends on: the words of its command, what is in the
-//! files that these start or name (`dependencies`, by their `digests`) and in those that the file lists
-//! (`sources`), the field, and versions. [`work`] makes those runs that the store does not hold, each in a
-//! folder of its own below the store, and keeps there which results came of it. [`judged`] measures them, and [`report`] makes the document. [`canary`] plans the
-//! same runs with a wrong b. [`suggest`] finds the fields of the gallery that show the most of a solver.
+//! [`plan`] makes the runs of a file, each with the data that its result depends on: the words of its command, the contents of
+//! the files that these start or name (`dependencies`, by their `digests`) and of files that the file lists (`sources`), the
+//! field, and versions. [`work`] makes the runs that the store does not contain, each in a folder of its own below the store,
+//! and keeps there a record of its results. [`judged`] measures them, and [`report`] makes the document. [`canary`] plans the
+//! same runs with a wrong b. [`suggest`] finds the fields of the gallery that test the most of a solver.
 
 pub mod canary;
 mod dependencies;

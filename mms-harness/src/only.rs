@@ -1,11 +1,11 @@
-//! The runs of a campaign that `--only` asks for.
+//! The runs of a campaign that `--only` selects.
 
 use anyhow::bail;
 use mms_campaign::{Campaign, Study};
 use mms_spec::foreign;
 use mms_spec::suggest::advice;
 
-/// The name of runs that are asked for: a study, all steps of one, or a level of these.
+/// The name of selected runs: a study, all steps of one, or a level of these.
 pub struct Only(String);
 
 impl Only {
@@ -17,7 +17,7 @@ impl Only {
         [&study.name, &study.family].into_iter().any(|name| self.study() == name)
     }
 
-    /// Whether a level of a study is asked for.
+    /// Whether a level of a study is selected.
     pub fn takes(&self, study: &Study, level: usize) -> bool {
         let names = [&study.name, &study.family];
         names.into_iter().any(|name| self.0 == *name || self.0 == format!("{name}/{level}"))

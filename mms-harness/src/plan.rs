@@ -30,41 +30,41 @@ use super::only::{self, Only};
 use super::sources;
 use crate::profile;
 
-/// A campaign, ready to be run.
+/// A campaign, ready to run.
 pub struct Plan {
-    /// What the file says.
+    /// The contents of the file.
     pub campaign: Campaign,
     /// The folder of the file.
     pub here: PathBuf,
-    /// The language that fields are written in.
+    /// The language in which fields are written.
     pub target: Option<&'static Target>,
-    /// The studies that were asked for.
+    /// The requested studies.
     pub studies: Vec<Planned>,
     /// The digests of the files that runs depend on.
     pub digests: Digests,
 }
 
-/// A study, with what its words mean.
+/// A study, with its words resolved.
 pub struct Planned {
-    /// What the file says.
+    /// The contents of the file.
     pub study: Study,
-    /// Its field.
+    /// The field.
     pub input: Input,
-    /// The field that its runs are given where that is another one.
+    /// The field that its runs get, if it is another one.
     pub wrong: Option<Input>,
     /// The first and the last time.
     pub window: [f64; 2],
-    /// How its results are judged.
+    /// The options for judging its results.
     pub options: Judging,
     /// Particles in each direction of a cell.
     pub per_cell: Division,
-    /// Its runs, those that were asked for.
+    /// The requested runs.
     pub jobs: Vec<Job>,
 }
 
-/// What the options of `mms judge` say.
+/// The options of `mms judge`.
 pub struct Judging {
-    /// What is judged; all that is found, if there is none.
+    /// The quantities to judge; empty for all that are found.
     pub quantities: Vec<Quantity>,
     /// The names of arrays.
     pub names: Names,
@@ -72,17 +72,17 @@ pub struct Judging {
     pub over: Option<Over>,
     /// The expected orders.
     pub orders: Orders,
-    /// The column that means are taken by.
+    /// The column with the weights of means.
     pub weight: Option<Role>,
 }
 
 impl Planned {
-    /// The field that its runs are given.
+    /// The field that its runs get.
     pub fn given(&self) -> &Input {
         self.wrong.as_ref().unwrap_or(&self.input)
     }
 
-    /// Whether all of its levels were asked for, so that it can be judged.
+    /// Whether all of its levels were requested, so that it can be judged.
     pub fn is_whole(&self) -> bool {
         self.jobs.len() == self.study.levels()
     }
@@ -98,47 +98,47 @@ pub struct Job {
     pub cells: usize,
     /// h.
     pub cell_size: f64,
-    /// dt; none of a static field.
+    /// dt; `None` for a static field.
     pub time_step: Option<f64>,
-    /// How many there are; none of a static field.
+    /// The number of time steps; `None` for a static field.
     pub steps: Option<u64>,
-    /// The settings that the result depends on; whether b is wrong is one.
+    /// The settings that the result depends on, including whether b is wrong.
     pub key: Key,
-    /// The files among that.
+    /// The files that the result depends on.
     pub dependencies: Vec<Dependency>,
 }
 
 /// Everything that the result of a run depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Key {
-    /// Of this program.
+    /// The version of this program.
     pub version: &'static str,
-    /// Of the solver, as the file says it.
+    /// The version of the solver, as the file states it.
     pub solver: Option<String>,
-    /// The words of the command, with paths that are this program's choice as placeholders.
+    /// The words of the command; paths that this program chooses stay placeholders.
     pub command: Vec<String>,
-    /// Where it is run.
+    /// The working directory.
     pub directory: String,
-    /// Which files are its results.
+    /// The files of its results.
     pub output: String,
-    /// Digests of the files that the command starts or names, and of those that the file lists.
+    /// Digests of the files that the command starts or names, and of the files that the campaign file lists.
     pub files: BTreeMap<String, String>,
-    /// The folder of the file, where something may be started that has no digest.
+    /// The folder of the file, if the command may start something without a digest.
     pub folder: Option<String>,
-    /// The language that the field is written in.
+    /// The language in which the field is written.
     pub emit: Option<&'static str>,
-    /// The exact state that it starts from, where it gets one.
+    /// The exact state from which it starts, if it gets one.
     pub state: Option<Start>,
-    /// The digest of the field's text, and of its own material's.
+    /// The digest of the text of the field, and of its own material.
     pub field: String,
     /// Parameters.
     pub set: Vec<String>,
-    /// Whether it is given a wrong b.
+    /// Whether it gets a wrong b.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub is_canary: bool,
 }
 
-/// What is not said of an exact state at the start by the field and its parameters.
+/// The data of an exact state at the start besides the field and its parameters.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Start {
     /// The format of its file.
@@ -156,10 +156,10 @@ impl Start {
 }
 
 impl Plan {
-    /// Plans the runs of a file, all or some, whose fields `open` opens.
+    /// Plans the runs of a file, all or some; `open` opens their fields.
     ///
     /// # Errors
-    /// What is wrong with the file, at its place.
+    /// A mistake in the file, at its place.
     pub fn new(
         path: &Path,
         campaign: Campaign,
@@ -169,7 +169,7 @@ impl Plan {
         Self::with(path, campaign, only, open, false)
     }
 
-    /// Plans the runs; those of canaries are given -b for b.
+    /// Plans the runs; canaries get -b for b.
     pub(crate) fn with(
         path: &Path,
         campaign: Campaign,
@@ -199,19 +199,19 @@ impl Plan {
     }
 }
 
-/// The texts of a file that are filled in for each run.
+/// The texts of a file with placeholders.
 pub(crate) fn templates(campaign: &Campaign) -> impl Iterator<Item = &Template> {
     let solver = &campaign.solver;
     solver.run.iter().chain(&solver.directory).chain([&solver.output])
 }
 
-/// The folder of a file, whatever the working directory of a run will be.
+/// The absolute folder of a file, which is independent of the working directory of a run.
 fn folder_of(path: &Path) -> anyhow::Result<PathBuf> {
     let folder = path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."));
     folder.canonicalize().with_context(|| format!("no folder `{}`", foreign::path(folder)))
 }
 
-/// The language that fields are written in.
+/// The language in which fields are written.
 fn target(campaign: &Campaign) -> anyhow::Result<Option<&'static Target>> {
     let Some(word) = &campaign.solver.emit else { return Ok(None) };
     Target::find(&word.value).map(Some).ok_or_else(|| {
@@ -233,7 +233,7 @@ fn sources(campaign: &Campaign, here: &Path, digests: &Digests) -> anyhow::Resul
     Ok(all)
 }
 
-/// What all studies of a file share.
+/// The data that all studies of a file share.
 struct Setting<'a> {
     campaign: &'a Campaign,
     here: &'a Path,
@@ -245,7 +245,7 @@ struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// What an option of `mms judge` makes of a word of the file.
+    /// The value of an option of `mms judge` from a word of the file, or a mistake at its place.
     fn option<T>(
         &self,
         word: &Spanned<String>,
@@ -266,7 +266,7 @@ impl Setting<'_> {
         words.iter().map(|word| self.option(word, key, value(&word.value))).collect()
     }
 
-    /// The field of a study; a path is one from the folder of the file.
+    /// The field of a study; a path starts from the folder of the file.
     fn field(&self, study: &Study, variation: Variation) -> anyhow::Result<Input> {
         let field = &study.field;
         let path = self.here.join(&field.value);
@@ -307,7 +307,7 @@ impl Setting<'_> {
         Ok(Planned { study: study.clone(), window, options, per_cell, jobs, input, wrong })
     }
 
-    /// Refuses times of a field that has none.
+    /// Refuses times for a static field.
     fn hold_static(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
         if !input.is_static() {
             return Ok(());
@@ -328,7 +328,7 @@ impl Setting<'_> {
         Err(self.campaign.mistake(study.field.span, message, label).into())
     }
 
-    /// Refuses placeholders of parameters that the field of a study does not have.
+    /// Refuses placeholders for parameters that the field of a study does not have.
     fn hold_parameters(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
         let parameters = &input.compiled.model.parameters;
         let known = |name: &str| parameters.iter().any(|it| it.name == name);
@@ -347,7 +347,7 @@ impl Setting<'_> {
         Err(self.campaign.mistake(study.field.span, message, "this field").into())
     }
 
-    /// Particles in each direction of a cell, as the file says it or as usual.
+    /// Particles in each direction of a cell, as the file states it, or the default.
     fn per_cell(&self, study: &Study, input: &Input) -> anyhow::Result<Division> {
         let Some(word) = &study.particles_per_cell else { return Ok(PER_CELL) };
         let dimension = input.compiled.field.dimension;
@@ -389,7 +389,7 @@ impl Setting<'_> {
     }
 }
 
-/// What all runs of a study share.
+/// The data that all runs of a study share.
 struct Place<'a> {
     setting: &'a Setting<'a>,
     study: &'a Study,
@@ -437,7 +437,7 @@ impl Place<'_> {
         Ok(self.with_command(job))
     }
 
-    /// dt as the file says it, or the longest of the Courant number that divides the window; and how many there are.
+    /// dt as the file states it, or the longest dt of the Courant number that divides the window; and the number of steps.
     fn steps(&self, level: usize, cell_size: f64) -> anyhow::Result<(f64, u64)> {
         let duration = self.window[1] - self.window[0];
         let given = self.study.time_step_of(level);
@@ -454,7 +454,7 @@ impl Place<'_> {
         Ok((given.unwrap_or(duration / steps), steps as u64))
     }
 
-    /// Says what the result depends on.
+    /// Adds the data that the result depends on.
     fn with_command(&self, mut job: Job) -> Job {
         let Setting { campaign, here, .. } = *self.setting;
         let solver = &campaign.solver;
@@ -503,7 +503,7 @@ impl Place<'_> {
     }
 }
 
-/// The value of a parameter of a study, in the digits of a double.
+/// The value of a parameter of a study, with the digits of a double.
 fn parameter(study: &Study, input: &Input, name: &str) -> String {
     let set = input.settings(&study.set).unwrap_or_default();
     let values = input.compiled.parameters::<f64>(&set);
@@ -511,7 +511,7 @@ fn parameter(study: &Study, input: &Input, name: &str) -> String {
     at.and_then(|at| values.get(at)).map_or_else(String::new, |value| format!("{value:?}"))
 }
 
-/// What stands for a placeholder that is no path.
+/// The value of a placeholder that is no path.
 fn value(
     (study, input, per_cell): (&Study, &Input, Division),
     [start, end]: [f64; 2],
@@ -536,25 +536,25 @@ fn value(
     }
 }
 
-/// The folders and files of a run that its command may name.
+/// The folders and files of a run for its command.
 pub struct Paths {
-    /// For its results.
+    /// The folder for its results.
     pub output: String,
-    /// With the source of the field.
+    /// The folder with the source of the field.
     pub emitted: String,
-    /// The exact state at the start.
+    /// The file with the exact state at the start.
     pub state: String,
-    /// That of the campaign file.
+    /// The folder of the campaign file.
     pub here: String,
 }
 
 impl Planned {
-    /// A text of the file for one of the runs.
+    /// Fills a text of the file for one of the runs.
     pub fn fill(&self, template: &Template, job: &Job, paths: &Paths) -> String {
         template.fill(|it| self.value(job, paths, it), |name| self.parameter(name))
     }
 
-    /// The same, where what is put in is taken literally in a pattern.
+    /// Fills a pattern for one of the runs; special characters in the filled values are escaped.
     pub fn pattern(&self, template: &Template, job: &Job, paths: &Paths) -> String {
         let plain = self.fill(template, job, paths);
         let own = template.fill(|_| String::new(), |_| String::new());
@@ -582,7 +582,7 @@ impl Planned {
     }
 }
 
-/// A path as a text, which it has to be to stand in a command.
+/// A path as UTF-8 text, which commands need.
 pub fn text(path: &Path) -> anyhow::Result<String> {
     let text = path.to_str().map(str::to_owned);
     text.ok_or_else(|| anyhow!("`{}`: expected a path in UTF-8", foreign::path(path)))

@@ -1,4 +1,4 @@
-//! The profiles of codes: those in `profiles/`, and those that users bring.
+//! The profiles of codes: shipped ones in `profiles/`, and files of users.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ pub fn names() -> impl Iterator<Item = &'static str> + Clone {
 /// The profile of a code, by name or by the path of a file.
 ///
 /// # Errors
-/// A name that is none, or a mistake in a file, with its place.
+/// An unknown name, or a mistake in a file, with its place.
 pub fn find(given: &str) -> anyhow::Result<Profile> {
     if let Some((name, text)) = shipped().find(|(name, _)| *name == given) {
         return profile(name, &format!("profiles/{name}.toml"), text);

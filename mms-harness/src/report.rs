@@ -9,28 +9,28 @@ use crate::judged::Judged;
 use crate::plan::{Job, Plan, Planned};
 use crate::work::Outcome;
 
-/// A campaign that was carried out, or what was asked for of it.
+/// The report on a campaign, or on the requested part of it.
 pub struct Report<'a> {
     /// The plan of the campaign.
     pub plan: &'a Plan,
     /// The judgement of each study.
     pub studies: Vec<Judged<'a>>,
-    /// The same studies with a wrong b, where that was asked for; those of fields without a body force have none.
+    /// If requested, the judgements of the same studies with a wrong b; fields without a body force have none.
     pub canaries: Option<Vec<Judged<'a>>>,
     /// The words of the command to type next, if a study does not pass.
     pub next: Option<Vec<String>>,
-    /// Where it is from.
+    /// The provenance of the document.
     pub provenance: Provenance,
 }
 
-/// What a study does with a wrong b.
+/// The verdict of a study with a wrong b.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Canary {
     /// The study does not pass: it measures the solver.
     Fails,
     /// The study passes: it measures nothing.
     Passes,
-    /// Nobody knows: the study does not pass with the right b either, or runs are missing.
+    /// Not known: the study does not pass with the right b either, or runs are missing.
     Open,
 }
 
@@ -51,19 +51,19 @@ impl Report<'_> {
         self.studies.iter().flat_map(|it| it.planned.jobs.iter().zip(&it.outcomes))
     }
 
-    /// Whether a run did not come to its end, or its results say nothing.
+    /// Whether a run failed, or the results of a study cannot be judged.
     pub fn has_failed(&self) -> bool {
         let failed = |(_, outcome): (&Job, &Outcome)| !matches!(outcome, Outcome::Finished(_));
         self.outcomes().any(failed) || self.studies.iter().any(|it| it.mistake.is_some())
     }
 
-    /// Whether a verdict is no pass, or is one with a wrong b.
+    /// Whether a verdict is no pass, or a study passes with a wrong b.
     pub fn is_refuted(&self) -> bool {
         let mut verdicts = self.studies.iter().filter_map(Judged::verdict);
         !verdicts.all(Verdict::is_good) || !self.with_canary(Canary::Passes).is_empty()
     }
 
-    /// What a study does with a wrong b; nothing without one.
+    /// The verdict of a study with a wrong b; `None` if it has no such runs.
     pub fn canary(&self, study: &str) -> Option<Canary> {
         let found = self.canaries.iter().flatten().find(|it| it.planned.study.name == study)?;
         let passes = |it: &Judged<'_>| it.verdict().is_some_and(Verdict::is_good);
@@ -76,7 +76,7 @@ impl Report<'_> {
         })
     }
 
-    /// The studies that do so with a wrong b.
+    /// The studies with this verdict for a wrong b.
     pub fn with_canary(&self, wanted: Canary) -> Vec<&str> {
         let names = self.canaries.iter().flatten().map(|it| it.planned.study.name.as_str());
         names.filter(|name| self.canary(name) == Some(wanted)).collect()
@@ -112,7 +112,7 @@ impl Report<'_> {
 }
 
 impl Judged<'_> {
-    /// The verdict; none where there are no results, or where these say nothing.
+    /// The verdict; `None` if there are no results, or they cannot be judged.
     pub fn verdict(&self) -> Option<Verdict> {
         self.judgements.as_ref().map(Judgements::verdict)
     }

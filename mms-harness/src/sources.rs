@@ -1,4 +1,4 @@
-//! The files that a pattern of `sources` names, with bounds: a pattern such as `/**/*` would lead through all there is.
+//! The files that a pattern of `sources` names, within limits: a pattern such as `/**/*` would search the whole disk.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -8,16 +8,16 @@ use mms_spec::foreign;
 
 use super::digests::MOST;
 
-/// The most files and folders that a pattern may lead through.
+/// The most files and folders that a pattern may visit.
 const MOST_ENTRIES: usize = 100_000;
 
-/// The most files that may fit.
+/// The most files that may match.
 const MOST_FILES: usize = 10_000;
 
-/// The plain files that fit a path or a pattern from a folder, in their order.
+/// Finds the plain files that match a path or a pattern from a folder, sorted.
 ///
 /// # Errors
-/// No pattern, no such file, or too many of them: the reason.
+/// The reason: no pattern, no such file, or too many files.
 pub fn files(here: &Path, word: &str) -> Result<Vec<PathBuf>, String> {
     let (base, pattern) = parted(here, word);
     let mut found = match pattern.as_os_str().is_empty() {
@@ -41,7 +41,7 @@ fn too_many(most: &str) -> String {
     )
 }
 
-/// The folder before the first part of a path that is a pattern, and the rest.
+/// Splits a path before its first part that is a pattern.
 fn parted(here: &Path, word: &str) -> (PathBuf, PathBuf) {
     let is_plain =
         |part: &Component<'_>| !part.as_os_str().to_string_lossy().contains(['*', '?', '[']);
@@ -53,7 +53,7 @@ fn parted(here: &Path, word: &str) -> (PathBuf, PathBuf) {
     (base, parts.collect())
 }
 
-/// The files that fit a pattern below a folder. Links to folders are followed if the pattern says how deep it goes.
+/// Finds the files that match a pattern below a folder. Follows links to folders if the pattern limits the depth.
 fn fitting(base: &Path, pattern: &Path) -> Result<Vec<PathBuf>, String> {
     let pattern = pattern.to_string_lossy();
     let depth = (!pattern.contains("**")).then(|| pattern.split('/').count());

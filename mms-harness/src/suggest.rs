@@ -1,8 +1,8 @@
-//! The fields of the gallery that show the most of somebody else's solver: the verification matrix for it.
+//! The fields of the gallery that test the most of somebody else's solver: a verification matrix for it.
 //!
-//! A field shows the terms of the equations that do not vanish in it, its dimension, its material and the kinds of its
-//! faces. Of the fields that a solver can run, the fewest are taken that together show what any of them shows. What no
-//! such field shows is said, with a field that would show it and what the solver would have to be able to do.
+//! A field shows the terms of the equations that do not vanish in it, its dimension, its material and the kinds of its faces.
+//! Of the fields that a solver can run, the smallest set is chosen that shows all that any of them shows. For terms that no
+//! such field shows, the report names a field that shows them and the abilities that the solver needs for it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,15 +23,15 @@ use mms_symbolic::sorted::SortedMap;
 pub struct Suggestion {
     /// The fields, the cheapest first.
     pub fields: Vec<Proposed>,
-    /// A motion of no error in space, for time alone.
+    /// A motion without an error in space, to test time alone.
     pub affine: Option<Affine>,
-    /// Terms that no field shows which the solver can run.
+    /// Terms that no field shows that the solver can run.
     pub unseen: Vec<Unseen>,
 }
 
 /// A field with the meshes of a study.
 pub struct Proposed {
-    /// Its name.
+    /// The name of the field.
     pub name: String,
     /// Cells along the longest edge of the body.
     pub cells: &'static [usize],
@@ -39,9 +39,9 @@ pub struct Proposed {
     pub shows: Vec<String>,
 }
 
-/// A field that linear shape functions hold.
+/// A field that linear shape functions represent exactly.
 pub struct Affine {
-    /// Its name.
+    /// The name of the field.
     pub name: String,
     /// dt, halved from level to level.
     pub time_steps: Vec<f64>,
@@ -52,9 +52,9 @@ pub struct Affine {
 /// A field that the solver cannot run.
 #[derive(Clone)]
 pub struct Needing {
-    /// Its name.
+    /// The name of the field.
     pub field: String,
-    /// The keys of `can` that do not allow it.
+    /// The keys of `can` that exclude the field.
     pub keys: Vec<&'static str>,
 }
 
@@ -64,32 +64,32 @@ pub struct Unseen {
     pub term: String,
     /// The part of the solver that stays untested.
     pub means: &'static str,
-    /// The field that shows it and needs the least.
+    /// The field that shows it and needs the fewest keys.
     pub shown_by: Option<Needing>,
 }
 
-/// Cells of the study of a motion without an error in space.
+/// The cells in the study of a motion without an error in space.
 const CELLS: usize = 4;
 
-/// A field of the gallery, and what it shows.
+/// A field of the gallery, and the terms that it shows.
 struct Shown {
     input: Input,
-    /// The keys of `can` that do not allow it.
+    /// The keys of `can` that exclude the field.
     needs: Vec<&'static str>,
     terms: BTreeMap<String, &'static str>,
     visibility: Visibility,
     cells: &'static [usize],
 }
 
-/// Proposes studies of fields whose law the solver has. Only these are opened and derived.
+/// Proposes studies of fields whose law the solver has. Opens and derives only these fields.
 ///
 /// # Errors
-/// A field of the gallery does not compile.
+/// A field of the gallery that does not compile.
 pub fn suggest(can: &Can, open: Open<'_>) -> anyhow::Result<Suggestion> {
     let mut shown = Vec::new();
     let is_known = |field: &FieldSpec| {
         let is_law = can.materials.iter().any(|it| it == material(field));
-        // Who solves in Cartesian coordinates lacks nothing of a meridian.
+        // A solver in Cartesian coordinates need not test axisymmetric fields.
         is_law && (can.axisymmetric || !field.space.is_axisymmetric())
     };
     for field in gallery::fields().iter().filter(|field| is_known(field)) {
@@ -133,7 +133,7 @@ fn material(field: &FieldSpec) -> &str {
     field.material.model.value.raw()
 }
 
-/// The names of what a field shows, each with what its absence means.
+/// The names of the terms that a field shows, each with the consequence of its absence.
 fn terms(field: &FieldSpec, visibility: &Visibility) -> BTreeMap<String, &'static str> {
     let name = |term: &Term| match term {
         Term::Traction(_) => term.kind().to_owned(),
@@ -154,7 +154,7 @@ fn terms(field: &FieldSpec, visibility: &Visibility) -> BTreeMap<String, &'stati
     terms
 }
 
-/// The keys of `can` that do not allow a field. Where all is at rest, nothing starts.
+/// The keys of `can` that exclude a field. A field at rest needs no start.
 fn needs(field: &FieldSpec, visibility: &Visibility, can: &Can) -> Vec<&'static str> {
     let claims = |claim: Claim| field.boundary.iter().any(|it| it.claim.value == claim);
     let sees = |term: Term| !visibility.lacks(&term);
@@ -166,7 +166,7 @@ fn needs(field: &FieldSpec, visibility: &Visibility, can: &Can) -> Vec<&'static 
         ("start_moving", !can.dynamics || can.start_moving || !sees(Term::InitialVelocity)),
         ("start_deformed", !can.dynamics || can.start_deformed || !sees(Term::InitialDisplacement)),
         ("graded", can.graded || !(sees(Term::GradedModuli) || sees(Term::GradedDensity))),
-        // Who follows motions takes no field without time, and who does not takes none that moves.
+        // A solver with dynamics runs no static fields, and one without runs no fields that move.
         ("dynamics", if can.dynamics { !field.is_static() } else { !sees(Term::Velocity) }),
     ]
     .into_iter()
@@ -175,7 +175,7 @@ fn needs(field: &FieldSpec, visibility: &Visibility, can: &Can) -> Vec<&'static 
     .collect()
 }
 
-/// The first field that linear shape functions hold.
+/// The first field that linear shape functions represent exactly.
 fn affine(allowed: &[&Shown]) -> Option<Affine> {
     let is_affine = |it: &&&Shown| {
         it.visibility.span() == Some(Span::Linear) && !it.visibility.lacks(&Term::Velocity)
@@ -191,12 +191,12 @@ fn affine(allowed: &[&Shown]) -> Option<Affine> {
     })
 }
 
-/// With three digits, for a person to read.
+/// A number with three digits, for people.
 fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-/// The terms of fields that the solver cannot run, and of no field that it can.
+/// The terms of fields that the solver cannot run, without the terms of fields that it can run.
 fn unseen(shown: &[Shown], seen: &BTreeSet<String>, can: &Can) -> Vec<Unseen> {
     let mut unseen: BTreeMap<String, Unseen> = BTreeMap::new();
     for it in shown {
@@ -220,7 +220,7 @@ fn unseen(shown: &[Shown], seen: &BTreeSet<String>, can: &Can) -> Vec<Unseen> {
     unseen.into_values().collect()
 }
 
-/// Whether a term means something in the dimensions of a solver.
+/// Whether a term exists in the dimensions of a solver.
 fn is_possible(term: &str, can: &Can) -> bool {
     let has = |dimension: usize| can.dimensions.contains(&dimension);
     match term.strip_prefix("dimension.") {

@@ -1,4 +1,4 @@
-//! Makes the runs of a campaign that the store does not hold.
+//! Makes the runs of a campaign that the store does not contain.
 
 use std::collections::BTreeMap;
 use std::io::{Read as _, Seek as _, SeekFrom};
@@ -33,13 +33,13 @@ use serde::{Deserialize, Serialize};
 use super::digests::Content;
 use super::plan::{Job, Paths, Plan, Planned, text};
 
-/// A run that came to its end, as it is stored.
+/// The stored record of a finished run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Finished {
-    /// Its folder, below the store.
+    /// The folder of the run, below the store.
     pub folder: String,
-    /// How long it took.
+    /// The seconds that it took.
     pub seconds: f64,
     /// The files of its results, each with its digest.
     pub results: Vec<(String, String)>,
@@ -47,50 +47,50 @@ pub struct Finished {
     pub left_behind: Vec<String>,
 }
 
-/// What came of a run.
+/// The outcome of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// It came to its end, now or before.
+    /// The run finished, now or before.
     Finished(Finished),
-    /// It did not.
+    /// The run failed.
     Failed {
-        /// Why.
+        /// The reason.
         reason: String,
-        /// The last lines that it printed.
+        /// The last lines that the run printed.
         last_words: Vec<String>,
-        /// Where all of them are.
+        /// The folder with all output.
         folder: String,
     },
-    /// Somebody interrupted it, or it was not begun.
+    /// The run was interrupted, or not started.
     Interrupted,
 }
 
-/// What is said while runs go on.
+/// Receives events while runs go on.
 pub trait Watcher: Sync {
     /// A run has ended, or was in the store.
     fn done(&self, job: &Job, outcome: &Outcome, is_new: bool);
     /// A file of the store was set aside.
     fn set_aside(&self, what: &str);
-    /// Whether all is to end.
+    /// Whether all runs are to end.
     fn is_interrupted(&self) -> bool;
 }
 
-/// A plan, and where it is carried out.
+/// A plan, and the store for its results.
 pub struct Work<'a> {
     /// The runs.
     pub plan: &'a Plan,
-    /// Where results are kept.
+    /// The store of results.
     pub store: &'a Store,
     /// The folder of the store.
     pub folder: &'a Path,
-    /// Who is told.
+    /// The receiver of events.
     pub watcher: &'a dyn Watcher,
     /// The sources of fields, by study.
     emitted: Mutex<BTreeMap<String, Arc<Vec<File>>>>,
 }
 
 impl<'a> Work<'a> {
-    /// Nothing is done yet.
+    /// The work on a plan; starts nothing.
     pub fn new(
         plan: &'a Plan,
         store: &'a Store,
@@ -100,7 +100,7 @@ impl<'a> Work<'a> {
         Work { plan, store, folder, watcher, emitted: Mutex::default() }
     }
 
-    /// What came of the runs of each study, so many side by side.
+    /// Makes the runs of each study, `jobs` of them at the same time, and returns their outcomes.
     ///
     /// # Errors
     /// The store cannot be read or written.
@@ -121,7 +121,7 @@ impl<'a> Work<'a> {
         self.plan.studies.iter().map(of_study).collect()
     }
 
-    /// Takes back runs with a table that ends within a line, if tables of other levels end with a line: the same program
+    /// Withdraws runs with a table that ends within a line, if tables of other levels end with a whole line: the same program
     /// wrote all of them.
     fn without_cut_tables(
         &self,
@@ -140,7 +140,7 @@ impl<'a> Work<'a> {
             (Outcome::Finished(Finished { folder, .. }), Some(path)) => {
                 let path = foreign::path(&path);
                 let reason =
-                    format!("`{path}` ends within a line, and those of other levels do not");
+                    format!("`{path}` ends within a line, and tables of other levels do not");
                 self.watcher.set_aside(&self.store.distrust(&job.key, &reason)?);
                 let reason = format!("it ended well, but {reason}: it is cut");
                 Ok(Outcome::Failed { reason, last_words: Vec::new(), folder })
@@ -150,7 +150,7 @@ impl<'a> Work<'a> {
         kept.collect()
     }
 
-    /// A table of the results of a run that ends within a line.
+    /// The path of a result table that ends within a line.
     fn cut_table(&self, outcome: &Outcome) -> Option<PathBuf> {
         let Outcome::Finished(finished) = outcome else { return None };
         let paths = finished.results.iter().map(|(path, _)| Path::new(path));
@@ -160,7 +160,7 @@ impl<'a> Work<'a> {
         tables.find(|path| last_byte(path).is_ok_and(|byte| byte != b'\n'))
     }
 
-    /// The stored entry of a run, if its results are still there. An entry whose results have changed is set aside.
+    /// The stored record of a run, if its results still exist. Sets a record aside whose results have changed.
     ///
     /// # Errors
     /// The store cannot be read, or a file in it cannot be renamed.
@@ -181,7 +181,7 @@ impl<'a> Work<'a> {
         Ok(None)
     }
 
-    /// The first fault of the results of a run: a file is gone, another one, or more than there was.
+    /// The first fault of the results of a run: a file is missing, has changed, or was added.
     fn fault(
         &self,
         planned: &Planned,
@@ -207,13 +207,13 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// What came of a run; nothing, if another process is at it and there is to be no waiting.
+    /// The outcome of a run; `None` if another process is making it and `wait` is false.
     fn outcome(&self, planned: &Planned, job: &Job, wait: bool) -> anyhow::Result<Option<Outcome>> {
         if let Some(finished) = self.stored(planned, job)? {
             return Ok(Some(self.told(job, Outcome::Finished(finished), false)));
         }
         let Some(_claim) = self.store.claim(&job.key, wait)? else { return Ok(None) };
-        // Whoever held the claim before may have finished.
+        // The process that held the claim before may have finished.
         if let Some(finished) = self.stored(planned, job)? {
             return Ok(Some(self.told(job, Outcome::Finished(finished), false)));
         }
@@ -275,7 +275,7 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Runs the command in the folder of the run, and keeps its words there.
+    /// Runs the command in the folder of the run, and keeps its output there.
     fn start(
         &self,
         planned: &Planned,
@@ -298,7 +298,7 @@ impl<'a> Work<'a> {
         Ok(folder.run(&order, &|| self.watcher.is_interrupted())?)
     }
 
-    /// The folder for the folders of a run, told by its key from what the same level was before.
+    /// The folder for the folders of a run. A part of its key distinguishes it from earlier versions of the same level.
     fn parent(&self, planned: &Planned, job: &Job) -> anyhow::Result<PathBuf> {
         let digest = digest([serde_json::to_string(&job.key)?]);
         let own = format!("{}-{}", job.level, &digest[..8]);
@@ -315,12 +315,12 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// The format of the exact state that runs get, if they get one.
+    /// The format of the exact state for runs, if they get one.
     fn state(&self) -> Option<&str> {
         self.plan.campaign.solver.state()
     }
 
-    /// Makes the folder for results, and writes what the run gets.
+    /// Makes the folder for results, and writes the input files of the run.
     fn prepare(&self, planned: &Planned, job: &Job, paths: &Paths) -> anyhow::Result<()> {
         make(Path::new(&paths.output))?;
         if let Some(target) = self.plan.target {
@@ -346,9 +346,9 @@ impl<'a> Work<'a> {
         Ok(())
     }
 
-    /// The source of the field of a study, with its parameters as defaults; written once for all of its runs.
+    /// The source of the field of a study, with its parameters as defaults; made once for all of its runs.
     fn sources(&self, planned: &Planned, target: &Target) -> anyhow::Result<Arc<Vec<File>>> {
-        // Whoever else needs it has to wait for it anyway.
+        // Other threads that need the source have to wait for it anyway.
         let mut all = self.emitted.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(files) = all.get(&planned.study.name) {
             return Ok(files.clone());
@@ -366,13 +366,13 @@ impl<'a> Work<'a> {
         self.plan.here.join(own)
     }
 
-    /// What `mms judge` takes for the results of a run.
+    /// The argument of `mms judge` for the results of a run.
     fn given(&self, planned: &Planned, job: &Job, paths: &Paths) -> anyhow::Result<String> {
         let pattern = planned.pattern(&self.plan.campaign.solver.output, job, paths);
         text(&self.directory(planned, job, paths).join(pattern))
     }
 
-    /// The same, of a run that came to its end.
+    /// The argument of `mms judge` for the results of a finished run.
     ///
     /// # Errors
     /// A path that is no text.
@@ -386,7 +386,7 @@ impl<'a> Work<'a> {
         self.given(planned, job, &paths)
     }
 
-    /// The files with the results of a run, which have to be there and whole: all that judging them would read.
+    /// The result files of a run, which must exist and be complete: all files that judging would read.
     fn results(
         &self,
         planned: &Planned,
@@ -421,7 +421,7 @@ impl<'a> Work<'a> {
         found.into_iter().map(file).collect()
     }
 
-    /// The words of a run, in the folder that it has if it is the first.
+    /// The words of a run, in the folder of its first attempt.
     ///
     /// # Errors
     /// A path that is no text.
@@ -440,15 +440,15 @@ fn last_byte(path: &Path) -> Result<u8, Unread> {
     Ok(byte[0])
 }
 
-/// A fault of the results of a run.
+/// A fault in the results of a run.
 enum Fault {
-    /// A file is gone.
+    /// A file is missing.
     Missing,
-    /// A file is not what the run wrote, or not from the run.
+    /// A file has changed since the run, or is not from the run.
     Changed(PathBuf),
 }
 
-/// The end of a sentence that names the processes a run left behind; empty, if there are none.
+/// The end of a sentence that names the processes left behind by a run; empty if there are none.
 pub fn left_behind_too(names: &[String]) -> String {
     let shown: Vec<_> = names.iter().map(|name| foreign::shown(name)).collect();
     match shown.is_empty() {
@@ -476,14 +476,14 @@ fn make(folder: &Path) -> anyhow::Result<()> {
         .map_err(|error| anyhow!("cannot make the folder `{}`: {error}", foreign::path(folder)))
 }
 
-/// How many runs go side by side where nothing is said: as many as there are processors for.
+/// The default number of runs at the same time: as many as the processors allow.
 pub fn side_by_side_of(plan: &Plan) -> NonZero<usize> {
     let processors = std::thread::available_parallelism().map_or(1, NonZero::get);
     let jobs = processors / plan.campaign.solver.threads.get();
     NonZero::new(jobs).unwrap_or(NonZero::<usize>::MIN)
 }
 
-/// The fields of a plan, for what a result is of.
+/// The hash of the fields of a plan, for the provenance.
 pub fn hash(plan: &Plan, file: &str) -> String {
     let fields = plan.studies.iter().map(|it| it.input.compiled.input_hash());
     digest([file, &fields.collect::<String>()])

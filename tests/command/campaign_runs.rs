@@ -162,7 +162,7 @@ fn a_table_that_is_cut_within_a_line_is_not_done() {
         folder.write("c.toml", &text);
         let run = folder.mms("campaign c.toml --store store").exits(first);
         if first == 3 {
-            run.prints("u.csv` ends within a line, and those of other levels do not: it is cut");
+            run.prints("u.csv` ends within a line, and tables of other levels do not: it is cut");
             run.prints("bar_1d/3 failed").prints("2 of 3 runs are done");
         }
         let run = folder.mms("campaign c.toml --store store").exits(second);

@@ -339,7 +339,7 @@ fn law(
     }))
 }
 
-/// Residuals; or accelerations, of points whose motion is the exact one or is not there: else they are among results.
+/// Reads residuals; or accelerations, if the motion of the points is exact or absent: otherwise accelerations count as results.
 fn state(
     all: &[Results],
     reading: &Reading<'_>,
