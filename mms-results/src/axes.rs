@@ -1,12 +1,12 @@
-//! The letters by which names tell components: those of Cartesian coordinates, or of R, Z and the hoop.
+//! The letters of components in names: Cartesian coordinates, or R, Z and the hoop.
 
-/// The letters by which names tell components.
+/// The letters of components in names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Axes {
     /// x, y, z.
     #[default]
     Cartesian,
-    /// r, z and t or theta, of an axisymmetric field; x and y stand for r and z too.
+    /// r, z and t or theta of an axisymmetric field; x and y may replace r and z.
     Axisymmetric {
         /// Whether points also move along the hoop.
         swirl: bool,
@@ -14,7 +14,7 @@ pub enum Axes {
 }
 
 impl Axes {
-    /// The axis of a letter or a digit.
+    /// The axis that a letter or a digit names.
     pub(crate) fn of(self, byte: u8) -> Option<usize> {
         match (self, byte.to_ascii_lowercase()) {
             (_, b'x') | (Axes::Axisymmetric { .. }, b'r') => Some(0),
@@ -25,7 +25,7 @@ impl Axes {
         }
     }
 
-    /// The numbers of a vector whose point has so many.
+    /// The number of components of a vector at a point with this number of coordinates.
     pub fn of_vectors(self, coordinates: usize) -> usize {
         coordinates + usize::from(self == Axes::Axisymmetric { swirl: true })
     }

@@ -1,12 +1,12 @@
-//! Cells of any degree: their functions, and quadrature over them.
+//! Cells of any degree: their shape functions, and quadrature over them.
 //!
-//! The functions of a cell are the polynomials that are 1 at one of its nodes and 0 at the others. So a kind of cell is its
-//! corners, the corners between which its other nodes lie, and the polynomials that it holds; the order of nodes is that of
-//! VTK. Cells of Lagrange have a degree by the number of their points. Polygons have points and edges alone.
+//! The functions of a cell are the polynomials that are 1 at one of its nodes and 0 at the others. So a kind of cell is defined
+//! by its corners, by the corners between which its other nodes lie, and by its polynomials. The order of nodes is the order of
+//! VTK. The number of points determines the degree of a Lagrange cell. Polygons have only points and edges.
 //!
-//! A pyramid is a hexahedron whose upper face is drawn together to a point. In the coordinates of the hexahedron its
-//! functions are polynomials, and over x and y of the pyramid they are the usual rational ones, as (1 - x - z)(1 - y -
-//! z)/(1 - z) (G. Bedrosian, Int. J. Numer. Meth. Engng 35, 1992, 95-108).
+//! A pyramid is a hexahedron whose upper face is collapsed to a point. In the coordinates of the hexahedron its functions are
+//! polynomials, and over x and y of the pyramid they are the usual rational ones, as (1 - x - z)(1 - y - z)/(1 - z) (G.
+//! Bedrosian, Int. J. Numer. Meth. Engng 35, 1992, 95-108).
 
 mod functions;
 mod lagrange;
@@ -18,18 +18,18 @@ use functions::{Functions, Products, Solved};
 pub(crate) use lagrange::last_edges;
 use rows::{HEX, ROWS, Row};
 
-/// Reference coordinates; those beyond the dimension are 0.
+/// Reference coordinates; 0 beyond the dimension.
 pub type Local = [f64; 3];
 
-/// How many points of Gauss quadrature has along an axis, at least. So many more than its degree, it is exact for the square
-/// of a polynomial two degrees above that of a cell, and one less of a triangle.
+/// The least number of Gauss points along an axis, and how many more there are than the degree. This is exact for the square of
+/// a polynomial two degrees above the degree of a cell, and one degree less for a triangle.
 const ALONG: u32 = 5;
 const BEYOND: u32 = 3;
 
-/// How many corners a polygon may have.
+/// The most corners of a polygon.
 const MOST_SIDES: usize = 64;
 
-/// From what a cell is made.
+/// The geometric form of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     /// A line, a square, a cube.
@@ -44,22 +44,23 @@ enum Form {
     Polygon,
 }
 
-/// The polynomials of a cell.
+/// The polynomial space of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Space {
-    /// Polynomials of a degree, all of them.
+    /// All polynomials up to a degree.
     Complete(u32),
     /// Polynomials of a degree in each coordinate.
     Product([u32; 3]),
-    /// Polynomials of a degree in the first two coordinates together, and of another in the third.
+    /// Polynomials of a total degree in the first two coordinates, and of another degree in the third.
     Wedge([u32; 2]),
-    /// Polynomials of degree 1 in each, which do not depend on the first two where the third is 1.
+    /// Polynomials of degree 1 in each coordinate that do not depend on the first two where the third is 1.
     Pyramid,
-    /// Polynomials of degree 2 in one coordinate at most, and 1 in the others (serendipity).
+    /// Polynomials of degree 2 in at most one coordinate, and 1 in the others (serendipity).
     Serendipity,
-    /// The serendipity ones, and those of degree 2 in the third and one other: with nodes in the middles of the upright sides.
+    /// The serendipity polynomials, and polynomials of degree 2 in the third and one other coordinate: with nodes in the
+    /// middles of the upright sides.
     Sides,
-    /// Polynomials of degree 2 in a wedge, but for those of degree 2 both in the plane and along it (serendipity).
+    /// Polynomials of degree 2 in a wedge, except products of degree 2 both in the plane and along it (serendipity).
     WedgeSerendipity,
 }
 
@@ -113,7 +114,7 @@ impl Space {
     }
 }
 
-/// The dimension of a type of cells in VTK, also of such as are not known otherwise.
+/// The dimension of a cell type of VTK, including types that cannot be read.
 pub(crate) fn dimension(kind: u8) -> usize {
     match kind {
         0..=2 => 0,
@@ -123,8 +124,8 @@ pub(crate) fn dimension(kind: u8) -> usize {
     }
 }
 
-/// Why a cell of a type in VTK with so many points cannot be read, if it cannot: what its points carry is not what it has there,
-/// or nothing tells which of them is where.
+/// Why a cell of a VTK type with this number of points cannot be read; `None` if it can. Either its points are not
+/// interpolated, or the places of the points are not defined.
 pub(crate) fn refused(kind: u8, points: usize) -> Option<String> {
     match kind {
         75..=81 => Some(format!(
@@ -144,13 +145,13 @@ pub(crate) fn refused(kind: u8, points: usize) -> Option<String> {
 #[derive(Debug)]
 pub struct Shape {
     kind: u8,
-    /// Its dimension.
+    /// The dimension of the cell.
     pub dimension: usize,
-    /// Where its nodes are in the reference cell.
+    /// The nodes in the reference cell.
     pub nodes: Vec<Local>,
     corners: usize,
     form: Form,
-    /// Along each axis; 0 of polygons.
+    /// The degree along each axis; 0 for polygons.
     degrees: [u32; 3],
     functions: Functions,
     edges: Vec<[usize; 2]>,
@@ -158,20 +159,20 @@ pub struct Shape {
 
 static SHAPES: LazyLock<Vec<Shape>> = LazyLock::new(|| ROWS.iter().map(Shape::of_row).collect());
 
-/// Where the shape of a number in VTK is.
+/// The position of the shape with a number in VTK.
 static BY_KIND: LazyLock<[Option<usize>; 256]> = LazyLock::new(|| {
     std::array::from_fn(|kind| ROWS.iter().position(|row| usize::from(row.0) == kind))
 });
 
-/// Shapes that are made when they are asked for: cells of Lagrange by their kind and degree, and polygons by their corners.
+/// Shapes that are made on first use: Lagrange cells by kind and degree, and polygons by the number of corners.
 static LAGRANGE: [[OnceLock<Shape>; lagrange::MOST + 1]; lagrange::KINDS] =
     [const { [const { OnceLock::new() }; lagrange::MOST + 1] }; lagrange::KINDS];
 static POLYGONS: [OnceLock<Shape>; MOST_SIDES + 1] = [const { OnceLock::new() }; MOST_SIDES + 1];
 
 impl Shape {
-    /// The kind of that number in VTK with so many points, if it is one of those that are known.
+    /// The shape of this VTK type with this number of points, if it is known.
     pub fn of(kind: u8, points: usize) -> Option<&'static Shape> {
-        // Meshes have as many cells as points, and few kinds.
+        // Meshes have as many cells as points, but few kinds.
         if let Some(at) = BY_KIND[usize::from(kind)] {
             return Some(&SHAPES[at]).filter(|it| it.nodes.len() == points);
         }
@@ -187,7 +188,7 @@ impl Shape {
         }
     }
 
-    /// All that have a number of points of their own.
+    /// All shapes with a fixed number of points.
     pub fn all() -> impl Iterator<Item = &'static Shape> {
         SHAPES.iter()
     }
@@ -235,22 +236,22 @@ impl Shape {
         Shape { kind: 7, dimension: 2, nodes, corners, form, degrees, functions, edges }
     }
 
-    /// Its number in VTK.
+    /// The number in VTK.
     pub fn kind(&self) -> u8 {
         self.kind
     }
 
-    /// The degree up to which its functions hold all polynomials; 0 where they are not known, as of polygons.
+    /// The degree up to which the functions contain all polynomials; 0 if the functions are not known, as for polygons.
     pub fn degree(&self) -> u32 {
         self.degrees[..self.dimension].iter().copied().min().unwrap_or(0)
     }
 
-    /// Whether it is known what is between its nodes.
+    /// Whether the shape functions are known.
     pub fn has_functions(&self) -> bool {
         self.form != Form::Polygon
     }
 
-    /// How many points of Gauss quadrature has along an axis.
+    /// The number of Gauss points along an axis.
     pub(crate) fn along(&self) -> usize {
         ALONG.max(self.highest() + BEYOND) as usize
     }
@@ -260,17 +261,17 @@ impl Shape {
         self.degrees[..self.dimension].iter().copied().max().unwrap_or(0)
     }
 
-    /// The functions of its nodes at a place.
+    /// The values of the shape functions at a place.
     pub fn values(&self, at: Local) -> Vec<f64> {
         self.functions.at(at, None)
     }
 
-    /// Their derivatives by a reference coordinate.
+    /// The derivatives of the shape functions by a reference coordinate.
     pub fn derivatives(&self, at: Local, axis: usize) -> Vec<f64> {
         self.functions.at(at, Some(axis))
     }
 
-    /// The middle of the reference cell: where its centre of volume is.
+    /// The centre of volume of the reference cell.
     pub fn middle(&self) -> Local {
         if self.form == Form::Pyramid {
             return [0.5, 0.5, 0.25];
@@ -281,7 +282,7 @@ impl Shape {
         })
     }
 
-    /// Pairs of corners between which there is an edge.
+    /// Pairs of corners that are joined by an edge.
     pub fn edges(&self) -> &[[usize; 2]] {
         &self.edges
     }
@@ -307,8 +308,8 @@ impl Shape {
         found.into_iter().map(|it| it.0).collect()
     }
 
-    /// The place that stands for one of a unit cube, and by how much the volume there is smaller. A triangle is a square one
-    /// of whose edges is drawn together to a corner, a tetrahedron a cube.
+    /// The place in the cell for a place of a unit cube, and the ratio of volumes there. A triangle is a square with one edge
+    /// collapsed to a corner, a tetrahedron a collapsed cube.
     pub(crate) fn of_cube(&self, [x, y, z]: Local) -> (Local, f64) {
         match (self.form, self.dimension) {
             (Form::Simplex, 2) => ([x, y * (1.0 - x), 0.0], 1.0 - x),
@@ -322,7 +323,7 @@ impl Shape {
     }
 }
 
-/// Pairs of corners between which there is an edge.
+/// Pairs of corners that are joined by an edge.
 fn edges(form: Form, corners: &[Local]) -> Vec<[usize; 2]> {
     let differ = |a: usize, b: usize, axis: usize| corners[a][axis] != corners[b][axis];
     let is_along = |a: usize, b: usize| (0..3).filter(|&it| differ(a, b, it)).count() == 1;
@@ -338,7 +339,7 @@ fn edges(form: Form, corners: &[Local]) -> Vec<[usize; 2]> {
     pairs.filter(|&[a, b]| is_edge(a, b)).collect()
 }
 
-/// Gauss's points and weights on [0, 1]: the roots of Legendre's polynomial, by Newton's method.
+/// Gauss points and weights on [0, 1]: the roots of a Legendre polynomial, by Newton's method.
 pub(crate) fn gauss(count: usize) -> Vec<(f64, f64)> {
     let n = count as f64;
     (0..count)
@@ -376,7 +377,7 @@ mod tests {
         }
     }
 
-    /// All kinds, those of Lagrange to the degree 6.
+    /// All kinds, including Lagrange cells up to degree 6.
     fn shapes() -> impl Iterator<Item = &'static Shape> {
         let lagrange = (0..lagrange::KINDS).flat_map(|at| {
             let of = move |n| Shape::of(68 + at as u8, lagrange::nodes(at, n).len()).unwrap();
@@ -395,7 +396,7 @@ mod tests {
             let all = (0..=most(2)).flat_map(|c| {
                 (0..=most(1)).flat_map(move |b| (0..=most(0)).map(move |a| [a, b, c]))
             });
-            // All of the highest degree, and the even ones below.
+            // All monomials of the highest degree, and some below.
             let is_tried = |it: &[u32; 3]| {
                 let sum: u32 = it.iter().sum();
                 sum == degree || sum < degree && it.iter().all(|power| power % 3 == 0)
@@ -479,7 +480,7 @@ mod tests {
         assert_eq!((cubic.edges().len(), cubic.between([2, 6])), (12, vec![28, 29]));
     }
 
-    /// Over x and y of the pyramid itself, where they are rational.
+    /// The functions over x and y of the pyramid itself, where they are rational.
     #[test]
     fn functions_of_a_pyramid_are_those_of_bedrosian() {
         let pyramid = Shape::of(14, 5).unwrap();

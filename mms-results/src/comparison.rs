@@ -1,27 +1,27 @@
-//! What was computed against an exact solution that comes block by block, so that no array holds all of it.
+//! Compares computed values with an exact solution block by block, so that no array contains the whole exact solution.
 
 use crate::norm::{Norms, Sums, largest_if_finite, lengths};
 
-/// How many numbers are looked at to tell another unit.
+/// The number of values that are sampled to detect another unit.
 const LOOKED_AT: usize = 1 << 16;
 
-/// Numbers that were computed, so many for each point, against the exact ones of the points that have come.
+/// Computed numbers, compared with the exact ones added so far.
 #[derive(Debug)]
 pub struct Comparison<'a> {
     computed: &'a [f64],
     components: usize,
     weights: Option<&'a [f64]>,
-    /// Points that have come.
+    /// The number of points compared so far.
     seen: usize,
     sums: Sums,
     largest: f64,
-    /// Sums of squares of some computed and of the exact numbers, and of their products.
+    /// Sums of squares of the sampled computed and exact numbers, and of their products.
     squares: [f64; 2],
     products: f64,
 }
 
 impl<'a> Comparison<'a> {
-    /// Of no points yet, each with its weight, or all alike.
+    /// A comparison without points yet; with weights of points, or equal weights.
     pub fn new(computed: &'a [f64], components: usize, weights: Option<&'a [f64]>) -> Self {
         Comparison {
             computed,
@@ -35,7 +35,7 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// Takes the exact numbers of the points that follow.
+    /// Adds the exact numbers of the next points.
     ///
     /// # Errors
     /// The first of the numbers that is not finite.
@@ -47,7 +47,7 @@ impl<'a> Comparison<'a> {
             let at = self.seen + at;
             self.sums.add(at, self.weights.map_or(1.0, |weights| weights[at]), error);
         }
-        // Every so many numbers of all.
+        // Every `step`-th of all numbers.
         let step = self.computed.len() / LOOKED_AT + 1;
         let looked_at = (0..exact.len()).skip((step - first % step) % step).step_by(step);
         for at in looked_at {
@@ -60,17 +60,17 @@ impl<'a> Comparison<'a> {
         Ok(())
     }
 
-    /// The norms of the differences. `None` without points, or where their weights have no sum above 0.
+    /// The norms of the differences. `None` without points, or if their weights have no sum above 0.
     pub fn norms(&self) -> Option<Norms> {
         self.sums.if_any()
     }
 
-    /// The largest exact number, without its sign.
+    /// The largest absolute value of the exact numbers.
     pub fn largest(&self) -> f64 {
         self.largest
     }
 
-    /// The power of ten by which what was computed is larger than the exact numbers, if it is that, and else alike.
+    /// The power of ten by which the computed numbers exceed the exact ones, if they differ by this factor alone.
     pub fn unit(&self) -> Option<i32> {
         let [own, right] = self.squares;
         let alike = self.products / (own * right).sqrt();

@@ -1,10 +1,10 @@
-//! The parts of a quantity that the components of an array are, by their names in the file.
+//! The parts of a quantity in the components of an array, by the component names in the file.
 
 use crate::axes::Axes;
 use crate::meaning::{Column, Part, Place, array};
 use crate::{Array, Snapshot};
 
-/// The part that each component is: by their names if these tell axes, as XX, YY, XY or x, y, z, else by their order.
+/// The part of each component: by its name if names give axes, as XX, YY, XY or x, y, z, otherwise by its position.
 pub(crate) fn parts(array: &Array, axes: Axes) -> Vec<Part> {
     let by_order = || (0..array.components).map(Part::Nth).collect();
     by_name(&array.component_names, axes)
@@ -17,7 +17,7 @@ pub(crate) fn has_names(array: &Array, axes: Axes) -> bool {
     by_name(&array.component_names, axes).is_some_and(|it| it.len() == array.components)
 }
 
-/// The parts that columns are by their names, where these are all components of one array and tell it.
+/// The parts of columns by their names, if these are all components of one array and give axes.
 pub(crate) fn of_columns(snapshot: &Snapshot, columns: &[Column], axes: Axes) -> Option<Vec<Part>> {
     let array: &Array = array(snapshot, columns.first()?.place);
     let place: Place = columns[0].place;
@@ -26,7 +26,7 @@ pub(crate) fn of_columns(snapshot: &Snapshot, columns: &[Column], axes: Axes) ->
     by_name(&array.component_names, axes).filter(|it| is_whole && it.len() == columns.len())
 }
 
-/// Parts by names that differ in what tells axes alone, each another one; entries of a matrix have two on its diagonal.
+/// Parts by names that differ only in their axes, each part once; for entries of a matrix two are on its diagonal.
 fn by_name(names: &[String], letters: Axes) -> Option<Vec<Part>> {
     let first = names.first()?;
     [2, 1].into_iter().find_map(|count| {
@@ -40,7 +40,7 @@ fn by_name(names: &[String], letters: Axes) -> Option<Vec<Part>> {
         let is_other = |(at, own): (usize, &Vec<usize>)| !all[..at].contains(own);
         let is_diagonal = |own: &&Vec<usize>| own[0] == own[1];
         let numbers = || all.iter().flatten();
-        // Axes are counted from 0 or from 1 on, and are three.
+        // Axes are counted from 0 or from 1, and there are three.
         let are_three = numbers().max()? - numbers().min()? < 3;
         let is_matrix = count == 1 || all.iter().filter(is_diagonal).count() > 1;
         let is_sound = all.iter().enumerate().all(is_other) && are_three && is_matrix;

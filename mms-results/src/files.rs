@@ -1,9 +1,9 @@
-//! The files of results that a user names, wherever they are kept.
+//! Files of results that a user names, on a disk or elsewhere.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// Finds and reads files of results: on a disk, or wherever their bytes are.
+/// Finds and reads files of results, on a disk or elsewhere.
 pub trait Files: Sync {
     /// The files of a name, in the order of their names: a file, the files of a folder, or those that fit a pattern.
     ///
@@ -17,6 +17,6 @@ pub trait Files: Sync {
     /// A file that cannot be read, or has more than `room` bytes.
     fn bytes(&self, path: &Path, room: u64) -> Result<Vec<u8>, String>;
 
-    /// The bytes of memory that reading may take.
+    /// The bytes of memory available for reading.
     fn memory(&self) -> u64;
 }

@@ -1,4 +1,4 @@
-//! Points by the cell of a lattice in which they are, so that those near a place are found at once.
+//! Points sorted into the cells of a lattice, so that neighbours of a place are found quickly.
 
 /// Points in the cells of a lattice.
 #[derive(Debug)]
@@ -13,7 +13,7 @@ pub struct Lattice<'a> {
 }
 
 impl<'a> Lattice<'a> {
-    /// Sorts points of so many coordinates into cells of that edge.
+    /// Sorts points with `size` coordinates into cells with edges of length `step`.
     pub fn new(points: &'a [f64], size: usize, step: f64) -> Self {
         let mut lattice = Lattice { points, size, step, all: Vec::new(), bounds: [[0; 3]; 2] };
         let cell = |(at, point): (usize, &[f64])| (lattice.cell(point, 0.0), at);
@@ -28,19 +28,19 @@ impl<'a> Lattice<'a> {
         lattice
     }
 
-    /// The cell of a place that is moved by as much along each axis.
+    /// The cell of a place moved by `by` along each axis.
     fn cell(&self, place: &[f64], by: f64) -> [i64; 3] {
         let mut cell = [0; 3];
-        // What is beyond the range of integers is in the last cell.
+        // Places beyond the range of integers are in the last cell.
         let along = |x: &f64| ((x + by) / self.step).floor() as i64;
         cell.iter_mut().zip(place).for_each(|(to, x)| *to = along(x));
         cell
     }
 
-    /// The points in all cells that a cube around a place reaches into, whose half edge is `reach`.
+    /// The points in all cells that intersect the cube around a place with half edge `reach`.
     pub fn near(&self, place: &[f64], reach: f64) -> impl Iterator<Item = usize> {
         let (low, high) = (self.cell(place, -reach), self.cell(place, reach));
-        // Cells that differ along the last axis alone stand one after the other.
+        // Cells that differ only along the last axis are adjacent.
         let (last, [least, most]) = (self.size - 1, self.bounds);
         let across = move |axis: usize| match axis < last {
             true => low[axis].max(least[axis])..=high[axis].min(most[axis]),
@@ -78,7 +78,7 @@ impl<'a> Lattice<'a> {
             || self.within(place, reach).next().is_some()
     }
 
-    /// How far each point of every so many is from the nearest other one; nothing of a point that is alone.
+    /// The distance to the nearest other point, for one of every `every` points; empty for a single point.
     pub fn distances(&self, every: usize) -> Vec<f64> {
         let count = self.points.len() / self.size;
         let nearest = |at: usize| {
@@ -87,7 +87,7 @@ impl<'a> Lattice<'a> {
                 let others = self.within(point, reach).filter(|(other, _)| *other != at);
                 others.map(|(_, distance)| distance).reduce(f64::min)
             };
-            // Twice as far each time: of points that are spread evenly the first is enough.
+            // Doubles the distance each time; for evenly spread points the first is enough.
             (0..64).find_map(|power| found(1.25 * self.step * f64::from(power).exp2()))
         };
         if count < 2 { Vec::new() } else { (0..count).step_by(every).filter_map(nearest).collect() }

@@ -1,16 +1,13 @@
-//! Results of any solver: what files hold, what its names mean, and how far it is from an exact solution.
+//! Results of any solver: reads files, recognises their arrays, and measures their distance from an exact solution.
 //!
-//! A file is known by its content: a table with a header, VTK in XML or in the legacy format, NumPy, MATLAB, CalculiX,
-//! Gmsh, Tecplot, dumps of particles. What is read is a [`Snapshot`]: points, cells, and named arrays of numbers, each with
-//! the precision in which it was stored. [`names`]
-//! says which of them are displacement, velocity and so on; [`norm`] measures them over points,
-//! [`over_cells`] over the [cells](cell) of a [`mesh`], and [`comparison`] block by block of the exact solution;
-//! [`pairing`] finds the same points in two results,
-//! [`own`] leaves out ghosts and what is there twice, and [`lattice`] finds neighbours.
-//! [`write`](mod@write) makes such files of a state that is known. [`wanted`] says which arrays are read, in how much
-//! memory.
+//! A file is recognised by its content: a table with a header, VTK in XML or in the legacy format, NumPy, MATLAB, CalculiX,
+//! Gmsh, Tecplot, dumps of particles. Readers return a [`Snapshot`]: points, cells, and named arrays of numbers, each with the
+//! precision in which it was stored. [`names`] finds the arrays of displacement, velocity and so on; [`norm`] measures errors
+//! over points, [`over_cells`] over the [cells](cell) of a [`mesh`], and [`comparison`] block by block of the exact solution;
+//! [`pairing`] finds the same points in two results; [`own`] removes ghosts and duplicates, and [`lattice`] finds neighbours.
+//! [`write`](mod@write) writes such files of a known state. [`wanted`] selects the arrays to read, and limits the memory.
 //!
-//! Nothing here opens a file, knows a field, or decides whether an error is small.
+//! Nothing here opens a file, evaluates a field, or decides whether an error is small.
 
 mod axes;
 pub mod cell;

@@ -1,4 +1,4 @@
-//! The columns that a user, or the profile of a code, names for a quantity.
+//! The columns of a quantity that a user, or the profile of a code, names.
 
 use crate::axes::Axes;
 use crate::components::of_columns;
@@ -7,13 +7,13 @@ use crate::parts::{all_names, arrays, part_of};
 use crate::role::{OwnRole, Role};
 use crate::{Array, Mistake, Snapshot};
 
-/// A quantity and the columns that a user says it is: names, or `name:k` for the component k, counted from 0; `points`
-/// are the places of the grid, `cells:name` is an array of cells.
+/// A quantity and its columns from a user: names, or `name:k` for the component k, counted from 0; `points` means the places of
+/// the grid, `cells:name` an array of cells.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mapping {
     /// The quantity.
     pub role: Role,
-    /// Its columns.
+    /// The columns of the quantity.
     pub columns: Vec<String>,
 }
 
@@ -26,7 +26,7 @@ impl std::str::FromStr for Mapping {
 }
 
 impl Mapping {
-    /// Reads `QUANTITY=COLUMN,..`, for a field with these quantities of its own.
+    /// Parses `QUANTITY=COLUMN,..`, for a field with these quantities of its own.
     ///
     /// # Errors
     /// An unknown quantity, or no columns, in one line.
@@ -48,7 +48,7 @@ impl Mapping {
     }
 }
 
-/// The meaning that a user gives to columns.
+/// The meaning of columns that a user names.
 pub(crate) fn mapped(
     snapshot: &Snapshot,
     mapping: &Mapping,
@@ -72,7 +72,7 @@ pub(crate) fn mapped(
     Ok(Meaning { role, source, face: None, columns, why, reading: None, axes })
 }
 
-/// The arrays whose names are one name and a component, as `stress_xx` is of `stress`, if no array has that name itself.
+/// The arrays whose names are one name and a component, such as `stress_xx` for `stress`, if no array has that name itself.
 pub(crate) fn components(
     snapshot: &Snapshot,
     names: &[String],
@@ -90,7 +90,7 @@ pub(crate) fn components(
     (!found.is_empty()).then_some(found)
 }
 
-/// The array of that name, with all its columns.
+/// The array of this name, with all its columns.
 pub(crate) fn whole<'a>(snapshot: &'a Snapshot, name: &str) -> Option<(&'a Array, Vec<Column>)> {
     let bare = |name: &'_ str| name.trim_start_matches('/').to_owned();
     let is_called = |array: &Array| array.name == name || bare(&array.name) == bare(name);

@@ -1,4 +1,4 @@
-//! The columns of arrays that a quantity is made of, and the numbers in them.
+//! The columns of a quantity in arrays, and the numbers in them.
 
 use std::borrow::Cow;
 
@@ -8,96 +8,96 @@ use crate::norm::largest_if_finite;
 use crate::role::{Form, Role};
 use crate::{Array, Mistake, Snapshot, Stored};
 
-/// The difference of two entries of a symmetric tensor that is allowed, as a part of the largest number.
+/// The largest accepted difference of two entries of a symmetric tensor, over the largest number.
 const SYMMETRIC: f64 = 1e-5;
 
-/// A strain that is larger is none.
+/// The largest strain; larger numbers are no strains.
 const LARGEST_STRAIN: f64 = 1e3;
 
-/// The part of the largest component of a vector in a plane that one across the plane may be: some codes compute it.
+/// The largest out-of-plane component of a vector, over the largest in the plane: some codes compute it.
 const ROUNDOFF: f64 = 1e-12;
 
-/// Which numbers of a quantity a column has.
+/// The part of a quantity that a column contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Part {
-    /// The one of that position, of all that there are.
+    /// The component of this position among all.
     Nth(usize),
-    /// A row and a column.
+    /// An entry by row and column.
     Entry(usize, usize),
 }
 
-/// Where an array of a snapshot is.
+/// The place of an array in a snapshot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// The places of its points.
+    /// The places of the points.
     Grid,
-    /// Among the arrays of points.
+    /// An array of points, by its position.
     Points(usize),
-    /// Among those of cells.
+    /// An array of cells, by its position.
     Cells(usize),
 }
 
-/// A column of numbers: of an array one component.
+/// A column of numbers: one component of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Column {
     pub place: Place,
     pub component: usize,
 }
 
-/// The columns that a quantity is made of.
+/// The columns of a quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Meaning {
     /// The quantity.
     pub role: Role,
-    /// Its name in the file.
+    /// The name in the file.
     pub source: String,
-    /// The face that the name speaks of: a traction is that of a face.
+    /// The face in the name: a traction belongs to a face.
     pub face: Option<&'static str>,
-    /// Its columns, each with the part that it is.
+    /// The columns, each with its part of the quantity.
     pub(crate) columns: Vec<(Part, Column)>,
-    /// The reason for the quantity.
+    /// The reason for this meaning.
     pub why: Why,
-    /// The position that points have where both readings lie in the body, and the profile that says so.
+    /// The position of points for which both readings lie in the body, and the profile that states it.
     pub(crate) reading: Option<(Role, String)>,
-    /// The letters of its components.
+    /// The letters of the components.
     pub(crate) axes: Axes,
 }
 
-/// The reason why an array is a quantity.
+/// The reasons why an array is a quantity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// Its name.
+    /// The name of the array.
     Name,
-    /// A user's `--map`, with so many names.
+    /// A user's `--map`, with this number of names.
     Map(usize),
     /// The profile of this code.
     Profile(String),
 }
 
-/// Numbers of a quantity: so many for each point or cell.
+/// The numbers of a quantity at points or cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Values<'a> {
-    /// All numbers, those of a point or cell together: of an array that has no others they are not copied.
+    /// All numbers, point by point or cell by cell; borrowed if the array has no other columns.
     pub numbers: Cow<'a, [f64]>,
-    /// Numbers of a point or cell.
+    /// The number of components of a point or cell.
     pub components: usize,
-    /// How far one may be from what was computed, for how it was stored.
+    /// The uncertainty of a number, from how it was stored.
     pub rounding: f64,
-    /// How it was stored.
+    /// The precision of the stored numbers.
     pub stored: Stored,
-    /// Whether they are of cells.
+    /// Whether the numbers belong to cells.
     pub is_of_cells: bool,
 }
 
 impl Values<'_> {
-    /// The same, which outlive the snapshot.
+    /// Copies borrowed numbers, so that the values outlive the snapshot.
     pub fn into_owned(self) -> Values<'static> {
         Values { numbers: Cow::Owned(self.numbers.into_owned()), ..self }
     }
 }
 
 impl Meaning {
-    /// The text by which `--map` names it.
+    /// The text that names the quantity in `--map`.
     pub(crate) fn mapping(&self, snapshot: &Snapshot, dimension: usize) -> String {
         match self.columns.first() {
             Some((_, first)) if self.is_one_array() => name(snapshot, first.place).to_owned(),
@@ -105,7 +105,7 @@ impl Meaning {
         }
     }
 
-    /// The text by which `--map` names its numbers of these positions one by one.
+    /// The text that names the numbers of these positions in `--map`, one by one.
     fn listed(&self, snapshot: &Snapshot, order: impl IntoIterator<Item = usize>) -> String {
         let column = |(_, column): &(Part, Column)| {
             let name = name(snapshot, column.place);
@@ -115,14 +115,14 @@ impl Meaning {
         named.collect::<Vec<_>>().join(",")
     }
 
-    /// Whether all of it is in one array.
+    /// Whether all columns are in one array.
     fn is_one_array(&self) -> bool {
         self.columns.windows(2).all(|pair| pair[0].1.place == pair[1].1.place)
     }
 
-    /// The reason why an array is not the quantity of its name in so many dimensions: other components, other rows than
-    /// there are points, or a strain that no bar has, for Young's modulus may be called E as well. None if it may be the
-    /// quantity, if a user maps it, or if the order of its components alone is unknown.
+    /// The reason why an array is not the quantity of its name in this dimension: other components, another number of rows than
+    /// points, or a strain too large for any bar, because Young's modulus may be called E as well. `None` if it may be the
+    /// quantity, if a user maps it, or if only the order of its components is unknown.
     pub fn unlike(
         &self,
         snapshot: &Snapshot,
@@ -159,12 +159,12 @@ impl Meaning {
             .then(|| format!("{} (one number, and no {name})", self.source))
     }
 
-    /// How many dimensions a vector of as many columns has.
+    /// The number of dimensions of a vector with these columns.
     pub fn dimension(&self) -> usize {
         self.columns.len().clamp(1, 3)
     }
 
-    /// Its numbers in so many dimensions. What is more than that must be 0 in vectors, and is left out in tensors.
+    /// The numbers of the quantity in this dimension. Further components must be 0 in vectors, and are omitted in tensors.
     ///
     /// # Errors
     /// Too few numbers, or too many; one that is not finite, by its place.
@@ -215,7 +215,7 @@ impl Meaning {
         })
     }
 
-    /// The columns that a field of that dimension has; none for a component that is 0 throughout, which a file may leave out.
+    /// The columns that a field of this dimension has; `None` for a component that is 0 everywhere, which a file may omit.
     fn wanted(
         &self,
         snapshot: &Snapshot,
@@ -246,7 +246,7 @@ impl Meaning {
         found.ok_or_else(|| self.misfit(snapshot, dimension))
     }
 
-    /// The rows of a matrix over Voigt's components that a field of that dimension has: in a plane all but 33.
+    /// The rows of a matrix over Voigt's components that a field of this dimension has: in a plane all except 33.
     fn in_dimension(&self, dimension: usize) -> Vec<usize> {
         match (dimension, self.columns.len()) {
             (2, 16) => vec![0, 1, 3],
@@ -254,7 +254,7 @@ impl Meaning {
         }
     }
 
-    /// Whether the numbers of axes, rows and columns in names are counted from 1 on.
+    /// The least number of axes, rows and columns in names: 1 if they are counted from 1.
     fn least_number(&self) -> usize {
         let is_named = |part: &Part| matches!(part, Part::Entry(..));
         let least = |(part, _): &(Part, Column)| match *part {
@@ -280,7 +280,7 @@ impl Meaning {
         self.columns.iter().find(|(part, _)| *part == Part::Nth(at + self.least_number()))
     }
 
-    /// The entry of a matrix: by its name, or from as many as a square matrix has, row by row.
+    /// The entry of a matrix: by its name, or by its position row by row in a square matrix.
     fn entry(&self, row: usize, column: usize) -> Option<&(Part, Column)> {
         let from = self.least_number();
         let named = |part: &Part| *part == Part::Entry(row + from, column + from);
@@ -291,19 +291,19 @@ impl Meaning {
             .or_else(|| self.nth(row * size.filter(|&size| row < size && column < size)? + column))
     }
 
-    /// The units that the file gives for its columns, each with the name of the column.
+    /// The units in the file of its columns, each with the name of the column.
     pub fn units<'a>(&self, snapshot: &'a Snapshot) -> Vec<(&'a str, &'a str)> {
         let is_own = |(array, _): &&(String, String)| self.has_array(snapshot, array);
         let own = snapshot.units.iter().filter(is_own);
         own.map(|(name, unit)| (name.as_str(), unit.as_str())).collect()
     }
 
-    /// Whether an array of this name has columns of it.
+    /// Whether an array of this name contains columns of the quantity.
     pub fn has_array(&self, snapshot: &Snapshot, array: &str) -> bool {
         self.columns.iter().any(|(_, it)| name(snapshot, it.place) == array)
     }
 
-    /// The columns, what they are of, how they are stored and why they are the quantity, in words.
+    /// Describes the columns: their points or cells, their precision, and the reason for the quantity.
     pub fn explained(&self, snapshot: &Snapshot) -> String {
         let array = |column: &Column| array(snapshot, column.place);
         let mut parts = Vec::new();
@@ -341,7 +341,7 @@ impl Meaning {
         parts.join("; ")
     }
 
-    /// The number of components that a field of that dimension has.
+    /// The number of components in a field of this dimension.
     fn expected(&self, dimension: usize) -> usize {
         match self.role.form() {
             Form::Scalar => 1,
@@ -351,7 +351,7 @@ impl Meaning {
         }
     }
 
-    /// The orders that components of a tensor without names may have, each with the columns of its rows.
+    /// The possible orders of components of a tensor without names, each with the columns of its rows.
     fn orders(&self, dimension: usize) -> &'static [(&'static str, &'static [usize])] {
         let is_tensor = matches!(self.role.form(), Form::Tensor | Form::Symmetric);
         match (dimension, self.columns.len()) {
@@ -402,13 +402,13 @@ impl Meaning {
         ))
     }
 
-    /// Whether the names of its columns tell rows and columns of a matrix.
+    /// Whether the column names give rows and columns of a matrix.
     fn has_names(&self) -> bool {
         self.columns.iter().any(|(part, _)| matches!(part, Part::Entry(..)))
     }
 
-    /// Refuses four numbers of a symmetric tensor in a plane that cannot be 11, 12, 21, 22, for 12 is not 21; or that are no
-    /// likelier to be these than 11, 22, 33, 12.
+    /// Refuses four numbers of a symmetric tensor in a plane that cannot be 11, 12, 21, 22, because 12 differs from 21; or that
+    /// are no likelier to be these than 11, 22, 33, 12.
     fn hold_rows(
         &self,
         snapshot: &Snapshot,
@@ -442,8 +442,7 @@ impl Meaning {
         )))
     }
 
-    /// Refuses a vector with more than the field's components, unless they are 0 throughout, but for roundoff beside the
-    /// others.
+    /// Refuses a vector with more components than the field has, unless the others are 0 everywhere up to roundoff.
     fn hold_flat(&self, snapshot: &Snapshot, dimension: usize) -> Result<(), Mistake> {
         let from = self.least_number();
         let is_beyond = |part: &Part| matches!(part, Part::Nth(at) if *at >= dimension + from);
@@ -482,8 +481,8 @@ impl Meaning {
     }
 }
 
-/// The largest number of cells of the highest dimension that is there; others are no part of the body. The position of a
-/// number that is not finite is the error.
+/// The largest number of the cells of highest dimension; other cells are no part of the body. For a number that is not finite,
+/// the error is its position.
 fn largest_of_cells(snapshot: &Snapshot, numbers: &[f64], components: usize) -> Result<f64, usize> {
     let shape = |(kind, points): (u8, &[usize])| {
         Shape::of(kind, points.len()).map_or(UNKNOWN, |shape| shape.dimension)
@@ -503,7 +502,7 @@ fn largest_of_cells(snapshot: &Snapshot, numbers: &[f64], components: usize) -> 
     Ok(largest)
 }
 
-/// The dimension of cells whose shape is unknown, as of polygons.
+/// The dimension assumed for cells of unknown shape, such as polygons.
 const UNKNOWN: usize = 2;
 
 /// Rows and columns of a square matrix, row by row.
@@ -512,9 +511,9 @@ fn pairs_of(rows: Vec<usize>) -> impl Iterator<Item = (usize, usize)> {
     rows.into_iter().flat_map(move |i| columns.clone().into_iter().map(move |j| (i, j)))
 }
 
-/// The numbers of some columns, those of a row together; 0 where there is no column.
+/// The numbers of some columns, row by row; 0 where a column is missing.
 fn gathered<'a>(snapshot: &'a Snapshot, columns: &[Option<Column>], rows: usize) -> Cow<'a, [f64]> {
-    // Most often they stand side by side, with no others or with a third coordinate behind them.
+    // Most often they are adjacent, alone or with a third coordinate after them.
     let start = columns[0].filter(|start| {
         let is_next = |(at, column): (usize, &Option<Column>)| {
             let (place, component) = (start.place, start.component + at);
@@ -554,7 +553,7 @@ pub(crate) fn array(snapshot: &Snapshot, place: Place) -> &Array {
     }
 }
 
-/// The name of an array, as `--map` takes it.
+/// The name of an array in `--map`.
 pub(crate) fn name(snapshot: &Snapshot, place: Place) -> &str {
     if place == Place::Grid { "points" } else { &array(snapshot, place).name }
 }

@@ -1,4 +1,4 @@
-//! A mesh: its cells of full dimension, their sizes and middles, and the edges that one cell alone has.
+//! A mesh: its cells of full dimension, their sizes and middles, and edges that belong to one cell alone.
 
 use crate::Cells;
 use crate::cell::{Shape, gauss};
@@ -7,18 +7,18 @@ use crate::norm::length;
 /// A mesh in the reference configuration.
 #[derive(Clone, Copy, Debug)]
 pub struct Mesh<'a> {
-    /// Its cells; those of a lower dimension than its own are left out.
+    /// The cells; cells of a lower dimension than the mesh are ignored.
     pub cells: &'a Cells,
-    /// X of its points, one after the other.
+    /// X of the points, one after the other.
     pub points: &'a [f64],
-    /// Its dimension.
+    /// The dimension of the mesh.
     pub dimension: usize,
-    /// Whether it is the meridian of a body of revolution: each place stands for a ring, and integrals are per radian.
+    /// Whether it is the meridian of a body of revolution: each place represents a ring, and integrals are per radian.
     pub is_meridian: bool,
 }
 
 impl<'a> Mesh<'a> {
-    /// Cells of the dimension of the mesh, by their positions.
+    /// The cells of the dimension of the mesh, with their positions.
     pub fn full(&self) -> impl Iterator<Item = (usize, &'static Shape, &'a [usize])> {
         let dimension = self.dimension;
         self.cells.iter().enumerate().filter_map(move |(cell, (kind, points))| {
@@ -27,7 +27,7 @@ impl<'a> Mesh<'a> {
         })
     }
 
-    /// The types of cells that may be of the dimension of the mesh, and are not known.
+    /// A cell type that may have the dimension of the mesh and is not known.
     pub fn unknown(&self) -> Option<u8> {
         let lines = [1, 2, 4];
         let is_unknown = |(kind, points): &(u8, &[usize])| {
@@ -36,12 +36,12 @@ impl<'a> Mesh<'a> {
         self.cells.iter().find(is_unknown).map(|(kind, _)| kind)
     }
 
-    /// Whether it is known what is between the points of all its cells.
+    /// Whether the shape functions of all its cells are known.
     pub fn has_functions(&self) -> bool {
         self.full().all(|(_, shape, _)| shape.has_functions())
     }
 
-    /// The lowest degree of its cells, if there are such and all have one.
+    /// The lowest degree of its cells, if all cells have one.
     pub fn degree(&self) -> Option<u32> {
         self.full().map(|(_, shape, _)| shape.degree()).min().filter(|it| *it > 0)
     }
@@ -50,7 +50,7 @@ impl<'a> Mesh<'a> {
         &self.points[point * self.dimension..][..self.dimension]
     }
 
-    /// The shortest and the longest of the longest edges of the cells; `None` where there are none of full dimension.
+    /// The shortest and the longest of the longest edges of the cells; `None` without cells of full dimension.
     pub fn sizes(&self) -> Option<[f64; 2]> {
         let longest = |(_, shape, points): (usize, &'static Shape, &[usize])| {
             let edges = shape.edges().iter();
@@ -64,9 +64,9 @@ impl<'a> Mesh<'a> {
         self.full().map(longest).fold(None, both)
     }
 
-    /// X at the middle of the reference cell of each, of all cells of full dimension; of polygons at the centre of area.
+    /// X at the middle of the reference cell, for all cells of full dimension; for polygons at the centre of area.
     pub fn middles(&self) -> Vec<f64> {
-        // Most cells are of the kind of the one before.
+        // Most cells have the same shape as the one before.
         let mut last: Option<(&Shape, Vec<f64>)> = None;
         let mut all = Vec::new();
         for (_, shape, points) in self.full() {
@@ -102,9 +102,9 @@ impl<'a> Mesh<'a> {
         (area, [0, 1].map(|axis| first[axis] + moment[axis] * by))
     }
 
-    /// How far the cells around inner edges are out of balance: the distance from the middle of an edge to the mean of the
-    /// middles of its cells, over its length, as a root mean square. It is 0 where cells are copies and half turns of each
-    /// other. `is_inner` tells whether the middle of an edge lies within the body. `None` without such an edge.
+    /// The imbalance of the cells around inner edges: the distance from the middle of an edge to the mean of the middles of its
+    /// cells, over its length, as a root mean square. It is 0 if cells are copies and half turns of each other. `is_inner`
+    /// returns whether the middle of an edge lies within the body. `None` without such an edge.
     pub fn imbalance(&self, is_inner: &dyn Fn(&[f64]) -> bool) -> Option<f64> {
         let dimension = self.dimension;
         let middles = self.middles();
@@ -131,8 +131,8 @@ impl<'a> Mesh<'a> {
         (count > 0).then(|| (sum / f64::from(count)).sqrt())
     }
 
-    /// Edges of cells in a plane that no other cell has, each as X of its ends and of the nodes between them, in their order;
-    /// of those with ends that are asked for.
+    /// The edges of cells in a plane that belong to one cell alone, each as X of its ends and of the nodes between them, in
+    /// order; only edges whose ends satisfy `is_asked`.
     pub fn free_edges(&self, is_asked: &dyn Fn([&[f64]; 2]) -> bool) -> Vec<Vec<&'a [f64]>> {
         let mut found = Vec::new();
         for (_, shape, points) in self.full() {
@@ -166,9 +166,9 @@ pub fn swept(edge: &[&[f64]]) -> f64 {
     gauss(edge.len()).into_iter().map(part).sum()
 }
 
-/// Tells an edge by its ends: pieces of a mesh have points of their own.
+/// A key of an edge by its ends: pieces of a mesh have copies of points.
 fn edge_key(ends: [&[f64]; 2]) -> [[u64; 3]; 2] {
-    // -0 is 0.
+    // -0 becomes 0.
     let bits = |x: &[f64]| [0, 1, 2].map(|axis| x.get(axis).map_or(0, |it| (it + 0.0).to_bits()));
     let mut ends = ends.map(bits);
     ends.sort_unstable();
@@ -179,7 +179,7 @@ fn edge_key(ends: [&[f64]; 2]) -> [[u64; 3]; 2] {
 mod tests {
     use super::*;
 
-    /// Cells of one type over points of a square of 2 x 2 unit squares.
+    /// The imbalance of cells of one type over the points of a square of 2 x 2 unit squares.
     fn imbalance(kind: u8, cells: &[&[usize]], middle: [f64; 2]) -> Option<f64> {
         let mut points: Vec<f64> =
             (0..9).flat_map(|at| [f64::from(at % 3), f64::from(at / 3)]).collect();
@@ -208,7 +208,8 @@ mod tests {
             [0, 1, 3, 4].into_iter().flat_map(|a| [[a, a + 1, a + 4], [a, a + 4, a + 3]]).collect();
         let one_way: Vec<&[usize]> = one_way.iter().map(|it| &it[..]).collect();
         assert!(imbalance(5, &one_way, [1.0, 1.0]).is_some_and(|it| it < 1e-15));
-        // Mirror images of each other at four of the edges: their middles are a third and not half of the way along it.
+        // At four of the edges the cells are mirror images of each other: their middles are a third and not half of the way
+        // along it.
         let star: [&[usize]; 8] = [
             &[0, 1, 4],
             &[1, 2, 4],
@@ -244,7 +245,7 @@ mod tests {
 
     #[test]
     fn polygons_have_areas_and_centres() {
-        // A square of 2 x 2 beside which a triangle of area 1 stands, turned either way round.
+        // A square of 2 x 2 with a triangle of area 1 beside it, in both orientations.
         let points = [0.0, 0.0, 2.0, 0.0, 3.0, 1.0, 2.0, 2.0, 0.0, 2.0];
         for own in [vec![0, 1, 2, 3, 4], vec![3, 2, 1, 0, 4]] {
             let cells = Cells { types: vec![7], points: own, ends: vec![5] };

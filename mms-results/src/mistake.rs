@@ -1,30 +1,30 @@
-//! What is wrong with a file.
+//! A mistake in a file.
 
 use std::fmt;
 
-/// What is wrong with a file, and where.
+/// A mistake in a file, with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// The file; empty where only its bytes are known.
+    /// The file; empty if only its bytes are known.
     pub path: String,
     /// The line, from 1 on, of a file that has lines.
     pub line: Option<usize>,
-    /// What is wrong, what was expected, and what to do.
+    /// The mistake, the expected content, and advice.
     pub what: String,
 }
 
 impl Mistake {
-    /// Of a file as a whole.
+    /// A mistake of a file as a whole.
     pub fn new(what: impl Into<String>) -> Self {
         Mistake { path: String::new(), line: None, what: what.into() }
     }
 
-    /// At a line.
+    /// A mistake at a line.
     pub fn at(line: usize, what: impl Into<String>) -> Self {
         Mistake { line: Some(line), ..Self::new(what) }
     }
 
-    /// The same in a file, if none is known yet.
+    /// Adds the file, if none is known yet.
     pub fn of(mut self, path: &str) -> Self {
         if self.path.is_empty() {
             self.path = path.to_owned();

@@ -1,23 +1,23 @@
-//! X and u of points: two of X, x and u give the third.
+//! X and u of points: two of X, x and u determine the third.
 
 use crate::meaning::here;
 use crate::names::{Meaning, Role, Values, all_names};
 use crate::norm::{largest, range};
 use crate::{Mistake, Snapshot, Stored};
 
-/// How many bits of a digest tell it from most others.
+/// The number of leading bits that distinguish most digests.
 const START: u32 = 20;
 
-/// The points of a snapshot, as the exact solution knows them.
+/// The points of a snapshot, in the reference configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion<'a> {
     /// X.
     pub reference: Values<'a>,
     /// u, if two of the three are known.
     pub displacement: Option<Values<'a>>,
-    /// How X was found.
+    /// The source of X.
     pub how: String,
-    /// Whether the exact motion told X: then x and u tell nothing of a solver.
+    /// Whether X follows from the exact motion: then x and u show nothing of a solver.
     pub is_inverse: bool,
 }
 
@@ -38,15 +38,15 @@ impl<F: Fn(&[f64]) -> f64> Body for F {
     }
 }
 
-/// X of what is at x, each coordinate of which may be off by so much; none if no point of the body is there.
+/// Finds X of the material at x, whose coordinates have this rounding; `None` if no point of the body is there.
 pub type Back<'a> = &'a mut dyn FnMut(&[f64], f64) -> Result<Option<Vec<f64>>, String>;
 
-/// Finds X and u. Points that may be X or x are both in turn: the one reading with which they lie in the body is taken.
-/// Where x is known without u, `back` finds X by the inverse of the exact motion; without `back` points alone are X.
+/// Finds X and u. For points that may be X or x it tries both, and uses the only reading with which they lie in the body. If x
+/// is known without u, `back` finds X by the inverse of the exact motion; without `back` points alone are X.
 ///
 /// # Errors
-/// Too little for X; points with which both readings lie in the body; an x that contradicts X and u; a point outside the
-/// body by more than its rounding.
+/// Too little for X; points with which both readings lie in the body; an x that contradicts X and u; a point outside the body
+/// by more than its rounding.
 pub fn resolve<'a>(
     snapshot: &'a Snapshot,
     meanings: &[Meaning],
@@ -60,7 +60,7 @@ pub fn resolve<'a>(
     };
     let values = |role: Role| of_size(role, dimension);
     let vector = meanings.first().map_or(dimension, |it| it.axes.of_vectors(dimension));
-    // A body that turns is on another meridian at x: X alone tells its points.
+    // A rotating body has another meridian at x: only X identifies its points.
     let turns = vector > dimension;
     let reference = values(Role::Reference)?;
     let is_read = !turns || reference.is_none();
@@ -89,14 +89,14 @@ pub fn resolve<'a>(
     Ok(motion)
 }
 
-/// What is known of the points.
+/// The known data of the points.
 struct Known<'a> {
     snapshot: &'a Snapshot,
-    /// The text by which `--map` names the places.
+    /// The text that names the places in `--map`.
     place_name: String,
-    /// Whether they are called x, which is no X where X is given.
+    /// Whether they are called x, and so are not X if X is given.
     is_called_x: bool,
-    /// The position that they have if both readings lie in the body, and the profile that says so.
+    /// The position for which both readings lie in the body, and the profile that states it.
     reading: Option<(Role, String)>,
     reference: Option<Values<'a>>,
     position: Option<Values<'a>>,
@@ -104,13 +104,13 @@ struct Known<'a> {
     displacement: Option<Values<'a>>,
 }
 
-/// How many roundings x may differ by from X + u: of each, and as many where digits are cut off.
+/// The largest difference of x and X + u, in roundings: one of each, and as many for digits that are cut off.
 const ROUNDINGS: f64 = 4.0;
 
-/// The difference of both that is allowed besides, as a part of x: a solver may add up both in single precision.
+/// The additional accepted difference of both, over x: a solver may add both in single precision.
 const STEPS: f64 = 1e-6;
 
-/// At how many points it is tried whether a point of the body is there.
+/// The number of points at which the inverse is tried.
 const TRIED: usize = 64;
 
 impl<'a> Known<'a> {
@@ -137,7 +137,7 @@ impl<'a> Known<'a> {
         }
     }
 
-    /// X and u of a body that turns, whose points are X if nothing else is.
+    /// X and u of a rotating body, whose points are X by default.
     fn turning(self, outside: &dyn Body) -> Result<Motion<'a>, Mistake> {
         let (snapshot, path) = (self.snapshot, &self.snapshot.path);
         let found = match (self.reference, self.place) {
@@ -154,7 +154,7 @@ impl<'a> Known<'a> {
         Ok(motion)
     }
 
-    /// X and u, of X and u as they are given.
+    /// X and u from the given ones.
     fn motion(
         &self,
         (reference, displacement): (Option<Values<'a>>, Option<Values<'a>>),
@@ -230,7 +230,7 @@ impl<'a> Known<'a> {
         let mut has_moved = false;
         for x in points.step_by(step) {
             let Ok(found) = back(x, place.rounding) else {
-                // What is not decided may be there, and have moved.
+                // Undecided points may exist, and have moved.
                 has_moved = true;
                 continue;
             };
@@ -319,7 +319,7 @@ impl<'a> Known<'a> {
         }
     }
 
-    /// Refuses an x that is not X + u, and places of another name that are neither X nor that.
+    /// Refuses an x that is not X + u, and places of another name that are neither X nor x.
     fn hold_agreement(&self, motion: &Motion<'_>) -> Result<(), Mistake> {
         let Some(u) = &motion.displacement else { return Ok(()) };
         if self.position.is_none() && self.place.is_none() {
@@ -373,16 +373,16 @@ pub(crate) fn difference<'a>(a: &Values<'a>, b: &Values<'_>) -> Values<'a> {
     Values { numbers, rounding: a.rounding + b.rounding, stored, ..*a }
 }
 
-/// Whether points are elsewhere than X, by more than rounding.
+/// Whether points differ from X by more than rounding.
 fn is_moved(place: &Values<'_>, reference: &Values<'_>) -> bool {
     let most = place.rounding + reference.rounding;
     place.numbers.iter().zip(reference.numbers.iter()).any(|(a, b)| (a - b).abs() > 2.0 * most)
 }
 
-/// The first point that is outside the body by more than its rounding, and how far.
+/// The first point outside the body by more than its rounding, and its distance.
 fn stray(reference: &Values<'_>, outside: &dyn Body) -> Option<(usize, f64)> {
     let points = reference.numbers.chunks(reference.components).enumerate();
-    // Each coordinate may be off by its rounding, and the exact bound by some of its own.
+    // Each coordinate may be off by its rounding, and so may the bound of the body.
     let most = 4.0 * reference.rounding;
     points.map(|(at, point)| (at, outside.distance(point))).find(|(_, distance)| *distance > most)
 }
@@ -399,8 +399,8 @@ fn hold_inside(
     Err(here(snapshot, at, what))
 }
 
-/// Points among which all are that are in one place, and of ten million a few thousand others: those whose digest another
-/// has too. Digests of half a word are sorted in a small part of the time of points.
+/// The points whose digest another point has too: all coincident points, and a few thousand others of ten million. Sorting
+/// digests of 32 bits takes a small part of the time of sorting points.
 fn suspects(reference: &Values<'_>) -> Vec<usize> {
     let digests = || reference.numbers.chunks_exact(reference.components).map(digest);
     let mut sorted: Vec<u32> = digests().collect();
@@ -409,7 +409,7 @@ fn suspects(reference: &Values<'_>) -> Vec<usize> {
     let mut twice: Vec<u32> = pairs.map(|pair| pair[0]).collect();
     drop(sorted);
     twice.dedup();
-    // Most digests are told from those by their first bits.
+    // The first bits distinguish most digests from these.
     let mut starts = vec![0_u64; 1 << (START - 6)];
     let bit = |digest: u32| {
         let start = digest >> (32 - START);
@@ -425,9 +425,9 @@ fn suspects(reference: &Values<'_>) -> Vec<usize> {
     digests().enumerate().filter(is_twice).map(|(at, _)| at).collect()
 }
 
-/// The same of points that are equal, and of others most likely not.
+/// A digest that is equal for equal points, and most likely differs for others.
 fn digest(point: &[f64]) -> u32 {
-    // -0 is 0.
+    // -0 becomes 0.
     let bits = point.iter().map(|x| (x + 0.0).to_bits());
     let mixed = bits.fold(0, |digest: u64, bits| {
         let mixed = (digest ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -439,7 +439,7 @@ fn digest(point: &[f64]) -> u32 {
 /// Refuses two points in one place.
 ///
 /// # Errors
-/// The second of them, and the first.
+/// The second point, with the first.
 pub fn hold_distinct(snapshot: &Snapshot, reference: &Values<'_>) -> Result<(), Mistake> {
     let point = |at: usize| &reference.numbers[at * reference.components..][..reference.components];
     let mut order = suspects(reference);

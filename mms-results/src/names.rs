@@ -1,4 +1,4 @@
-//! The meanings of arrays: by their names, by what a user maps, and by the profile of a code.
+//! The meanings of arrays: by their names, by a user's mapping, and by the profile of a code.
 
 use crate::components::parts;
 use crate::mapping::mapped;
@@ -34,7 +34,7 @@ const FACES: [&str; 12] = [
     "r_max",
 ];
 
-/// What the name of an array says.
+/// The parsed name of an array.
 struct Understood {
     role: Role,
     part: Option<Part>,
@@ -48,22 +48,22 @@ impl Understood {
     }
 }
 
-/// How arrays are called: by the columns of tables without a header, by what a user maps, and by the profile of a code.
+/// The names of arrays: the columns of tables without a header, a user's mapping, and the profile of a code.
 #[derive(Clone, Debug, Default)]
 pub struct Names {
     /// The quantities that a user maps.
     pub map: Vec<Mapping>,
-    /// The names of the columns of tables without a header; those of a header count if there are none here.
+    /// The names of the columns of tables without a header; if empty, the names in the header.
     pub columns: Vec<String>,
     /// The profile of the code that wrote the files.
     pub profile: Option<Profile>,
-    /// The quantities of the field's own, whose names win over those that codes use.
+    /// The field's own quantities, whose names take precedence over the names of codes.
     pub own: Vec<OwnRole>,
     /// The letters of components.
     pub axes: Axes,
 }
 
-/// The names that codes use, without anything that a user says.
+/// The names that codes use, without any from a user.
 pub static KNOWN: Names = Names {
     map: Vec::new(),
     columns: Vec::new(),
@@ -86,13 +86,13 @@ impl Names {
         self.map.iter().flat_map(|mapping| &mapping.columns).any(is_it)
     }
 
-    /// The role of a name: a quantity of the field's own, or what codes call so.
+    /// The role of a name: a quantity of the field's own, or the usual meaning in codes.
     fn called(&self, name: &str) -> Option<Role> {
         let own = self.own.iter().find(|own| own.name == name);
         own.map(|own| Role::Own(*own)).or_else(|| Role::called(name))
     }
 
-    /// The two quantities that a name may mean, if it may mean two. A pressure may be that of the stress, or a given `p`.
+    /// The two possible meanings of an ambiguous name. `pressure` may be the pressure of the stress, or a given `p`.
     fn two_meanings(&self, name: &str) -> Option<[Role; 2]> {
         let given = self.own.iter().find(|own| own.name == GIVEN_PRESSURE);
         match given.filter(|_| plain(name) == "pressure") {
@@ -102,7 +102,7 @@ impl Names {
         }
     }
 
-    /// The position that an array of one letter is a coordinate of, and which.
+    /// The position and the coordinate that an array with a name of one letter contains.
     fn coordinate(&self, name: &str) -> Option<(Role, Part)> {
         let ([letter], None) = (name.as_bytes(), name.parse::<u8>().ok()) else { return None };
         let axis = self.axes.of(*letter).filter(|it| *it < 2 || self.axes == Axes::Cartesian)?;
@@ -130,7 +130,7 @@ impl Names {
     }
 }
 
-/// The arrays to read of files in which these roles are looked for, and those that are mapped.
+/// The arrays to read from files for these roles, and the mapped ones.
 pub fn wanted<'a>(names: &'a Names, wants: &'a dyn Fn(Role) -> bool) -> Wanted<'a> {
     let need = move |name: &str| {
         let roles = names.roles(name);
@@ -152,8 +152,8 @@ pub fn everything(names: &Names) -> Wanted<'_> {
     Wanted::new(need).named(&names.columns)
 }
 
-/// Finds the meanings of arrays. Arrays with unknown names are left out, and so are components of what is mapped. What a
-/// user maps comes first, then what a profile names, then the names that codes use.
+/// Finds the meanings of arrays. Ignores arrays with unknown names, and components of mapped arrays. A user's mapping takes
+/// precedence over a profile, and a profile over the names of codes.
 ///
 /// # Errors
 /// A name that may mean two quantities, of those that `wants` takes; two arrays that may be the same quantity; a
@@ -204,7 +204,7 @@ pub fn recognise(
     Ok(found)
 }
 
-/// The name of all components of which an array is one, if it is.
+/// The common name of the components to which an array belongs, if it is a component.
 fn group(names: &Names, place: Place, array: &Array) -> Option<String> {
     match understand(names, place, array) {
         Some(Understood { part, source, .. }) => part.map(|_| source),
@@ -214,12 +214,12 @@ fn group(names: &Names, place: Place, array: &Array) -> Option<String> {
     }
 }
 
-/// The name by which `--map` takes an array, of points or of cells.
+/// The name of an array of points or of cells in `--map`.
 fn mapped_name(place: Place, name: &str) -> String {
     if matches!(place, Place::Cells(_)) { format!("cells:{name}") } else { name.to_owned() }
 }
 
-/// Adds an array to what was found, or to the components of what it is one of.
+/// Adds an array to the meanings found, or to the components of one of them.
 ///
 /// # Errors
 /// Two arrays for one quantity, or for one component of it.
@@ -264,7 +264,7 @@ fn hold_clear(
     let Some([a, b]) = names.two_meanings(&array.name) else { return Ok(()) };
     let stem = stem(&array.name, names.axes);
     if stem == S {
-        // A file with another name for a stress means the textbook's S.
+        // If a file has another name for a stress, S means the textbook's S.
         let is_stress = |role: &Role| {
             matches!(role, Role::CauchyStress | Role::FirstPiolaKirchhoff | Role::KirchhoffStress)
         };
@@ -278,7 +278,7 @@ fn hold_clear(
         return Ok(());
     }
     let mapped = mapped_name(place, stem);
-    // The symbol of a pressure is the name of a given one.
+    // The symbol of a pressure is the name of a given pressure.
     let word = |role: Role| match role {
         Role::Pressure => role.name(),
         _ => role.symbol(),
@@ -296,17 +296,17 @@ fn hold_clear(
     Err(Mistake::new(what))
 }
 
-/// The quantity of an array, the part of it, and the name in the file.
+/// The quantity of an array, its part, and the name in the file.
 fn understand(names: &Names, place: Place, array: &Array) -> Option<Understood> {
     let name = array.name.as_str();
     match (place, name) {
-        // The project's own runs call x so.
+        // Results of this project's own solver call x so.
         (Place::Grid, "position") => return Some(Understood::new(Role::Position, None, name)),
         (Place::Grid, "reference_position") => {
             return Some(Understood::new(Role::Reference, None, name));
         }
         (Place::Grid, _) => return Some(Understood::new(Role::Place, None, "points")),
-        // Coordinates in columns of their own.
+        // Coordinates in separate columns.
         _ if array.components == 1
             && let Some((role, part)) = names.coordinate(name) =>
         {
@@ -323,12 +323,12 @@ fn understand(names: &Names, place: Place, array: &Array) -> Option<Understood> 
     }
     let (base, part) = split(name, names.axes).filter(|_| array.components == 1)?;
     let role = names.called(base).filter(|role| role.form() != Form::Scalar)?;
-    // x0 may be the first coordinate, or where x was.
+    // x0 may be the first coordinate, or the initial x.
     let is_coordinate = base.len() == 1 && matches!(role, Role::Place | Role::Reference);
     (!is_coordinate || name.len() > 2).then(|| Understood::new(role, Some(part), base))
 }
 
-/// The traction of a face, as `traction_x_max`, or a component of it, as `traction_x_max_y`.
+/// The traction of a face, such as `traction_x_max`, or a component of it, such as `traction_x_max_y`.
 fn on_face(array: &Array, axes: Axes) -> Option<Understood> {
     let rest = array.name.strip_prefix("traction_")?;
     let found = FACES.into_iter().find_map(|face| Some((face, rest.strip_prefix(face)?)));

@@ -1,19 +1,19 @@
 //! Norms of errors over points.
 
-/// How large an error is. Means are those over points, by their weights, or over the body.
+/// The norms of an error. Means are over points, by their weights, or over the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Norms {
     /// The mean.
     pub l1: f64,
-    /// The root of the mean square.
+    /// The root mean square.
     pub l2: f64,
-    /// The largest.
+    /// The maximum.
     pub linf: f64,
-    /// Where that is: a point, a cell.
+    /// The point or cell of the maximum.
     pub at: usize,
 }
 
-/// Sums of which norms are made.
+/// Sums for the norms.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sums {
     weight: f64,
@@ -28,7 +28,7 @@ pub(crate) struct Sums {
 /// Errors between these have squares that neither underflow nor overflow.
 const USUAL: [f64; 2] = [1e-140, 1e140];
 
-/// Powers of two that bring errors below, between and above into that range.
+/// Powers of two that scale errors below, between and above into that range.
 const SCALES: [f64; 3] =
     [f64::from_bits((1023 + 600) << 52), 1.0, f64::from_bits((1023 - 600) << 52)];
 
@@ -47,20 +47,20 @@ impl Sums {
     pub(crate) fn norms(self) -> Norms {
         let Sums { weight, first, second, largest, at } = self;
         let size = second.iter().rposition(|it| *it > 0.0).unwrap_or(1);
-        // What is two sizes smaller does not count.
+        // A sum two sizes smaller does not count.
         let step = SCALES[2];
         let smaller = if size > 0 { second[size - 1] * step * step } else { 0.0 };
         let l2 = ((second[size] + smaller) / weight).sqrt() / SCALES[size];
         Norms { l1: first / weight, l2, linf: largest, at }
     }
 
-    /// `None` without a weight above 0.
+    /// The norms; `None` without a weight above 0.
     pub(crate) fn if_any(self) -> Option<Norms> {
         (self.weight > 0.0 && self.weight.is_finite()).then(|| self.norms())
     }
 }
 
-/// The lengths of the differences, each of so many components: of vectors Euclid's, of tensors that of Frobenius.
+/// The lengths of the differences, with `components` each: the Euclidean norm of vectors, the Frobenius norm of tensors.
 pub fn lengths(computed: &[f64], exact: &[f64], components: usize) -> impl Iterator<Item = f64> {
     let pairs = computed.chunks_exact(components).zip(exact.chunks_exact(components));
     pairs.map(|(a, b)| length(a, b))
@@ -80,8 +80,8 @@ pub(crate) fn length(a: &[f64], b: &[f64]) -> f64 {
     differences().map(|it| (it / most).powi(2)).sum::<f64>().sqrt() * most
 }
 
-/// The norms of errors at points, each with its weight, or all alike. `None` where there are none, or their weights
-/// have no sum above 0.
+/// The norms of errors at points, weighted or with equal weights. `None` without points, or if their weights have no sum above
+/// 0.
 pub fn over_points(
     errors: impl IntoIterator<Item = f64>,
     weights: Option<&[f64]>,
@@ -93,7 +93,7 @@ pub fn over_points(
     sums.if_any()
 }
 
-/// The norms of the differences at points, as of [`over_points`].
+/// The norms of the differences at points, as in [`over_points`].
 pub fn of_differences(
     computed: &[f64],
     exact: &[f64],
@@ -103,23 +103,23 @@ pub fn of_differences(
     over_points(lengths(computed, exact, components), weights)
 }
 
-/// The largest absolute value; 0 where there is none.
+/// The largest absolute value; 0 if there are no numbers.
 pub fn largest(of: &[f64]) -> f64 {
     of.iter().fold(0.0, |most: f64, it| most.max(it.abs()))
 }
 
-/// The least and the largest number; infinity and minus infinity if there is none.
+/// The least and the largest number; infinity and minus infinity if there are none.
 pub fn range<'a>(of: impl IntoIterator<Item = &'a f64>) -> [f64; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY];
     of.into_iter().fold(none, |[least, most], it| [least.min(*it), most.max(*it)])
 }
 
-/// The largest absolute value of finite numbers, in one pass; 0 where there is none.
+/// The largest absolute value of finite numbers, in one pass; 0 if there are none.
 ///
 /// # Errors
 /// The first number that is not finite.
 pub fn largest_if_finite(of: &[f64]) -> Result<f64, usize> {
-    // So many together, without a branch for each.
+    // Blocks of numbers, without a branch for each.
     const TOGETHER: usize = 1024;
     let mut most = 0.0_f64;
     for (block, numbers) in of.chunks(TOGETHER).enumerate() {

@@ -1,11 +1,11 @@
-//! Norms over cells: l2 and h1 by quadrature, l1 and linf by a polynomial that goes through the errors at its points.
+//! Norms over cells: l2 and h1 by quadrature, l1 and linf by a polynomial that interpolates the errors at its points.
 //!
-//! The length of an error has a kink where the error is 0, and its maximum may be on an edge. A quadrature of few points
-//! sees neither: l1 would be 7 % too small, linf 12 %. So the errors at the points of Gauss, a grid in the unit cube from which each
-//! kind of cell is made, are taken as a polynomial along each axis. Its values on a finer grid cost no exact solution:
-//! they are interpolated axis by axis, and integrated for l1 in cells where errors point to more than one side. The maximum is
-//! looked for in those cells alone that may have a larger error than the largest that is known. Where polynomials have their
-//! largest values, the exact solution is asked for in the end.
+//! The length of an error has a kink where the error is 0, and its maximum may be on an edge. A quadrature with few points
+//! misses both: l1 would be 7 % too small, linf 12 %. So the errors at the Gauss points, a grid in the unit cube from which
+//! each kind of cell is made, are interpolated by a polynomial along each axis. Its values on a finer grid need no exact
+//! solution: they are interpolated axis by axis, and integrated for l1 in cells where errors point to more than one side. The
+//! maximum is searched only in cells that may have a larger error than the largest known one. Finally, the exact solution is
+//! evaluated where the polynomials have their largest values.
 
 use crate::Mistake;
 use crate::cell::{Local, Shape, gauss};
@@ -16,27 +16,27 @@ mod interpolation;
 
 use interpolation::Interpolation;
 
-/// The part of the exact solution that is asked for.
+/// A part of the exact solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
-    /// Its values: so many components at each place.
+    /// The values of the quantity, point by point.
     Values,
-    /// Their derivatives by X: row by row, as many more as there are dimensions. On a meridian these are of the displacement,
-    /// in space: three rows of three, R, Z and theta.
+    /// The derivatives of the quantity by X, row by row: as many times more numbers as there are dimensions. On a meridian, the
+    /// derivatives of the displacement in space: three rows of three, R, Z and theta.
     Gradients,
 }
 
-/// The exact solution at places X, whose coordinates stand one after the other.
+/// Evaluates the exact solution at places X, which are listed point by point.
 pub type Exact<'a> = &'a mut dyn FnMut(Asked, &[f64]) -> Result<Vec<f64>, Mistake>;
 
-/// The values that points of a mesh carry.
+/// The values at the points of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct Carried<'a> {
     /// Numbers of all points.
     pub values: &'a [f64],
-    /// Numbers of a point.
+    /// The number of components of a point.
     pub components: usize,
-    /// Whether the error of the gradient is asked for, too.
+    /// Whether the error of the gradient is computed, too.
     pub has_gradient: bool,
 }
 
@@ -45,55 +45,55 @@ pub struct Carried<'a> {
 pub struct OverCells {
     /// The error.
     pub value: Norms,
-    /// The seminorm of H1, by the root of the body's measure; 0 where it was not asked for.
+    /// The seminorm of H1, over the root of the body's measure; 0 if it was not requested.
     pub h1: f64,
 }
 
-/// How many points of quadrature are taken at once.
+/// The number of quadrature points in a batch.
 const BATCH: usize = 8192;
 
-/// The number of parts of an axis with two points of Gauss each for l1, by the dimension. Cells of a degree above 2 have several
-/// times as many, for their errors have more waves.
+/// The number of parts of an axis with two Gauss points each for l1, by the dimension. Cells of a degree above 2 have several
+/// times as many, because their errors have more waves.
 const PARTS: [usize; 3] = [64, 8, 6];
-/// How many parts have ends where the maximum is looked for.
+/// The number of parts of an axis whose ends are searched for the maximum.
 const STEPS: [usize; 3] = [64, 12, 6];
 
-/// How much larger than at points of quadrature the error of a cell may be anywhere in it.
+/// The largest ratio of the error anywhere in a cell to the error at its quadrature points.
 const BETWEEN: f64 = 1.5;
-/// From what part of its largest error on, a cell may have its maximum beside a place.
+/// The least error over a cell's largest one beside which the maximum may lie.
 const HIGH: f64 = 0.9;
-/// From what part of the largest error on, polynomials are compared by the exact solution.
+/// The least error over the largest one from which on polynomials are compared by the exact solution.
 const NEAR: f64 = 0.97;
-/// How many places are compared so at most, and in how many rounds, each with a smaller step than the one before.
+/// The most places that are compared so, and the number of rounds, each with a smaller step than the one before.
 const COMPARED: usize = 512;
 const ROUNDS: usize = 10;
 const SHRINKS: f64 = 0.7;
 
-/// A square matrix of one to three rows; of fewer than three that of the unit beyond.
+/// A square matrix of one to three rows, completed by the unit matrix to three.
 type Matrix = [[f64; 3]; 3];
 
-/// The functions of a kind of cell at a point of quadrature.
+/// The functions of a kind of cell at a quadrature point.
 struct Point {
     weight: f64,
-    /// The part of the volume of the cube about the point, over its weight.
+    /// The part of the cube's volume around the point, over its weight.
     factor: f64,
     functions: Vec<f64>,
-    /// By the axes of the cell.
+    /// The derivatives along the axes of the cell.
     slopes: [Vec<f64>; 3],
 }
 
-/// A kind of cell with its quadrature, and with matrices that interpolate along an axis.
+/// A kind of cell with its quadrature, and with matrices for interpolation along an axis.
 struct Table {
     shape: &'static Shape,
     points: Vec<Point>,
     fine: Interpolation,
     ends: Interpolation,
-    /// Into how many parts an axis is divided where the maximum is looked for.
+    /// The number of parts of an axis in the search for the maximum.
     steps: usize,
 }
 
 impl Table {
-    /// With so many points along an axis.
+    /// A table with `count` points along an axis.
     fn new(shape: &'static Shape, count: usize) -> Self {
         let (dimension, along) = (shape.dimension, gauss(count));
         let knots: Vec<f64> = along.iter().map(|it| it.0).collect();
@@ -127,7 +127,7 @@ impl Table {
         }
     }
 
-    /// The position of a kind of cell among those that are known, which it joins.
+    /// The position of a kind of cell in the list of known ones, to which it is added if it is new.
     fn among(known: &mut Vec<Table>, shape: &'static Shape, count: usize) -> usize {
         let found = known.iter().position(|it| std::ptr::eq(it.shape, shape));
         found.unwrap_or_else(|| {
@@ -137,18 +137,18 @@ impl Table {
     }
 }
 
-/// The points of quadrature of some cells, and what was computed there.
+/// The quadrature points of some cells, and the values computed there.
 #[derive(Default)]
 struct Batch {
     /// Each cell, and the position of its table.
     cells: Vec<(usize, usize)>,
     places: Vec<f64>,
     weights: Vec<f64>,
-    /// The volume about a point, over its weight in the cube.
+    /// The volume around a point, over its weight in the cube.
     densities: Vec<f64>,
     values: Vec<f64>,
     gradients: Vec<f64>,
-    /// The values that the nodes of a cell carry.
+    /// The values at the nodes of a cell.
     nodes: Vec<f64>,
 }
 
@@ -158,23 +158,23 @@ struct Peak {
     error: f64,
     cell: usize,
     table: usize,
-    /// In the cube.
+    /// The place in the cube.
     at: Local,
 }
 
-/// The largest error so far.
+/// The sums and the largest errors so far.
 #[derive(Default)]
 struct Found {
     volume: f64,
     first: f64,
     second: f64,
     gradient: f64,
-    /// The largest error, and its cell: where the exact solution was asked for.
+    /// The largest error confirmed by the exact solution, and its cell.
     largest: (f64, usize),
     /// The largest error of a polynomial.
     best: f64,
     peaks: Vec<Peak>,
-    /// Memory of what is done with a cell.
+    /// Buffers for the work on a cell.
     room: [Vec<f64>; 2],
     numbers: Vec<f64>,
 }
@@ -195,13 +195,13 @@ impl Mesh<'_> {
                 if area == 0.0 || !area.is_finite() {
                     return Err(Mistake::new(format!("cell {cell} is flat: its area is {area:e}")));
                 }
-                // Nothing says which part of it belongs to which of its points.
+                // The volume is divided equally among the points, because no functions are known.
                 let part = area.abs() * self.radius(&middle) / points.len() as f64;
                 points.iter().for_each(|&point| volumes[point] += part);
                 continue;
             }
-            // Exact for the function of a point, times the volume of a cell with straight edges; and for the volume of one
-            // with curved edges. The radius is one degree more.
+            // Exact for the function of a point times the volume of a cell with straight edges, and for the volume of a cell
+            // with curved edges. The radius adds one degree.
             let degree = shape.highest() as usize + usize::from(self.is_meridian);
             let table = Table::among(&mut tables, shape, (degree + 2).max(2 * degree));
             batch.clear();
@@ -214,12 +214,12 @@ impl Mesh<'_> {
         Ok(volumes)
     }
 
-    /// The volume of a place over that of the mesh there: the radius on a meridian.
+    /// The ratio of the body's volume to the mesh's volume at a place: the radius on a meridian.
     fn radius(&self, place: &[f64]) -> f64 {
         if self.is_meridian { place[0] } else { 1.0 }
     }
 
-    /// The norms over the body of what its points carry.
+    /// The norms over the body of the error of the values at its points.
     ///
     /// # Errors
     /// A cell that is flat, or turned inside out; what the exact solution says.
@@ -261,7 +261,7 @@ impl Mesh<'_> {
         Carried { values, components, has_gradient }: Carried<'_>,
     ) -> Result<(), Mistake> {
         let dimension = self.dimension;
-        // X and what is carried, node by node.
+        // X and the values, node by node.
         let size = dimension + components;
         let own = |&point: &usize| {
             let carried = &values[point * components..][..components];
@@ -269,7 +269,7 @@ impl Mesh<'_> {
         };
         batch.nodes.clear();
         batch.nodes.extend(points.iter().flat_map(own));
-        // The same at a point, and their derivatives by the axes of the cell.
+        // The values at a point, and their derivatives along the axes of the cell.
         let mut sums = vec![0.0; 4 * size];
         let mut sign = 0.0;
         for Point { weight, factor, functions, slopes } in &table.points {
@@ -320,7 +320,7 @@ impl Mesh<'_> {
         Ok(())
     }
 
-    /// Adds the errors of a batch, which is empty then.
+    /// Adds the errors of a batch, and empties it.
     fn add(
         &self,
         found: &mut Found,
@@ -354,7 +354,8 @@ impl Mesh<'_> {
         Ok(())
     }
 
-    /// Asks for the exact solution where polynomials have their largest values, and beside these places, by parabolas uphill.
+    /// Evaluates the exact solution where the polynomials have their largest values, and beside these places, climbing by
+    /// parabolas.
     fn climb(
         &self,
         found: &mut Found,
@@ -407,7 +408,7 @@ impl Mesh<'_> {
         Ok(())
     }
 
-    /// The errors at places of cells.
+    /// The errors at places in cells.
     fn errors_at(
         &self,
         all: &[Peak],
@@ -437,7 +438,7 @@ impl Mesh<'_> {
 }
 
 impl Found {
-    /// Adds the errors of a cell at its points of quadrature, with the weights and densities there.
+    /// Adds the errors of a cell at its quadrature points, with the weights and densities there.
     fn see(
         &mut self,
         (cell, table): (usize, usize),
@@ -460,7 +461,7 @@ impl Found {
             self.largest = (largest, cell);
         }
         let along = |error: &[f64]| mean.iter().zip(error).map(|(a, b)| a * b).sum::<f64>();
-        // Where all errors point to the side of their mean, none of them is 0 between. A line costs little.
+        // If all errors point to the side of their mean, none of them is 0 between. A line is cheap anyway.
         let is_smooth = of.shape.dimension > 1
             && errors.chunks_exact(components).all(|error| along(error) >= 0.0);
         self.first += if is_smooth { first } else { self.integral(of, errors, densities) };
@@ -480,11 +481,11 @@ impl Found {
         of.fine.apply(&self.numbers, dimension, size, &mut self.room);
         let lengths = self.room[0].chunks_exact(size);
         let sum: f64 = lengths.map(|it| it[components] * square(&it[..components]).sqrt()).sum();
-        // All weights along an axis are alike.
+        // All weights along an axis are equal.
         of.fine.places[0].1.powi(dimension as i32) * sum
     }
 
-    /// Looks for the maximum of a polynomial: at the ends of parts, and from the largest there by a parabola along each axis.
+    /// Searches the maximum of a polynomial: at the ends of parts, and from the largest there by a parabola along each axis.
     fn search(
         &mut self,
         (cell, table): (usize, usize),
@@ -510,7 +511,7 @@ impl Found {
                 }
                 let (before, after) = (squares[at - stride], squares[at + stride]);
                 let bend = 2.0 * own - before - after;
-                // Elsewhere it is larger, and that is a peak of its own.
+                // Otherwise a neighbour is larger, and is a peak itself.
                 if bend > 0.0 && before.max(after) <= own {
                     place[axis] += (after - before) / (2.0 * bend) / steps as f64;
                     most += (after - before).powi(2) / (8.0 * bend);
@@ -535,7 +536,7 @@ impl Found {
     }
 }
 
-/// Adds the derivatives around the axis to the rows of a displacement gradient at a place: R, Z and u there.
+/// Adds the derivatives around the axis to the rows of a displacement gradient; `place` contains R, Z and u.
 fn around(gradient: &mut Vec<f64>, place: &[f64]) {
     let (radius, u) = (place[0], &place[2..]);
     let turn = u.get(2).map_or(0.0, |turn| turn / radius);

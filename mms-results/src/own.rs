@@ -1,4 +1,5 @@
-//! Cells and points of a snapshot that count: ghosts are those of another rank, and what stands there twice counts once.
+//! The cells and points of a snapshot that count: without ghosts, which belong to another rank, and with duplicates counted
+//! once.
 
 use std::cmp::Ordering;
 
@@ -6,32 +7,32 @@ use crate::cell::Shape;
 use crate::snapshot::GHOSTS;
 use crate::{Array, Cells, Mistake, Snapshot};
 
-/// How many cells and points do not count.
+/// The numbers of cells and points that do not count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LeftOut {
     /// Ghost cells.
     pub ghost_cells: usize,
     /// Ghost points, and points of ghost cells alone.
     pub ghost_points: usize,
-    /// Cells that stand there once more.
+    /// Duplicate cells.
     pub doubled: usize,
-    /// Points of no cell, where there are cells.
+    /// Points that belong to no cell, if there are cells.
     pub unused: usize,
 }
 
-/// Bits of `vtkGhostType` (vtkDataSetAttributes.h of VTK) by which a cell does not count: a duplicate, one that finer
-/// cells cover, a hidden one.
+/// Bits of `vtkGhostType` (vtkDataSetAttributes.h of VTK) for cells that do not count: a duplicate, a cell covered by finer
+/// ones, a hidden one.
 const CELLS: u64 = 1 | 8 | 32;
-/// Likewise of a point: a duplicate, a hidden one.
+/// Bits of `vtkGhostType` for points that do not count: a duplicate, a hidden one.
 const POINTS: u64 = 1 | 2;
 
-/// The difference of values of two ranks that is allowed, as a part of the largest number.
+/// The largest accepted difference of values of two ranks, over the largest number.
 const SAME: f64 = 1e-6;
 
-/// Leaves out ghosts and cells that stand there twice.
+/// Removes ghosts and duplicate cells.
 ///
 /// # Errors
-/// A cell that stands there twice, with other values.
+/// A duplicate cell with different values.
 pub fn keep(snapshot: &mut Snapshot) -> Result<LeftOut, Mistake> {
     let [ghost_cells, ghost_points] = without_ghosts(snapshot);
     let doubled = doubled(snapshot).map_err(|mistake| mistake.of(&snapshot.path))?;
@@ -41,8 +42,8 @@ pub fn keep(snapshot: &mut Snapshot) -> Result<LeftOut, Mistake> {
     Ok(LeftOut { ghost_cells, ghost_points, doubled: count(&doubled), unused: count(&unused) })
 }
 
-/// Marks the points that no cell has, as the centre of an arc. All points count without cells, and with vertices and lines
-/// alone, which may stand beside particles.
+/// Marks the points that belong to no cell, such as the centre of an arc. All points count without cells, and with vertices and
+/// lines alone, which may accompany particles.
 fn unused(snapshot: &Snapshot) -> Vec<bool> {
     let is_of_body = |(kind, points): (u8, &[usize])| match Shape::of(kind, points.len()) {
         Some(shape) => shape.dimension > 1,
@@ -57,12 +58,12 @@ fn count(is_out: &[bool]) -> usize {
     is_out.iter().filter(|it| **it).count()
 }
 
-/// Which rows the arrays of ghosts mark; these arrays are taken out.
+/// The rows that the arrays of ghosts mark; removes these arrays.
 fn marked(arrays: &mut Vec<Array>, rows: usize, bits: u64) -> Vec<bool> {
     let mut is_ghost = vec![false; rows];
     let is_mark = |array: &Array| GHOSTS.contains(&&*array.name);
     for array in arrays.iter().filter(|it| is_mark(it) && it.values.len() == rows) {
-        // The older array counts how many layers a cell is away.
+        // The older array counts the layers between a cell and its rank.
         let bits = if array.name == GHOSTS[1] { u64::MAX } else { bits };
         let marks = is_ghost.iter_mut().zip(&array.values);
         marks.for_each(|(it, value)| *it |= *value as u64 & bits != 0);
@@ -71,7 +72,7 @@ fn marked(arrays: &mut Vec<Array>, rows: usize, bits: u64) -> Vec<bool> {
     is_ghost
 }
 
-/// Leaves out ghost cells, points that only these have, and ghost points that no cell needs.
+/// Removes ghost cells, points that only these have, and ghost points that no cell needs.
 fn without_ghosts(snapshot: &mut Snapshot) -> [usize; 2] {
     let (cells, points) = (snapshot.cells.len(), snapshot.rows());
     let of_cells = marked(&mut snapshot.of_cells, cells, CELLS);
@@ -125,7 +126,7 @@ fn keep_points(snapshot: &mut Snapshot, is_out: &[bool]) {
     snapshot.lines.retain(|_| each.next().is_none_or(|is_out| !is_out));
 }
 
-/// Keeps rows of an array that has as many.
+/// Removes rows from an array with this number of rows.
 fn keep_rows(array: &mut Array, rows: usize, is_out: &[bool]) {
     if array.rows() == rows {
         let size = array.components;
@@ -137,14 +138,14 @@ fn keep_rows(array: &mut Array, rows: usize, is_out: &[bool]) {
     }
 }
 
-/// Which cells have the places of a cell before them: they are in two pieces, or were written twice.
+/// Marks the cells whose points are at the places of an earlier cell: they are in two pieces, or were written twice.
 fn doubled(snapshot: &Snapshot) -> Result<Vec<bool>, Mistake> {
     let mut is_out = vec![false; snapshot.cells.len()];
     let Some(places) = &snapshot.points else { return Ok(is_out) };
     let size = places.components;
     let place = |point: usize| &places.values[point * size..][..size];
     let digest = |point: usize| {
-        // -0 is 0.
+        // -0 becomes 0.
         let mix = |all: u64, x: &f64| {
             let mixed = (all ^ (x + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
             mixed ^ (mixed >> 32)
@@ -226,7 +227,7 @@ mod tests {
         }
     }
 
-    /// Lines of a bar by the points that they have.
+    /// Lines of a bar, by their points.
     fn bar(points: &[f64], lines: &[[usize; 2]]) -> Snapshot {
         Snapshot {
             points: Some(array("Points", 1, points)),
@@ -245,7 +246,7 @@ mod tests {
     fn ghosts_are_left_out_with_the_points_that_only_they_have() {
         let mut bar = bar(&[0.0, 1.0, 2.0, 7.0], &[[0, 1], [1, 2], [2, 3]]);
         bar.of_cells.push(array("vtkGhostType", 1, &[0.0, 2.0, 1.0]));
-        // Another rank owns the point 1, which a cell of this one needs.
+        // Another rank owns point 1, which a cell of this rank needs.
         bar.of_points.push(array("vtkGhostType", 1, &[0.0, 1.0, 0.0, 0.0]));
         let left_out = keep(&mut bar).unwrap();
         assert_eq!(left_out, LeftOut { ghost_cells: 1, ghost_points: 1, ..LeftOut::default() });
@@ -260,7 +261,7 @@ mod tests {
 
     #[test]
     fn a_cell_counts_once_and_not_with_two_values() {
-        // The second piece has points of its own.
+        // The second piece has copies of points.
         let mut twice = bar(&[0.0, 1.0, 2.0, 1.0, 2.0, 3.0], &[[0, 1], [1, 2], [4, 3], [4, 5]]);
         let left_out = keep(&mut twice).unwrap();
         assert_eq!((left_out.doubled, left_out.unused), (1, 0));

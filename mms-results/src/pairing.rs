@@ -1,5 +1,5 @@
-//! Which points and cells of two results are the same, where files list them in another order: ranks write their own parts,
-//! and a restart may sort anew.
+//! Pairs the points and cells of two results, which files may list in different orders: ranks write their own parts, and a
+//! restart may sort anew.
 
 use std::collections::BTreeMap;
 
@@ -8,10 +8,10 @@ use crate::motion::difference;
 use crate::names::{Names, Role, Values, recognise};
 use crate::{Array, Cells, Mistake, Snapshot};
 
-/// Rows of two results that belong together.
+/// Pairs of rows of two results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Pairs {
-    /// Each row with that of its number, so many.
+    /// Rows with the same number, and the number of rows.
     InOrder(usize),
     /// Rows of the first and of the second.
     Listed(Vec<[usize; 2]>),
@@ -27,7 +27,7 @@ impl Pairs {
     }
 }
 
-/// How points were paired.
+/// The way in which points were paired.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum By {
     /// By the numbers in an array of this name.
@@ -38,7 +38,7 @@ pub enum By {
     Order,
 }
 
-/// Names of arrays that number points, in small letters without what separates words, and without an s at their end.
+/// Names of arrays that number points, in lower case, without separators, and without a final s.
 const NUMBERS: [&str; 11] = [
     "id",
     "pid",
@@ -53,15 +53,15 @@ const NUMBERS: [&str; 11] = [
     "globalpointid",
 ];
 
-/// A row that has no partner: of which result, and which row.
+/// A row without a partner: the result, and the row.
 type Alone = (usize, usize);
 
-/// Pairs the points of two snapshots: by numbers that both have for their points, by X, or, where neither is known, in their
-/// order. Points in one place are paired in their order, and with one point there all of the other result are: parts of a
-/// mesh have the points between them both.
+/// Pairs the points of two snapshots: by numbers that both have for their points, by X, or, where neither is known, by their
+/// order. Points in one place are paired in their order; if one result has one point there, it is paired with all of the other:
+/// parts of a mesh both have the points between them.
 ///
 /// # Errors
-/// A point that the other result does not have; as many points, where nothing tells which is which, that are not as many.
+/// A point that the other result does not have; different numbers of points where only the order could pair them.
 pub fn points(one: &Snapshot, other: &Snapshot, names: &Names) -> Result<(Pairs, By), Mistake> {
     if let Some((name, [a, b])) = numbered(one, other) {
         let pairs = by_place(&a.values, &b.values, 1, 0.25);
@@ -74,7 +74,7 @@ pub fn points(one: &Snapshot, other: &Snapshot, names: &Names) -> Result<(Pairs,
     if let [Some(of_one), Some(of_other)] = &places {
         let tried = of_one.readings.iter().zip(&of_other.readings);
         for (a, b) in tried.filter(|(a, b)| a.components == b.components) {
-            // Digits that hide which of two neighbours is meant tell nothing.
+            // Rounding that hides which of two neighbours is meant decides nothing.
             let within = (4.0 * (a.rounding + b.rounding)).min(spacing(a) / 4.0)
                 + 8.0 * f64::EPSILON * largest(a).max(largest(b));
             match by_place(&a.numbers, &b.numbers, a.components, within) {
@@ -99,7 +99,7 @@ pub fn points(one: &Snapshot, other: &Snapshot, names: &Names) -> Result<(Pairs,
     Ok((Pairs::InOrder(counts[0]), By::Order))
 }
 
-/// Pairs cells by the points that they have.
+/// Pairs cells by their points.
 ///
 /// # Errors
 /// A cell that the other result does not have.
@@ -110,7 +110,7 @@ pub fn cells(one: &Snapshot, other: &Snapshot, points: &Pairs) -> Result<Pairs, 
     for snapshot in [one, other] {
         snapshot.cells.hold(snapshot.rows()).map_err(|mistake| mistake.of(&snapshot.path))?;
     }
-    // Points that belong together are called by the first of them in one result.
+    // Paired points are named by the first of them in one result.
     let mut names = [vec![0; one.rows()], vec![usize::MAX; other.rows()]];
     points.iter().for_each(|[a, b]| names[1][b] = names[1][b].min(a));
     points.iter().for_each(|[a, b]| names[0][a] = names[1][b]);
@@ -135,7 +135,7 @@ pub fn cells(one: &Snapshot, other: &Snapshot, points: &Pairs) -> Result<Pairs, 
     })
 }
 
-/// About how far points are from each other.
+/// The approximate distance of neighbouring points.
 fn spacing(values: &Values<'_>) -> f64 {
     let mut extent: f64 = 0.0;
     for axis in 0..values.components {
@@ -160,7 +160,7 @@ fn alone(both: [&Snapshot; 2], (which, row): Alone, by: &str) -> Mistake {
     }
 }
 
-/// The arrays that number the points of both, each point with a number of its own.
+/// The arrays that number the points of both, with a different number for each point.
 fn numbered<'a>(one: &'a Snapshot, other: &'a Snapshot) -> Option<(String, [&'a Array; 2])> {
     let plain = |name: &str| -> String {
         name.chars().filter(|it| it.is_alphanumeric()).flat_map(char::to_lowercase).collect()
@@ -184,7 +184,7 @@ fn are_distinct(array: &Array) -> bool {
     values.iter().all(|it| it.fract() == 0.0) && values.windows(2).all(|it| it[0] < it[1])
 }
 
-/// Where points are, in each way in which that can be read: X first.
+/// The places of points in each possible reading: X first.
 struct Places<'a> {
     readings: Vec<Values<'a>>,
     is_reference: bool,
@@ -237,14 +237,14 @@ fn by_place(a: &[f64], b: &[f64], size: usize, within: f64) -> Result<Pairs, Alo
     }
     for (at, point) in a.chunks(size).enumerate() {
         let found = first(point).ok_or((0, at))?;
-        // Points in one place are called by the first of them.
+        // Points in one place are named by the first of them.
         let name = first(&b[found * size..][..size]).unwrap_or(found);
         groups.entry(name).or_default()[0].push(at);
     }
     listed_pairs(groups.into_values().collect())
 }
 
-/// Rows in one place: as many of both in their order, or all with one.
+/// Pairs the rows in one place: equally many in their order, or all with one.
 fn listed_pairs(groups: Vec<[Vec<usize>; 2]>) -> Result<Pairs, Alone> {
     let mut all = Vec::new();
     for [a, b] in groups {

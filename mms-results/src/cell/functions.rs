@@ -2,21 +2,21 @@
 
 use super::{Form, Local};
 
-/// How functions are told.
+/// The form in which shape functions are evaluated.
 #[derive(Debug)]
 pub(super) enum Functions {
-    /// As products along the axes.
+    /// Products along the axes.
     Products(Products),
-    /// As those of a hexahedron, of which the upper four are one.
+    /// The functions of a hexahedron, of which the upper four are one.
     Pyramid(Products),
-    /// By the coefficients of monomials.
+    /// The coefficients of monomials.
     Solved(Solved),
-    /// Not at all: what is between the points is not known.
+    /// No functions: the values between the points are not known.
     None,
 }
 
 impl Functions {
-    /// Their values at a place, or their derivatives by a coordinate.
+    /// The values of the functions at a place, or their derivatives by a coordinate.
     pub fn at(&self, at: Local, by: Option<usize>) -> Vec<f64> {
         match self {
             Functions::Products(products) => products.at(at, by),
@@ -32,7 +32,7 @@ impl Functions {
     }
 }
 
-/// A function of the place that is linear, and the degree of the polynomials of it: one of the barycentric coordinates.
+/// A linear function of the place, which is a barycentric coordinate, and the degree of its polynomials.
 #[derive(Debug)]
 struct Factor {
     constant: f64,
@@ -40,12 +40,12 @@ struct Factor {
     degree: usize,
 }
 
-/// Functions that are products of polynomials of barycentric coordinates: of nodes that stand evenly (P. Silvester, Int. J.
-/// Engng Sci. 7, 1969, 849-861). An axis of a square has two such coordinates, a triangle three.
+/// Functions that are products of polynomials of barycentric coordinates, for evenly spaced nodes (P. Silvester, Int. J. Engng
+/// Sci. 7, 1969, 849-861). An axis of a square has two such coordinates, a triangle three.
 #[derive(Debug)]
 pub(super) struct Products {
     factors: Vec<Factor>,
-    /// The polynomial of each factor that a node has, by its degree, node by node.
+    /// The degree of each factor's polynomial, node by node.
     nodes: Vec<Vec<usize>>,
 }
 
@@ -106,7 +106,7 @@ impl Factor {
         self.constant + along.sum::<f64>()
     }
 
-    /// The polynomials of each degree up to the own one that are 0 at the steps before, and their slopes.
+    /// The polynomials of each degree up to the factor's degree that are 0 at the earlier steps, and their slopes.
     fn polynomials(&self, at: Local) -> Vec<[f64; 2]> {
         let n = self.degree as f64;
         let scaled = n * self.value(at);
@@ -129,7 +129,7 @@ pub(super) struct Solved {
 }
 
 impl Solved {
-    /// The functions of nodes, by as many monomials.
+    /// The functions of nodes, with as many monomials as nodes.
     pub fn new(nodes: &[Local], monomials: Vec<[u32; 3]>) -> Self {
         Solved { coefficients: solve(nodes, &monomials), monomials }
     }

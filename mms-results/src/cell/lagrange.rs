@@ -1,5 +1,5 @@
-//! Where VTK has the nodes of cells of Lagrange, which stand evenly: vtkHigherOrderTriangle, vtkHigherOrderHexahedron and
-//! their like in the documentation of VTK. Corners come first, then the nodes of edges, of faces, and those within.
+//! The evenly spaced nodes of Lagrange cells in the order of VTK: vtkHigherOrderTriangle, vtkHigherOrderHexahedron and similar
+//! classes in the documentation of VTK. Corners come first, then the nodes of edges, of faces, and inner nodes.
 
 /// The highest degree that is read.
 pub(super) const MOST: usize = 10;
@@ -7,22 +7,22 @@ pub(super) const MOST: usize = 10;
 /// The number of a curve in VTK; a triangle, a quadrilateral, a tetrahedron, a hexahedron and a wedge follow.
 const CURVE: u8 = 68;
 
-/// How many kinds there are.
+/// The number of kinds.
 pub(super) const KINDS: usize = 6;
 
 /// The faces of a tetrahedron by its corners.
 const FACES: [[usize; 3]; 4] = [[0, 1, 3], [2, 3, 1], [0, 3, 2], [0, 2, 1]];
 
-/// A node by its steps along the axes, of which there are as many as the degree from end to end.
+/// A node by its steps along the axes; from end to end there are as many steps as the degree.
 type Steps = [usize; 3];
 
-/// The position among these kinds of a number in VTK. A cubic line is a curve of degree 3.
+/// The position of a VTK type among these kinds. A cubic line is a curve of degree 3.
 pub(super) fn position(kind: u8) -> Option<usize> {
     let kind = if kind == 35 { CURVE } else { kind };
     Some(usize::from(kind.checked_sub(CURVE)?)).filter(|it| *it < KINDS)
 }
 
-/// The degree of a cell of so many points.
+/// The degree of a cell with this number of points.
 pub(super) fn degree(position: usize, points: usize) -> Option<usize> {
     (1..=MOST).find(|&degree| {
         let side = degree + 1;
@@ -39,7 +39,7 @@ pub(super) fn degree(position: usize, points: usize) -> Option<usize> {
     })
 }
 
-/// The nodes of a cell of that degree.
+/// The nodes of a cell of this degree.
 pub(super) fn nodes(position: usize, n: usize) -> Vec<Steps> {
     match position {
         0 => [0, n].into_iter().chain(1..n).map(|x| [x, 0, 0]).collect(),
@@ -51,7 +51,7 @@ pub(super) fn nodes(position: usize, n: usize) -> Vec<Steps> {
     }
 }
 
-/// The nodes of a triangle by their barycentric coordinates. Those within are a triangle again.
+/// The nodes of a triangle by their barycentric coordinates. The inner nodes form a triangle again.
 fn triangle(n: usize) -> Vec<[usize; 3]> {
     if n == 0 {
         return vec![[0; 3]];
@@ -78,7 +78,7 @@ fn tetrahedron(n: usize) -> Vec<[usize; 4]> {
     all
 }
 
-/// The degree of what is within a simplex of so many corners.
+/// The degree of the inner nodes of a simplex with this number of corners.
 fn within(n: usize, corners: usize) -> Option<usize> {
     n.checked_sub(corners)
 }
@@ -100,7 +100,7 @@ fn simplex_edges<const N: usize>(n: usize, edges: &[[usize; 2]]) -> Vec<[usize; 
     (0..N).map(corner).chain(edges.iter().flat_map(between)).collect()
 }
 
-/// The corners of a square, the nodes of its edges, and those within.
+/// The corners of a square, the nodes of its edges, and the inner nodes.
 fn square(n: usize) -> [Vec<[usize; 2]>; 3] {
     let along = |at: fn(usize, usize) -> [usize; 2]| (1..n).map(move |step| at(step, n));
     let edges = along(|it, _| [it, 0])
@@ -148,7 +148,7 @@ fn wedge(n: usize) -> Vec<Steps> {
     all
 }
 
-/// Where the nodes of the last two upright edges of a hexahedron are: files of old versions have them the other way round.
+/// The positions of the nodes of the last two upright edges of a hexahedron: files of old versions swap them.
 pub(crate) fn last_edges(kind: u8, points: usize) -> Option<[usize; 3]> {
     let degree = degree(position(kind).filter(|it| *it == 4)?, points)?;
     let start = 8 + 10 * (degree - 1);

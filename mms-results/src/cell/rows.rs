@@ -2,7 +2,7 @@
 
 use super::{Local, Space};
 
-/// A kind of cell as data: its number in VTK, dimension, corners, the corners in whose middle each other node lies, and
+/// A kind of cell as data: its number in VTK, dimension, corners, for each other node the corners in whose middle it lies, and
 /// its polynomials.
 pub(super) type Row = (u8, usize, &'static [Local], &'static [&'static [usize]], Space);
 

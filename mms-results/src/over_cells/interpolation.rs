@@ -2,7 +2,7 @@
 
 use crate::cell::Local;
 
-/// Values of Lagrange's polynomials at places along an axis.
+/// Values of Lagrange polynomials at places along an axis.
 pub(super) struct Interpolation {
     /// The places along the axis, each with its weight.
     pub(super) places: Vec<(f64, f64)>,
@@ -11,14 +11,14 @@ pub(super) struct Interpolation {
 }
 
 impl Interpolation {
-    /// The polynomials of these knots, at these places with weights.
+    /// The polynomials of these knots at places with weights.
     pub(super) fn new(knots: &[f64], places: Vec<(f64, f64)>) -> Self {
         let rows = places.iter().map(|(x, _)| lagrange(knots, *x)).collect();
         Interpolation { places, rows }
     }
 
-    /// Interpolates numbers on the grid of knots, `size` of them at each point, to the grid of places; `room[0]` has the result.
-    /// On both grids the last axis runs first.
+    /// Interpolates numbers on the grid of knots, `size` of them at each point, to the grid of places; the result is in
+    /// `room[0]`. On both grids the last axis runs fastest.
     pub(super) fn apply(
         &self,
         numbers: &[f64],

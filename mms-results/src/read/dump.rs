@@ -6,13 +6,13 @@ use super::text::{Style, number};
 use crate::wanted::Wanted;
 use crate::{Mistake, Snapshot, Time};
 
-/// How a section begins.
+/// The beginning of a section.
 pub const MARK: &[u8] = b"ITEM:";
 
-/// The lines of a file, each with its number.
+/// The lines of a file, with their numbers.
 type Lines<'a> = dyn Iterator<Item = (usize, &'a str)> + 'a;
 
-/// Reads all blocks. A number of a step is no time: only `ITEM: TIME` gives one.
+/// Reads all blocks. The number of a step is no time: only `ITEM: TIME` gives one.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = 1 + memchr::memchr_iter(b'\n', &bytes[..error.valid_up_to()]).count();
@@ -51,7 +51,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
     Ok(found)
 }
 
-/// The particles under a line of names.
+/// Reads the particles below a line of names.
 fn particles(
     (at, names): (usize, &str),
     count: usize,

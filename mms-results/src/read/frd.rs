@@ -1,5 +1,5 @@
 //! Results of CalculiX in `.frd` files, in text and in binary ("CalculiX CrunchiX GraphiX User's Manual", section "Result
-//! Format"). Their nodes are where they were before the deformation.
+//! Format"). Their nodes have the positions before the deformation.
 
 use super::series::tell_unread;
 use super::tags::Tags;
@@ -12,12 +12,12 @@ pub fn is_frd(bytes: &[u8]) -> bool {
     matches!(bytes.get(..6), Some(b"    1C" | b"    1U" | b"    2C"))
 }
 
-/// Types of elements, from 1 on: the number of VTK, and its nodes by their places in the file.
+/// Types of elements, from 1 on: the number in VTK, and its nodes by their positions in the file.
 const ELEMENTS: [(u8, &[usize]); 12] = [
     (12, &[0, 1, 2, 3, 4, 5, 6, 7]),
     (13, &[0, 1, 2, 3, 4, 5]),
     (10, &[0, 1, 2, 3]),
-    // The file has the nodes of upright edges before those of the upper face.
+    // The file lists the nodes of upright edges before those in the upper face.
     (25, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15]),
     (26, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11]),
     (24, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
@@ -29,17 +29,17 @@ const ELEMENTS: [(u8, &[usize]); 12] = [
     (21, &[0, 1, 2]),
 ];
 
-/// Columns of a number, and numbers on a line.
+/// The columns of a number, and the numbers on a line.
 const WIDTH: usize = 12;
 const ON_LINE: usize = 6;
 
-/// Elements for which room is taken at once.
+/// The number of elements for which memory is reserved at a time.
 const AT_ONCE: usize = 256;
 
-/// The most components that a block may have.
+/// The most components of a block.
 const MOST: usize = 1000;
 
-/// Reads the mesh and all blocks of results; those of one time are a snapshot.
+/// Reads the mesh and all blocks of results; blocks of one time make a snapshot.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let mut file = File { bytes, at: 0, line: 0, wanted, unread: Vec::new() };
     let (mut tags, mut mesh, mut found) = (None, Snapshot::default(), Vec::new());
@@ -80,18 +80,18 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
     Ok(found)
 }
 
-/// The columns of a line, without blanks around them.
+/// The text in columns of a line, without blanks around it.
 fn field(line: &[u8], start: usize, width: usize) -> &str {
     let line = line.get(start..).unwrap_or_default();
     std::str::from_utf8(&line[..line.len().min(width)]).unwrap_or("?").trim()
 }
 
-/// How the records of a block stand there, which the end of its first line says.
+/// The format of the records in a block, which the end of its first line states.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Form {
-    /// In text, with numbers of nodes of so many columns.
+    /// Text, with node numbers of this width.
     Text(usize),
-    /// In binary, with numbers of so many bytes.
+    /// Binary, with numbers of this many bytes.
     Binary(usize),
 }
 
@@ -100,7 +100,7 @@ struct File<'a> {
     at: usize,
     line: usize,
     wanted: &'a Wanted<'a>,
-    /// Names of arrays that were not read, each with its time.
+    /// Names of arrays that were not read, with their times.
     unread: Vec<(f64, String)>,
 }
 
@@ -125,7 +125,7 @@ impl<'a> File<'a> {
         self.next().ok_or_else(|| self.cut())
     }
 
-    /// So many bytes of a block in binary.
+    /// Reads `count` items of `each` bytes from a binary block.
     fn binary(&mut self, count: usize, each: usize) -> Result<&'a [u8], Mistake> {
         let length = count.checked_mul(each).ok_or_else(|| self.cut())?;
         let rest = self.bytes.get(self.at..).unwrap_or_default();
@@ -134,7 +134,7 @@ impl<'a> File<'a> {
         Ok(data)
     }
 
-    /// How many rows a block says it has, if it does, and how they stand there, which is written from this column on.
+    /// The stated number of rows of a block, if there is one, and their format, which is written from column `from` on.
     fn head(&self, line: &[u8], from: usize) -> Result<(Option<usize>, Form), Mistake> {
         let count = field(line, 24, WIDTH);
         let count = match count {
@@ -156,7 +156,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Refuses a block that has not as many rows as it says.
+    /// Refuses a block whose number of rows is not the stated one.
     fn hold(&self, said: Option<usize>, rows: usize) -> Result<(), Mistake> {
         match said {
             Some(count) if count != rows => {
@@ -166,13 +166,13 @@ impl<'a> File<'a> {
         }
     }
 
-    /// A whole number of text.
+    /// Reads a whole number from text.
     fn whole(&self, line: &[u8], start: usize, width: usize) -> Result<u64, Mistake> {
         let text = field(line, start, width);
         text.parse().map_err(|_| self.mistake(format!("expected a whole number, found `{text}`")))
     }
 
-    /// Numbers of nodes, and so many numbers for each.
+    /// Reads the numbers of nodes, and `width` numbers for each.
     fn rows(&mut self, said: Option<usize>, form: Form, width: usize) -> Result<Rows, Mistake> {
         let (mut tags, mut numbers) = (Vec::new(), Numbers::default());
         let columns = match form {
@@ -370,7 +370,7 @@ impl<'a> File<'a> {
         Ok(())
     }
 
-    /// The name of the array of each column: a vector is one, a tensor one for each of its entries.
+    /// The name of the array of each column: a vector is one array, a tensor one array per entry.
     fn columns(&mut self, name: &str, entities: u64) -> Result<Vec<String>, Mistake> {
         let mut columns = Vec::new();
         for _ in 0..entities {
@@ -380,7 +380,7 @@ impl<'a> File<'a> {
                     self.mistake(format!("expected a record -5 with a component of `{name}`"))
                 );
             }
-            // The length of a vector is computed by who shows it.
+            // The length of a vector is left to viewers.
             if field(line, 33, 5) == "1" {
                 continue;
             }
@@ -402,12 +402,12 @@ impl<'a> File<'a> {
     }
 }
 
-/// An integer of four bytes: the number of a node, or a type.
+/// Reads an integer of four bytes: the number of a node, or a type.
 fn tag(bytes: &[u8]) -> u64 {
     bytes.first_chunk().map_or(0, |it| u64::from(u32::from_le_bytes(*it)))
 }
 
-/// A number of four or eight bytes.
+/// Reads a number of four or eight bytes.
 fn real(bytes: &[u8]) -> f64 {
     match *bytes {
         [a, b, c, d] => f64::from(f32::from_le_bytes([a, b, c, d])),
@@ -415,16 +415,16 @@ fn real(bytes: &[u8]) -> f64 {
     }
 }
 
-/// Nodes by their numbers, and numbers of each.
+/// Nodes by their numbers, and the numbers at each node.
 struct Rows {
     tags: Vec<u64>,
     numbers: Numbers,
-    /// How they were stored, if it was in binary.
+    /// The precision, if the block was binary.
     binary: Option<Stored>,
 }
 
 impl Rows {
-    /// Says why these rows are not those of all nodes.
+    /// Explains why the rows do not belong to all nodes; `None` if they do.
     fn misfit(&self, (count, nodes): (usize, &Tags)) -> Option<String> {
         if let Some(tag) = self.tags.iter().find(|it| nodes.place(**it).is_none()) {
             return Some(format!("has the node {tag}, which is not there"));
@@ -440,7 +440,7 @@ impl Rows {
         (self.tags.len() > count).then(|| "has two rows for a node".into())
     }
 
-    /// The arrays of these names, in the order of the nodes.
+    /// Makes arrays of these names, in the order of the nodes.
     fn arrays(self, columns: &[String], names: &[String], nodes: &Tags) -> Vec<Array> {
         let Rows { tags, numbers, binary } = self;
         let stored = binary.unwrap_or(numbers.style.stored());

@@ -1,6 +1,6 @@
 //! Files `.msh` of Gmsh, of versions 2 and 4 ("Gmsh Reference Manual", section "File formats").
 //!
-//! Gmsh writes the mesh once more with each view that it adds to a file.
+//! In each view that it adds to a file, Gmsh writes the mesh again.
 
 use memchr::memmem;
 
@@ -10,13 +10,13 @@ use super::text::{Numbers, number};
 use crate::wanted::Wanted;
 use crate::{Array, Mistake, Snapshot, Stored};
 
-/// How a file begins.
+/// The beginning of a file.
 pub const MARK: &[u8] = b"$MeshFormat";
 
-/// The most components, and tags of a view or an element.
+/// The most components, and the most tags of a view or an element.
 const MOST: usize = 1000;
 
-/// The parts of a mesh that may have numbers.
+/// The parts of a mesh that numbers may belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Of {
     Nodes,
@@ -33,7 +33,7 @@ pub struct View {
     pub array: Array,
 }
 
-/// Reads the mesh and all views that are wanted; those of one time are a snapshot.
+/// Reads the mesh and all wanted views; views of one time make a snapshot.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let mut file = File { bytes, at: 0, format: Format::default(), wanted };
     let (mut mesh, mut views, mut unread) = (Mesh::default(), Vec::new(), Vec::new());
@@ -51,14 +51,14 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
             "Nodes" => file.nodes(&mut mesh).map(|()| true)?,
             "Elements" => file.elements(&mut mesh).map(|()| true)?,
             "MeshFormat" => file.format(&mut mesh).map(|()| false)?,
-            // Numbers of an element at its nodes are those of no point.
+            // Element data at the nodes of each element belong to no point.
             "NodeData" | "ElementData" | "ElementNodeData" => {
                 let head = file.head()?;
                 let is_wanted = wanted.reads(&head.name) && of.is_some();
                 if !is_wanted {
                     unread.push((head.time.values[0], head.name.clone()));
                 }
-                // Also a view that is not wanted says which nodes and elements are of the body.
+                // An unwanted view also shows which nodes and elements belong to the body.
                 match of.map(|of| file.view(of, head, is_wanted)) {
                     Some(Ok(view)) => {
                         views.push(view);
@@ -104,7 +104,7 @@ impl<'a> File<'a> {
         self.bytes.get(self.at..).unwrap_or_default()
     }
 
-    /// A mistake here: at the line of a text.
+    /// A mistake at the current place: at a line if the file is text.
     fn mistake(&self, what: impl Into<String>) -> Mistake {
         let before = &self.bytes[..self.at.min(self.bytes.len())];
         match self.format.is_binary {
@@ -117,7 +117,7 @@ impl<'a> File<'a> {
         self.mistake("the file ends within a section: was it cut off? copy or write it again")
     }
 
-    /// The next word of a text; none at the end.
+    /// The next word of a text; `None` at the end.
     fn word(&mut self) -> Option<&'a str> {
         let rest = self.rest().trim_ascii_start();
         self.at = self.bytes.len() - rest.len();
@@ -126,7 +126,7 @@ impl<'a> File<'a> {
         (end > 0).then(|| std::str::from_utf8(&rest[..end]).unwrap_or("?"))
     }
 
-    /// Goes behind the end of the line.
+    /// Skips to the end of the line.
     fn end_line(&mut self) {
         let rest = self.rest();
         self.at += memchr::memchr(b'\n', rest).map_or(rest.len(), |it| it + 1);
@@ -137,7 +137,7 @@ impl<'a> File<'a> {
         word.parse().map_err(|_| self.mistake(format!("expected {what}, found `{word}`")))
     }
 
-    /// A count that stands in text, also where what follows does not.
+    /// Reads a count that is text even in binary files.
     fn count(&mut self) -> Result<usize, Mistake> {
         let count = self.parsed("how many there are")?;
         if self.format.is_binary {
@@ -146,14 +146,14 @@ impl<'a> File<'a> {
         Ok(count)
     }
 
-    /// So many bytes.
+    /// Reads `length` bytes.
     fn raw(&mut self, length: usize) -> Result<&'a [u8], Mistake> {
         let data = self.rest().get(..length).ok_or_else(|| self.cut())?;
         self.at += length;
         Ok(data)
     }
 
-    /// An integer, of so many bytes in binary.
+    /// Reads an integer, of `bytes` bytes in binary.
     fn whole(&mut self, bytes: usize) -> Result<i64, Mistake> {
         if !self.format.is_binary {
             return self.parsed("a whole number");
@@ -173,7 +173,7 @@ impl<'a> File<'a> {
         })
     }
 
-    /// How many of something there are, each of so many integers, of 4 bytes, and of numbers: not more than the file has room for.
+    /// Reads a count of rows, each with some integers of 4 bytes and some numbers; refuses more rows than the file can contain.
     fn size(&mut self, integers: usize, numbers: usize) -> Result<usize, Mistake> {
         let count = if self.format.version < 40 {
             self.count()? as i64
@@ -183,7 +183,7 @@ impl<'a> File<'a> {
         self.held(count, integers, numbers)
     }
 
-    /// The number of blocks of a section of format 4, from its first numbers.
+    /// Reads the number of blocks in a section of format 4, from its first numbers.
     fn blocks(&mut self) -> Result<usize, Mistake> {
         let Format { version, size, .. } = self.format;
         let blocks = self.size(3, 0)?;
@@ -209,7 +209,7 @@ impl<'a> File<'a> {
         })
     }
 
-    /// Adds so many numbers.
+    /// Reads `count` numbers.
     fn numbers(&mut self, count: usize, to: &mut Numbers) -> Result<(), Mistake> {
         if self.format.is_binary {
             let data = self.raw(count.saturating_mul(8))?;
@@ -218,14 +218,14 @@ impl<'a> File<'a> {
         }
         for _ in 0..count {
             let word = self.word().ok_or_else(|| self.cut())?;
-            // So meshio writes numbers with NumPy 2.
+            // This is how meshio writes numbers with NumPy 2.
             let bare = word.strip_prefix("np.float64(").and_then(|it| it.strip_suffix(')'));
             to.push(bare.unwrap_or(word), self.wanted).map_err(|it| self.mistake(it.what))?;
         }
         Ok(())
     }
 
-    /// Goes behind the end of a section.
+    /// Skips to the end of a section.
     fn end(&mut self, section: &str, is_read: bool) -> Result<(), Mistake> {
         let end = format!("$End{section}");
         if is_read {
@@ -317,7 +317,7 @@ impl<'a> File<'a> {
         mesh.unite_nodes(had).map_err(|what| self.mistake(what))
     }
 
-    /// Adds coordinates, and passes over so many parameters behind them.
+    /// Reads coordinates, and skips `more` parameters after them.
     fn coordinates(&mut self, count: usize, more: usize, mesh: &mut Mesh) -> Result<(), Mistake> {
         if self.format.is_binary {
             self.wanted.take("the nodes", count)?;
@@ -326,7 +326,7 @@ impl<'a> File<'a> {
         self.pass(more)
     }
 
-    /// Passes over so many numbers.
+    /// Skips `count` numbers.
     fn pass(&mut self, count: usize) -> Result<(), Mistake> {
         if self.format.is_binary {
             return self.raw(8 * count).map(drop);
@@ -340,7 +340,7 @@ impl<'a> File<'a> {
         if version == 20 {
             let mut left = self.size(3, 0)?;
             while left > 0 {
-                // In text each element has a head of its own, behind its number.
+                // In text each element has its own head, after its number.
                 let tag = if is_binary { None } else { Some(self.whole(4)? as u64) };
                 let kind = self.whole(4)?;
                 let count = if is_binary { self.whole(4)? } else { 1 };
@@ -367,7 +367,7 @@ impl<'a> File<'a> {
         mesh.unite_elements(had).map_err(|what| self.mistake(what))
     }
 
-    /// Adds elements of one type: each its own tag, if it is not known, so many others, and its nodes.
+    /// Reads elements of one type: for each its tag, if it is not known, further tags, and its nodes.
     fn block(
         &mut self,
         mesh: &mut Mesh,
@@ -442,14 +442,14 @@ impl<'a> File<'a> {
         Ok(Head { name, time: self.array("", 1, time), step, components, rows })
     }
 
-    /// Numbers as an array: in binary they are whole.
+    /// Makes an array; its numbers are doubles if the file is binary.
     fn array(&self, name: &str, components: usize, numbers: Numbers) -> Array {
         let array = numbers.into_array(name, components);
         let stored = if self.format.is_binary { Stored::Double } else { array.stored };
         Array { stored, ..array }
     }
 
-    /// Reads the tags of a view at a time, and its numbers, if they are wanted.
+    /// Reads the tags of a view at a time, and its numbers if they are wanted.
     fn view(&mut self, of: Of, head: Head, is_wanted: bool) -> Result<View, Mistake> {
         let Head { name, time, step, components, rows } = head;
         let components = usize::try_from(components).ok().filter(|it| (1..=MOST).contains(it));

@@ -1,4 +1,4 @@
-//! A mesh of Gmsh with its views: nodes and elements by their tags become points and cells.
+//! A mesh of Gmsh with its views: turns nodes and elements with tags into points and cells.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -14,13 +14,13 @@ use crate::{Array, Cells, Mistake, Snapshot, Stored, Time};
 
 /// A type of elements.
 pub struct Element {
-    /// The number of Gmsh.
+    /// The type number in Gmsh.
     kind: i64,
-    /// The number of VTK.
+    /// The type number in VTK.
     of_vtk: u8,
     dimension: u8,
     pub nodes: usize,
-    /// The nodes of VTK by their places in Gmsh; none, where they are the same.
+    /// The nodes in the order of VTK, by their positions in Gmsh; empty if the orders are equal.
     order: Cow<'static, [usize]>,
 }
 
@@ -36,7 +36,7 @@ fn higher(kind: i64, of_vtk: u8, dimension: u8, nodes: usize) -> Element {
     Element { kind, of_vtk, dimension, nodes, order: gmsh_order::order(of_vtk, nodes).into() }
 }
 
-/// Types of order 1 to 5. Gmsh has no prisms and pyramids of higher order than 2.
+/// Types of order 1 to 5. Gmsh has no prisms and pyramids of an order above 2.
 static ELEMENTS: LazyLock<Vec<Element>> = LazyLock::new(|| {
     vec![
         same(15, 1, 0, 1),
@@ -82,7 +82,7 @@ static ELEMENTS: LazyLock<Vec<Element>> = LazyLock::new(|| {
     ]
 });
 
-/// The type of elements that Gmsh gives this number.
+/// The element type with this number in Gmsh.
 pub fn element(kind: i64) -> Option<&'static Element> {
     ELEMENTS.iter().find(|it| it.kind == kind)
 }
@@ -95,12 +95,12 @@ pub struct Mesh {
     pub is_binary: bool,
     elements: Vec<u64>,
     dimensions: Vec<u8>,
-    /// The cells, whose points are tags at first.
+    /// The cells, whose points are tags until all nodes are read.
     cells: Cells,
 }
 
 impl Mesh {
-    /// How many elements there are.
+    /// The number of elements.
     pub fn len(&self) -> usize {
         self.elements.len()
     }
@@ -118,10 +118,10 @@ impl Mesh {
         self.dimensions.push(kind.dimension);
     }
 
-    /// Leaves out nodes that are there once more than among the first.
+    /// Removes nodes that repeat one of the first `had` nodes.
     ///
     /// # Errors
-    /// A node that is there twice, at two places.
+    /// A node with two places.
     pub fn unite_nodes(&mut self, had: usize) -> Result<(), String> {
         if had == 0 {
             return Ok(());
@@ -150,7 +150,7 @@ impl Mesh {
         Ok(())
     }
 
-    /// Leaves out elements that are there once more than among the first.
+    /// Removes elements that repeat one of the first `had` elements.
     pub fn unite_elements(&mut self, had: usize) -> Result<(), String> {
         if had == 0 {
             return Ok(());
@@ -190,8 +190,8 @@ impl Mesh {
         Ok(())
     }
 
-    /// The mesh at each time of the views. Elements of lower dimension and nodes of no element are left out where views lack
-    /// them.
+    /// Makes the mesh at each time of the views. Leaves out elements of lower dimension and nodes without elements, if views
+    /// lack them.
     pub fn snapshots(
         mut self,
         views: Vec<View>,
@@ -253,7 +253,7 @@ impl Mesh {
         self.cells = cells;
     }
 
-    /// The places of the points that are kept, to whose numbers those of cells are changed.
+    /// Removes all points except the kept ones, renumbers the cells, and returns the places.
     fn keep_points(&mut self, kept: &[bool]) -> Array {
         let numbers = std::mem::take(&mut self.places);
         let mut places = numbers.into_array("Points", 3);
@@ -273,17 +273,17 @@ impl Mesh {
     }
 }
 
-/// The places of nodes.
+/// The positions of nodes by their tags.
 fn nodes(tags: &[u64]) -> Result<Tags, String> {
     Tags::of(tags).map_err(|tag| format!("the node {tag} is there twice"))
 }
 
-/// The places of elements.
+/// The positions of elements by their tags.
 fn elements(tags: &[u64]) -> Result<Tags, String> {
     Tags::of(tags).map_err(|tag| format!("the element {tag} is there twice"))
 }
 
-/// Among those that are kept, the position of each.
+/// The new position of each kept item.
 fn positions(kept: &[bool]) -> Vec<usize> {
     let mut next = 0;
     let position = |kept: &bool| {
@@ -293,7 +293,7 @@ fn positions(kept: &[bool]) -> Vec<usize> {
     kept.iter().map(position).collect()
 }
 
-/// Views whose partitions are one. Of a view with two steps at one time nobody knows which is meant.
+/// Merges the partitions of views. Refuses a view with two steps at one time, which is ambiguous.
 fn united(
     views: Vec<View>,
     unread: &mut Vec<(f64, String)>,
@@ -323,14 +323,15 @@ fn united(
     Ok(found.into_values().collect())
 }
 
-/// The views that have numbers for all nodes or elements that need them.
+/// Collects the views that have numbers for all nodes or elements that need them.
 struct Held<'a> {
     wanted: &'a Wanted<'a>,
     unread: Vec<(f64, String)>,
 }
 
 impl Held<'_> {
-    /// The views that have numbers for all that need them, whose tags become places; and what all of these views have.
+    /// Selects the views that have numbers for all that need them, and converts their tags to positions; returns also the
+    /// common part.
     ///
     /// # Errors
     /// A view that must be read, and does not fit.
@@ -378,10 +379,10 @@ impl Held<'_> {
 }
 
 impl View {
-    /// Makes places of tags.
+    /// Converts tags to positions.
     ///
     /// # Errors
-    /// A tag that is not there, or is there twice.
+    /// An unknown tag, or one that occurs twice.
     fn places(&mut self, known: &Tags) -> Result<(), u64> {
         let mut places = Vec::with_capacity(self.tags.len());
         for tag in &self.tags {
@@ -395,7 +396,7 @@ impl View {
         Ok(())
     }
 
-    /// Puts its numbers in the order of what is kept.
+    /// Sorts the numbers in the order of the kept items.
     fn arrange(&mut self, kept: &[bool], wanted: &Wanted<'_>) -> Result<(), Mistake> {
         let is_in_order = self.tags.iter().enumerate().all(|(at, place)| at as u64 == *place);
         if is_in_order && self.tags.len() == kept.len() && kept.iter().all(|it| *it) {
@@ -417,7 +418,8 @@ impl View {
 }
 
 impl Snapshot {
-    /// The mesh at each time of these views. One time that is 0 is that of a file in which nobody gave one.
+    /// Makes the mesh at each time of these views. A single time of 0 counts as no time, because files without times contain
+    /// it.
     fn at_times(
         mut self,
         mut of_points: Vec<View>,

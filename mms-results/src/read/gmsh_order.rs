@@ -1,12 +1,12 @@
-//! The order in which Gmsh has the nodes of elements of order 3 and more ("Gmsh Reference Manual", section "Node ordering"):
-//! corners, then nodes of edges, of faces, and within, where faces and what is within are such elements again.
+//! The node order of Gmsh for elements of order 3 and more ("Gmsh Reference Manual", section "Node ordering"): corners, then
+//! nodes of edges, of faces, and inner nodes, where faces and the inner nodes have the order of such elements again.
 
 use crate::cell::Shape;
 
-/// A place by its steps along the axes, of which there are as many as the order from end to end.
+/// A place by its steps along the axes; from end to end there are as many steps as the order.
 type Steps = [i32; 3];
 
-/// Corners of an element of one step, and its edges and faces by corners.
+/// The corners of an element of one step, and its edges and faces by corners.
 type Form = (&'static [Steps], &'static [[usize; 2]], &'static [&'static [usize]]);
 
 const SQUARE: Form = (
@@ -40,7 +40,7 @@ const HEXAHEDRON: Form = (
     &[&[0, 3, 2, 1], &[0, 1, 5, 4], &[0, 4, 7, 3], &[1, 2, 6, 5], &[2, 3, 7, 6], &[4, 5, 6, 7]],
 );
 
-/// The nodes of VTK by their places in Gmsh, of an element of Lagrange with this number in VTK and so many nodes.
+/// The nodes in the order of VTK, by their positions in Gmsh, for a Lagrange element of this VTK type.
 pub fn order(of_vtk: u8, nodes: usize) -> Vec<usize> {
     let (form, inner) = match of_vtk {
         70 => (SQUARE, None),
@@ -57,7 +57,7 @@ pub fn order(of_vtk: u8, nodes: usize) -> Vec<usize> {
     shape.nodes.iter().map(place).collect()
 }
 
-/// All nodes; within is an element again, of an order that is so much lower, if it is not that of the only face.
+/// All nodes of an element. The inner nodes form an element of an order lower by `inner`, unless the element is its only face.
 fn volume(form: Form, inner: Option<i32>, order: i32) -> Vec<Steps> {
     let corners: Vec<Steps> = form.0.iter().map(|it| it.map(|it| order * it)).collect();
     let mut all = frame(&corners, form, order);
@@ -69,7 +69,7 @@ fn volume(form: Form, inner: Option<i32>, order: i32) -> Vec<Steps> {
     all
 }
 
-/// The nodes of corners, edges and faces of an element that lies between these corners.
+/// The nodes on corners, edges and faces of an element with these corners.
 fn frame(corners: &[Steps], (_, edges, faces): Form, order: i32) -> Vec<Steps> {
     if order == 0 {
         return corners[..1].to_vec();

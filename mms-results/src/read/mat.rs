@@ -8,17 +8,17 @@ use super::table::is_time;
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Stored};
 
-/// How a file of version 6 or 7 begins.
+/// The beginning of a file of version 6 or 7.
 pub const MAGIC: &[u8] = b"MATLAB 5.0 MAT-file";
 
 /// The bytes of a file before its first variable.
 const HEADER: usize = 128;
 
-/// Kinds of elements: what holds a variable, and what holds a variable that is packed.
+/// Kinds of elements: a variable, and a packed variable.
 const MATRIX: u32 = 14;
 const PACKED: u32 = 15;
 
-/// Classes of variables: structures, and the first and the last of those that hold numbers.
+/// Classes of variables: structures, and the first and the last numeric class.
 const STRUCTURE: u32 = 2;
 const NUMBERS: std::ops::RangeInclusive<u32> = 6..=15;
 const CLASSES: [&str; 5] = ["cell", "struct", "object", "char", "sparse"];
@@ -26,14 +26,14 @@ const CLASSES: [&str; 5] = ["cell", "struct", "object", "char", "sparse"];
 /// The flag of complex numbers.
 const COMPLEX: u32 = 0x800;
 
-/// The most axes and fields that a variable may have.
+/// The most axes and fields of a variable.
 const MOST: usize = 1000;
 
 fn cut(name: &str) -> Mistake {
     Mistake::new(format!("the file ends within {name}: was it cut off? copy or write it again"))
 }
 
-/// Reads the variables that are wanted; those of a structure are called `structure.field`.
+/// Reads the wanted variables; variables in a structure are called `structure.field`.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     let header = bytes.get(..HEADER).ok_or_else(|| cut("its header"))?;
     let order = match &header[HEADER - 2..] {
@@ -46,7 +46,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     while !rest.is_empty() {
         let element = Element::first(rest, order).ok_or_else(|| cut("a variable"))?;
         let (own, after) = match element.kind {
-            // Nothing stands between packed elements.
+            // Packed elements follow each other without padding.
             PACKED => element.split(rest, 1),
             _ => element.split(rest, 8),
         }
@@ -74,7 +74,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     Ok(snapshot)
 }
 
-/// Reads a variable that is packed. It is unpacked only if it is wanted, and to the size that it declares.
+/// Reads a packed variable. Unpacks it only if it is wanted, and only to its declared size.
 fn packed(
     data: &[u8],
     order: Order,
@@ -107,17 +107,17 @@ fn packed(
 /// The head of an element.
 struct Element {
     kind: u32,
-    /// Where its data begin.
+    /// The beginning of its data.
     start: usize,
-    /// How many bytes of data it says it has.
+    /// The declared number of bytes of data.
     length: usize,
 }
 
 impl Element {
-    /// The head of the first element; none where it is cut off.
+    /// The head of the first element; `None` if it is cut off.
     fn first(bytes: &[u8], order: Order) -> Option<Self> {
         let word = whole(bytes, order)?;
-        // A short element has its length beside its kind, and four bytes of data at most.
+        // A short element has its length beside its kind, and at most four bytes of data.
         if word >> 16 != 0 {
             let length = (word >> 16) as usize;
             return (length <= 4).then_some(Element { kind: word & 0xffff, start: 4, length });
@@ -126,13 +126,13 @@ impl Element {
         Some(Element { kind: word, start: 8, length })
     }
 
-    /// Its data, as far as they are there.
+    /// The data of the element, as far as they exist.
     fn data<'a>(&self, bytes: &'a [u8]) -> &'a [u8] {
         let data = bytes.get(self.start..).unwrap_or_default();
         &data[..data.len().min(self.length)]
     }
 
-    /// Its data, and what stands after it and after what fills it up to so many bytes; none where it is cut off.
+    /// The data of the element, and the bytes after it and its padding to `filled` bytes; `None` if it is cut off.
     fn split<'a>(&self, bytes: &'a [u8], filled: usize) -> Option<(&'a [u8], &'a [u8])> {
         let end = self.start.checked_add(self.length)?;
         let data = bytes.get(self.start..end)?;
@@ -141,7 +141,7 @@ impl Element {
     }
 }
 
-/// A number of four bytes at the front.
+/// Reads a number of four bytes.
 fn whole(bytes: &[u8], order: Order) -> Option<u32> {
     let bytes = *bytes.first_chunk::<4>()?;
     Some(match order {
@@ -157,7 +157,7 @@ struct Matrix<'a> {
     is_complex: bool,
     shape: Vec<usize>,
     name: String,
-    /// The elements behind its name.
+    /// The elements after the name.
     rest: &'a [u8],
 }
 
@@ -182,7 +182,7 @@ impl<'a> Matrix<'a> {
         if self.name.is_empty() { "a variable".into() } else { format!("`{}`", self.name) }
     }
 
-    /// Its numbers: what they are, how many, and where they begin.
+    /// The kind of the variable's numbers, their count, and their element.
     fn numbers(&self) -> Result<(Kind, usize, Element), String> {
         let Some(element) = Element::first(self.rest, self.order) else {
             return Err("the file ends before its numbers".into());
@@ -197,7 +197,7 @@ impl<'a> Matrix<'a> {
         Ok((kind, all, element))
     }
 
-    /// The names of its fields, if it is one structure, and what stands behind them.
+    /// The names of the fields, if the variable is one structure, and the bytes after them.
     fn fields(&self) -> Option<(Vec<String>, &'a [u8])> {
         if self.class != STRUCTURE || self.shape.iter().any(|it| *it != 1) {
             return None;
@@ -213,10 +213,10 @@ impl<'a> Matrix<'a> {
         Some((names.collect(), rest))
     }
 
-    /// Whether it, or a field of it, is read; if not, its name is kept.
+    /// Whether the variable, or a field of it, is read; if not, its name is kept.
     ///
     /// # Errors
-    /// A variable that must hold numbers, and does not.
+    /// A variable that must contain numbers, and does not.
     fn is_read(
         &self,
         name: &str,
@@ -249,7 +249,7 @@ impl<'a> Matrix<'a> {
         }
     }
 
-    /// Takes room for what is read of it, and for so many bytes in which it is unpacked.
+    /// Reserves memory for the data that are read, and for `bytes` unpacked bytes.
     fn take_room(&self, bytes: usize, wanted: &Wanted<'_>) -> Result<(), Mistake> {
         if self.class == STRUCTURE {
             return wanted.take(&self.called(), bytes / 8);
@@ -263,7 +263,7 @@ impl<'a> Matrix<'a> {
         wanted.take(&self.called(), numbers.1)
     }
 
-    /// Reads its numbers, or those of its fields.
+    /// Reads the numbers of the variable, or of its fields.
     fn read(
         &self,
         name: &str,
@@ -281,7 +281,7 @@ impl<'a> Matrix<'a> {
                 .and_then(|it| it.split(rest, 8))
                 .ok_or_else(|| cut(&format!("`{field}`")))?;
             rest = after;
-            // A field that holds nothing has no head.
+            // An empty field has no head.
             if own.is_empty() {
                 snapshot.unread.push(field);
                 continue;
@@ -301,7 +301,7 @@ impl<'a> Matrix<'a> {
         let (kind, _, element) = self.numbers().map_err(|what| self.wrong(name, what))?;
         let (data, _) = element.split(self.rest, 8).ok_or_else(|| cut(&format!("`{name}`")))?;
         let values = kind.read(data, self.order);
-        // Whole numbers are kept in few bytes, of whatever class they are.
+        // Whole numbers are stored in few bytes in any class.
         let stored = match self.class {
             6 => Stored::Double,
             7 => Stored::Single,
@@ -315,7 +315,7 @@ impl<'a> Matrix<'a> {
     }
 }
 
-/// Numbers column by column as an array of points. One row of numbers is a vector: so a list is kept.
+/// Makes an array of points from numbers column by column. One row of numbers is stored as a vector, and so becomes a list.
 fn of_columns(name: &str, values: Vec<f64>, shape: &[usize], stored: Stored) -> Array {
     let is_list = shape.iter().filter(|it| **it != 1).count() <= 1;
     let components = if is_list { 1 } else { shape.iter().skip(1).product::<usize>().max(1) };
@@ -327,7 +327,7 @@ fn of_columns(name: &str, values: Vec<f64>, shape: &[usize], stored: Stored) -> 
 struct Old {
     order: Order,
     kind: Kind,
-    /// Whether it holds numbers, and all of them.
+    /// Whether it contains numbers, and all of them.
     is_full: bool,
     is_complex: bool,
     shape: [usize; 2],
@@ -340,7 +340,7 @@ impl Old {
     /// The most letters of a name.
     const LETTERS: u32 = 256;
 
-    /// The head of a variable; none if these bytes are no such head.
+    /// The head of a variable; `None` if these bytes are no head.
     fn first(bytes: &[u8]) -> Option<Self> {
         let order = if whole(bytes, Order::Little)? < 1000 { Order::Little } else { Order::Big };
         let mut words =
@@ -365,7 +365,7 @@ impl Old {
         is_known.then_some(Old { order, kind, is_full, is_complex, shape, name })
     }
 
-    /// The name behind the head; none if it is no text that ends.
+    /// The name after the head; `None` if it is no terminated text.
     fn name(&self, bytes: &[u8]) -> Option<String> {
         let name = bytes.get(Old::BYTES..Old::BYTES + self.name)?.strip_suffix(&[0])?;
         let is_name = name.iter().all(|it| it.is_ascii_alphanumeric() || *it == b'_');
@@ -373,12 +373,12 @@ impl Old {
     }
 }
 
-/// Whether bytes begin as a file of version 4 does, which has no mark.
+/// Whether bytes begin like a file of version 4, which has no mark.
 pub fn is_version_4(bytes: &[u8]) -> bool {
     Old::first(bytes).is_some_and(|it| it.name(bytes).is_some())
 }
 
-/// Reads the variables of version 4 that are wanted.
+/// Reads the wanted variables of version 4.
 pub fn parse_version_4(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     let (mut snapshot, mut rest) = (Snapshot::default(), bytes);
     while !rest.is_empty() {

@@ -1,4 +1,4 @@
-//! The formats of files, which are known by their content. The reader of each says where it is described.
+//! The formats of files, which are recognised by their content. Each reader names the description of its format.
 
 mod dump;
 mod frd;
@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use crate::wanted::Wanted;
 use crate::{Mistake, Snapshot, Time};
 
-/// How files are opened, and what is read of them.
+/// The function that opens files, and the selection of their arrays.
 type Opened<'a> = (Open<'a>, &'a Wanted<'a>);
 
 /// The contents of a file.
@@ -41,16 +41,16 @@ pub enum Contents {
     Snapshots(Vec<Snapshot>),
     /// The files of the pieces of one mesh at one time.
     Pieces(Vec<String>),
-    /// The files of blocks of one mesh at one time, which need not have the same arrays.
+    /// The files of blocks of one mesh at one time, which may have different arrays.
     Blocks(Vec<String>),
-    /// The files of one mesh at times; more than one at the same time are pieces.
+    /// The files of one mesh at times; several files at one time are pieces.
     Times(Vec<(Time, String)>),
 }
 
-/// How long a list of files may be.
+/// The most files in a list.
 const MOST_FILES: usize = 50_000;
 
-/// Ways in which files begin that are not read, and what to do.
+/// The beginnings of formats that are not supported, and advice.
 const FOREIGN: &[(&[u8], &str)] = &[
     (b"\x1f\x8b", "a file in gzip is not read; unpack it"),
     (
@@ -65,10 +65,10 @@ const FOREIGN: &[(&[u8], &str)] = &[
     (b"ADIOS-BP", "ADIOS2 is not read; write XDMF, as with `dolfinx.io.XDMFFile`, or VTK"),
 ];
 
-/// How a file of HDF5 begins, or what stands behind its user block.
+/// The beginning of an HDF5 file, possibly after a user block.
 const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
 
-/// The lengths of user blocks that are looked behind.
+/// The lengths of user blocks that are searched.
 const USER_BLOCKS: [usize; 6] = [0, 512, 1024, 2048, 4096, 8192];
 
 /// Whether bytes are HDF5, or netCDF in its classic format.
@@ -80,7 +80,7 @@ fn is_store(bytes: &[u8]) -> bool {
 /// Opens a file that another one names.
 type Beside<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, Mistake>;
 
-/// Reads what is wanted of bytes, whatever they are.
+/// Reads the wanted data from bytes of any supported format.
 ///
 /// # Errors
 /// Damaged bytes, or a format that is not read.
@@ -93,11 +93,11 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
     parse_beside(Cow::Borrowed(bytes), wanted, &alone)
 }
 
-/// Bytes that are looked at.
+/// The bytes of a file with an unknown format.
 struct Source<'a> {
-    /// All of them.
+    /// All bytes.
     bytes: &'a [u8],
-    /// The bytes behind a mark of their order and behind blanks.
+    /// The bytes after a byte order mark and blanks.
     start: &'a [u8],
     wanted: &'a Wanted<'a>,
     beside: Beside<'a>,
@@ -105,11 +105,11 @@ struct Source<'a> {
 
 /// A format.
 struct Format {
-    /// The name that people have for it.
+    /// The common name.
     name: &'static str,
     /// Whether bytes are of this format.
     is: fn(&Source<'_>) -> bool,
-    /// Its reader.
+    /// The reader of the format.
     read: fn(&Source<'_>) -> Result<Contents, Mistake>,
 }
 
@@ -177,21 +177,21 @@ const FORMATS: &[Format] = &[
     },
 ];
 
-/// The format of a text that is no other.
+/// The format of a text in no other format.
 const TABLE: Format = Format {
     name: "a table",
     is: |_| true,
     read: |it| table::parse(it.bytes, it.wanted).map(Contents::Snapshots),
 };
 
-/// HDF5 and netCDF are taken as they are, for they may be large.
+/// HDF5 and netCDF take ownership of the bytes, because these may be many.
 const STORE: &str = "HDF5 or netCDF";
 
 fn one(snapshot: Snapshot) -> Contents {
     Contents::Snapshots(vec![snapshot])
 }
 
-/// Reads what is wanted of bytes, and of the files beside them that they name.
+/// Reads the wanted data from bytes, and from the files beside them that they name.
 fn parse_beside(
     bytes: Cow<'_, [u8]>,
     wanted: &Wanted<'_>,
@@ -219,10 +219,10 @@ fn parse_beside(
     Ok(named(format.name, (format.read)(&source)?))
 }
 
-/// Opens a file that takes so many bytes of memory at most, or says why it cannot.
+/// Opens a file of at most this many bytes, or returns the reason why it cannot.
 pub type Open<'a> = &'a dyn Fn(&Path, u64) -> Result<Vec<u8>, String>;
 
-/// Reads what is wanted of a file, and of those that it lists.
+/// Reads the wanted data from a file, and from the files that it lists.
 ///
 /// # Errors
 /// A mistake with its file and line.
@@ -259,7 +259,7 @@ fn contents(path: &Path, open: Opened<'_>) -> Result<Contents, Mistake> {
     found.map_err(|mistake| mistake.of(&name))
 }
 
-/// The one mesh of a file that a list names: lists of lists end with the pieces of a time.
+/// Reads the one mesh of a file in a list: lists of lists end with the pieces of a time.
 fn listed(path: &Path, open: Opened<'_>) -> Result<Snapshot, Mistake> {
     let list = contents(path, open)?;
     let name = path.to_string_lossy();
@@ -268,7 +268,8 @@ fn listed(path: &Path, open: Opened<'_>) -> Result<Snapshot, Mistake> {
     Ok(Snapshot { path: name.into_owned(), ..found })
 }
 
-/// One mesh at one time, of a file and those that it lists. Lists of times name those of blocks, and these those of pieces.
+/// Joins one mesh at one time from a file and the files that it lists. Lists of times name lists of blocks, and these lists of
+/// pieces.
 fn joined(
     found: Contents,
     beside: &dyn Fn(&str) -> PathBuf,

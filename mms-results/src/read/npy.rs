@@ -4,23 +4,23 @@ use super::numbers::{Kind, Order, by_rows, count};
 use crate::wanted::Wanted;
 use crate::{Array, Mistake, Snapshot};
 
-/// How a file begins.
+/// The beginning of a file.
 pub const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// The header of an array.
 pub struct Head {
-    /// Its own bytes, with what comes before it.
+    /// The bytes of the header, including those before it.
     bytes: usize,
     kind: Kind,
     order: Order,
     is_fortran: bool,
     shape: Vec<usize>,
-    /// How many numbers there are.
+    /// The number of numbers.
     numbers: usize,
 }
 
 impl Head {
-    /// Reads the header at the front of these bytes.
+    /// Reads the header at the front of bytes.
     pub fn of(bytes: &[u8]) -> Result<Self, Mistake> {
         let (text, data) =
             split(bytes).ok_or_else(|| Mistake::new("the file ends within its header"))?;
@@ -32,7 +32,7 @@ impl Head {
         Ok(Head { bytes: bytes.len() - data.len(), kind, order, is_fortran, shape, numbers })
     }
 
-    /// How many bytes the array has, with its header.
+    /// The number of bytes of the array, with its header.
     pub fn length(&self) -> u64 {
         self.bytes as u64 + (self.numbers * self.kind.bytes()) as u64
     }
@@ -42,7 +42,7 @@ impl Head {
         self.shape
     }
 
-    /// How many numbers it has.
+    /// The number of numbers.
     pub fn numbers(&self) -> usize {
         self.numbers
     }
@@ -73,7 +73,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     })
 }
 
-/// Reads an array. Its first axis are the points; one number is one point.
+/// Reads an array. Its first axis is the points; one number is one point.
 pub fn array(name: &str, bytes: &[u8]) -> Result<Array, Mistake> {
     let wrong =
         |mistake: Mistake| Mistake { what: format!("`{name}`: {}", mistake.what), ..mistake };
@@ -97,13 +97,13 @@ pub fn array(name: &str, bytes: &[u8]) -> Result<Array, Mistake> {
     })
 }
 
-/// Whether an array holds something else than numbers that are read: words, objects, structures, complex numbers.
+/// Whether an array contains unsupported data: words, objects, structures, complex numbers.
 pub fn has_no_numbers(bytes: &[u8]) -> bool {
     let described = split(bytes).and_then(|(text, _)| behind(text, "descr").ok());
     described.is_some_and(|it| numbers(it).is_err())
 }
 
-/// The header and the numbers.
+/// Splits a file into header and numbers.
 fn split(bytes: &[u8]) -> Option<(&str, &[u8])> {
     let rest = bytes.strip_prefix(MAGIC)?;
     let (version, rest) = rest.split_at_checked(2)?;
@@ -121,7 +121,7 @@ fn split(bytes: &[u8]) -> Option<(&str, &[u8])> {
     Some((std::str::from_utf8(header).ok()?, data))
 }
 
-/// The text behind a key.
+/// The text after a key.
 fn behind<'a>(text: &'a str, key: &str) -> Result<&'a str, Mistake> {
     let found = text.split_once(&format!("'{key}':"));
     found
@@ -129,7 +129,7 @@ fn behind<'a>(text: &'a str, key: &str) -> Result<&'a str, Mistake> {
         .ok_or_else(|| Mistake::new(format!("its header has no `{key}`")))
 }
 
-/// The type of numbers, and their order, by what describes them.
+/// The type and the byte order of numbers, from their description.
 fn numbers(described: &str) -> Result<(Kind, Order), Mistake> {
     let name = described.strip_prefix('\'').and_then(|it| it.split_once('\'')).map(|it| it.0);
     let name = name.ok_or_else(|| {
@@ -156,7 +156,7 @@ fn numbers(described: &str) -> Result<(Kind, Order), Mistake> {
     Ok((kind, order))
 }
 
-/// The type of numbers, their order, whether the first axis runs fastest, and the shape.
+/// The type of numbers, their byte order, whether the first axis runs fastest, and the shape.
 fn header(text: &str) -> Result<(Kind, Order, bool, Vec<usize>), Mistake> {
     let (kind, order) = numbers(behind(text, "descr")?)?;
     let shape = behind(text, "shape")?;

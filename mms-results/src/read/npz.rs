@@ -10,10 +10,10 @@ use super::series::{Shaped, are_times, by_time};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
-/// The bytes that deflate makes of one at most.
+/// The largest ratio of unpacked to packed bytes in deflate.
 pub const RATIO: u64 = 1032;
 
-/// More bytes than the header of an array that is read has.
+/// More bytes than the header of any supported array.
 pub const HEAD: usize = 1 << 16;
 
 fn broken(error: rawzip::Error) -> Mistake {
@@ -25,18 +25,18 @@ struct Entry<'a> {
     name: &'a str,
     data: &'a [u8],
     method: CompressionMethod,
-    /// Its bytes when it is unpacked.
+    /// The number of unpacked bytes.
     length: u64,
-    /// Their checksum.
+    /// The checksum of the unpacked bytes.
     crc: u32,
 }
 
-/// Reads the arrays that are wanted. The time, or the times along the first axis of others, is one of them.
+/// Reads the wanted arrays. One of them may be the time, or the times along the first axis of others.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let archive = ZipArchive::from_slice(bytes).map_err(broken)?;
     let mut entries = archive.entries();
     let (mut snapshot, mut arrays, mut times) = (Snapshot::default(), Vec::new(), Vec::new());
-    // The shapes of arrays with known names: others may be no arrays of points.
+    // The shapes of arrays with known names: other arrays may not belong to points.
     let (mut known, mut taken, mut has_arrays) = (Vec::new(), 0, false);
     while let Some(entry) = entries.next_entry().map_err(broken)? {
         let path = String::from_utf8_lossy(entry.file_path().as_bytes()).into_owned();
@@ -83,7 +83,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
 }
 
 impl Entry<'_> {
-    /// The front of its bytes.
+    /// The first bytes, unpacked.
     fn head(&self) -> Result<Cow<'_, [u8]>, Mistake> {
         match self.method {
             CompressionMethod::STORE => Ok(self.data.into()),
@@ -95,18 +95,18 @@ impl Entry<'_> {
         }
     }
 
-    /// The length of each axis, where it is an array of numbers.
+    /// The length of each axis, if it is an array of numbers.
     fn shape(&self) -> Option<Vec<usize>> {
         Some(npy::Head::of(&self.head().ok()?).ok()?.into_shape())
     }
 
-    /// The array; none if it holds no numbers that are read, and need not.
+    /// The array; `None` if it contains no supported numbers, and need not.
     fn array(&self, wanted: &Wanted<'_>) -> Result<Option<Shaped>, Mistake> {
         let head = self.head()?;
         if npy::has_no_numbers(&head) && wanted.need(self.name) != Need::Must {
             return Ok(None);
         }
-        // Nothing is unpacked beyond what the header of the array declares.
+        // Nothing is unpacked beyond the declared size of the array.
         let head = npy::Head::of(&head).map_err(|mistake| self.wrong(mistake.what))?;
         let declared = head.length();
         let most = RATIO * self.data.len() as u64;
@@ -139,7 +139,7 @@ impl Entry<'_> {
 }
 
 impl Snapshot {
-    /// Takes an array of points, or the time.
+    /// Adds an array of points, or the time.
     pub(super) fn take(&mut self, array: Array) {
         match array.values.as_slice() {
             [value] if are_times(&array.name) && value.is_finite() => {

@@ -2,28 +2,28 @@
 
 use crate::{Mistake, Stored};
 
-/// In which order the bytes of a number stand.
+/// The order of the bytes in a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
-    /// The least first.
+    /// The least significant byte first.
     Little,
-    /// The greatest first.
+    /// The most significant byte first.
     Big,
 }
 
 /// A type of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A floating-point number of so many bytes: 2, 4 or 8.
+    /// A floating-point number of this many bytes: 2, 4 or 8.
     Float(usize),
-    /// An integer with a sign, of so many bytes: 1, 2, 4 or 8.
+    /// An integer with a sign, of this many bytes: 1, 2, 4 or 8.
     Signed(usize),
-    /// An integer without a sign.
+    /// An integer without a sign, of this many bytes.
     Unsigned(usize),
 }
 
 impl Kind {
-    /// By the names of VTK in XML: `Float64`, `Int32`, `UInt8`.
+    /// Parses a name of VTK in XML: `Float64`, `Int32`, `UInt8`.
     pub fn of_xml(name: &str) -> Option<Kind> {
         let at = name.find(|it: char| it.is_ascii_digit())?;
         let bytes = match &name[at..] {
@@ -41,7 +41,7 @@ impl Kind {
         }
     }
 
-    /// By the names of legacy VTK.
+    /// Parses a name of legacy VTK.
     pub fn of_legacy(name: &str) -> Option<Kind> {
         Some(match name {
             "float" => Kind::Float(4),
@@ -58,7 +58,7 @@ impl Kind {
         })
     }
 
-    /// By the names of NumPy: `f8`, `i4`, `u1`.
+    /// Parses a name of NumPy: `f8`, `i4`, `u1`.
     pub fn of_numpy(name: &str) -> Option<Kind> {
         let (letter, bytes) = name.split_at_checked(1)?;
         let bytes = bytes.parse().ok()?;
@@ -70,16 +70,16 @@ impl Kind {
         }
     }
 
-    /// The bytes of a number.
+    /// The number of bytes.
     pub fn bytes(self) -> usize {
         let (Kind::Float(bytes) | Kind::Signed(bytes) | Kind::Unsigned(bytes)) = self;
         bytes
     }
 
-    /// How exact its numbers are.
+    /// The precision of the numbers.
     pub fn stored(self) -> Stored {
         match self {
-            // A number of 11 bits is off by less than one of three digits may be.
+            // A number of 11 bits has a smaller rounding than one of three digits.
             Kind::Float(2) => Stored::Digits(3),
             Kind::Float(4) => Stored::Single,
             Kind::Float(_) => Stored::Double,
@@ -87,7 +87,7 @@ impl Kind {
         }
     }
 
-    /// All numbers of some bytes.
+    /// Reads all numbers in bytes.
     pub fn read(self, bytes: &[u8], order: Order) -> Vec<f64> {
         match self {
             Kind::Float(2) => each(bytes, order, |it| of_half(u16::from_le_bytes(it))),
@@ -105,7 +105,7 @@ impl Kind {
     }
 }
 
-/// A number of half precision, by its bits: a sign, five of the exponent, ten of the fraction.
+/// A half-precision number from its bits: a sign, five of the exponent, ten of the fraction.
 fn of_half(bits: u16) -> f64 {
     let (exponent, fraction) = (i32::from(bits >> 10 & 0x1f), f64::from(bits & 0x3ff));
     let size = match exponent {
@@ -128,7 +128,7 @@ fn each<const N: usize>(bytes: &[u8], order: Order, read: impl Fn([u8; N]) -> f6
     bytes.as_chunks().0.iter().map(in_order).collect()
 }
 
-/// How many numbers, and bytes of them, so many rows have; or that no file holds as many.
+/// The number of numbers in rows; refuses a size in bytes that overflows.
 pub fn count(rows: usize, components: usize, kind: Kind) -> Result<usize, Mistake> {
     let numbers = rows.checked_mul(components).filter(|it| it.checked_mul(kind.bytes()).is_some());
     numbers.ok_or_else(|| {
@@ -136,18 +136,18 @@ pub fn count(rows: usize, components: usize, kind: Kind) -> Result<usize, Mistak
     })
 }
 
-/// How many rows are put together at once.
+/// The number of rows that are written at a time.
 const BLOCK: usize = 1024;
 
-/// Numbers whose first axis runs fastest, as numbers whose last axis does.
+/// Reorders numbers whose first axis runs fastest, so that the last axis does.
 pub fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
     let (rows, axes) = shape.split_first().map_or((1, &[][..]), |(rows, axes)| (*rows, axes));
-    // If there are no rows, a file may declare any number of components.
+    // Without rows, a file may declare any number of components.
     if values.is_empty() {
         return Vec::new();
     }
     let components: usize = axes.iter().product();
-    // The component that a column is.
+    // The component of a column.
     let place = |mut column: usize| {
         let (mut place, mut stride) = (0, components);
         for &axis in axes {
@@ -159,7 +159,7 @@ pub fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
     };
     let places: Vec<usize> = (0..components).map(place).collect();
     let mut numbers = vec![0.0; values.len()];
-    // Rows by the block, so that what is written stays at hand.
+    // Rows are written block by block, so that they stay in the cache.
     for (block, to) in numbers.chunks_mut(BLOCK * components).enumerate() {
         for (column, place) in values.chunks_exact(rows).zip(&places) {
             let from = &column[block * BLOCK..];
@@ -170,9 +170,9 @@ pub fn by_rows(values: &[f64], shape: &[usize]) -> Vec<f64> {
     numbers
 }
 
-/// Numbers as positions.
+/// Converts numbers to positions.
 pub fn positions(values: Vec<f64>) -> Result<Vec<usize>, Mistake> {
-    // Beyond that, a number in double precision may be another than the integer that was stored.
+    // Beyond this, a double may differ from the stored integer.
     const MOST: f64 = (1_u64 << 53) as f64;
     let position = |value: f64| match (0.0..MOST).contains(&value) && value.fract() == 0.0 {
         true => Ok(value as usize),

@@ -1,4 +1,4 @@
-//! Arrays whose first axis are times, as the snapshots of these.
+//! Splits arrays whose first axis is times into snapshots.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -12,15 +12,15 @@ pub struct Shaped {
     pub shape: Vec<usize>,
 }
 
-/// Whether an array of this name holds times.
+/// Whether an array of this name contains times.
 pub fn are_times(name: &str) -> bool {
     is_time(name) || name.eq_ignore_ascii_case("times")
 }
 
-/// How many numbers a point may have.
+/// The possible numbers of components of a point.
 const COMPONENTS: [usize; 6] = [1, 2, 3, 4, 6, 9];
 
-/// Whether an array of this shape has so many points, and whether it has them at each of so many times.
+/// Whether an array of this shape can belong to the points, once, and at each of the times.
 fn readings(shape: &[usize], times: usize, points: usize) -> [bool; 2] {
     let numbers = |axes: &[usize]| axes.iter().fold(1, |all: usize, it| all.saturating_mul(*it));
     let are_components = |axes: &[usize]| COMPONENTS.contains(&numbers(axes));
@@ -34,8 +34,8 @@ fn readings(shape: &[usize], times: usize, points: usize) -> [bool; 2] {
     }
 }
 
-/// The snapshots of the times that one of these arrays lists; one snapshot, where none is an array of times. Shapes
-/// that are known to be those of points say which of both.
+/// Makes the snapshots of the times that one of these arrays lists; a single snapshot if none is an array of times. Known
+/// shapes of arrays of points decide between the two readings.
 ///
 /// # Errors
 /// Shapes that can be read in two ways.
@@ -95,7 +95,7 @@ pub fn by_time(
     Ok(found)
 }
 
-/// How many points arrays of these shapes have at each time; none, if they have no axis of times.
+/// The number of points of these arrays at each time; `None` if they have no axis of times.
 fn points(times: &Shaped, known: &[Vec<usize>]) -> Result<Option<usize>, Mistake> {
     let Shaped { array: Array { name, values, .. }, shape } = times;
     let count = values.len();
@@ -103,7 +103,7 @@ fn points(times: &Shaped, known: &[Vec<usize>]) -> Result<Option<usize>, Mistake
     if shape.iter().all(|it| *it != count) || !are_times {
         return Ok(None);
     }
-    // One number is no array of points.
+    // A single number is no array of points.
     let known = || known.iter().filter(|it| !it.is_empty());
     let lengths: BTreeSet<usize> = known().flat_map(|it| it.iter().copied().take(2)).collect();
     let fits = |points: &usize| known().all(|it| readings(it, count, *points) != [false; 2]);
@@ -132,7 +132,7 @@ fn points(times: &Shaped, known: &[Vec<usize>]) -> Result<Option<usize>, Mistake
     )))
 }
 
-/// Gives snapshots the names of what was not read at their times; the first has those of other times, too.
+/// Adds the names of arrays that were not read to the snapshots of their times; the first gets names at other times, too.
 pub fn tell_unread(found: &mut [Snapshot], unread: Vec<(f64, String)>) {
     let time = |it: &Snapshot| it.time.map(|time| time.value.to_bits());
     let places: HashMap<_, _> =

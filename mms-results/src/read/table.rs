@@ -6,26 +6,26 @@ use super::text::{Style, number, settle, with_point, without_unit};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
-/// At how many times a table may be.
+/// The most times of a table.
 const MOST_TIMES: usize = 10_000;
 
-/// How many columns a table may have.
+/// The most columns of a table.
 const MOST_COLUMNS: usize = 1_000_000;
 
-/// How a comment begins.
+/// The beginnings of comments.
 const MARKS: [&str; 5] = ["#", "%", "!", "//", "**"];
 
 /// The names of a column of times.
 const TIMES: [&str; 3] = ["time", "timevalue", "time_value"];
 
-/// Whether a column or an array of this name holds times.
+/// Whether a column or an array of this name contains times.
 pub fn is_time(name: &str) -> bool {
     // In a structure the last part of a name counts. T is a temperature.
     let last = name.rsplit(['.', '/']).next().unwrap_or(name);
     name == "t" || TIMES.iter().any(|time| last.eq_ignore_ascii_case(time))
 }
 
-/// A table as it stands there.
+/// The columns of a table.
 struct Table {
     columns: Vec<Array>,
     lines: Vec<usize>,
@@ -36,7 +36,7 @@ struct Table {
 /// A line that is neither empty nor a comment, or the header.
 pub type Line<'a> = (usize, &'a str);
 
-/// How a text in UTF-16 begins, and how two bytes make a unit there.
+/// The beginning of a text in UTF-16, and the conversion of two bytes to a unit.
 type Units = ([u8; 2], fn([u8; 2]) -> u16);
 const UTF_16: [Units; 2] = [([0xff, 0xfe], u16::from_le_bytes), ([0xfe, 0xff], u16::from_be_bytes)];
 
@@ -106,7 +106,7 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<Table, Mistake> {
             times.see(line, time)?;
         }
     }
-    // A column counts, and comments beside it may be of something else.
+    // A column decides; comments beside it may mean something else.
     let has_column = columns.all.iter().any(|it| is_time(&it.name));
     if !has_column && !times.values.is_empty() {
         if times.values.len() < rows.len() {
@@ -118,7 +118,7 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<Table, Mistake> {
     Ok(columns.table(rows))
 }
 
-/// Reads rows between blanks under a line of names.
+/// Reads rows separated by blanks, below a line of names.
 pub fn block(names: Line<'_>, rows: &[Line<'_>], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     let header = Header { line: names.0, text: names.1, separator: Separator::Blanks };
     let first = rows.first().map_or("", |(_, text)| text);
@@ -133,7 +133,8 @@ pub fn block(names: Line<'_>, rows: &[Line<'_>], wanted: &Wanted<'_>) -> Result<
     Ok(Snapshot { of_points, lines, unread, units, ..Snapshot::default() })
 }
 
-/// The time that a comment says, as in `# time = 0.1` or `# step 5, t = 0.1`. That of a day, as 12:30, and of a processor are none.
+/// The time in a comment, as in `# time = 0.1` or `# step 5, t = 0.1`. Clock times such as 12:30, and processor times, do not
+/// count.
 fn time_of(comment: &str) -> Option<&str> {
     let breaks = |it: char| it.is_whitespace() || "=:,;#%!/*\"()".contains(it);
     let words: Vec<&str> = comment.split(breaks).filter(|it| !it.is_empty()).collect();
@@ -143,7 +144,7 @@ fn time_of(comment: &str) -> Option<&str> {
     words.get(at + 1).copied().filter(|_| is_own && is_number(at + 1) && !is_number(at + 2))
 }
 
-/// Whether a line holds names alone.
+/// Whether a line contains only names.
 fn has_no_number(line: &str) -> bool {
     fields(line, Separator::of(line)).all(|it| !is_number(it))
 }
@@ -166,7 +167,7 @@ enum Separator {
 }
 
 impl Separator {
-    /// The one that a header shows.
+    /// The separator in a header.
     fn of(header: &str) -> Self {
         let marks = [b'\t', b',', b';'];
         match marks.into_iter().find(|it| header.as_bytes().contains(it)) {
@@ -176,7 +177,7 @@ impl Separator {
     }
 }
 
-/// The fields of a line, without the blanks around them. In quotes a separator is none.
+/// The fields of a line, without blanks around them. A separator in quotes does not count.
 fn fields(line: &str, separator: Separator) -> impl Iterator<Item = &str> {
     let mut rest = Some(line);
     std::iter::from_fn(move || {
@@ -213,7 +214,7 @@ struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    /// A line as a header. A `#` before it is no name.
+    /// Parses a line as a header. A `#` before it is no name.
     fn of((line, text): Line<'a>) -> Self {
         let text = if is_comment(text) {
             text.trim_start().trim_start_matches(|it| MARKS.concat().contains(it))
@@ -227,8 +228,8 @@ impl<'a> Header<'a> {
         fields(self.text, self.separator)
     }
 
-    /// Whether a row of so many fields may stand under it: its first name may be empty for a `#` alone, and an index of points may
-    /// have no name.
+    /// Whether a row of this many fields fits the header: the first name may be empty because of a `#`, and an index of points
+    /// may have no name.
     fn fits(&self, fields: usize) -> bool {
         let names = self.names().take(MOST_COLUMNS).count();
         names == fields
@@ -236,7 +237,7 @@ impl<'a> Header<'a> {
             || names == fields + 1 && self.names().next() == Some("")
     }
 
-    /// The columns under it, of a table with this first row.
+    /// The columns of a table with this first row.
     fn columns(
         &self,
         first: &str,
@@ -253,7 +254,7 @@ impl<'a> Header<'a> {
             names.remove(0);
         }
         let is_longer = found.len() == names.len() + 1;
-        // A separator at the end of each line makes a field of nothing.
+        // A separator at the end of each line makes an empty field.
         let has_end = is_longer && found.last() == Some(&"");
         let index = match found.first() {
             Some(first) if is_longer && !has_end => first.parse().ok(),
@@ -264,7 +265,7 @@ impl<'a> Header<'a> {
         }
         let mut seen = BTreeSet::new();
         let (mut all, mut unread, mut units) = (Vec::new(), Vec::new(), Vec::new());
-        // No name is no quantity: programs write indices so.
+        // A column without a name is no quantity: programs write indices so.
         for (at, name) in names.iter().copied().enumerate().filter(|(_, name)| !name.is_empty()) {
             let (name, unit) = without_unit(name);
             units.extend(unit.map(|unit| (name.to_owned(), unit.to_owned())));
@@ -282,7 +283,7 @@ impl<'a> Header<'a> {
     }
 }
 
-/// The header: the first line, or the last comment before it if the first line has numbers and the comment as many names.
+/// Finds the header: the first line, or, if the first line has numbers, the last comment before it with as many names.
 fn header<'a>(comment: Option<Line<'a>>, first: Option<Line<'a>>) -> Result<Header<'a>, Mistake> {
     let Some(first) = first else {
         return match comment {
@@ -306,7 +307,7 @@ fn header<'a>(comment: Option<Line<'a>>, first: Option<Line<'a>>) -> Result<Head
     Ok(header)
 }
 
-/// The columns that are looked at, of all that there are.
+/// The columns that are read.
 struct Columns {
     count: usize,
     /// Whether a separator ends each line.
@@ -386,9 +387,9 @@ impl Columns {
     }
 }
 
-/// A column that is looked at.
+/// A column that is read.
 struct Column {
-    /// Its place among all.
+    /// The position among all columns.
     at: usize,
     name: String,
     need: Need,
@@ -409,10 +410,10 @@ impl Column {
         self.need != Need::Sound
     }
 
-    /// Looks at one more field.
+    /// Reads one more field.
     ///
     /// # Errors
-    /// A word where numbers must be, or are.
+    /// A word where numbers must be, or where other rows have numbers.
     fn see(&mut self, line: usize, text: &str) -> Result<(), Mistake> {
         match number(text) {
             Some(value) => {
@@ -440,7 +441,7 @@ impl Column {
     }
 }
 
-/// A table as the snapshots of its times.
+/// Splits a table into the snapshots of its times.
 fn by_time(mut table: Table) -> Result<Vec<Snapshot>, Mistake> {
     let Some(column) = table.columns.iter().position(|column| is_time(&column.name)) else {
         let Table { columns: of_points, lines, unread, units } = table;
@@ -463,7 +464,7 @@ fn by_time(mut table: Table) -> Result<Vec<Snapshot>, Mistake> {
     Ok(groups.into_iter().map(|rows| at_time(&table, &times, rows)).collect())
 }
 
-/// Refuses a table whose last time has fewer rows than each other one: it was cut off.
+/// Refuses a table whose last time has fewer rows than every other one: it was cut off.
 fn hold_whole(groups: &[&[usize]], lines: &[usize]) -> Result<(), Mistake> {
     let last = groups.iter().position(|rows| rows.last() == Some(&(lines.len() - 1)));
     let others = |last: usize| {

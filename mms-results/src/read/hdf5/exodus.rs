@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use super::{File, by_time};
 use crate::{Array, Cells, Mistake, Snapshot};
 
-/// The most blocks of elements that are looked for.
+/// The most blocks of elements that are searched.
 const MOST_BLOCKS: usize = 10_000;
 
-/// Kinds of elements: the letters of their names, and how many nodes each has with the type in VTK.
+/// Kinds of elements: the letters of their names, and for each number of nodes the type in VTK.
 type Elements = (&'static [&'static str], &'static [(usize, u8)]);
 const ELEMENTS: &[Elements] = &[
     (&["SPHERE", "CIRCLE", "NODE", "POINT"], &[(1, 1)]),
@@ -21,16 +21,16 @@ const ELEMENTS: &[Elements] = &[
     (&["HEX"], &[(8, 12), (20, 25), (27, 29)]),
 ];
 
-/// Where VTK has the nodes of a hexahedron from the twelfth on: Exodus has those between the two faces before those of
-/// the upper one, and the middle before those of the faces.
+/// The order in VTK of the nodes of a hexahedron from the twelfth on. Exodus lists the nodes between the two faces before those
+/// on the upper face, and the middle before the nodes on the faces.
 const HEX: [usize; 15] = [16, 17, 18, 19, 12, 13, 14, 15, 23, 24, 25, 26, 21, 22, 20];
 
-/// Whether a file is one of Exodus.
+/// Whether a file is in Exodus format.
 pub fn is_exodus(file: &File<'_>) -> bool {
     file.numbers("", "api_version").is_some() && file.store.attribute("", "title").is_some()
 }
 
-/// Reads a file: its mesh is that of the reference, at all of its times.
+/// Reads a file; its mesh is the reference mesh, at all of its times.
 pub fn parse(file: &File<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let points = coordinates(file)?;
     let (cells, blocks) = cells(file, points.rows())?;
@@ -55,7 +55,7 @@ pub fn parse(file: &File<'_>) -> Result<Vec<Snapshot>, Mistake> {
         let mut parts = Vec::new();
         for (block, rows) in blocks.iter().filter(|(_, rows)| *rows > 0) {
             let set = file.store.set(&format!("vals_elem_var{}eb{block}", at + 1));
-            // An array that not all elements have is none of the mesh.
+            // An array that some elements lack is left out.
             let Some(set) = set else { return Ok(None) };
             parts.push((file.array(&set, "")?, *rows));
         }
@@ -85,7 +85,7 @@ pub fn parse(file: &File<'_>) -> Result<Vec<Snapshot>, Mistake> {
     Ok(all)
 }
 
-/// The places of nodes, which are those of the reference.
+/// The reference positions of the nodes.
 fn coordinates(file: &File<'_>) -> Result<Array, Mistake> {
     let axes: Vec<_> =
         ["coordx", "coordy", "coordz"].iter().filter_map(|it| file.store.set(it)).collect();
@@ -113,14 +113,14 @@ fn coordinates(file: &File<'_>) -> Result<Array, Mistake> {
     })
 }
 
-/// The elements of all blocks; and of each block its number, and how many elements it has.
+/// The elements of all blocks; and for each block its number and the number of its elements.
 fn cells(file: &File<'_>, nodes: usize) -> Result<(Cells, Vec<(usize, usize)>), Mistake> {
     let (mut cells, mut blocks) = (Cells::default(), Vec::new());
     let declared = file.store.set("eb_prop1").and_then(|it| it.shape.first().copied());
     for block in 1..=declared.unwrap_or(MOST_BLOCKS).min(MOST_BLOCKS) {
         let path = format!("connect{block}");
         let Some(set) = file.store.set(&path) else {
-            // A block without elements has none, where it is known how many blocks there are.
+            // A block without elements has no array; this shows only if the number of blocks is known.
             match declared {
                 Some(_) => continue,
                 None => break,
@@ -154,14 +154,14 @@ fn cells(file: &File<'_>, nodes: usize) -> Result<(Cells, Vec<(usize, usize)>), 
     Ok((cells, blocks))
 }
 
-/// The type in VTK of an element, by its name and how many nodes it has.
+/// The type in VTK of an element, by its name and its number of nodes.
 fn kind(name: &str, size: usize) -> Option<u8> {
     let letters = name.trim_end_matches(|it: char| it.is_ascii_digit());
     let (_, kinds) = ELEMENTS.iter().find(|(names, _)| names.contains(&letters))?;
     kinds.iter().find(|(nodes, _)| *nodes == size).map(|(_, kind)| *kind)
 }
 
-/// The variables with names in this array, which are read by their position there.
+/// Reads the variables named in this array, by their positions there.
 fn variables(
     file: &File<'_>,
     names: &str,
@@ -182,7 +182,7 @@ fn variables(
     Ok(all)
 }
 
-/// One variable of an array of all, over times, variables and nodes.
+/// One variable of an array over times, variables and nodes.
 fn one_of_all(all: &Array, at: usize, nodes: usize, shape: &[usize]) -> Result<Array, Mistake> {
     if shape[2] != nodes || at >= shape[1] {
         return Err(Mistake::new("`vals_nod_var` does not fit the nodes and the names"));
@@ -192,7 +192,7 @@ fn one_of_all(all: &Array, at: usize, nodes: usize, shape: &[usize]) -> Result<A
     Ok(Array { values: own, ..all.clone_without_values() })
 }
 
-/// The numbers of blocks, of which each has its own at all times, as those of the mesh at one time after the other.
+/// Joins the numbers of blocks, each with all times, into numbers of the mesh at one time after the other.
 fn joined(parts: Vec<(Array, usize)>, times: usize) -> Result<Option<Array>, Mistake> {
     let Some((first, _)) = parts.first() else { return Ok(None) };
     let mut whole = first.clone_without_values();

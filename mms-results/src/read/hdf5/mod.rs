@@ -12,19 +12,19 @@ use super::numbers::{Kind, Order, positions};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
-/// How a file of MATLAB begins: its user block.
+/// The beginning of a MATLAB file: its user block.
 const MATLAB: &[u8] = b"MATLAB 7.3";
 
-/// At how many times a file may be.
+/// The most times of a file.
 const MOST_TIMES: usize = 10_000;
 
-/// A file, and what is read of it.
+/// An open file, and the selection of its arrays.
 pub struct File<'a> {
     store: Store,
     wanted: &'a Wanted<'a>,
 }
 
-/// Reads a file. Bytes of another are copied first.
+/// Reads a file. Borrowed bytes are copied first.
 pub fn parse(bytes: Cow<'_, [u8]>, wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let is_matlab = bytes.starts_with(MATLAB);
     let copied = if let Cow::Borrowed(bytes) = bytes { bytes.len() } else { 0 };
@@ -48,20 +48,20 @@ impl<'a> File<'a> {
         Ok(File { store, wanted })
     }
 
-    /// The array of a path, which must be there.
+    /// The array at a path, which must exist.
     fn need(&self, path: &str) -> Result<Set, Mistake> {
         let found = self.store.set(path);
         found.ok_or_else(|| Mistake::new(format!("expected an array `{path}`, which is not there")))
     }
 
-    /// Reads an array under another name: its first axis are the rows.
+    /// Reads an array under another name: its first axis is the rows.
     fn array(&self, set: &Set, name: &str) -> Result<Array, Mistake> {
         self.take(set)?;
         self.made(set, name, self.store.bytes(set))
     }
 
-    /// Reads an array if its name is wanted. None is read if it is not wanted. An array without numbers, or one compressed in a way
-    /// that is not read, is left out unless it must be there.
+    /// Reads an array if its name is wanted; otherwise returns `None`. An array without numbers, or with an unsupported
+    /// compression, is left out unless it must be read.
     fn wanted(&self, set: &Set, name: &str) -> Result<Option<Array>, Mistake> {
         let need = self.wanted.need(name);
         let is_plain = need == Need::Must || need == Need::Numbers && kind(set.kind).is_some();
@@ -75,25 +75,25 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Takes room for an array. What the file cannot hold takes none: reading it is refused.
+    /// Reserves memory for an array. If the file cannot contain the array, reserves none, and reading it fails later.
     fn take(&self, set: &Set) -> Result<(), Mistake> {
         let numbers = set.count().filter(|it| *it as u64 <= self.store.left());
         self.wanted.take(&format!("`{}`", set.path), numbers.unwrap_or(0))
     }
 
-    /// Makes an array of its bytes.
+    /// Makes an array from its bytes.
     fn made(&self, set: &Set, name: &str, bytes: Result<Vec<u8>, Fault>) -> Result<Array, Mistake> {
         let wrong = |what: String| Mistake::new(format!("`{}`: {what}", set.path));
         let kind = kind(set.kind).ok_or_else(|| wrong("expected numbers".into()));
         let bytes = bytes.map_err(|fault| wrong(fault.what))?;
         let (kind, name) = (kind?, name.to_owned());
         let values = kind.read(&bytes, order(set.is_big));
-        // An array of no rows may declare any number of components.
+        // An array without rows may declare any number of components.
         let components = if values.is_empty() { 1 } else { set.stride() };
         Ok(Array { name, components, values, stored: kind.stored(), ..Array::default() })
     }
 
-    /// Reads the array of a path, under that name.
+    /// Reads the array at a path, under that name.
     pub fn at(&self, path: &str) -> Result<Array, Mistake> {
         self.array(&self.need(path)?, path)
     }
@@ -104,7 +104,7 @@ impl<'a> File<'a> {
         positions(self.at(path)?.values).map_err(wrong)
     }
 
-    /// The words of an array; none where it is not there.
+    /// Reads the words of an array; empty if it does not exist.
     fn words(&self, path: &str) -> Result<Vec<String>, Mistake> {
         let Some(set) = self.store.set(path) else { return Ok(Vec::new()) };
         self.store.words(&set).map_err(|what| Mistake::new(format!("`{path}`: {what}")))
@@ -142,7 +142,7 @@ impl<'a> File<'a> {
         array.values.iter().map(time).collect()
     }
 
-    /// Copies what is the same at all times to each of them.
+    /// Copies the data that are the same at all times to each of them.
     fn repeated(&self, whole: Snapshot, times: &[Time]) -> Result<Vec<Snapshot>, Mistake> {
         let arrays = whole.points.iter().chain(&whole.of_points).chain(&whole.of_cells);
         let numbers: usize = arrays.map(|it| it.values.len()).sum();
@@ -156,7 +156,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// How numbers of a type stand in bytes; none if they are no numbers.
+/// The binary form of numbers of a type; `None` if it is not numeric.
 fn kind(found: Type) -> Option<Kind> {
     match found {
         Type::Float(bytes) => Some(Kind::Float(bytes)),
@@ -170,7 +170,7 @@ fn order(is_big: bool) -> Order {
     if is_big { Order::Big } else { Order::Little }
 }
 
-/// An array that has numbers for each of some times one after the other, as one array for each.
+/// Splits an array with numbers for some times one after the other into one array per time.
 fn by_time(array: &Array, components: usize, times: usize) -> impl Iterator<Item = Array> {
     let each = array.values.len() / times.max(1);
     array.values.chunks_exact(each.max(1)).map(move |values| Array {

@@ -1,4 +1,4 @@
-//! Arrays of any file of HDF5 or netCDF by their paths, and variables of MATLAB.
+//! Arrays of any HDF5 or netCDF file by their paths, and variables of MATLAB.
 
 use mms_hdf5::Set;
 
@@ -7,10 +7,10 @@ use super::super::table::is_time;
 use super::{File, MOST_TIMES, by_time};
 use crate::{Array, Mistake, Snapshot};
 
-/// The most numbers that a point has at one time, where the first axis are the times.
+/// The most numbers of a point at one time, if the first axis is the times.
 const MOST_COMPONENTS: usize = 9;
 
-/// Reads the arrays that are wanted. The first axis are the points; times, if there are more than one, come before it.
+/// Reads the wanted arrays. The first axis is the points; if there are several times, they precede it.
 pub fn parse(file: &File<'_>, is_matlab: bool) -> Result<Vec<Snapshot>, Mistake> {
     let sets = file.store.sets().map_err(Mistake::new)?;
     let ends_with = |end: &str| sets.iter().any(|it| it.path.rsplit('/').next() == Some(end));
@@ -41,7 +41,7 @@ pub fn parse(file: &File<'_>, is_matlab: bool) -> Result<Vec<Snapshot>, Mistake>
         }
     }
     if by_times.is_empty() {
-        // If there are more times, which of them the arrays have is unknown; they may be temperatures.
+        // With several times it is not known which of them the arrays have; they may be temperatures.
         let time = times.first().filter(|_| times.len() == 1).copied();
         if let Some(set) = clock.filter(|_| time.is_none()) {
             match file.wanted(set, &set.path)? {
@@ -60,15 +60,15 @@ pub fn parse(file: &File<'_>, is_matlab: bool) -> Result<Vec<Snapshot>, Mistake>
     Ok(all)
 }
 
-/// How many times a file has, and how many points its arrays over times are of.
+/// The number of times of a file, and the number of points of its arrays over times.
 struct Layout {
     times: usize,
     points: Option<usize>,
 }
 
 impl Layout {
-    /// Finds an array of times, points and components. Another one shows the points, or it is known not to be a tensor of as
-    /// many points as there are times.
+    /// Finds the layout from an array of times, points and components. Another array confirms the number of points, or excludes
+    /// that it is a tensor with as many points as times.
     fn of(sets: &[Set], times: usize) -> Layout {
         let has_rows = |rows: usize| {
             sets.iter().any(|it| {
@@ -86,7 +86,7 @@ impl Layout {
         Layout { times, points }
     }
 
-    /// How many numbers each point has at each time; none of what is not over times.
+    /// The number of components of a point at each time; `None` for an array not over times.
     fn components(&self, set: &Set) -> Option<usize> {
         match (&set.shape[..], self.points?) {
             (&[first, second, last], points) if first == self.times && second == points => {
@@ -98,13 +98,14 @@ impl Layout {
     }
 }
 
-/// Whether a variable of MATLAB has words or nothing, or belongs to a cell array.
+/// Whether a variable of MATLAB contains words or nothing, or belongs to a cell array.
 fn is_hidden(file: &File<'_>, set: &Set) -> bool {
     let is_word = || file.word(&set.path, "MATLAB_class").is_some_and(|it| it == "char");
     set.path.starts_with('#') || is_word() || file.numbers(&set.path, "MATLAB_empty").is_some()
 }
 
-/// A variable of MATLAB, whose first axis runs fastest: HDF5 shows its axes in reverse. A row of numbers is a column.
+/// Converts a variable of MATLAB, whose first axis runs fastest: HDF5 shows its axes in reverse. A row of numbers becomes a
+/// column.
 fn of_matlab(array: Array, shape: &[usize]) -> Array {
     let axes: Vec<usize> = shape.iter().rev().copied().collect();
     if array.values.is_empty() || matches!(axes[..], [_] | [1, _] | []) {

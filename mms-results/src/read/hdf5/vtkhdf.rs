@@ -7,7 +7,7 @@ use super::{File, MOST_TIMES};
 use crate::snapshot::Section;
 use crate::{Array, Cells, Mistake, Snapshot, Time};
 
-/// The group of all that a file has.
+/// The group that contains all data.
 const ROOT: &str = "VTKHDF";
 
 /// The groups of the sections of a surface.
@@ -18,7 +18,7 @@ const SECTIONS: [(Section, &str); 4] = [
     (Section::Strips, "Strips"),
 ];
 
-/// Whether a file is one of VTKHDF.
+/// Whether a file is in VTKHDF format.
 pub fn is_vtk(file: &File<'_>) -> bool {
     file.word(ROOT, "Type").is_some()
 }
@@ -42,7 +42,7 @@ pub fn parse(file: &File<'_>) -> Result<Vec<Snapshot>, Mistake> {
     }
 }
 
-/// The steps of a file, or none, where it has but one state.
+/// The steps of a file; without times, a single state.
 struct Steps<'a> {
     file: &'a File<'a>,
     times: Vec<Time>,
@@ -57,12 +57,12 @@ impl<'a> Steps<'a> {
         Ok(Steps { file, times })
     }
 
-    /// How many states there are.
+    /// The number of states.
     fn count(&self) -> usize {
         self.times.len().max(1)
     }
 
-    /// Numbers of each step; none where there are no steps, or no such array.
+    /// Numbers of each step; `None` if there are no steps, or no such array.
     fn offsets(&self, name: &str) -> Result<Option<Offsets>, Mistake> {
         let path = format!("{ROOT}/Steps/{name}");
         let set = if self.times.is_empty() { None } else { self.file.store.set(&path) };
@@ -76,27 +76,27 @@ impl<'a> Steps<'a> {
     }
 }
 
-/// Where steps begin: a row for each, with a column for each section of a surface.
+/// The beginnings of steps: a row for each, with a column for each section of a surface.
 struct Offsets {
     numbers: Vec<usize>,
     columns: usize,
 }
 
-/// Where a step begins.
+/// The beginning of a step.
 fn offset(offsets: &Option<Offsets>, step: usize, column: usize) -> usize {
     let Some(Offsets { numbers, columns }) = offsets else { return 0 };
     numbers[step * columns + column.min(columns - 1)]
 }
 
-/// Numbers of points or cells at all steps, and where each step begins along the first axis.
+/// The numbers of points or cells at all steps, and the beginning of each step along the first axis.
 struct Data {
     array: Array,
-    /// Numbers of one place along the first axis.
+    /// The numbers of one place along the first axis.
     stride: usize,
     offsets: Option<Offsets>,
 }
 
-/// The arrays of points or of cells, and the names of those that are not read.
+/// The arrays of points or of cells, and the names of arrays that are not read.
 fn data(
     steps: &Steps<'_>,
     group: &str,
@@ -119,7 +119,7 @@ fn data(
     Ok(all)
 }
 
-/// The part of some numbers, which must be there.
+/// A part of some numbers, which must exist.
 fn part<T: Copy>(what: &str, all: &[T], start: usize, count: usize) -> Result<Vec<T>, Mistake> {
     let found = all.get(start..).and_then(|it| it.get(..count));
     let beyond = || {
@@ -131,7 +131,7 @@ fn part<T: Copy>(what: &str, all: &[T], start: usize, count: usize) -> Result<Ve
     found.map(<[T]>::to_vec).ok_or_else(beyond)
 }
 
-/// A product of counts and places; one that is too large is beyond all arrays.
+/// A product of counts and places; a product that overflows is larger than any array.
 fn times(a: usize, b: usize) -> usize {
     a.saturating_mul(b)
 }
@@ -139,7 +139,7 @@ fn times(a: usize, b: usize) -> usize {
 /// The cells of an unstructured grid, or of a section of a surface, in all pieces of all steps.
 struct Connected {
     section: Option<Section>,
-    /// How many cells, and points of cells, each piece has.
+    /// The numbers of cells, and of points of cells, in each piece.
     counts: [Vec<usize>; 2],
     ends: Vec<usize>,
     points: Vec<usize>,
@@ -151,7 +151,7 @@ struct Connected {
 /// A grid at all steps.
 struct Grid<'a> {
     file: &'a File<'a>,
-    /// How many points each piece has.
+    /// The number of points in each piece.
     counts: Vec<usize>,
     points: Array,
     connected: Vec<Connected>,
@@ -213,7 +213,7 @@ impl<'a> Grid<'a> {
         let first = start(&self.first_parts, 0);
         let parts = match &self.parts {
             Some(_) => start(&self.parts, 0),
-            // Each step has as many pieces as another, or the same.
+            // Each step has the same number of pieces, or shares one.
             None if self.first_parts.is_some() => 1,
             None => self.counts.len(),
         };
@@ -264,7 +264,7 @@ fn cut(all: &[Data], begins: &mut [usize], rows: usize) -> Result<Vec<Array>, Mi
 }
 
 impl Connected {
-    /// Adds the cells of a piece; moves to where the next one begins, in cells, ends and points.
+    /// Adds the cells of a piece; moves `begin` to the next one, in cells, ends and points.
     fn add(&self, piece: usize, begin: &mut [usize; 3], cells: &mut Cells) -> Result<(), Mistake> {
         let count = |which: usize, name: &str| {
             let found = self.counts[which].get(piece).copied();
@@ -273,7 +273,7 @@ impl Connected {
             })
         };
         let (count, ids) = (count(0, "NumberOfCells")?, count(1, "NumberOfConnectivityIds")?);
-        // The first of the ends is where the first cell begins.
+        // The first end is the beginning of the first cell.
         let ends = part("Offsets", &self.ends, begin[1], count.saturating_add(1))?;
         let points = part("Connectivity", &self.points, begin[2], ids)?;
         match self.section {
@@ -293,7 +293,7 @@ impl Connected {
     }
 }
 
-/// Reads points at even distances, with the cells between them.
+/// Reads evenly spaced points, with the cells between them.
 fn image(file: &File<'_>, steps: &Steps<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let numbers =
         |name: &str, count: usize| file.numbers(ROOT, name).filter(|it| it.len() == count);
@@ -304,7 +304,7 @@ fn image(file: &File<'_>, steps: &Steps<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let turn = numbers("Direction", 9).unwrap_or_else(|| vec![1., 0., 0., 0., 1., 0., 0., 0., 1.]);
     let size = [0, 1, 2].map(|it| (extent[2 * it + 1] - extent[2 * it] + 1.0).max(0.0) as usize);
     let rows = size.iter().fold(1, |all, it| times(all, *it));
-    // A few bytes may declare any number of points; a file that has numbers for them is longer.
+    // A few bytes may declare any number of points; a file with data for them is longer.
     if rows == 0 || rows as u64 > file.store.left() / 8 {
         return Err(Mistake::new(format!("{rows} points: the file has other numbers of them")));
     }
