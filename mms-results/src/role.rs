@@ -1,11 +1,11 @@
-//! What an array may be: quantities, with the names that codes have for them.
+//! The quantities that arrays contain, and their names in codes.
 
-/// How many numbers a quantity has in D dimensions: one, D, D x D, or (D (D + 1)/2)^2.
+/// The number of components of a quantity in D dimensions: 1, D, D x D, or (D (D + 1)/2)^2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Form {
-    /// One.
+    /// One component.
     Scalar,
-    /// One for each dimension.
+    /// One component for each dimension.
     Vector,
     /// A matrix.
     Tensor,
@@ -15,18 +15,18 @@ pub enum Form {
     Voigt,
 }
 
-/// A quantity of the field's own: files call it by its name.
+/// A quantity of the field's own; its name in files is its own name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct OwnRole {
     /// The name.
     pub name: &'static str,
-    /// How many numbers it has.
+    /// The number of components.
     pub form: Form,
 }
 
 macro_rules! roles {
     ($($variant:ident $name:literal $symbol:literal $form:ident [$($word:literal)*] $doc:literal,)*) => {
-        /// What an array may be.
+        /// The quantity that an array contains.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Role {
             $(#[doc = $doc] $variant,)*
@@ -35,10 +35,10 @@ macro_rules! roles {
         }
 
         impl Role {
-            /// All of them.
+            /// All quantities that are not a field's own.
             pub const ALL: &[Role] = &[$(Role::$variant,)*];
 
-            /// Its identifier.
+            /// The identifier.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Role::$variant => $name,)*
@@ -46,7 +46,7 @@ macro_rules! roles {
                 }
             }
 
-            /// Its symbol.
+            /// The symbol.
             pub fn symbol(self) -> &'static str {
                 match self {
                     $(Role::$variant => $symbol,)*
@@ -54,7 +54,7 @@ macro_rules! roles {
                 }
             }
 
-            /// How many numbers it has.
+            /// The number of components.
             pub fn form(self) -> Form {
                 match self {
                     $(Role::$variant => Form::$form,)*
@@ -62,7 +62,7 @@ macro_rules! roles {
                 }
             }
 
-            /// What codes call it, in small letters without what separates words; a single letter as it is.
+            /// The names in codes, in lower case without separators; a single letter is case-sensitive.
             fn words(self) -> &'static [&'static str] {
                 match self {
                     $(Role::$variant => &[$($word),*],)*
@@ -112,14 +112,14 @@ roles! {
 }
 
 impl Role {
-    /// The role of an identifier, a symbol, or what codes call it.
+    /// The role of an identifier, a symbol, or a name in codes.
     pub fn from_name(name: &str) -> Option<Role> {
         let exact =
             Role::ALL.iter().copied().find(|role| role.name() == name || role.symbol() == name);
         exact.or_else(|| Role::called(name))
     }
 
-    /// The role of what codes call it.
+    /// The role of a name in codes.
     pub(crate) fn called(name: &str) -> Option<Role> {
         let plain = plain(name);
         let is_plain = |role: &Role| {
@@ -132,7 +132,7 @@ impl Role {
     }
 }
 
-/// A name in small letters, without what separates words.
+/// A name in lower case, without separators.
 pub(crate) fn plain(name: &str) -> String {
     name.chars().filter(|it| it.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }

@@ -1,4 +1,4 @@
-//! What a file holds of one mesh at one time.
+//! The contents of a file for one mesh at one time.
 
 use std::collections::BTreeMap;
 
@@ -6,29 +6,29 @@ use crate::Mistake;
 use crate::cell::{dimension, last_edges, refused};
 use crate::norm::{largest, range};
 
-/// How numbers were stored, and so how far each may be from what the solver had.
+/// The form in which numbers were stored, which bounds their distance from the solver's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stored {
-    /// In single precision.
+    /// Single precision.
     Single,
-    /// In double precision, or in text with as many digits.
+    /// Double precision, or text with as many digits.
     Double,
-    /// As integers, which are exact.
+    /// Integers, which are exact.
     Whole,
-    /// In text, with so many digits after the point.
+    /// Text, with this many digits after the point.
     Fixed(u32),
-    /// In text, with so many significant digits.
+    /// Text, with this many significant digits.
     Digits(u32),
 }
 
-/// Those that a number has in single precision which is no fraction of few digits in base 2.
+/// The last bits of a number in single precision, which are 0 for binary fractions with few digits.
 const LAST_BITS: u32 = 0b11_1111;
 
 impl Stored {
     /// Half a unit in the last place of a number of this magnitude.
     pub fn rounding(self, magnitude: f64) -> f64 {
         let magnitude = magnitude.abs();
-        // Exponents beyond the range of integers are at its ends.
+        // Exponents beyond the range of integers are clamped to it.
         let unit = |exponent: f64| 0.5 * 10f64.powi(exponent as i32);
         match self {
             Stored::Single => magnitude * f64::from(f32::EPSILON) / 2.0,
@@ -40,7 +40,7 @@ impl Stored {
         }
     }
 
-    /// How these numbers were stored at first: in single precision, where all are numbers of it and some have its last bits.
+    /// The form in which numbers were first stored: single precision if all numbers fit it and some use its last bits.
     pub fn at_first(self, numbers: &[f64]) -> Stored {
         let is_finer = self != Stored::Whole && self.rounding(1.0) < Stored::Single.rounding(1.0);
         let is_single = |it: &f64| f64::from(*it as f32).to_bits() == it.to_bits();
@@ -51,7 +51,7 @@ impl Stored {
         }
     }
 
-    /// What a person calls it.
+    /// The name in messages.
     pub fn name(self) -> String {
         match self {
             Stored::Single => "single precision".into(),
@@ -63,18 +63,18 @@ impl Stored {
     }
 }
 
-/// Named numbers, so many for each point or cell.
+/// Named numbers of points or cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Array {
-    /// Its name in the file.
+    /// The name in the file.
     pub name: String,
-    /// Numbers of one point or cell; 1 at least.
+    /// The number of components of a point or cell; at least 1.
     pub components: usize,
-    /// All numbers, those of a point or cell together.
+    /// All numbers, point by point or cell by cell.
     pub values: Vec<f64>,
-    /// How they were stored.
+    /// The form in which they were stored.
     pub stored: Stored,
-    /// The names of its components, where the file has such.
+    /// The names of the components, if the file has them.
     pub component_names: Vec<String>,
 }
 
@@ -86,17 +86,17 @@ impl Default for Array {
 }
 
 impl Array {
-    /// How many points or cells it has numbers for.
+    /// The number of points or cells.
     pub fn rows(&self) -> usize {
         self.values.len() / self.components
     }
 
-    /// Whether it has this name, and so many components.
+    /// Whether the array has this name and this number of components.
     fn is_like(&self, name: &str, components: usize) -> bool {
         self.name == name && self.components == components
     }
 
-    /// The same, without numbers.
+    /// A copy without numbers.
     pub(crate) fn clone_without_values(&self) -> Array {
         let (name, component_names) = (self.name.clone(), self.component_names.clone());
         Array { name, component_names, values: Vec::new(), ..*self }
@@ -119,20 +119,20 @@ impl Array {
         }
     }
 
-    /// How far its numbers may be from those that were stored, at the largest of them.
+    /// The largest rounding of its numbers.
     pub fn rounding(&self) -> f64 {
         self.stored.rounding(largest(&self.values))
     }
 }
 
-/// Cells, by the numbers that VTK gives to their types.
+/// Cells, by their types in VTK.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cells {
-    /// The type of each.
+    /// The type of each cell.
     pub types: Vec<u8>,
     /// The points of all cells, one cell after the other.
     pub points: Vec<usize>,
-    /// Where the points of each cell end.
+    /// The ends of each cell's points.
     pub ends: Vec<usize>,
 }
 
@@ -144,22 +144,22 @@ impl Cells {
         each.map(|(&kind, (start, &end))| (kind, &self.points[start..end]))
     }
 
-    /// How many there are.
+    /// The number of cells.
     pub fn len(&self) -> usize {
         self.types.len()
     }
 
-    /// The highest dimension that one has.
+    /// The highest dimension of a cell.
     pub(crate) fn dimension(&self) -> usize {
         self.types.iter().map(|kind| dimension(*kind)).max().unwrap_or(0)
     }
 
-    /// Whether there are none.
+    /// Whether there are no cells.
     pub fn is_empty(&self) -> bool {
         self.types.is_empty()
     }
 
-    /// Refuses cells that do not end one after the other, or have points beyond the last.
+    /// Refuses cells whose ends do not follow each other, or that have points beyond the last.
     pub(crate) fn hold(&self, points: usize) -> Result<(), Mistake> {
         let (types, ends) = (self.types.len(), self.ends.len());
         if types != ends {
@@ -177,7 +177,7 @@ impl Cells {
         self.iter().find_map(refused).map_or(Ok(()), |what| Err(Mistake::new(what)))
     }
 
-    /// Gives hexahedra of Lagrange the nodes of their last two upright edges the other way round, as old files have them.
+    /// Swaps the nodes of the last two upright edges of Lagrange hexahedra, which old files swap.
     pub(crate) fn renumber_old(&mut self) {
         let mut start = 0;
         for (kind, &end) in self.types.iter().zip(&self.ends) {
@@ -189,7 +189,7 @@ impl Cells {
     }
 }
 
-/// A time, and how far it may be from that of the solver.
+/// A time and its rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Time {
     /// The time.
@@ -198,33 +198,33 @@ pub struct Time {
     pub rounding: f64,
 }
 
-/// What a file holds of one mesh at one time.
+/// The contents of a file for one mesh at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     /// The file.
     pub path: String,
-    /// The name of its format.
+    /// The name of the format.
     pub format: &'static str,
-    /// The time, where it is known.
+    /// The time, if it is known.
     pub time: Option<Time>,
-    /// The places of the points, where the format has such.
+    /// The places of the points, if the format has them.
     pub points: Option<Array>,
-    /// The cells, where the format has such.
+    /// The cells, if the format has them.
     pub cells: Cells,
     /// Named numbers of points.
     pub of_points: Vec<Array>,
     /// Named numbers of cells.
     pub of_cells: Vec<Array>,
-    /// The lines on which the points stand; none in files without lines.
+    /// The lines of the points; empty for files without lines.
     pub lines: Vec<usize>,
-    /// The units that the file gives for arrays, by their names.
+    /// The units in the file of arrays, by their names.
     pub units: Vec<(String, String)>,
     /// The names of arrays that were not read.
     pub unread: Vec<String>,
 }
 
 impl Snapshot {
-    /// How many points it has: as many as most of its arrays, where it has no places of points.
+    /// The number of points; without places of points, the number of rows that most arrays have.
     pub fn rows(&self) -> usize {
         if let Some(points) = &self.points {
             return points.rows();
@@ -235,7 +235,7 @@ impl Snapshot {
         most.map_or(0, |(rows, _)| rows)
     }
 
-    /// Where a point stands: `path:line`, or its number.
+    /// The place of a point: `path:line`, or its number.
     pub fn place(&self, point: usize) -> String {
         match self.lines.get(point) {
             Some(line) => format!("{}:{line}", self.path),
@@ -243,9 +243,8 @@ impl Snapshot {
         }
     }
 
-    /// This snapshot with arrays of cells as such of points, where each cell is a vertex of one point and each point has one:
-    /// so programs write particles that have no nodes. Marks of ghosts, and arrays of names that points have, stay where they
-    /// are.
+    /// Turns arrays of cells into arrays of points, if each cell is a vertex of one point and each point has one: programs
+    /// write particles without nodes in this way. Marks of ghosts, and arrays whose names points have, stay with the cells.
     pub(crate) fn with_vertices_as_points(mut self) -> Snapshot {
         let (rows, Cells { types, points, ends }) = (self.rows(), &self.cells);
         let mut is_there = vec![false; if types.len() == rows { rows } else { 0 }];
@@ -282,7 +281,7 @@ impl Snapshot {
         self
     }
 
-    /// The snapshots as one: pieces of a mesh, with the same arrays. Pieces without points and cells may have any.
+    /// Joins snapshots that are pieces of a mesh, with the same arrays. Pieces without points and cells may have any.
     ///
     /// # Errors
     /// An array that only some have, or that has other components there.
@@ -298,8 +297,8 @@ impl Snapshot {
         Ok(Snapshot { time, ..whole })
     }
 
-    /// The snapshots as one: blocks of a mesh. Arrays that are not in all of its blocks are left out, and so are blocks of a
-    /// lower dimension, as boundaries are, that lack an array which the others have.
+    /// Joins snapshots that are blocks of a mesh. Leaves out arrays that some blocks lack, and blocks of a lower dimension,
+    /// such as boundaries, that lack an array which the others have.
     ///
     /// # Errors
     /// Points that only some have.
@@ -362,10 +361,10 @@ impl Snapshot {
     }
 }
 
-/// The arrays by which VTK marks ghosts, the present one and the older one.
+/// The arrays in which VTK marks ghosts, the present one and the older one.
 pub(crate) const GHOSTS: [&str; 2] = ["vtkGhostType", "vtkGhostLevels"];
 
-/// Adds the marks of ghosts that another piece has: a piece without them has no ghosts.
+/// Adds marks of ghosts that another piece has: a piece without them has no ghosts.
 fn mark_none(arrays: &mut Vec<Array>, of_other: &[Array], rows: usize) {
     for (at, marks) in of_other.iter().enumerate().filter(|(_, it)| GHOSTS.contains(&&*it.name)) {
         if arrays.iter().all(|it| it.name != marks.name) {
@@ -375,7 +374,7 @@ fn mark_none(arrays: &mut Vec<Array>, of_other: &[Array], rows: usize) {
     }
 }
 
-/// Appends arrays to those of the same names.
+/// Appends arrays to the arrays of the same names.
 fn append(arrays: &mut [Array], mut more: Vec<Array>) -> Result<(), Mistake> {
     let only_in_some = |name: &str| {
         Mistake::new(format!(
@@ -384,7 +383,7 @@ fn append(arrays: &mut [Array], mut more: Vec<Array>) -> Result<(), Mistake> {
     };
     for (at, array) in arrays.iter_mut().enumerate() {
         let is_it = |it: &Array| it.is_like(&array.name, array.components);
-        // Most often in the same order.
+        // The order is most often the same.
         let found = (at..more.len()).find(|&at| is_it(&more[at]));
         let found = found.ok_or_else(|| only_in_some(&array.name))?;
         more.swap(at, found);
@@ -395,7 +394,7 @@ fn append(arrays: &mut [Array], mut more: Vec<Array>) -> Result<(), Mistake> {
 }
 
 impl Stored {
-    /// The one that leaves more of a rounding.
+    /// The form with the larger rounding.
     pub(crate) fn coarser(self, other: Stored) -> Stored {
         if self.rounding(1.0) >= other.rounding(1.0) { self } else { other }
     }
@@ -415,10 +414,10 @@ pub(crate) enum Section {
 }
 
 impl Section {
-    /// All of them.
+    /// All sections.
     pub const ALL: [Section; 4] = [Section::Verts, Section::Lines, Section::Polys, Section::Strips];
 
-    /// Its name in XML.
+    /// The name in XML.
     pub fn name(self) -> &'static str {
         match self {
             Section::Verts => "Verts",
@@ -428,7 +427,7 @@ impl Section {
         }
     }
 
-    /// The type of one of its cells with so many points.
+    /// The type of a cell of the section with this number of points.
     fn kind(self, points: usize) -> u8 {
         match (self, points) {
             (Section::Verts, 1) => 1,

@@ -1,4 +1,4 @@
-//! Suggestions: the columns of a file that may be a quantity whose name is unknown.
+//! Suggestions: the columns of a file that may contain a quantity whose name is unknown.
 
 use crate::axes::Axes;
 use crate::meaning::{Meaning, Place};
@@ -9,14 +9,14 @@ use crate::{Array, Snapshot};
 /// Words in the names of displacements in several languages.
 const DISPLACED: [&str; 6] = ["disp", "depl", "verschieb", "spost", "desplaz", "move"];
 
-/// Columns of points, by the names that `--map` takes, with their numbers row by row.
+/// Columns of points, by their names in `--map`, with their numbers row by row.
 struct Candidate {
     names: Vec<String>,
     numbers: Vec<f64>,
 }
 
 impl Candidate {
-    /// All finite numbers of some columns, each an array with one of its components.
+    /// All finite numbers of some columns, each given by an array and a component.
     fn of(columns: &[(String, &Array, usize)]) -> Option<Candidate> {
         let rows = columns.first()?.1.rows();
         let mut numbers = vec![0.0; rows * columns.len()];
@@ -34,7 +34,7 @@ impl Candidate {
         is_finite.then_some(Candidate { names, numbers })
     }
 
-    /// The option that names it.
+    /// The option that maps the quantity to the columns.
     fn option(&self, role: Role) -> String {
         let mapping = format!("{}={}", role.symbol(), self.names.join(","));
         let needs_quotes =
@@ -53,8 +53,8 @@ fn column<'a>(array: &&'a Array) -> (String, &'a Array, usize) {
     (array.name.clone(), array, 0)
 }
 
-/// The vectors of a dimension that arrays of points may be: an array with as many components, or with others that are 0;
-/// columns whose names differ in a component; and columns side by side.
+/// Possible vectors of a dimension in arrays of points: an array with as many components, or with others that are 0; columns
+/// whose names differ in a component; and adjacent columns.
 fn vectors(snapshot: &Snapshot, dimension: usize) -> Vec<Candidate> {
     let of_points = || arrays(snapshot).filter(|(place, _)| !matches!(place, Place::Cells(_)));
     let mut found = Vec::new();
@@ -89,7 +89,7 @@ fn vectors(snapshot: &Snapshot, dimension: usize) -> Vec<Candidate> {
     found
 }
 
-/// The option that names X: columns in the body, at more places than others have. None if no columns are there.
+/// The option that names X: the columns that lie in the body at the most places. `None` if there are no such columns.
 pub fn positions(
     snapshot: &Snapshot,
     dimension: usize,
@@ -105,13 +105,13 @@ pub fn positions(
     };
     let found = vectors(snapshot, dimension).into_iter().filter(is_inside);
     let found = found.map(|it| (places(&it), it)).filter(|(places, _)| *places > 1);
-    // The first of those with as many.
+    // The first of the best ones.
     let best = found.reduce(|best, it| if it.0 > best.0 { it } else { best });
     best.map(|(_, it)| it.option(Role::Reference))
 }
 
-/// The option that names a vector or a scalar: columns that mean nothing else, of a name that sounds like u if that is
-/// looked for. None if there are no such columns.
+/// The option that names a vector or a scalar: columns without another meaning, and for u with a name that sounds like it.
+/// `None` if there are no such columns.
 pub fn quantity(
     snapshot: &Snapshot,
     dimension: usize,

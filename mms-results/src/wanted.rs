@@ -1,42 +1,42 @@
-//! Which arrays of a file are read, and how much memory they may take.
+//! The arrays to read from a file, and the memory limit.
 
 use std::cell::Cell;
 
 use crate::Mistake;
 use crate::snapshot::GHOSTS;
 
-/// Whether an array is read, by its name.
+/// The way in which an array is read, by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
-    /// It is left out, whatever it holds.
+    /// The array is skipped, with any content.
     No,
-    /// It is left out. A word among numbers of a table is a mistake all the same.
+    /// The array is skipped, but a word among numbers of a table is a mistake.
     Sound,
-    /// It is read if it holds numbers, and left out if it holds words alone.
+    /// The array is read if it contains numbers, and skipped if it contains only words.
     Numbers,
-    /// It is read, and must hold numbers.
+    /// The array is read, and must contain numbers.
     Must,
 }
 
-/// The arrays that are read of files, and the memory for them.
+/// The selection of arrays to read from files, and the memory for them.
 pub struct Wanted<'a> {
     need: Box<dyn Fn(&str) -> Need + 'a>,
-    /// Bytes that are left.
+    /// The remaining bytes.
     room: Cell<u64>,
-    /// The advice if they are too few.
+    /// The advice if there is too little memory.
     advice: &'static str,
     /// The names of the columns of tables without a header.
     columns: Vec<String>,
 }
 
 impl<'a> Wanted<'a> {
-    /// Reads arrays by their names, in any memory.
+    /// Selects arrays by their names, without a memory limit.
     pub fn new(need: impl Fn(&str) -> Need + 'a) -> Self {
         let (room, columns) = (Cell::new(u64::MAX), Vec::new());
         Wanted { need: Box::new(need), room, advice: "", columns }
     }
 
-    /// The same, in so many bytes; and what to do if they are too few.
+    /// Limits the memory; `advice` is for messages if it is too little.
     pub fn within(self, bytes: u64, advice: &'static str) -> Self {
         Wanted { room: Cell::new(bytes), advice, ..self }
     }
@@ -46,17 +46,17 @@ impl<'a> Wanted<'a> {
         Wanted { columns: columns.to_vec(), ..self }
     }
 
-    /// The names of the columns of tables without a header; none, if they were not given.
+    /// The names of the columns of tables without a header; empty if they were not given.
     pub(crate) fn columns(&self) -> &[String] {
         &self.columns
     }
 
-    /// How many bytes are left.
+    /// The remaining bytes.
     pub fn room(&self) -> u64 {
         self.room.get()
     }
 
-    /// Whether an array of this name is needed. Marks of ghosts always are: without them ghosts would count.
+    /// Whether an array of this name is needed. Marks of ghosts always are, since otherwise ghosts would count.
     pub(crate) fn need(&self, name: &str) -> Need {
         if GHOSTS.contains(&name) { Need::Must } else { (self.need)(name) }
     }
@@ -66,10 +66,10 @@ impl<'a> Wanted<'a> {
         matches!(self.need(name), Need::Numbers | Need::Must)
     }
 
-    /// Takes room for an array, and holds as much again, in which it is decoded.
+    /// Reserves memory for an array, and checks that as much again is free for decoding.
     ///
     /// # Errors
-    /// There is not as much.
+    /// Too little memory.
     pub(crate) fn take(&self, what: &str, numbers: usize) -> Result<(), Mistake> {
         let bytes = (numbers as u64).saturating_mul(8);
         let needed = bytes.saturating_mul(2);
@@ -78,7 +78,7 @@ impl<'a> Wanted<'a> {
         Ok(())
     }
 
-    /// Refuses what takes more bytes than are left.
+    /// Refuses to use more bytes than remain.
     fn hold(&self, what: &str, needed: u64) -> Result<(), Mistake> {
         let room = self.room.get();
         if needed <= room {
@@ -91,7 +91,7 @@ impl<'a> Wanted<'a> {
         )))
     }
 
-    /// Makes something while so many bytes of a file are in memory.
+    /// Calls a function while bytes of a file are in memory.
     pub(crate) fn beside<T>(
         &self,
         bytes: usize,

@@ -1,19 +1,19 @@
-//! The numbers by which files call nodes and elements, which may have gaps and stand in any order.
+//! The numbers of nodes and elements in files, which may have gaps and be in any order.
 
-/// Where the numbers stand.
+/// The positions of numbers.
 #[derive(Default)]
 pub struct Tags {
-    /// The first number, and how many there are, where each is one more than the one before.
+    /// The first number and the count, if each number is one more than the one before.
     run: (u64, u64),
-    /// Otherwise all numbers in order, each with its place.
+    /// Otherwise all numbers sorted, each with its position.
     sorted: Vec<(u64, usize)>,
 }
 
 impl Tags {
-    /// The places of these numbers.
+    /// Collects the positions of numbers.
     ///
     /// # Errors
-    /// A number that stands there twice.
+    /// A number that occurs twice.
     pub fn of(tags: &[u64]) -> Result<Self, u64> {
         let first = tags.first().copied().unwrap_or(0);
         if tags.iter().enumerate().all(|(at, tag)| tag.checked_sub(first) == Some(at as u64)) {
@@ -28,7 +28,7 @@ impl Tags {
         }
     }
 
-    /// The place of a number.
+    /// The position of a number.
     pub fn place(&self, tag: u64) -> Option<usize> {
         match tag.checked_sub(self.run.0) {
             Some(at) if at < self.run.1 => Some(at as usize),

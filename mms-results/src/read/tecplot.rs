@@ -7,7 +7,7 @@ use crate::{Cells, Mistake, Snapshot, Time};
 /// The words with which a file may begin.
 const BEGINNINGS: [&str; 4] = ["TITLE", "VARIABLES", "FILETYPE", "ZONE"];
 
-/// Kinds of cells: the names that zones give them, the number of VTK, and how many points each has.
+/// Kinds of cells: the names in zones, the number in VTK, and the number of points.
 const CELLS: [(&str, u8, usize); 5] = [
     ("LINESEG", 3, 2),
     ("TRIANGLE", 5, 3),
@@ -16,10 +16,10 @@ const CELLS: [(&str, u8, usize); 5] = [
     ("BRICK", 12, 8),
 ];
 
-/// The most points or cells that a zone may declare: no file in text has more.
+/// The most points or cells of a zone: no text file has more.
 const MOST: usize = 1 << if usize::BITS > 40 { 40 } else { 26 };
 
-/// Whether a text begins as a file of Tecplot does: a table may have a column called `zone`.
+/// Whether a text begins like a file of Tecplot: a table may have a column called `zone`.
 pub fn is_tecplot(text: &[u8]) -> bool {
     let line = text.split(|it| *it == b'\n').next().unwrap_or_default();
     let word = line.iter().take_while(|it| it.is_ascii_alphabetic()).map(u8::to_ascii_uppercase);
@@ -27,7 +27,7 @@ pub fn is_tecplot(text: &[u8]) -> bool {
     BEGINNINGS.iter().any(|it| it.as_bytes() == word) && line.contains(&b'=')
 }
 
-/// Reads all zones; those of one time are pieces of one mesh.
+/// Reads all zones; zones of one time are pieces of one mesh.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = 1 + memchr::memchr_iter(b'\n', &bytes[..error.valid_up_to()]).count();
@@ -61,7 +61,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
     if found.is_empty() { Err(Mistake::new("a file of Tecplot without a ZONE")) } else { Ok(found) }
 }
 
-/// The words of a text: names in quotes, parts in parentheses, `=`, and what stands between blanks and commas.
+/// The words of a text: names in quotes, parts in parentheses, `=`, and texts between blanks and commas.
 struct Words<'a> {
     lines: std::iter::Enumerate<std::str::Lines<'a>>,
     line: usize,
@@ -73,7 +73,7 @@ impl<'a> Words<'a> {
         Mistake::at(self.line, what)
     }
 
-    /// Goes to the next word; false at the end.
+    /// Skips to the next word; false at the end.
     fn is_there(&mut self) -> bool {
         loop {
             self.rest = self.rest.trim_start_matches(|it: char| it.is_whitespace() || it == ',');
@@ -104,7 +104,7 @@ impl<'a> Words<'a> {
         Some(word)
     }
 
-    /// The next word, which stays.
+    /// The next word, without consuming it.
     fn peek(&mut self) -> Option<&'a str> {
         if !self.is_there() {
             return None;
@@ -129,7 +129,7 @@ impl<'a> Words<'a> {
         self.next().ok_or_else(|| self.mistake("the file ends here: was it cut off?"))
     }
 
-    /// Names in quotes, or between blanks on one line.
+    /// Reads names in quotes, or names between blanks on one line.
     fn names(&mut self) -> Vec<String> {
         let mut names = Vec::new();
         let first = self.peek().map_or(0, |_| self.line);
@@ -159,7 +159,7 @@ impl<'a> Words<'a> {
 #[derive(Default)]
 struct Zone {
     line: usize,
-    /// Points along the axes; 0 where it is not said.
+    /// Points along the axes; 0 if not stated.
     size: [usize; 3],
     points: usize,
     cells: usize,
@@ -296,7 +296,7 @@ impl Zone {
         Ok(snapshot)
     }
 
-    /// The cells that stand behind the values, by numbers of points from 1.
+    /// Reads the cells after the values, by numbers of points from 1.
     fn listed(
         &self,
         (kind, corners): (u8, usize),
@@ -322,7 +322,7 @@ impl Zone {
     }
 }
 
-/// The cells between so many ordered points in two and three dimensions; points along one line may be particles.
+/// The cells between ordered points in two and three dimensions; none along a line, whose points may be particles.
 pub fn ordered(size: [usize; 3]) -> Cells {
     let [i, j, k] = size.map(|it| it.max(1));
     let mut cells = Cells::default();

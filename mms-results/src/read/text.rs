@@ -1,9 +1,9 @@
-//! Numbers in text, and how many digits they have.
+//! Numbers in text, and their digits.
 
 use crate::wanted::Wanted;
 use crate::{Array, Mistake, Stored, Time};
 
-/// The name of a column, and the unit in brackets behind it, as in `u_x [mm]`. A component in brackets is no unit.
+/// Splits a column name from a unit in brackets after it, as in `u_x [mm]`. A component in brackets is no unit.
 pub fn without_unit(text: &str) -> (&str, Option<&str>) {
     let close = |open: char| if open == '[' { ']' } else { ')' };
     let found = text.rfind(['[', '(']).and_then(|at| {
@@ -48,7 +48,7 @@ impl Written {
     }
 }
 
-/// The form of all numbers of an array.
+/// The common form of all numbers of an array.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Style {
     first: Option<Written>,
@@ -57,7 +57,7 @@ pub struct Style {
 }
 
 impl Style {
-    /// Looks at one more number.
+    /// Adds a number.
     pub fn see(&mut self, text: &str) {
         let (one, most) = (Written::of(text), self.most);
         let first = *self.first.get_or_insert(one);
@@ -71,8 +71,8 @@ impl Style {
         };
     }
 
-    /// How they were stored. As many digits after the point everywhere are a fixed number of them only where
-    /// some end in zero: 0.125 and 0.375 may be exact.
+    /// The precision of the stored numbers. The same number of digits after the point everywhere counts as fixed only if some
+    /// numbers end in zero: 0.125 and 0.375 may be exact.
     pub fn stored(&self) -> Stored {
         let Written { significant, decimals, is_whole, has_exponent, ends_in_zero } = self.most;
         match self.varies || has_exponent {
@@ -83,10 +83,10 @@ impl Style {
     }
 }
 
-/// Numbers for which room is taken at once.
+/// The count of numbers for which memory is reserved at a time.
 const CHUNK: usize = 4096;
 
-/// Numbers of a text. A file of a few bytes may declare any number of them: room is taken as they come.
+/// Numbers of a text. A file of a few bytes may declare any number of them, so memory is reserved as they are read.
 #[derive(Default)]
 pub struct Numbers {
     pub values: Vec<f64>,
@@ -94,7 +94,7 @@ pub struct Numbers {
 }
 
 impl Numbers {
-    /// Adds one more number.
+    /// Adds a number.
     ///
     /// # Errors
     /// A word, or too little memory.
@@ -108,19 +108,19 @@ impl Numbers {
         Ok(())
     }
 
-    /// An array of these numbers; how they were stored is for [`settle`] to say.
+    /// An array of these numbers; [`settle`] decides its precision.
     pub fn into_array(self, name: &str, components: usize) -> Array {
         let (name, stored) = (name.to_owned(), self.style.stored());
         Array { name, components, values: self.values, stored, ..Array::default() }
     }
 }
 
-/// The digits from which on a text holds all of a number in single and in double precision, but for its last bits.
+/// The least digits with which a text contains all of a number in single and in double precision, except its last bits.
 const ALL_OF_SINGLE: u32 = 8;
 const ALL_OF_DOUBLE: u32 = 16;
 
-/// Gives arrays the significant digits of the one that has most: a program writes all in one way, and an array of few
-/// digits may hold numbers that have no more.
+/// Gives arrays the significant digits of the one with most: a program writes all in one way, and the numbers of an array may
+/// need fewer digits.
 pub fn settle(arrays: &mut [&mut Array], single: &[bool]) {
     let digits = |stored: Stored| if let Stored::Digits(digits) = stored { digits } else { 0 };
     let most = arrays.iter().map(|array| digits(array.stored)).max().unwrap_or(0);
@@ -130,14 +130,14 @@ pub fn settle(arrays: &mut [&mut Array], single: &[bool]) {
             Stored::Digits(_) if most >= ALL_OF_DOUBLE => Stored::Double,
             Stored::Digits(_) => Stored::Digits(most),
             Stored::Fixed(decimals) if decimals >= ALL_OF_DOUBLE => Stored::Double,
-            // The shortest text of a whole number, as 0.0, beside others that have all their digits.
+            // The shortest text of a whole number, as 0.0, beside others with all their digits.
             Stored::Fixed(1) if most >= ALL_OF_DOUBLE => Stored::Double,
             other => other,
         };
     }
 }
 
-/// Times as they are written, each with as many digits as the one that has most.
+/// Times as written, each with as many digits as the one with most.
 pub fn times_of(found: &[(f64, Stored)]) -> impl Iterator<Item = Time> {
     let digits = |stored| if let Stored::Digits(digits) = stored { digits } else { 0 };
     let most = found.iter().map(|(_, stored)| digits(*stored)).max().unwrap_or(0);
@@ -147,13 +147,13 @@ pub fn times_of(found: &[(f64, Stored)]) -> impl Iterator<Item = Time> {
     })
 }
 
-/// A number as programs write it, also in Fortran: `1.0D-3`, and `1.0-103` where three digits leave no room for a letter.
+/// Parses a number as programs write it, also in Fortran: `1.0D-3`, and `1.0-103`, where a third digit replaces the letter.
 pub fn number(text: &str) -> Option<f64> {
     let value = text.parse().ok();
     value.or_else(|| plain(text)?.parse().ok())
 }
 
-/// A number of Fortran with an `e`; `None` if the text has no exponent of its kind.
+/// A Fortran number with an `e`; `None` if the text has no exponent of its kind.
 fn plain(text: &str) -> Option<String> {
     if text.contains(['d', 'D']) {
         return Some(text.replace(['d', 'D'], "e"));
@@ -165,7 +165,7 @@ fn plain(text: &str) -> Option<String> {
     (is_exponent && is_mantissa).then(|| format!("{mantissa}e{exponent}"))
 }
 
-/// A text with a decimal point in place of its decimal comma; `None` if it has none, or more.
+/// A text with a decimal point for its decimal comma; `None` if it does not have exactly one.
 pub fn with_point(text: &str) -> Option<String> {
     let is_one = text.matches(',').count() == 1 && !text.contains('.');
     is_one.then(|| text.replace(',', "."))
@@ -228,7 +228,7 @@ mod tests {
         assert_eq!(Stored::Digits(17).at_first(&single), Stored::Single);
         assert_eq!(Stored::Digits(6).at_first(&single), Stored::Digits(6));
         assert_eq!(Stored::Whole.at_first(&[16_777_215.0]), Stored::Whole);
-        // Fractions of few digits in base 2 are the same in both.
+        // Binary fractions with few digits are the same in both.
         assert_eq!(Stored::Double.at_first(&[0.0, 0.5, 0.8125]), Stored::Double);
         assert_eq!(Stored::Double.at_first(&[0.5, 0.8]), Stored::Double);
     }

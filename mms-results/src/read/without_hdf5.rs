@@ -1,4 +1,4 @@
-//! Stands for the reader of HDF5 and netCDF where the feature `hdf5` is off, and says how to have it.
+//! Replaces the reader of HDF5 and netCDF if the feature `hdf5` is off, and explains how to enable it.
 
 use std::borrow::Cow;
 use std::marker::PhantomData;
@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use crate::wanted::Wanted;
 use crate::{Array, Mistake, Snapshot};
 
-/// Says what such a file needs.
+/// Explains what is needed to read such a file.
 pub fn parse(bytes: Cow<'_, [u8]>, _: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     Err(refused(&bytes))
 }
@@ -32,7 +32,7 @@ fn refused(bytes: &[u8]) -> Mistake {
 pub struct File<'a>(PhantomData<&'a ()>);
 
 impl<'a> File<'a> {
-    /// Says what such a file needs.
+    /// Explains what is needed to read such a file.
     pub fn open(bytes: Vec<u8>, _: &'a Wanted<'a>) -> Result<File<'a>, Mistake> {
         drop(bytes);
         Err(Mistake::new(

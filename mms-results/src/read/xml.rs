@@ -8,15 +8,15 @@ use super::{Beside, Contents, vtk, xdmf};
 use crate::Mistake;
 use crate::wanted::Wanted;
 
-/// How many elements a file may have: its numbers are none.
+/// The most elements of a file, not counting its numbers.
 const MOST_ELEMENTS: u32 = 200_000;
-/// How long a tag may be. The attributes of one are compared with each other.
+/// The longest tag. Its attributes are compared with each other.
 const LONGEST_TAG: usize = 4096;
 
-/// How far into a file its first element is looked for.
+/// The bytes at the beginning of a file that are searched for its first element.
 const FIRST: usize = 4096;
 
-/// Whether the first element of a file is that of XDMF.
+/// Whether a file begins with an element of XDMF.
 pub fn is_xdmf(text: &[u8]) -> bool {
     memchr::memmem::find(&text[..text.len().min(FIRST)], b"<Xdmf").is_some()
 }
@@ -31,7 +31,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>, beside: Beside<'_>) -> Result<Co
     let text = std::str::from_utf8(&text).map_err(|_| Mistake::new("expected XML in UTF-8"))?;
     let text = text.trim_start_matches('\u{feff}').trim_start();
     hold_tags(text.as_bytes())?;
-    // XDMF has a declaration of its type, which declares nothing.
+    // XDMF has a document type declaration, which declares nothing.
     let allow_dtd = !text.contains("<!ENTITY");
     let options =
         ParsingOptions { nodes_limit: MOST_ELEMENTS, allow_dtd, ..ParsingOptions::default() };
@@ -45,7 +45,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>, beside: Beside<'_>) -> Result<Co
     }
 }
 
-/// The XML of a file, and what stands behind it in bytes, after the tag of its element.
+/// Splits a file into its XML, and the tag and the appended bytes.
 fn split(bytes: &[u8]) -> (&[u8], Option<[&[u8]; 2]>) {
     let Some(start) = memchr::memmem::find(bytes, b"<AppendedData") else { return (bytes, None) };
     let (text, rest) = bytes.split_at(start);
@@ -55,7 +55,7 @@ fn split(bytes: &[u8]) -> (&[u8], Option<[&[u8]; 2]>) {
     (text, Some([tag, data]))
 }
 
-/// Refuses tags that are longer than any program writes.
+/// Refuses tags longer than any program writes.
 fn hold_tags(text: &[u8]) -> Result<(), Mistake> {
     let mut at = 0;
     while let Some(start) = memchr::memchr(b'<', &text[at..]) {
@@ -76,7 +76,7 @@ fn hold_tags(text: &[u8]) -> Result<(), Mistake> {
     Ok(())
 }
 
-/// Where a tag ends.
+/// The end of a tag.
 fn tag(text: &[u8]) -> Option<usize> {
     let mut quote = None;
     text.iter().position(|&byte| match quote {
@@ -106,7 +106,7 @@ pub fn child<'a, 'b>(node: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
     node.children().find(|child| child.has_tag_name(name))
 }
 
-/// An attribute that is a number; 0 where there is none.
+/// The number in an attribute; 0 if there is no attribute.
 pub fn attribute(node: Node<'_, '_>, name: &str) -> Result<usize, Mistake> {
     let text = node.attribute(name).unwrap_or("0").trim();
     let wrong = || at(node, format!("{name}=\"{text}\": expected a whole number"));

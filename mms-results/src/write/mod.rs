@@ -1,5 +1,5 @@
-//! States as files that codes read: tables, VTK in XML, NumPy. What is written here is read by [`read`](crate::read()) as it
-//! is.
+//! Writes states as files that codes read: tables, VTK in XML, NumPy. [`read`](crate::read()) reads these files without
+//! options.
 
 mod npz;
 mod table;
@@ -12,14 +12,14 @@ pub use npz::npz;
 pub use table::csv;
 pub use vtu::{head, vtu};
 
-/// How many numbers a column has for each point.
+/// The number of components of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// One.
+    /// One number.
     Scalar,
-    /// One, a whole number.
+    /// One whole number.
     Whole,
-    /// One for each dimension.
+    /// One number for each dimension.
     Vector,
     /// A square matrix, by rows.
     Tensor,
@@ -30,7 +30,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// How many that is.
+    /// The number of components.
     pub fn components(self, dimension: usize) -> usize {
         match self {
             Shape::Scalar | Shape::Whole => 1,
@@ -45,24 +45,24 @@ impl Shape {
 /// Named numbers of all points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// Its name.
+    /// The name of the column.
     pub name: String,
-    /// How many numbers a point has.
+    /// The number of components.
     pub shape: Shape,
-    /// The numbers, those of a point together.
+    /// The numbers, point by point.
     pub values: Vec<f64>,
 }
 
-/// What is known of a state as a whole, under a name.
+/// A named property of a state as a whole.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fact {
-    /// Its name.
+    /// The name of the property.
     pub name: String,
-    /// What it is.
+    /// The value of the property.
     pub value: Value,
 }
 
-/// A fact: numbers, or a word.
+/// The value of a property: numbers, or a word.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// Numbers.
@@ -80,9 +80,9 @@ pub struct State {
     pub dimension: usize,
     /// The letters of components.
     pub axes: Axes,
-    /// What is known of it as a whole; a table has no place for that.
+    /// The properties of the state as a whole; tables omit them.
     pub facts: Vec<Fact>,
-    /// What is known of the points; the same columns at all times.
+    /// The data of the points; the same columns at all times.
     pub columns: Vec<Column>,
 }
 
@@ -94,11 +94,11 @@ impl State {
     }
 }
 
-/// Where the points of a state are, and between which of them there are cells.
+/// The places of a state's points, and the cells between them.
 #[derive(Clone, Copy, Debug)]
 pub struct Mesh<'a> {
-    /// Present positions, those of a point together.
+    /// Present positions, point by point.
     pub position: &'a [f64],
-    /// The cells; where there are none, each point is a vertex.
+    /// The cells; if there are none, each point is a vertex.
     pub cells: &'a Cells,
 }

@@ -1,5 +1,5 @@
 //! Arrays of NumPy in one file, as `numpy.savez` writes them: `time`, a double precision array for each column, whose first
-//! axis are the points, and what is known of the whole, words as bytes ("NEP 1, a simple file format for NumPy arrays").
+//! axis is the points, and the properties of the whole, words as bytes ("NEP 1, a simple file format for NumPy arrays").
 
 use std::io::{self, Write};
 
@@ -7,13 +7,13 @@ use rawzip::{CompressionMethod, ZipArchiveWriter};
 
 use super::{Column, Fact, Shape, State, Value};
 
-/// Magic, version and length of a header are of so many bytes, which the header fills up to a multiple of 64.
+/// The bytes of magic, version and length at the start of a header, which is padded to a multiple of 64.
 const START: usize = 10;
 
 /// Writes a state.
 ///
 /// # Errors
-/// What the writer says.
+/// Errors of the writer.
 pub fn npz(state: &State, out: &mut dyn Write) -> io::Result<()> {
     let mut archive = ZipArchiveWriter::new(out);
     member(&mut archive, "time", ("<f8", ""), [state.time.to_le_bytes()])?;
@@ -44,7 +44,7 @@ pub fn npz(state: &State, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The lengths of the axes, as Python writes the inside of a tuple.
+/// The lengths of the axes, as inside a tuple of Python.
 fn axes(column: &Column, dimension: usize) -> String {
     let rows = column.values.len() / column.shape.components(dimension);
     match column.shape {

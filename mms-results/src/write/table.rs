@@ -1,4 +1,4 @@
-//! A table in CSV: a line for each point at each time. Numbers have the shortest digits that read back as the same number.
+//! A table in CSV: a line for each point at each time. Numbers have the fewest digits that read back as the same number.
 
 use std::fmt::Write as _;
 use std::io;
@@ -17,7 +17,7 @@ fn letters(axes: Axes) -> [&'static str; 3] {
 /// Writes states with the same columns, one below the other.
 ///
 /// # Errors
-/// What the writer says.
+/// Errors of the writer.
 pub fn csv(states: &[&State], out: &mut dyn io::Write) -> io::Result<()> {
     let Some(first) = states.first() else { return Ok(()) };
     let names = first.columns.iter().flat_map(|column| names(column, first));
@@ -35,7 +35,7 @@ fn lines(state: &State, out: &mut dyn io::Write) -> io::Result<()> {
         line.clone_from(&time);
         for (column, &size) in state.columns.iter().zip(&sizes) {
             for value in &column.values[row * size..][..size] {
-                // A text takes what is written to it.
+                // Writing to a `String` cannot fail.
                 let _ = match column.shape {
                     Shape::Whole => write!(line, ",{value}"),
                     _ => write!(line, ",{value:?}"),
@@ -48,8 +48,8 @@ fn lines(state: &State, out: &mut dyn io::Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The names of the columns of numbers: X, Y and x, y for positions, u_x, F_xy for others, and no axes in one dimension; of an
-/// axisymmetric field R, Z and r, z, u_r, F_rz.
+/// The names of the columns of numbers: X, Y and x, y for positions, u_x, F_xy for others, and without axes in one dimension;
+/// for an axisymmetric field R, Z and r, z, u_r, F_rz.
 fn names(column: &Column, state: &State) -> Vec<String> {
     let name = &column.name;
     let is_spatial = matches!(column.shape, Shape::Three | Shape::Nine);

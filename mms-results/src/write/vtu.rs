@@ -1,5 +1,5 @@
-//! An unstructured grid of VTK in XML ("VTK File Formats", Kitware, 2023), its numbers in base64. Vectors have three
-//! components and tensors nine there: those that a dimension lacks are 0.
+//! An unstructured grid of VTK in XML ("VTK File Formats", Kitware, 2023), with numbers in base64. Vectors have three
+//! components and tensors nine; components that a dimension lacks are 0.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -10,10 +10,10 @@ use base64::write::EncoderWriter;
 use super::{Fact, Mesh, Shape, State, Value};
 use crate::Cells;
 
-/// The number of a vertex among the types of cells.
+/// The type number of a vertex.
 const VERTEX: u8 = 1;
 
-/// The beginning of a file, up to what is in it.
+/// The beginning of a file, before its content.
 pub fn head(kind: &str) -> String {
     format!(
         "<?xml version=\"1.0\"?>\n\
@@ -24,13 +24,13 @@ pub fn head(kind: &str) -> String {
 /// Writes a state of a mesh.
 ///
 /// # Errors
-/// What the writer says.
+/// Errors of the writer.
 pub fn vtu(state: &State, mesh: Mesh<'_>, out: &mut dyn Write) -> io::Result<()> {
     let dimension = state.dimension;
     let points = state.points();
     let cells = or_vertices(mesh.cells, points);
     writeln!(out, "{}<UnstructuredGrid>", head("UnstructuredGrid"))?;
-    // With all digits: fewer would say that the time is not known better.
+    // All digits: fewer would mean that the time is less precise.
     writeln!(
         out,
         "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
@@ -58,7 +58,7 @@ pub fn vtu(state: &State, mesh: Mesh<'_>, out: &mut dyn Write) -> io::Result<()>
     out.write_all(b"</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
 }
 
-/// Data of the whole: a word is the numbers of its letters there, and 0.
+/// Field data: a word is written as the numbers of its letters, and 0.
 fn fact(Fact { name, value }: &Fact, out: &mut dyn Write) -> io::Result<()> {
     let (kind, count, text) = match value {
         Value::Numbers(numbers) => {
@@ -109,8 +109,7 @@ fn numbers(
     array(kind, name, components, &bytes, out)
 }
 
-/// Tensors of `rows` rows of `dimension` components each, with what is missing of the `size` that they have in three
-/// dimensions: 0.
+/// Tensors of `rows` rows with `dimension` components each, padded with 0 to `size` components in three dimensions.
 fn padded(values: &[f64], dimension: usize, [rows, size]: [usize; 2]) -> Vec<f64> {
     let mut all = Vec::with_capacity(values.len() / (dimension * rows) * size);
     for tensor in values.chunks(dimension * rows) {
@@ -123,7 +122,7 @@ fn padded(values: &[f64], dimension: usize, [rows, size]: [usize; 2]) -> Vec<f64
     all
 }
 
-/// A named array of numbers: how many bytes, and these.
+/// A named array of numbers: the number of bytes, and the bytes.
 fn array(
     kind: &str,
     name: &str,

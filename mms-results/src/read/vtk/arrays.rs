@@ -1,4 +1,4 @@
-//! Arrays of numbers of VTK in XML: in text, in base64, or in bytes behind the XML, each compressed or not.
+//! Arrays of numbers of VTK in XML: in text, in base64, or in bytes after the XML, each compressed or not.
 
 use std::borrow::Cow;
 
@@ -11,7 +11,7 @@ use super::base64::Encoded;
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Stored};
 
-/// How the numbers of a file are written.
+/// The format of the numbers of a file.
 pub struct Format<'a> {
     order: Order,
     /// The type of the lengths before arrays.
@@ -19,11 +19,11 @@ pub struct Format<'a> {
     compressor: Option<Compressor>,
     appended: Option<Encoded<'a>>,
     pub wanted: &'a Wanted<'a>,
-    /// Whether hexahedra of Lagrange have some nodes in an older order.
+    /// Whether Lagrange hexahedra have some nodes in an older order.
     pub is_old: bool,
 }
 
-/// By which the blocks of an array are compressed.
+/// The compression of the blocks of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Compressor {
     Zlib,
@@ -31,7 +31,7 @@ enum Compressor {
 }
 
 impl Compressor {
-    /// The bytes of a block of that length.
+    /// Unpacks a block of this unpacked length.
     fn block(self, compressed: &[u8], length: usize) -> Result<Vec<u8>, Mistake> {
         match self {
             Compressor::Zlib => {
@@ -44,17 +44,17 @@ impl Compressor {
     }
 }
 
-/// Arrays of a file, and of each whether it is declared to be in single precision.
+/// Arrays of a file, and for each whether it is declared to be in single precision.
 #[derive(Default)]
 pub struct Arrays {
-    /// All that were read so far.
+    /// The arrays read so far.
     pub all: Vec<Array>,
     single: Vec<bool>,
     unread: Vec<String>,
 }
 
 impl<'a> Format<'a> {
-    /// As the root of a file says.
+    /// The format that the root of a file states.
     pub fn of(
         root: Node<'_, '_>,
         appended: Option<[&'a [u8]; 2]>,
@@ -92,20 +92,20 @@ impl<'a> Format<'a> {
     }
 }
 
-/// Whether a version, as 2.0, is one before another; a file without one is old.
+/// Whether a version, as 2.0, precedes another; a file without a version is old.
 pub fn is_before(version: &str, other: [u32; 2]) -> bool {
     let (major, minor) = version.trim().split_once('.').unwrap_or((version, "0"));
     [major, minor].map(|it| it.trim().parse().unwrap_or(0)) < other
 }
 
-/// The part of these bytes that is base64.
+/// The leading part of bytes that is base64.
 fn letters(bytes: &[u8]) -> &[u8] {
     let end = memchr::memchr(b'<', bytes).unwrap_or(bytes.len());
     bytes[..end].trim_ascii()
 }
 
 impl Arrays {
-    /// Reads the places and the arrays of so many points and cells.
+    /// Reads the places and the arrays of points and cells.
     pub fn of(
         piece: Node<'_, '_>,
         [rows, cells]: [usize; 2],
@@ -192,7 +192,7 @@ impl Arrays {
         };
         let (values, stored) =
             found.map_err(|mistake| at(node, format!("`{name}`: {}", mistake.what)))?;
-        // As many as there are, where that is not declared.
+        // If the number of components is not declared, it follows from the number of rows.
         let each = rows.filter(|it| *it > 0).map_or(1, |rows| values.len() / rows);
         let components = components.unwrap_or(each).max(1);
         if !format.fits(values.len()) || values.len() % components != 0 {
@@ -210,25 +210,25 @@ impl Arrays {
         Ok(())
     }
 
-    /// Gives arrays in text the digits that the file has.
+    /// Gives arrays in text the digits of the file.
     pub fn settle(&mut self) {
         settle(&mut self.all.iter_mut().collect::<Vec<_>>(), &self.single);
     }
 }
 
-/// The most components that an array may have which does not declare them: a tensor of four indices has as many.
+/// The most components of an array that does not declare them: as many as a tensor of four indices.
 const MOST_OPEN: usize = 81;
 
-/// An array of which it is known, as a rule, how many numbers it has.
+/// An array, usually with a known number of numbers.
 struct Declared<'a> {
     format: &'a Format<'a>,
     numbers: Option<usize>,
-    /// Whether it may have several times as many, for its components are not declared: so meshio leaves out those of arrays of
-    /// matrices.
+    /// Whether it may have several times as many numbers, because its components are not declared: meshio omits the components
+    /// of arrays of matrices.
     is_open: bool,
 }
 
-/// How many components an array has, if that is declared.
+/// The declared number of components; `None` if it is not declared.
 fn components(node: Node<'_, '_>) -> Result<Option<usize>, Mistake> {
     let name = "NumberOfComponents";
     let is_declared = node.attribute(name).is_some_and(|it| !it.trim().is_empty());
@@ -237,7 +237,7 @@ fn components(node: Node<'_, '_>) -> Result<Option<usize>, Mistake> {
 }
 
 impl Declared<'_> {
-    /// Whether it may have so many numbers.
+    /// Whether the array may have this many numbers.
     fn fits(&self, numbers: usize) -> bool {
         match self.numbers {
             None => true,
@@ -248,12 +248,12 @@ impl Declared<'_> {
         }
     }
 
-    /// Takes room for the array.
+    /// Reserves memory for the array.
     fn take(&self, numbers: usize) -> Result<(), Mistake> {
         self.format.wanted.take("it", numbers)
     }
 
-    /// The numbers of an array in text.
+    /// Reads the numbers of an array in text.
     fn ascii(&self, node: Node<'_, '_>, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
         let text = node.text().unwrap_or("");
         let most = self.numbers.filter(|_| !self.is_open).unwrap_or(usize::MAX);
@@ -289,12 +289,12 @@ impl Declared<'_> {
             }
         };
         if bytes.len() % kind.bytes() != 0 {
-            return Err(Mistake::new("its length is not that of whole numbers"));
+            return Err(Mistake::new("its bytes end within a number"));
         }
         Ok((kind.read(&bytes, format.order), kind.stored()))
     }
 
-    /// Refuses so many bytes where another number of them is declared, or where there is no room for them.
+    /// Refuses bytes if their number is not the declared one, or there is not enough memory.
     fn hold(&self, bytes: usize, kind: Kind) -> Result<(), Mistake> {
         if !self.fits(bytes / kind.bytes()) {
             let expected = self.numbers.unwrap_or(0).saturating_mul(kind.bytes());
@@ -303,8 +303,8 @@ impl Declared<'_> {
         self.take(bytes / kind.bytes())
     }
 
-    /// Blocks of bytes, each compressed for itself: how many, their length, that of the last if it is another, and the
-    /// lengths to which they were compressed.
+    /// Reads separately compressed blocks. Before them are their number, their length, the length of the last if it differs,
+    /// and their compressed lengths.
     fn inflate(
         &self,
         encoded: &mut Encoded<'_>,

@@ -1,4 +1,4 @@
-//! Bytes of VTK in XML: raw, or in base64 of one segment or more.
+//! Bytes of VTK in XML: raw, or in one or more segments of base64.
 
 use std::borrow::Cow;
 
@@ -8,12 +8,12 @@ use base64::engine::general_purpose::STANDARD;
 use super::super::numbers::{Kind, Order};
 use crate::Mistake;
 
-/// Bytes that are taken from the front.
+/// Bytes that are consumed from the front.
 pub enum Encoded<'a> {
-    /// As they are.
+    /// Raw bytes.
     Raw(&'a [u8]),
-    /// In base64: what is not decoded yet, and what is and was not taken yet. A header may be padded, and what follows
-    /// it another segment.
+    /// Base64: the text not yet decoded, and decoded bytes not yet consumed. A header may be padded, and then another segment
+    /// follows.
     Base64(&'a [u8], Vec<u8>),
 }
 
@@ -22,7 +22,7 @@ fn ends_early() -> Mistake {
 }
 
 impl<'a> Encoded<'a> {
-    /// The next bytes.
+    /// Consumes the next bytes.
     pub fn take(&mut self, count: usize) -> Result<Cow<'a, [u8]>, Mistake> {
         match self {
             Encoded::Raw(bytes) => {
@@ -44,7 +44,7 @@ impl<'a> Encoded<'a> {
         }
     }
 
-    /// The next integer without a sign.
+    /// Consumes the next unsigned integer.
     pub fn integer(&mut self, kind: Kind, order: Order) -> Result<usize, Mistake> {
         let values = kind.read(&self.take(kind.bytes())?, order);
         // A number that is rounded here is larger than any file.
@@ -52,7 +52,7 @@ impl<'a> Encoded<'a> {
     }
 }
 
-/// Decodes so many groups of four letters, or as many as there are before the end of a segment; what is left.
+/// Decodes `quads` groups of four letters, or fewer up to the end of a segment; returns the remaining text.
 fn decode<'a>(text: &'a [u8], quads: usize, bytes: &mut Vec<u8>) -> Result<&'a [u8], Mistake> {
     let end = (4 * quads).min(text.len());
     let end = match memchr::memchr(b'=', &text[..end]) {

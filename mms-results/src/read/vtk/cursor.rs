@@ -1,11 +1,11 @@
-//! Words, numbers and arrays of a file of legacy VTK, from one place on.
+//! Reads words, numbers and arrays of a file of legacy VTK from a position on.
 
 use super::super::numbers::{Kind, Order, count, positions};
 use super::super::text::{Style, number};
 use crate::wanted::Wanted;
 use crate::{Array, Mistake, Stored};
 
-/// A place in a file.
+/// A position in a file.
 pub struct Cursor<'a> {
     pub bytes: &'a [u8],
     pub at: usize,
@@ -14,7 +14,7 @@ pub struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// A mistake here; a line number means nothing among bytes.
+    /// A mistake at this position; in a binary file without a line number.
     pub fn mistake(&self, what: impl Into<String>) -> Mistake {
         let before = &self.bytes[..self.at.min(self.bytes.len())];
         match self.is_binary {
@@ -29,7 +29,7 @@ impl<'a> Cursor<'a> {
         &self.bytes[self.at..]
     }
 
-    /// The rest of the line.
+    /// Consumes the rest of the line.
     pub fn line(&mut self) -> &'a [u8] {
         let rest = self.rest();
         let end = memchr::memchr(b'\n', rest);
@@ -37,7 +37,7 @@ impl<'a> Cursor<'a> {
         &rest[..end.unwrap_or(rest.len())]
     }
 
-    /// The next word.
+    /// Consumes the next word.
     pub fn word(&mut self) -> Option<&'a str> {
         let rest = self.rest();
         let start = rest.iter().position(|it| !it.is_ascii_whitespace())?;
@@ -71,7 +71,7 @@ impl<'a> Cursor<'a> {
         kind.ok_or_else(|| Mistake::new(format!("expected a type such as double, found `{word}`")))
     }
 
-    /// An array of these numbers.
+    /// Consumes an array of numbers.
     pub fn array(
         &mut self,
         name: &str,
@@ -80,7 +80,7 @@ impl<'a> Cursor<'a> {
         kind: Kind,
     ) -> Result<Array, Mistake> {
         let numbers = count(rows, components.max(1), kind)?;
-        // No number has fewer bytes than one, and one that parts it from the next.
+        // A number has at least one byte, and a separator.
         self.wanted.take(&format!("`{name}`"), numbers.min(self.rest().len()))?;
         let (values, stored) = match self.is_binary {
             true => (self.binary(numbers, kind)?, kind.stored()),
@@ -108,7 +108,7 @@ impl<'a> Cursor<'a> {
         Ok(bytes)
     }
 
-    /// Passes over an array that is not read.
+    /// Skips an array that is not read.
     pub fn pass(&mut self, rows: usize, components: usize, kind: Kind) -> Result<(), Mistake> {
         let numbers = count(rows, components.max(1), kind)?;
         match self.is_binary {
@@ -131,8 +131,8 @@ impl<'a> Cursor<'a> {
         Ok((values, if kind.stored() == Stored::Whole { Stored::Whole } else { style.stored() }))
     }
 
-    /// Passes over words or bits, if the type of an array is that: bits eight in a byte, words one on each line, or each behind
-    /// its length, whose first two bits say how long that is.
+    /// Skips words or bits, if the array has this type: eight bits in a byte, one word on each line, or each word after its
+    /// length, whose first two bits give the number of bytes of that length.
     pub fn passes_words(&mut self, words: usize) -> Result<bool, Mistake> {
         let before = self.at;
         match self.word() {
@@ -169,8 +169,7 @@ impl<'a> Cursor<'a> {
         positions(self.array("", numbers, 1, kind)?.values)
     }
 
-    /// Ends and points of cells: since version 5.1 as two arrays, before with the number of points in front of each
-    /// cell.
+    /// Reads the ends and points of cells: since version 5.1 two arrays, before with the number of points before each cell.
     pub fn lists(&mut self) -> Result<(Vec<usize>, Vec<usize>), Mistake> {
         let (first, second) = (self.integer()?, self.integer()?);
         let before = self.at;
@@ -186,7 +185,7 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// A name in which letters that part words are written as `%20` and the like.
+/// A name with its separators decoded from `%20` and similar codes.
 pub fn decoded(name: &str) -> String {
     let bytes = name.as_bytes();
     let mut all = Vec::with_capacity(bytes.len());
@@ -208,7 +207,7 @@ pub fn decoded(name: &str) -> String {
     String::from_utf8_lossy(&all).into_owned()
 }
 
-/// Cells, each with the number of its points in front.
+/// Reads cells with the number of points before each.
 fn counted(cells: usize, all: &[usize]) -> Result<(Vec<usize>, Vec<usize>), Mistake> {
     let (mut ends, mut points, mut rest) = (Vec::new(), Vec::new(), all);
     while let Some((&count, tail)) = rest.split_first() {

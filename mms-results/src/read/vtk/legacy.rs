@@ -10,14 +10,14 @@ use crate::snapshot::Section;
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
-/// The parts of the file that were read so far.
+/// The parts of the file read so far.
 #[derive(Default)]
 struct Found {
     snapshot: Snapshot,
     single: Vec<bool>,
     /// The section of the arrays that follow.
     of: Option<Of>,
-    /// Whose the array is that was read last, if it was.
+    /// Whether the last array read belongs to points, cells or the whole, if one was read.
     last: Option<Of>,
     /// The extent of a structured grid.
     extent: Option<Extent>,
@@ -27,7 +27,7 @@ struct Found {
     single_axes: Vec<bool>,
 }
 
-/// Whose numbers an array has.
+/// The items that the numbers of an array belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Of {
     Whole,
@@ -62,7 +62,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
 }
 
 impl Found {
-    /// Reads what begins with this word.
+    /// Reads the part that begins with this word.
     fn part(&mut self, word: &str, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
         match word {
             "DATASET" => match cursor.needed("a kind of grid")?.to_ascii_uppercase().as_str() {
@@ -86,7 +86,7 @@ impl Found {
                 self.lattice.origin = numbers(&cursor.words::<3>()?.join(" "))?;
                 Ok(())
             }
-            // So it was called at first.
+            // This was the name in early versions.
             "SPACING" | "ASPECT_RATIO" => {
                 self.lattice.spacing = numbers(&cursor.words::<3>()?.join(" "))?;
                 Ok(())
@@ -129,9 +129,9 @@ impl Found {
         }
     }
 
-    /// Reads the names of the components of the last array, and passes over what else there is of it up to an empty line.
+    /// Reads the names of the components of the last array, and skips its other metadata up to an empty line.
     fn metadata(&mut self, cursor: &mut Cursor<'_>) {
-        // The word itself stands on a line of its own.
+        // The word itself has a line of its own.
         while !cursor.line().trim_ascii().is_empty() {}
         let (mut names, mut are_names) = (Vec::new(), false);
         while !cursor.rest().is_empty() {
@@ -223,7 +223,7 @@ impl Found {
         Ok(())
     }
 
-    /// How many components scalars have; the name of their table of colours is passed over.
+    /// The number of components of scalars; skips the name of their colour table.
     fn scalars(&self, cursor: &mut Cursor<'_>) -> Result<usize, Mistake> {
         let before = cursor.at;
         let line = cursor.line();
@@ -233,7 +233,7 @@ impl Found {
             cursor.needed("a name")?;
             return Ok(components.unwrap_or(1));
         }
-        // An array begins behind the end of the line before it.
+        // An array begins after the end of the line before it.
         cursor.at = if cursor.is_binary { before.max(after - 1) } else { after };
         Ok(components.unwrap_or(1))
     }
@@ -299,8 +299,7 @@ impl Found {
         }
     }
 
-    /// Makes the points and the cells of a structured grid. Where it has no arrays, nothing says that it is as large as its
-    /// extent.
+    /// Makes the points and the cells of a structured grid. Without arrays nothing confirms that it is as large as its extent.
     fn extend(&mut self, wanted: &Wanted<'_>) -> Result<(), Mistake> {
         let Some(extent) = self.extent else { return Ok(()) };
         let Snapshot { points, of_points, of_cells, cells, .. } = &mut self.snapshot;

@@ -15,7 +15,7 @@ pub fn pieces(body: Node<'_, '_>) -> Result<Contents, Mistake> {
     Ok(Contents::Pieces(names(files, "Source")?))
 }
 
-/// The files that elements name, each once.
+/// The files that elements name, without duplicates.
 fn names<'a, 'b: 'a>(
     nodes: impl Iterator<Item = Node<'a, 'b>>,
     attribute: &str,
@@ -33,7 +33,7 @@ fn names<'a, 'b: 'a>(
     held(files)
 }
 
-/// Refuses lists without files, and such as are longer than any program writes.
+/// Refuses lists without files, and lists longer than any program writes.
 fn held(files: Vec<String>) -> Result<Vec<String>, Mistake> {
     match files.len() {
         0 => Err(Mistake::new("the list has no files")),
@@ -44,7 +44,7 @@ fn held(files: Vec<String>) -> Result<Vec<String>, Mistake> {
     }
 }
 
-/// The files of blocks, however deep they are in others; blocks without a file are empty.
+/// The files of blocks at any depth; blocks without a file are empty.
 pub fn blocks(body: Node<'_, '_>) -> Result<Contents, Mistake> {
     let is_one = |it: &Node<'_, '_>| it.has_tag_name("DataSet") && it.has_attribute("file");
     Ok(Contents::Blocks(names(body.descendants().filter(is_one), "file")?))
@@ -61,7 +61,7 @@ pub fn times(body: Node<'_, '_>) -> Result<Contents, Mistake> {
     })
 }
 
-/// Files with their times as they are written; or which time is none, and why.
+/// Files with their times as written; or the index of a mistaken time, and the reason.
 fn timed(times: &[&str], files: Vec<String>) -> Result<Contents, (usize, String)> {
     let time = |(which, text): (usize, &&str)| {
         let value = number(text).filter(|it| it.is_finite());
@@ -76,10 +76,10 @@ fn timed(times: &[&str], files: Vec<String>) -> Result<Contents, (usize, String)
     Ok(Contents::Times(times))
 }
 
-/// How many bytes a byte of JSON takes at most: a value of three bytes is one of eighty, while their list grows.
+/// The most bytes of memory for one byte of JSON: a value of three bytes needs up to eighty, while its list grows.
 const OF_JSON: usize = 80;
 
-/// Whether a text may be the list of files that ParaView reads as a series.
+/// Whether a text may be a list of files that ParaView reads as a series.
 pub fn is_series(text: &[u8]) -> bool {
     text.starts_with(b"{")
 }

@@ -1,4 +1,4 @@
-//! Points and cells of grids that are told by their extents: "VTK File Formats" (Kitware), structured datasets.
+//! Points and cells of grids that are defined by their extents: "VTK File Formats" (Kitware), structured datasets.
 
 use super::super::numbers::{Kind, count};
 use super::super::text::number;
@@ -12,13 +12,13 @@ const TYPES: [u8; 4] = [1, 3, 9, 12];
 const CORNERS: [[usize; 3]; 8] =
     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
 
-/// Digits from which on a number of few digits may have been rounded.
+/// The least digits of a number that may have been rounded to them.
 const MANY: usize = 6;
 
-/// Numbers with as many digits are as exact as they were.
+/// The digits from which on a number counts as exact.
 const ALL: usize = 15;
 
-/// The points of a grid along each axis: the number of the first, and how many.
+/// The points of a grid along each axis: the number of the first point, and the count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Extent {
     first: [i64; 3],
@@ -28,7 +28,7 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// Reads the first and the last number along each axis; a grid without points has a last one before the first.
+    /// Parses the first and the last number along each axis; in a grid without points the last precedes the first.
     pub fn parse(text: &str) -> Result<Self, Mistake> {
         let ends: Option<Vec<i64>> =
             text.split_ascii_whitespace().map(|it| it.parse().ok()).collect();
@@ -45,7 +45,7 @@ impl Extent {
         Extent { first: [ends[0], ends[2], ends[4]], ..Extent::default() }.of(counts)
     }
 
-    /// Takes so many points along each axis.
+    /// Sets the number of points along each axis.
     pub fn of(self, counts: [usize; 3]) -> Result<Self, Mistake> {
         let product = |of: [usize; 3]| of.into_iter().try_fold(1_usize, usize::checked_mul);
         let is_empty = counts.contains(&0);
@@ -59,22 +59,22 @@ impl Extent {
         Ok(Extent { counts, points, cells, ..self })
     }
 
-    /// How many points there are.
+    /// The number of points.
     pub fn points(&self) -> usize {
         self.points
     }
 
-    /// How many cells there are.
+    /// The number of cells.
     pub fn cells(&self) -> usize {
         self.cells
     }
 
-    /// How many points there are along each axis.
+    /// The number of points along each axis.
     pub fn counts(&self) -> [usize; 3] {
         self.counts
     }
 
-    /// The cells, of as many dimensions as there are axes with more than one point.
+    /// The cells, with as many dimensions as there are axes with more than one point.
     pub fn mesh(&self, wanted: &Wanted<'_>) -> Result<Cells, Mistake> {
         let [x, y, _] = self.counts;
         let strides = [1, x, x.wrapping_mul(y)];
@@ -83,7 +83,7 @@ impl Extent {
         let corner =
             |at: &[usize; 3]| axes.iter().zip(at).map(|(&axis, by)| by * strides[axis]).sum();
         let corners: Vec<usize> = CORNERS[..1 << dimension].iter().map(corner).collect();
-        // Beside its points, a cell has an end, and a type of one byte.
+        // Besides its points, a cell has an end, and a type of one byte.
         wanted.take("the mesh", self.cells.saturating_mul(corners.len() + 2))?;
         let mut points = Vec::with_capacity(self.cells * corners.len());
         let steps = self.counts.map(|count| if count > 1 { count - 1 } else { count });
@@ -100,7 +100,7 @@ impl Extent {
         Ok(Cells { types: vec![TYPES[dimension]; self.cells], points, ends })
     }
 
-    /// The places of the points: at the origin, moved along each axis by what stands for a position.
+    /// The places of the points: the origin, moved along each axis by `moved` of the axis and the position.
     fn places(
         &self,
         origin: [f64; 3],
@@ -122,7 +122,7 @@ impl Extent {
         Ok(Array { name: "Points".into(), components: 3, values, stored, ..Array::default() })
     }
 
-    /// The places of the points by coordinates along each axis.
+    /// The places of the points from coordinates along each axis.
     pub fn along(&self, axes: &[Array; 3], wanted: &Wanted<'_>) -> Result<Array, Mistake> {
         let stored = axes.iter().map(|it| it.stored).fold(axes[0].stored, Stored::coarser);
         let moved = |axis: usize, at: usize| {
@@ -143,7 +143,7 @@ impl Extent {
 /// An origin, and the steps from a point to the next along each axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lattice {
-    /// Where the point of the numbers 0 is.
+    /// The place of the point with the numbers 0.
     pub origin: [f64; 3],
     /// The distance of neighbours along each axis.
     pub spacing: [f64; 3],
@@ -171,8 +171,8 @@ impl Lattice {
         extent.places(self.origin, moved, self.stored(extent), wanted)
     }
 
-    /// How exact the places are: steps of few digits are as they stand there, and others may have been rounded to the digits
-    /// that they have, as programs do that write six.
+    /// The precision of the places: steps of few digits are exact, and others may have been rounded to their digits, as by
+    /// programs that write six.
     fn stored(&self, extent: &Extent) -> Stored {
         let numbers = self.origin.iter().chain(&self.spacing);
         let most = numbers.map(|it| digits(*it)).max().unwrap_or(0);
@@ -187,12 +187,12 @@ impl Lattice {
             written.rounding(self.origin[axis]) + steps * written.rounding(self.spacing[axis])
         };
         let off = (0..3).map(off).fold(0.0, f64::max);
-        // Half a unit in the last place that is as large, at least.
+        // At least half a unit in the last place of this size.
         Stored::Fixed((-(2.0 * off).log10()).floor().max(0.0) as u32)
     }
 }
 
-/// How many significant digits a number has; fractions of few digits in base 2 are exact.
+/// The number of significant digits of a number; binary fractions with few digits are exact.
 fn digits(value: f64) -> usize {
     const FEW: f64 = (1_u32 << 20) as f64;
     if (value * FEW).fract() == 0.0 {
@@ -203,7 +203,7 @@ fn digits(value: f64) -> usize {
     mantissa.bytes().filter(u8::is_ascii_digit).count()
 }
 
-/// So many finite numbers of a text.
+/// Parses `N` finite numbers.
 pub fn numbers<const N: usize>(text: &str) -> Result<[f64; N], Mistake> {
     let all: Option<Vec<f64>> = text
         .split_ascii_whitespace()

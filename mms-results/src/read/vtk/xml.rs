@@ -44,16 +44,16 @@ pub fn contents(
     }
 }
 
-/// How a grid tells its points and cells.
+/// The way in which a grid defines its points and cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Grid {
-    /// By lists of both.
+    /// Lists of points and cells.
     Listed,
-    /// By a list of points, and an extent.
+    /// A list of points, and an extent.
     Structured,
-    /// By an origin and steps, and an extent.
+    /// An origin, steps, and an extent.
     Image,
-    /// By coordinates along each axis, and an extent.
+    /// Coordinates along each axis, and an extent.
     Rectilinear,
 }
 
@@ -89,7 +89,7 @@ fn grid(
     Ok(Snapshot { time, ..Snapshot::join(pieces)? })
 }
 
-/// The time of a file, if its data of the whole have one.
+/// The time of a file, if its field data contain one.
 fn time_of(data: Node<'_, '_>, format: &Format<'_>) -> Result<Option<Time>, Mistake> {
     let named = |it: &Node<'_, '_>| it.attribute("Name").is_some_and(is_time);
     let Some(node) = data.children().filter(|it| it.has_tag_name("DataArray")).find(named) else {
@@ -104,7 +104,7 @@ fn time_of(data: Node<'_, '_>, format: &Format<'_>) -> Result<Option<Time>, Mist
     Ok(Some(Time { value, rounding: array.stored.rounding(value) }))
 }
 
-/// Reads a piece; one without points may have arrays of any kind, and stands for nothing.
+/// Reads a piece; one without points may have arrays of any kind, and is ignored.
 fn piece(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Snapshot, Mistake> {
     let rows = attribute(piece, "NumberOfPoints")?;
     let none = |of: &str| attribute(piece, &format!("NumberOf{of}")) == Ok(0);
@@ -127,7 +127,7 @@ fn without_places(piece: Node<'_, '_>) -> Mistake {
     at(piece, "expected an element `<Points>` with the places of the points of its cells")
 }
 
-/// Reads a piece of a grid that has an extent. Where it has no arrays, nothing says that it is as large as its extent.
+/// Reads a piece of a grid with an extent. Without arrays nothing confirms that it is as large as its extent.
 fn structured(
     body: Node<'_, '_>,
     piece: Node<'_, '_>,
@@ -170,7 +170,7 @@ fn lattice(body: Node<'_, '_>) -> Result<Lattice, Mistake> {
     })
 }
 
-/// The places of points by their coordinates along each axis.
+/// The places of points from their coordinates along each axis.
 fn rectilinear(
     piece: Node<'_, '_>,
     extent: &Extent,
@@ -188,7 +188,7 @@ fn rectilinear(
     extent.along(&all, format.wanted).map_err(|mistake| at(piece, mistake.what))
 }
 
-/// How many there are, as an attribute declares it, if it does.
+/// The number in an attribute, if the attribute exists.
 fn declared(node: Node<'_, '_>, name: &str) -> Result<Option<usize>, Mistake> {
     node.attribute(name).map(|_| attribute(node, name)).transpose()
 }
@@ -213,7 +213,7 @@ fn cells(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Cells, Mistake> {
     Ok(cells)
 }
 
-/// Where so many cells end, and their points: as many as the last end says.
+/// The ends of cells, and their points: as many as the last end states.
 fn lists(
     node: Node<'_, '_>,
     count: Option<usize>,
@@ -225,7 +225,7 @@ fn lists(
     Ok((ends, points))
 }
 
-/// The array of that name as positions; none where it is not there.
+/// The array of this name as positions; `None` if it does not exist.
 fn integers(
     node: Node<'_, '_>,
     name: &str,

@@ -5,8 +5,8 @@ use roxmltree::Node;
 use super::said;
 use crate::{Cells, Mistake};
 
-/// Kinds of cells: their names, their numbers in a mixed list, the type in VTK, and how many nodes each has; 0 where the
-/// file says how many.
+/// Kinds of cells: their names, their numbers in a mixed list, the type in VTK, and the number of nodes; 0 if the file states
+/// it.
 const CELLS: &[(&[&str], usize, u8, usize)] = &[
     (&["polyvertex"], 1, 1, 0),
     (&["polyline"], 2, 4, 0),
@@ -49,7 +49,7 @@ pub fn alike(name: &str, node: Node<'_, '_>, points: &[usize]) -> Result<Cells, 
     })
 }
 
-/// The type in VTK of a cell with so many nodes: one of two is a line, and one of four a quadrilateral.
+/// The type in VTK of a cell with this number of nodes: a polyline of two is a line, a polygon of four a quadrilateral.
 fn of_size(kind: u8, size: usize) -> u8 {
     match (kind, size) {
         (1, 2..) => 2,
@@ -60,7 +60,7 @@ fn of_size(kind: u8, size: usize) -> u8 {
     }
 }
 
-/// Cells of many kinds: before the points of each, its kind, and how many they are where the kind leaves that open.
+/// Cells of many kinds: the points of each follow its kind, and their number if the kind does not determine it.
 pub fn mixed(all: &[usize]) -> Result<Cells, Mistake> {
     let ends = || Mistake::new("the list of cells ends within a cell");
     let (mut cells, mut rest) = (Cells::default(), all);

@@ -1,4 +1,4 @@
-//! Functions of finite elements, as dolfin writes them for checkpoints.
+//! Finite element functions in checkpoints of dolfin.
 
 use roxmltree::Node;
 
@@ -11,8 +11,8 @@ use crate::{Array, Mistake, Snapshot};
 const MOST_COMPONENTS: usize = 9;
 
 impl<'b, 'c> Reader<'_, 'b, 'c> {
-    /// The values at points, or of cells, of a function of finite elements, as dolfin writes it for checkpoints: the numbers of
-    /// its degrees of freedom in each cell, their values, where those of each cell begin, and the numbers of cells.
+    /// Reads the values at points, or of cells, of a finite element function in a checkpoint of dolfin: the numbers of the
+    /// degrees of freedom in each cell, the values, the start of each cell's degrees of freedom, and the numbers of cells.
     pub fn of_element(
         &self,
         node: Node<'b, 'c>,
@@ -52,7 +52,7 @@ impl<'b, 'c> Reader<'_, 'b, 'c> {
             if own.len() != nodes * components {
                 return Err(misfit());
             }
-            // All nodes of one component come before those of the next one.
+            // All nodes of one component precede those in the next one.
             for (at, dof) in own.iter().enumerate() {
                 let row = if is_of_cells { cell } else { points[at % nodes] };
                 let value = *values.values.get(*dof).ok_or_else(misfit)?;

@@ -121,7 +121,7 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         }
     }
 
-    /// A file beside this one, which is read once. Its bytes stay in memory.
+    /// Opens a file beside this one, once. Its bytes stay in memory.
     fn file(&self, name: &str, is_tree: bool) -> Result<Rc<Heavy<'a>>, Mistake> {
         let key = format!("{is_tree}{name}");
         if let Some(known) = self.files.borrow().get(&key) {

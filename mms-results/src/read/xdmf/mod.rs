@@ -20,25 +20,25 @@ use crate::{Array, Cells, Mistake, Snapshot, Stored};
 use cells::{alike, mixed};
 use item::Heavy;
 
-/// How many snapshots a file may have.
+/// The most snapshots of a file.
 const MOST_GRIDS: usize = 10_000;
 
-/// How deep grids are in each other.
+/// The deepest nesting of grids.
 const DEEPEST: usize = 8;
 
-/// A state, and the time that its grid has.
+/// A state, and the time of its grid.
 type Moment = (Option<(f64, Stored)>, Snapshot);
 
-/// A file in the course of being read.
+/// The state of reading a file.
 struct Reader<'a, 'b, 'c> {
     root: Node<'b, 'c>,
     wanted: &'a Wanted<'a>,
     beside: Beside<'a>,
     files: RefCell<BTreeMap<String, Rc<Heavy<'a>>>>,
     pointed: RefCell<BTreeMap<&'b str, Vec<Node<'b, 'c>>>>,
-    /// Cells that more than one grid has, by where they stand in the file.
+    /// Cells that several grids share, by their position in the file.
     cells: RefCell<BTreeMap<usize, Rc<Cells>>>,
-    /// The places of points, in the same way.
+    /// The places of points that several grids share, by their position in the file.
     points: RefCell<BTreeMap<usize, Rc<Array>>>,
     grids: RefCell<usize>,
 }
@@ -94,7 +94,7 @@ fn is(node: &Node<'_, '_>, name: &str) -> bool {
     node.tag_name().name() == name
 }
 
-/// The value of an attribute, or of the same under its older name, in small letters.
+/// The value of an attribute, or of the attribute's older name, in lower case.
 fn said(node: Node<'_, '_>, names: [&str; 2], default: &str) -> String {
     let found = names.iter().find_map(|it| node.attribute(*it));
     found.unwrap_or(default).trim().to_ascii_lowercase()
@@ -105,7 +105,7 @@ fn is_temporal(grid: &Node<'_, '_>) -> bool {
         && said(*grid, ["CollectionType"; 2], "") == "temporal"
 }
 
-/// Adds a state; where there is one of its time on its mesh, its arrays to that.
+/// Adds a state; if there is one of the same time and mesh, adds its arrays to that state.
 fn merge(found: &mut Vec<Moment>, (time, more): Moment) -> Result<(), Mistake> {
     let is_same = |(other, it): &&mut Moment| {
         *other == time && time.is_some() && it.points == more.points && it.cells == more.cells
@@ -127,7 +127,7 @@ fn merge(found: &mut Vec<Moment>, (time, more): Moment) -> Result<(), Mistake> {
     Ok(())
 }
 
-/// The pieces of one mesh as one; none of none.
+/// The pieces of one mesh, joined; `None` without pieces.
 fn joined(pieces: Vec<Moment>) -> Result<Option<Moment>, Mistake> {
     let time = pieces.iter().find_map(|(time, _)| *time);
     let pieces: Vec<_> = pieces.into_iter().map(|(_, it)| it).collect();
@@ -147,7 +147,7 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         Ok(all)
     }
 
-    /// The state of a grid, or of all that it has of pieces.
+    /// The state of a grid, or of its joined pieces.
     fn moment(&self, grid: Node<'b, 'c>, depth: usize) -> Result<Moment, Mistake> {
         if depth > DEEPEST {
             return Err(at(grid, format!("grids in more than {DEEPEST} others")));
@@ -169,7 +169,7 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         }
     }
 
-    /// The times that an element says.
+    /// The times that an element lists.
     fn times(&self, node: Node<'b, 'c>) -> Result<Vec<(f64, Stored)>, Mistake> {
         let kind = said(node, ["TimeType", "Type"], "single");
         if kind == "single" {
@@ -200,7 +200,7 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         }
     }
 
-    /// The children of a grid, with those that it takes from elsewhere.
+    /// The children of a grid, including those it includes from elsewhere.
     fn parts(&self, grid: Node<'b, 'c>) -> Result<Vec<Node<'b, 'c>>, Mistake> {
         let mut all = Vec::new();
         for node in grid.children().filter(Node::is_element) {
@@ -342,7 +342,7 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         Ok(points)
     }
 
-    /// The cells between points; none where points stand alone.
+    /// The cells between points; none if points have no connections.
     fn topology(&self, node: Node<'b, 'c>) -> Result<Rc<Cells>, Mistake> {
         let key = node.range().start;
         if let Some(known) = self.cells.borrow().get(&key) {

@@ -1,4 +1,4 @@
-//! Paths in XML and the elements to which they point: the paths that programs write, of "XML Path Language" (W3C).
+//! Paths in XML and the elements that they select: the paths that programs write, of "XML Path Language" (W3C).
 
 use roxmltree::Node;
 
@@ -6,11 +6,11 @@ use super::super::xml::at;
 use super::{Reader, is};
 use crate::Mistake;
 
-/// How many different pointers a file may have, of which each is looked for in all of it.
+/// The most different pointers of a file, since each needs a search of the whole file.
 const MOST_POINTERS: usize = 200;
 
 impl<'b, 'c> Reader<'_, 'b, 'c> {
-    /// The elements to which a path points, from the root on.
+    /// The elements that a path selects, from the root on.
     pub fn pointed(&self, from: Node<'b, 'c>, path: &'b str) -> Result<Vec<Node<'b, 'c>>, Mistake> {
         if let Some(known) = self.pointed.borrow().get(path) {
             return Ok(known.clone());
@@ -52,7 +52,7 @@ impl<'b, 'c> Reader<'_, 'b, 'c> {
     }
 }
 
-/// Whether a node is what a step of a path says: a name, or one of those in brackets, with the attributes in brackets.
+/// Whether a node satisfies a step of a path: a name, or one of those in brackets, with the attributes in brackets.
 fn fits(node: &Node<'_, '_>, step: &str) -> bool {
     let (name, rest) = step.split_at(step.find('[').unwrap_or(step.len()));
     let conditions = rest.split(['[', ']']).filter(|it| !it.is_empty());
@@ -68,7 +68,7 @@ fn fits(node: &Node<'_, '_>, step: &str) -> bool {
     node.is_element() && (name == "*" || is(node, name)) && conditions.into_iter().all(holds)
 }
 
-/// The position that a step of a path asks for, from 1 on.
+/// The position in a step of a path, from 1 on.
 fn position(step: &str) -> Option<usize> {
     step.split(['[', ']']).find_map(|it| it.parse().ok())
 }
