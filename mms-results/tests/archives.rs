@@ -1,4 +1,4 @@
-//! Compressed and damaged files: what is unpacked is what is needed and declared, and no more memory is taken than there is.
+//! Compressed and damaged files: only the needed and declared bytes are unpacked, within the memory limit.
 
 use allocation_counter::measure;
 use base64::Engine as _;
@@ -19,7 +19,7 @@ fn one(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     }
 }
 
-/// The message of a file that is refused within few bytes of memory.
+/// The message of a file that is refused using little memory.
 #[track_caller]
 fn refused_cheaply(bytes: &[u8], wanted: &Wanted<'_>) -> String {
     let mut said = String::new();
@@ -29,7 +29,7 @@ fn refused_cheaply(bytes: &[u8], wanted: &Wanted<'_>) -> String {
     said
 }
 
-/// An array of NumPy of this shape, before so many bytes of 0.
+/// A NumPy array of this shape, followed by this many bytes of 0.
 fn npy(shape: &str, bytes: usize) -> Vec<u8> {
     let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n");
     let mut all = b"\x93NUMPY\x01\x00".to_vec();
@@ -39,7 +39,7 @@ fn npy(shape: &str, bytes: usize) -> Vec<u8> {
     all
 }
 
-/// An array in an archive: its name, its bytes, and what is claimed of their number and checksum.
+/// An array in an archive: its name, its bytes, and their claimed number and checksum.
 struct Entry<'a> {
     name: &'a str,
     bytes: &'a [u8],
@@ -80,7 +80,7 @@ fn npz(entries: &[Entry<'_>]) -> Vec<u8> {
     all
 }
 
-/// An archive of arrays, each by its name.
+/// An archive of named arrays.
 pub fn archive(arrays: &[(&str, &[u8])]) -> Vec<u8> {
     npz(&arrays.iter().map(|(name, bytes)| Entry::honest(name, bytes)).collect::<Vec<_>>())
 }
@@ -93,7 +93,7 @@ fn an_archive_is_held_to_its_checksums() {
     assert_eq!(said(Entry::honest("u", &u)), Ok(1));
     let damaged = said(Entry { crc: crc32(&u) ^ 1, ..Entry::honest("u", &u) }).unwrap_err().what;
     assert!(damaged.starts_with("`u`: its checksum (CRC-32) is another"), "{damaged}");
-    // A stored array, one bit of which is another.
+    // A stored array with one changed bit.
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/numpy.npz");
     let mut bytes = std::fs::read(path).unwrap();
     assert!(one(&bytes, &everything(&KNOWN)).is_ok());
@@ -129,7 +129,7 @@ fn blocks(count: u32) -> String {
     STANDARD.encode(header) + &STANDARD.encode(packed.repeat(count as usize))
 }
 
-/// A file of VTK whose arrays are these: name, format, and what stands in them.
+/// A VTK file with these arrays: name, format, and content.
 fn vtu(points: usize, arrays: &[(&str, &str, &str)]) -> Vec<u8> {
     let array = |(name, format, text): &(&str, &str, &str)| {
         format!("<DataArray type=\"Float64\" Name=\"{name}\" {format}>{text}</DataArray>")
@@ -154,7 +154,7 @@ fn vtk_unpacks_what_is_needed_and_declared() {
     let said = refused_cheaply(&inline(4 << 20, "u"), &everything(&KNOWN).within(40 << 20, ""));
     assert!(said.contains("`u`: it takes 68 MB of memory"), "{said}");
     assert_eq!(one(&inline(1, "junk"), &wanted(&KNOWN, &|_| true)).unwrap().unread, ["junk"]);
-    // Many arrays may share the bytes that are appended, but not the memory.
+    // Many arrays may share the appended bytes, but each needs its own memory.
     let at = "format=\"appended\" offset=\"0\"";
     let names: Vec<String> = (0..100).map(|at| format!("n{at}")).collect();
     let arrays: Vec<_> = names.iter().map(|name| (name.as_str(), at, "")).collect();
@@ -192,7 +192,7 @@ fn words_in_an_array_of_a_known_name_are_refused() {
     assert!(read("u").unwrap_err().what.contains("`u`: expected numbers, found words"));
 }
 
-/// Arrays that are passed over leave the others as they are, in every format.
+/// Skipped arrays do not change the others, in any format.
 #[test]
 fn arrays_that_are_not_needed_are_passed_over() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data");
@@ -219,7 +219,7 @@ fn arrays_that_are_not_needed_are_passed_over() {
 }
 
 proptest! {
-    /// Arrays of any bytes in an archive whose checksums are right.
+    /// Arrays with changed bytes in an archive with matching checksums.
     #[test]
     fn archives_of_changed_arrays_are_survived(
         start in prop::sample::select(vec!["(2,)", "(2, 2)", "(0, 3)", "()", "(9999999999,)"]),

@@ -12,7 +12,7 @@ fn read(text: &str) -> Result<Vec<Snapshot>, String> {
     }
 }
 
-/// One block as Karamelo writes it: blanks at the ends of lines, and always step 0.
+/// A block as Karamelo writes it: blanks at the ends of lines, and always step 0.
 const KARAMELO: &str = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS sm sm sm\n0 1\n0 1\n0 1\n\
     ITEM: ATOMS id type tag x y z x0 y0 z0 vx vy vz \n1 1 1 0.1 0.2 0 0.1 0.25 0 1 2 0 \n2 1 2 0.3 0.2 0 0.3 0.25 0 3 4 0 \n";
 

@@ -1,4 +1,4 @@
-//! Files that meshio, VTK and NumPy wrote (`data/write.py`), each with the same numbers, and files that are broken.
+//! Files that meshio, VTK and NumPy wrote (`data/write.py`), each with the same numbers, and broken files.
 
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ fn one(name: &str) -> Snapshot {
     found.remove(0)
 }
 
-/// The names of the files with these ends.
+/// The names of the files with these extensions.
 fn files(ends: &[&str]) -> Vec<String> {
     let names = std::fs::read_dir(data("")).unwrap();
     let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
@@ -33,7 +33,7 @@ fn files(ends: &[&str]) -> Vec<String> {
     names
 }
 
-/// How far a point is outside the unit square.
+/// The distance of a point from the unit square.
 fn outside(point: &[f64]) -> f64 {
     point.iter().map(|x| f64::max(-x, x - 1.0).max(0.0)).fold(0.0, f64::max)
 }
@@ -56,7 +56,7 @@ fn near(name: &str, computed: &[f64], exact: impl Fn(usize) -> f64, tolerance: f
     }
 }
 
-/// X and u of every file are those that were written, to the precision that the file says it has.
+/// Checks that X and u of a file are the written ones, to the precision that the file declares.
 #[track_caller]
 fn holds_the_mesh(name: &str, snapshot: &Snapshot, motion: &Motion<'_>) {
     assert_eq!(motion.reference.numbers.len(), 18, "{name}");
@@ -121,7 +121,7 @@ fn precision_is_that_of_the_file() {
     assert_eq!(stored("numpy_fortran_big_single.npz"), Stored::Single);
 }
 
-/// Where VTK itself has the nodes of its cells.
+/// Compares the nodes of cells with VTK's own.
 #[test]
 fn nodes_are_where_vtk_has_them() {
     let text = std::fs::read_to_string(data("nodes.txt")).unwrap();
@@ -223,10 +223,10 @@ fn names_that_codes_use_are_known() {
 fn two_of_three_give_the_third() {
     let by_position = read_as("X,Y,x,y", "0.25,0.5,0.375,0", &[]);
     assert_eq!(by_position, Ok((vec![0.25, 0.5], vec![0.125, -0.5])));
-    // As X, x = 1.25 would lie outside.
+    // Read as X, x = 1.25 would lie outside.
     let moved = read_as("x,y,ux,uy", "1.25,0.5,0.5,0.25", &[]);
     assert_eq!(moved, Ok((vec![0.75, 0.25], vec![0.5, 0.25])));
-    // As x, it would come from outside.
+    // Read as x, it would come from outside.
     let fixed = read_as("x,y,ux,uy", "0.25,0.5,0.5,0.25", &[]);
     assert_eq!(fixed, Ok((vec![0.25, 0.5], vec![0.5, 0.25])));
     let either = ("x,y,ux,uy", "0.5,0.5,0.25,0.25");
@@ -283,7 +283,7 @@ fn mistakes_name_their_lines() {
     assert!(twice.starts_with("file:4: ") && twice.contains("file:2"), "{twice}");
 }
 
-/// A number of digits that no integer of 32 bits has the negative of.
+/// A number of digits whose negative is no integer of 32 bits.
 #[test]
 fn numbers_with_long_exponents_are_rounded_to_nothing() {
     for (digits, rounding) in [(1 << 31, 0.0), (u32::MAX, 0.0), (3, 5e-4)] {
@@ -334,7 +334,7 @@ fn a_list_of_times_reads_its_files() {
     assert!(refused(&twice).contains("file:2: the file `vtk_single.vtu` is listed twice"));
 }
 
-/// Headers that say more than there is are refused before anything is allocated for them.
+/// Headers that declare too much are refused before memory is allocated for them.
 #[test]
 fn sizes_that_are_claimed_are_not_believed() {
     let huge = usize::MAX / 16;
@@ -383,7 +383,7 @@ fn deep_and_wide_xml_ends_soon() {
     assert!(refused("<!DOCTYPE a [<!ENTITY b \"c\">]><a>&b;</a>").contains("not XML"));
 }
 
-/// Whatever stands in a file, reading it ends, with results or with a mistake, and so does what is made of them.
+/// Checks that reading any bytes ends, with results or with a mistake, and so does using the results.
 pub fn survive(bytes: &[u8]) {
     let u = |role: Role| role == Role::Displacement;
     let ways = [everything(&KNOWN), wanted(&KNOWN, &u), everything(&KNOWN).within(1 << 12, "")];

@@ -51,7 +51,7 @@ fn tensors_have_an_array_for_each_entry() {
         let written: f64 = line[13 + 12 * at..][..12].trim().parse().unwrap();
         assert_eq!(values(&found[1], name)[0], written, "{name}");
     }
-    // CalculiX says `stress`, which may be two quantities: a user says which.
+    // CalculiX writes `stress`, which may be two quantities: a user chooses one.
     let names = Names { map: vec!["sigma=STRESS".parse().unwrap()], ..Names::default() };
     let meant = mms_results::names::recognise(&found[1], &names, &|_| true).unwrap();
     let sigma = meant.iter().find(|it| it.role == Role::CauchyStress).unwrap();

@@ -45,7 +45,7 @@ fn what_has_no_numbers_and_needs_none_is_left_out() {
     for form in FORMS {
         let name = format!("gmsh_square_{form}.msh");
         let snapshot = one(&name);
-        // Nobody gave a time.
+        // The file has no time.
         assert_eq!(snapshot.time, None, "{name}");
         assert_eq!(snapshot.cells.types, [5, 5], "{name}: lines of the boundary have no `J`");
         let places = values(&snapshot, "Points").as_chunks::<3>().0;
@@ -104,7 +104,7 @@ fn files_of_meshio_have_the_mesh_that_was_written() {
     }
 }
 
-/// A square of one element, and sections behind it.
+/// A square of one element, followed by sections.
 fn square(more: &str) -> String {
     format!(
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\nany\n$EndComments\n$Nodes\n4\n7 0 0 0\n5 1 0 0\n6 1 1 0\n9 0 1 0\n\
@@ -136,7 +136,7 @@ fn partitions_are_united_and_times_are_sorted() {
         [first(0), first(1)],
         [[7.0, 5.0, 6.0, 9.0], [14.0, 10.0, 12.0, 18.0]].map(|it| it.to_vec())
     );
-    // Numbers of elements alone say nothing of a node that none of them has.
+    // Numbers of elements alone do not need a node that belongs to no element.
     let of_elements = "$ElementData\n1\n\"J\"\n1\n0.5\n3\n0\n1\n1\n3 2.5\n$EndElementData\n";
     let text = square(of_elements).replace("\n4\n7 0", "\n5\n8 3 3 3\n7 0");
     let found = all(text.as_bytes()).unwrap();
@@ -192,7 +192,7 @@ fn broken_files_are_mistakes() {
     ] {
         assert!(said.starts_with(expected), "{said}");
     }
-    // What nobody asks for stops nobody.
+    // An array that is not requested causes no error.
     let odd = square(&(view("u", 1.0, 0, &full) + &view("odd", 1.0, 0, &full[..3])));
     let Ok(Contents::Snapshots(found)) =
         parse(odd.as_bytes(), &mms_results::names::everything(&KNOWN))

@@ -25,7 +25,7 @@ fn all(name: &str, map: &[&str]) -> Vec<Snapshot> {
     read(&data(name), &open, &everything(&mapped(map))).unwrap_or_else(|it| panic!("{it}"))
 }
 
-/// Names that a user maps.
+/// A user's mapping of names.
 fn mapped(map: &[&str]) -> Names {
     let map = map.iter().map(|it| it.parse().unwrap()).collect();
     Names { map, ..Names::default() }
@@ -40,7 +40,7 @@ fn displacement(time: f64, point: usize) -> [f64; 2] {
     [(1.0 + time) * (0.1 * x * y), (1.0 + time) * (-0.2 * x)]
 }
 
-/// X and u of a snapshot are those that were written for its time.
+/// Checks that X and u of a snapshot are the ones written for its time.
 #[track_caller]
 fn holds_the_motion(name: &str, snapshot: &Snapshot, map: &[&str], tolerance: f64) {
     let is_wanted = |role: mms_results::names::Role| role.symbol() == "u" || role.symbol() == "X";
@@ -150,7 +150,7 @@ fn paths_are_mapped_with_and_without_the_slash() {
     }
 }
 
-/// Names in groups are not known by themselves: they are listed, as `--map` takes them.
+/// Names in groups are not recognised: they are listed in the form for `--map`.
 #[test]
 fn paths_are_listed_where_nothing_is_known() {
     let found = &all("groups.h5", &[])[0];
@@ -250,7 +250,7 @@ fn exodus_has_the_reference_at_all_times() {
     assert_eq!(few.unread, ["temp", "middle", "time_of"]);
 }
 
-/// Reads a file in which some bytes are others, and returns why it is refused.
+/// Reads a file with some bytes changed, and returns the reason for the refusal.
 fn refused(name: &str, from: &[u8], to: &[u8]) -> String {
     let mut bytes = std::fs::read(data(name)).unwrap();
     let at = bytes.windows(from.len()).position(|it| it == from).expect("these bytes");
@@ -305,7 +305,7 @@ fn mistakes_name_the_array_and_what_was_expected() {
     assert!(said.contains("version 3 of netCDF: expected 1, 2 or 5"), "{said}");
 }
 
-/// Where VTK, reading the same file, has the nodes of each element.
+/// Compares the nodes of each element with VTK's, reading the same file.
 #[test]
 fn nodes_of_elements_are_where_vtk_has_them() {
     let found = all("elements.e", &[]);
@@ -351,7 +351,7 @@ fn vtkhdf_has_steps_pieces_and_surfaces() {
         assert_eq!((snapshot.rows(), snapshot.cells.len()), (12, 4));
         assert_eq!(snapshot.cells.iter().nth(3).unwrap().1, [7, 8, 11, 10]);
         assert_eq!(named(&snapshot.of_cells, "middle").values, MIDDLE);
-        // The middle row of points is in both pieces.
+        // Both pieces contain the middle row of points.
         let u = &named(&snapshot.of_points, "u").values;
         for (row, point) in [0, 1, 2, 3, 4, 5, 3, 4, 5, 6, 7, 8].into_iter().enumerate() {
             let exact = displacement(time, point);
@@ -386,7 +386,7 @@ fn xdmf_takes_its_numbers_from_hdf5() {
     assert!(said.contains("a checkpoint of dolfin") && said.contains("`XDMFFile.write`"), "{said}");
 }
 
-/// The files that stand alone, with their bytes.
+/// The files without companions, with their bytes.
 fn files() -> Vec<(String, Vec<u8>)> {
     let entries = std::fs::read_dir(data("")).unwrap().map(|it| it.unwrap().path());
     let is_whole = |it: &PathBuf| it.extension().is_some_and(|end| end != "xdmf" && end != "txt");
@@ -420,7 +420,7 @@ fn files_that_are_cut_off_are_refused() {
     assert!(count > 20_000, "{count}");
 }
 
-/// A header of netCDF that declares one variable of so many numbers.
+/// A header of netCDF that declares one variable with this many numbers.
 fn classic(count: u32) -> Vec<u8> {
     let words = [
         0,
@@ -486,7 +486,7 @@ proptest! {
     ) {
         let all = files();
         let mut bytes = all[which.index(all.len())].1.clone();
-        // Headers are at the front, and small beside the numbers.
+        // Headers are at the front, and small compared with the numbers.
         for (at, byte) in flips {
             let at = at.index(bytes.len().min(4096));
             bytes[at] = byte;
@@ -495,7 +495,7 @@ proptest! {
             bytes.truncate(cut.index(bytes.len()));
         }
         let taken = measure(|| survive(&bytes)).bytes_max;
-        // Deflate makes 1032 bytes of one, and a byte may be a number, which has 8.
+        // Deflate expands one byte to at most 1032, and a byte may become a number of 8 bytes.
         let most = (8 << 20) + 1032 * 10 * bytes.len() as u64;
         prop_assert!(taken < most, "{} bytes of {}", taken, bytes.len());
     }

@@ -1,4 +1,4 @@
-//! The tests of this crate, as one program, so that what they share is compiled and linked once.
+//! The tests of this crate, as one program, so that shared code is compiled and linked once.
 
 mod archives;
 mod dumps;
@@ -22,7 +22,7 @@ mod vtk_more;
 mod write;
 mod xdmf;
 
-/// The kind of cells of that number in VTK.
+/// The shape of a VTK type.
 fn shape(kind: u8) -> &'static mms_results::cell::Shape {
     mms_results::cell::Shape::all().find(|it| it.kind() == kind).unwrap()
 }

@@ -62,7 +62,7 @@ fn what_is_not_wanted_is_not_unpacked() {
     let mut bytes = data("scipy_packed.mat");
     let u = |role: Role| role == Role::Displacement;
     let good = parse(&bytes, &wanted(&KNOWN, &u)).unwrap();
-    // The last packed variable is `empty`, and before it is `sparse`: damage in either stops nobody.
+    // The last packed variable is `empty`, the one before is `sparse`: damage in either does no harm.
     let last = bytes.len() - 5;
     bytes[last] ^= 0x55;
     assert_eq!(parse(&bytes, &wanted(&KNOWN, &u)).unwrap(), good);
@@ -90,7 +90,7 @@ fn broken_files_are_mistakes() {
     assert_eq!(said(&wrong), "`X`: 144 bytes of numbers, and its axes need 128");
     wrong[rows..rows + 4].copy_from_slice(&u32::MAX.to_le_bytes());
     assert!(said(&wrong).contains("its axes need"), "{}", said(&wrong));
-    // A displacement that is words is named; words of another name are passed over.
+    // A displacement that contains words is named; words under another name are skipped.
     let mut words = bytes.clone();
     let at = words.windows(5).position(|it| it == b"words").unwrap();
     words[at..at + 5].copy_from_slice(b"displ");

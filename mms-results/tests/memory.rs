@@ -1,13 +1,13 @@
-//! No file takes more memory than its own numbers do, a few times over: counted by the allocator.
+//! No file needs more memory than a few times its own numbers, as counted by the allocator.
 
 use allocation_counter::measure;
 use mms_results::names::{KNOWN, everything};
 use mms_results::parse;
 
-/// A number of a table is two bytes at least, and becomes eight; an element of XML is three, and becomes two hundred
-/// while their list grows.
+/// A number of a table has at least two bytes, and becomes eight; an element of XML has three, and becomes two hundred while
+/// their list grows.
 const FACTOR: usize = 80;
-/// A table may have 10,000 times, of some hundred bytes each.
+/// A table may have 10,000 times of about a hundred bytes each.
 const BASE: usize = 8 << 20;
 
 #[test]

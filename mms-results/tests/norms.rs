@@ -1,4 +1,4 @@
-//! Norms against sums and quadratures that are made in another way.
+//! Compares norms with sums and quadratures computed in another way.
 
 use mms_results::Cells;
 use mms_results::cell::{Local, Shape};
@@ -9,7 +9,7 @@ use mms_results::over_cells::{Asked, Carried, Exact};
 
 use crate::sampled::sampled;
 
-/// The share of kinds of cells: one in so many is integrated finely.
+/// One of this many kinds of cells is integrated finely.
 const SHARE: usize = 3;
 
 #[test]
@@ -27,7 +27,7 @@ fn norms_over_points_are_their_definitions() {
     assert_eq!(over_points(errors.iter().copied(), Some(&[0.0, 0.0])), None);
 }
 
-/// Norms of errors times a power of two are those of the errors times it, however small or large that makes them.
+/// Scaling errors by a power of two scales their norms, for very small and very large errors.
 #[test]
 fn norms_neither_underflow_nor_overflow() {
     let errors = [3.0, 4.0, 12.0, 1.0, 0.25, 7.0];
@@ -42,7 +42,7 @@ fn norms_neither_underflow_nor_overflow() {
         assert!(near(found.l1, usual.l1) && near(found.l2, usual.l2), "2^{power}: {found:?}");
         assert!(near(found.linf, usual.linf), "2^{power}: {found:?}");
     }
-    // Errors on both sides of where the scale changes.
+    // Errors on both sides of the threshold of scaling.
     let mixed = over_points([0.9e140, 1.1e140, 0.9e140], None).expect("norms");
     assert!((mixed.l2 / (2.83_f64 / 3.0).sqrt() - 1e140).abs() < 1e126, "{mixed:?}");
 }
@@ -82,21 +82,21 @@ fn carried(values: &[f64], components: usize) -> Carried<'_> {
     Carried { values, components, has_gradient: true }
 }
 
-/// One cell of that kind, at X = A xi with A below.
+/// One cell of a kind, at X = A xi with A below.
 struct One {
     cells: Cells,
     points: Vec<f64>,
     dimension: usize,
 }
 
-/// Rows of A: a cell that is stretched and sheared.
+/// The rows of A, which stretches and shears a cell.
 const A: [[f64; 3]; 3] = [[0.7, 0.2, 0.1], [0.0, 0.9, -0.3], [0.0, 0.0, 0.6]];
 
 fn place(local: Local, dimension: usize) -> Vec<f64> {
     (0..dimension).map(|row| (0..dimension).map(|j| A[row][j] * local[j]).sum()).collect()
 }
 
-/// Where that is in the reference cell, by back substitution.
+/// The place in the reference cell, by back substitution.
 fn local(place: &[f64]) -> Local {
     let mut local = [0.0; 3];
     for row in (0..place.len()).rev() {
@@ -157,8 +157,8 @@ fn exact(asked: Asked, places: &[f64], dimension: usize) -> Vec<f64> {
 const WEDGE: u8 = 13;
 const PYRAMID: u8 = 14;
 
-/// The coordinates in which the functions of a cell are known, of those in which its corners are: of a pyramid those of
-/// the cube that was drawn together.
+/// Converts coordinates of the corners to those in which the functions of a cell are known: for a pyramid, coordinates in the
+/// cube that is collapsed to it.
 fn known(shape: &Shape, [x, y, z]: Local) -> Local {
     match shape.kind() {
         PYRAMID => [x / (1.0 - z), y / (1.0 - z), z],
@@ -166,8 +166,8 @@ fn known(shape: &Shape, [x, y, z]: Local) -> Local {
     }
 }
 
-/// Points spread evenly over a reference cell: those of a grid; on a simplex, the differences of their sorted
-/// coordinates, which are spread evenly too; in a pyramid more of them where it is wide.
+/// Points spread evenly over a reference cell: a grid; on a simplex, the differences of sorted coordinates, which are spread
+/// evenly too; in a pyramid more of them where it is wide.
 fn spread(shape: &Shape, per_edge: usize) -> Vec<Local> {
     let simplex = match shape.kind() {
         5 | 10 | 22 | 24 | 69 | 71 => shape.dimension,
@@ -227,13 +227,13 @@ fn norms_over_a_cell_are_those_of_a_sum_over_many_points() {
         near(found.value.l2, value.l2, 5e-3);
         near(found.value.l1, value.l1, 5e-3);
         near(found.h1, over_points(of_gradient, None).unwrap().l2, 5e-3);
-        // The largest of many points is a little less than the maximum.
+        // The largest of many points is slightly less than the maximum.
         near(found.value.linf, value.linf, [1e-3, 0.01, 0.05][dimension - 1]);
         assert!(found.value.linf > 0.99999 * value.linf, "{}", shape.kind());
     }
 }
 
-/// A cell whose nodes are off their places still holds what is linear in X.
+/// A cell with displaced nodes still represents linear functions of X.
 #[test]
 fn what_is_linear_has_no_error_on_any_cell() {
     for shape in Shape::all() {
@@ -257,7 +257,7 @@ fn what_is_linear_has_no_error_on_any_cell() {
     }
 }
 
-/// A grid of quads, or of triangles, on the unit square; of degree 1 or 2.
+/// A grid of quads or triangles on the unit square, of degree 1 or 2.
 fn grid(cells: usize, kind: u8) -> (Cells, Vec<f64>) {
     let degree = if [22, 28].contains(&kind) { 2 } else { 1 };
     let side = degree * cells + 1;
@@ -286,7 +286,7 @@ fn grid(cells: usize, kind: u8) -> (Cells, Vec<f64>) {
     (found, points)
 }
 
-/// Interpolants of degree p have the orders p + 1 and p: no quadrature of the norms has spoilt them.
+/// Interpolants of degree p have the orders p + 1 and p: the quadrature of the norms preserves them.
 #[test]
 fn interpolants_have_their_orders() {
     for (kind, degree) in [(5, 1.0), (9, 1.0), (22, 2.0), (28, 2.0)] {
@@ -366,7 +366,7 @@ fn monomials_over_wedges_and_pyramids_have_their_integrals() {
                 let value = |x: &[f64]| if is_value { monomial(x) } else { 0.0 };
                 Ok(places.chunks(3).flat_map(|x| vec![value(x); size]).collect())
             };
-            // An error of that monomial, whose mean is its integral over the volume.
+            // An error equal to that monomial, whose mean is its integral over the volume.
             let found = mesh.measure(carried(&vec![0.0; count], 1), &mut asked).unwrap().value.l1;
             let expected = integral(exponents) / integral([0; 3]);
             assert!((found - expected).abs() < 1e-14, "{kind} {exponents:?}: {found} {expected}");
@@ -374,8 +374,8 @@ fn monomials_over_wedges_and_pyramids_have_their_integrals() {
     }
 }
 
-/// A cube of six pyramids that meet in its middle, and one of two wedges: what is linear has no error, and all volumes
-/// add up to that of the cube.
+/// A cube of six pyramids that meet in its middle, and one of two wedges: linear functions have no error, and the volumes add
+/// up to the cube's volume.
 #[test]
 fn pyramids_and_wedges_fill_a_cube() {
     let corners: Vec<f64> = crate::shape(12).nodes.concat();

@@ -1,5 +1,4 @@
-//! Norms over cells of meshes, against fine rules along each axis of each cell. Functions of cells
-//! are written down by hand.
+//! Compares norms over cells of meshes with fine rules along each axis of each cell. The functions of cells are typed by hand.
 
 use mms_results::Cells;
 use mms_results::mesh::Mesh;
@@ -10,7 +9,7 @@ use crate::sampled::sampled;
 /// Kinds whose functions are products along the axes: lines, quads and hexahedra of degree 1 and 2.
 const KINDS: [u8; 6] = [3, 21, 9, 28, 12, 29];
 
-/// The share of kinds of cells: one in so many is tried.
+/// One of this many kinds of cells is tested.
 const SHARE: usize = 2;
 
 /// The wave vector of the exact solution.
@@ -23,8 +22,8 @@ fn exact(x: &[f64], component: usize) -> [f64; 2] {
     [phase.sin(), phase.cos()]
 }
 
-/// A mesh of n cells along each axis, at X = (xi + s xi^2)/(1 + s) along each, with s = 0.2: cells of several sizes. What points carry
-/// is exact but for an error of the order of that of a method.
+/// A mesh of n cells along each axis, at X = (xi + s xi^2)/(1 + s) along each, with s = 0.2: cells of several sizes. The values
+/// at the points are exact plus an error of a method's order.
 struct Case {
     cells: Cells,
     points: Vec<f64>,
@@ -72,7 +71,7 @@ fn case(kind: u8, n: usize, components: usize) -> Case {
     Case { cells, points, values, dimension, components }
 }
 
-/// A function of a node along an axis, and its slope.
+/// The function of a node along an axis, and its slope.
 fn along(degree: usize, node: f64, x: f64) -> [f64; 2] {
     match (degree, node) {
         (1, 0.0) => [1.0 - x, -1.0],
@@ -86,7 +85,7 @@ fn along(degree: usize, node: f64, x: f64) -> [f64; 2] {
 /// Places and weights of a rule along an axis.
 type Rule = Vec<(f64, f64)>;
 
-/// Simpson's rule on so many intervals, whose ends are among its places.
+/// Simpson's rule on a number of intervals, including their ends.
 fn simpson(intervals: usize) -> Rule {
     let weight = |at: usize| match at {
         0 => 1.0,
@@ -98,7 +97,7 @@ fn simpson(intervals: usize) -> Rule {
     (0..=intervals).map(|at| (place(at), weight(at) / (3.0 * intervals as f64))).collect()
 }
 
-/// Four points of Gauss on each of so many intervals: exact to the degree 7 there.
+/// Four Gauss points on each interval: exact to degree 7 there.
 fn gauss(intervals: usize) -> Rule {
     let root = 2.0 * (6.0_f64 / 5.0).sqrt() / 7.0;
     let [inner, outer] = [(3.0 / 7.0 - root).sqrt(), (3.0 / 7.0 + root).sqrt()];
@@ -186,12 +185,12 @@ fn measured(case: &Case) -> [f64; 4] {
 
 #[test]
 fn norms_are_those_of_fine_rules_on_every_mesh() {
-    // Simpson's rule has a place beside the maximum of a cubic polynomial, at 0.211 of an edge.
+    // Simpson's rule has a place near the maximum of a cubic polynomial, at 0.211 of an edge.
     let rules = [(256, 16), (24, 4), (10, 2)].map(|(a, b)| [simpson(a), gauss(b)]);
     let meshes: [&[usize]; 3] = [&[4, 8, 16, 32], &[3, 6, 12], &[2, 4]];
     for kind in sampled(KINDS, SHARE) {
         let dimension = crate::shape(kind).dimension;
-        // One component is 0 along surfaces, and several at points alone.
+        // One component is 0 along surfaces, several only at points.
         for components in if dimension == 2 { vec![1, 2] } else { vec![dimension] } {
             let off = meshes[dimension - 1].iter().map(|&n| {
                 let case = case(kind, n, components);

@@ -1,4 +1,4 @@
-//! Points and cells of two results that list them in another order.
+//! Points and cells of two results in different orders.
 
 use mms_results::motion::hold_distinct;
 use mms_results::names::KNOWN;
@@ -48,7 +48,7 @@ fn points_are_paired_by_their_numbers_before_anything_else() {
     assert!(
         said(&a, &other).starts_with("a: this point has no partner in c by its number (point 1)")
     );
-    // Numbers that each rank begins anew are none.
+    // Numbers that start again on each rank do not count.
     let ranks = snapshot(
         "d",
         vec![array("GlobalNodeIds", 1, &[0.0, 1.0, 0.0]), array("X", 1, &[1.0, 0.5, 0.0])],
@@ -58,7 +58,7 @@ fn points_are_paired_by_their_numbers_before_anything_else() {
 
 #[test]
 fn points_between_ranks_are_one() {
-    // Two halves of a line, whose middle both have.
+    // Two halves of a line, which both contain the middle.
     let whole = snapshot("whole", vec![array("X", 1, &[0.0, 0.5, 1.0])]);
     let halves = snapshot("halves", vec![array("X", 1, &[0.5, 1.0, 0.0, 0.5])]);
     let (pairs, by) = points(&whole, &halves, &KNOWN).unwrap();
@@ -80,12 +80,12 @@ fn points_without_a_name_are_tried_as_reference_and_as_present_positions() {
         points: Some(array("Points", 1, &x)),
         ..snapshot(name, vec![array("u", 1, &u)])
     };
-    // As x they differ, and x - u is the same.
+    // The places x differ, and x - u is equal.
     let a = place("a", [0.1, 1.3], [0.1, 0.3]);
     let b = place("b", [1.25, 0.125], [0.25, 0.125]);
     let (pairs, by) = points(&a, &b, &KNOWN).unwrap();
     assert_eq!((listed(&pairs), by), (vec![[0, 1], [1, 0]], By::Place));
-    // Without u nothing tells, but as many are compared in their order.
+    // Without u nothing pairs the points, but equally many are compared in their order.
     let only = |x: [f64; 2]| snapshot("x", vec![array("x", 1, &x)]);
     assert_eq!(
         points(&only([0.0, 1.0]), &only([1.5, 0.1]), &KNOWN).unwrap(),
@@ -125,7 +125,7 @@ fn cells_are_paired_by_their_points() {
 }
 
 proptest! {
-    /// Points of a grid in any order find themselves, each once.
+    /// Points of a grid in any order are paired correctly, each once.
     #[test]
     fn every_order_is_undone(order in Just((0..60).collect::<Vec<usize>>()).prop_shuffle(), noise in -1e-13..1e-13) {
         let point = |at: &usize| [0.1 * (*at % 10) as f64, 0.3 * (*at / 10) as f64];
@@ -142,7 +142,7 @@ proptest! {
     }
 }
 
-/// Among so many that threads share them, and with a 0 that has a sign.
+/// Among so many points that threads share them, and with a signed 0.
 #[test]
 fn two_points_in_one_place_are_found_among_many() {
     let values = |numbers: Vec<f64>| Values {
@@ -157,7 +157,7 @@ fn two_points_in_one_place_are_found_among_many() {
         (0..count).flat_map(|at| [(at % 500) as f64, (at / 500) as f64]).collect();
     let all = snapshot("a", Vec::new());
     assert_eq!(hold_distinct(&all, &values(numbers.clone())), Ok(()));
-    // The first point once more, in the middle.
+    // The first point again, in the middle.
     numbers[200_000..200_002].copy_from_slice(&[-0.0, 0.0]);
     let said = hold_distinct(&all, &values(numbers)).unwrap_err().to_string();
     assert!(

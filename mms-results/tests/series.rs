@@ -54,7 +54,7 @@ fn odd_members_are_left_out_by_name() {
     assert_eq!(snapshot.unread, expected);
 }
 
-/// An array of NumPy with numbers that count from 0 in these steps.
+/// A NumPy array with numbers that count from 0 in these steps.
 fn npy(kind: &str, shape: &[usize], step: f64) -> Vec<u8> {
     let axes: String = shape.iter().map(|it| format!("{it},")).collect();
     let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({axes}), }}\n");
@@ -66,7 +66,7 @@ fn npy(kind: &str, shape: &[usize], step: f64) -> Vec<u8> {
     all
 }
 
-/// Reads arrays of these shapes: how many times there are, numbers of a point, and points of `u`.
+/// Reads arrays of these shapes: returns the number of times, of components, and of points of `u`.
 fn read(arrays: &[(&str, &str, &[usize])]) -> Result<(usize, usize, usize), String> {
     let arrays: Vec<_> = arrays
         .iter()
@@ -89,7 +89,7 @@ fn shapes_say_whether_there_are_times() {
     assert_eq!(of(&[3], &[3, 7, 2], &[3, 7, 2]), Ok((3, 2, 7)));
     assert_eq!(of(&[3], &[7], &[3, 7]), Ok((3, 1, 7)));
     assert_eq!(of(&[3], &[7, 1], &[3, 7]), Ok((3, 1, 7)));
-    // Times that no array has as an axis, and one number for each point.
+    // Times that are no axis of any array, and one number for each point.
     assert_eq!(of(&[4], &[7, 2], &[7, 2]), Ok((1, 2, 7)));
     assert_eq!(of(&[7], &[7, 3], &[7, 2]), Ok((1, 2, 7)));
     assert_eq!(of(&[], &[7, 2], &[7, 2]), Ok((1, 2, 7)));
@@ -106,7 +106,7 @@ fn shapes_say_whether_there_are_times() {
         ),
         "{said}"
     );
-    // A time for each point, which does not grow, is no axis.
+    // A time for each point that does not increase is no axis.
     let said = read(&[("X", F8, &[7, 2]), ("u", F8, &[7, 2]), ("time", F8, &[7])]);
     assert_eq!(said, Ok((1, 2, 7)));
 }
@@ -148,7 +148,7 @@ fn what_is_no_number_is_a_mistake_where_it_must_be_one() {
 
 #[test]
 fn broken_files_are_survived() {
-    // No rows of a million million numbers each, column by column.
+    // No rows of 10^12 numbers each, column by column.
     let empty = npy("<f8", &[0, 1_000_000, 1_000_000], 1.0);
     let empty = String::from_utf8_lossy(&empty[10..]).replace("False", "True ");
     let bytes =

@@ -1,4 +1,4 @@
-//! Helpers for the tests of readers: the mesh that most files hold, and how broken files are tried.
+//! Helpers for the tests of readers: the common mesh of most files, and the test with broken files.
 
 use std::path::Path;
 
@@ -33,7 +33,7 @@ pub fn values<'a>(snapshot: &'a Snapshot, name: &str) -> &'a [f64] {
     &found.unwrap_or_else(|| panic!("no `{name}`")).values
 }
 
-/// The numbers that names say are of this quantity, in a plane.
+/// The numbers of this quantity by name, in a plane.
 #[track_caller]
 pub fn of_role(snapshot: &Snapshot, role: Role, dimension: usize) -> Vec<f64> {
     let found = recognise(snapshot, &KNOWN, &|it| it == role).unwrap();
@@ -55,8 +55,8 @@ pub fn near(name: &str, found: &[f64], expected: &[f64], tolerance: f64) {
     assert!(far.is_none(), "{name}: {far:?}: {found:?} is not {expected:?}");
 }
 
-/// Reads a file that is cut off at every length, or changed at every byte: that ends, without more memory than such
-/// a file may take, and with numbers where it says so.
+/// Reads a file cut off at every length, or changed at every byte. Checks that reading ends, uses no more memory than such a
+/// file may need, and returns numbers if it succeeds.
 #[track_caller]
 pub fn survives(name: &str, bytes: &[u8]) {
     let u = |role: Role| role == Role::Displacement;
@@ -87,7 +87,7 @@ pub fn survives(name: &str, bytes: &[u8]) {
     }
 }
 
-/// Where VTK has the nodes of a cell of this type (`vtkQuadraticWedge.h` and others for those that are no shape here).
+/// The nodes of a cell of this type in VTK (`vtkQuadraticWedge.h` and others for types that are no shape here).
 pub fn nodes(kind: u8, points: usize) -> Vec<[f64; 3]> {
     if let Some(shape) = Shape::of(kind, points) {
         return shape.nodes.clone();
@@ -132,7 +132,7 @@ const WEDGE: [&[usize]; 12] = [
     &[2, 0, 3, 5],
 ];
 
-/// Cells that are reference cells, one beside the other along X, have their nodes where VTK has them.
+/// Checks that reference cells, one beside the other along X, have their nodes at the places of VTK.
 #[track_caller]
 pub fn nodes_are_in_place(name: &str, snapshot: &Snapshot, kinds: &[u8]) {
     let places = snapshot.points.as_ref().unwrap().values.as_chunks::<3>().0;

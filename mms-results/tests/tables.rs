@@ -1,11 +1,11 @@
-//! Tables as programs write them: indices, comments, columns of words, and what their columns mean together.
+//! Tables as programs write them: indices, comments, columns of words, and columns that depend on each other.
 
 use mms_results::motion::{Motion, resolve};
 use mms_results::names::{KNOWN, Names, Role, everything, recognise, wanted};
 use mms_results::wanted::Wanted;
 use mms_results::{Contents, Mistake, Snapshot, parse};
 
-/// The one snapshot of a table, or what is wrong with it, with its line.
+/// The one snapshot of a table, or a mistake with its line.
 fn read(text: &str, wanted: &Wanted<'_>) -> Result<Snapshot, String> {
     match parse(text.as_bytes(), wanted).map_err(|mistake| mistake.of("file").to_string())? {
         Contents::Snapshots(mut found) => Ok(Snapshot { path: "file".into(), ..found.remove(0) }),
@@ -147,7 +147,7 @@ fn comments_tell_the_times_of_blocks() {
     {
         assert_eq!(times(&format!("{other}\nX u\n0 1\n")), Ok(vec![(None, 1)]), "{other}");
     }
-    // A column counts.
+    // A column decides.
     assert_eq!(times("# time = 7\nt X u\n1 0 1\n"), Ok(vec![(Some(1.0), 1)]));
     let late = times("X u\n0 1\n# time = 1\n0 1\n").unwrap_err();
     assert!(late.contains("points before the first comment"), "{late}");
@@ -161,7 +161,7 @@ fn no_column_of_a_known_name_vanishes() {
         ("X,u,v\n0,,1\n1,2,3\n", "file:2: column `u`: expected a number, found nothing"),
         ("X,u,v\n0,1,1\n1,-,3\n", "file:3: column `u`: expected a number, found `-`"),
         ("X,u,v\n0,--,1\n1,--,3\n", "file:2: column `u`: expected a number, found `--`"),
-        // It is not asked for, but it holds numbers, and the name is known.
+        // The column is not requested, but it contains numbers, and its name is known.
         ("X,u,v\n0,1,n/a\n1,2,3\n", "file:2: column `v`: expected a number, found `n/a`"),
         ("X,u,sigma_xx\n0,1,5\n1,2,*\n", "file:3: column `sigma_xx`: expected a number, found `*`"),
         ("t,X,u\n0,0,1\nnow,0,1\n", "file:3: column `t`: expected a number, found `now`"),
@@ -171,7 +171,7 @@ fn no_column_of_a_known_name_vanishes() {
     let map = maps(&["u=shift"]);
     let of_map = read("X,shift\n0,1\n1,?\n", &wanted(&map, &|_| false)).unwrap_err();
     assert_eq!(of_map, "file:3: column `shift`: expected a number, found `?`");
-    // Words alone are left out where nobody asks for them, and so is what has no known name.
+    // Columns of words are skipped unless requested, and so are columns with unknown names.
     let rest = "X,u,v,name\n0,1,left,a\n1,2,right,7\n";
     let read_of = |wanted: &Wanted<'_>| read(rest, wanted).map(|it| (names(&it).len(), it.unread));
     assert_eq!(
@@ -193,7 +193,7 @@ fn a_table_that_ends_within_a_time_is_refused() {
         let expected = format!("file:{}: the table ends after {} points", 13 - cut, 4 - cut);
         assert!(said.starts_with(&expected), "{said}");
     }
-    // Particles that leave are gone for good.
+    // Particles that leave do not return.
     let fewer = "t,X,u\n0,0,0\n0,1,0\n0,2,0\n1,0,0\n1,1,0\n2,0,0\n";
     assert!(read(fewer, &everything(&KNOWN)).is_ok());
 }
@@ -272,7 +272,7 @@ fn advice_on_names_leads_to_what_it_says() {
         assert_eq!(*stress.values(&snapshot, 2).unwrap().numbers, [1.0, 2.0, 2.0, 3.0]);
         assert!(found(&snapshot, &[sigma, "X=x,y"], None).is_ok());
     }
-    // What is left of a group is no other quantity; what has its name alone is.
+    // The rest of a group is no other quantity; a column with the group's name alone is.
     let rest = read("X,Y,u,u_1\n0,0,1,2\n", &everything(&KNOWN)).unwrap();
     let of_rest = recognise(&rest, &maps(&["W=u_1"]), &|_| true).unwrap();
     assert!(of_rest.iter().any(|it| it.role == Role::Displacement));
@@ -294,7 +294,7 @@ fn four_components_of_a_symmetric_tensor_are_asked_for_unless_they_are_rows() {
         meanings[0].values(&snapshot, 2).map(|it| it.numbers.to_vec()).map_err(|it| it.what)
     };
     assert_eq!(read_as("1,2,2,3", &[]), Ok(vec![1.0, 2.0, 2.0, 3.0]));
-    // 12 is not 21; and 11, 22 = 33 without shear is likelier than a stress 22 of 0 everywhere.
+    // 12 differs from 21; and 11, 22 = 33 without shear is likelier than a stress 22 that is 0 everywhere.
     for numbers in ["1,2,3,4", "5,2,2,0"] {
         let said = read_as(numbers, &[]).unwrap_err();
         assert!(said.contains("`--map sigma=sigma:0,sigma:3,sigma:3,sigma:1`"), "{said}");
@@ -314,7 +314,7 @@ fn four_components_of_a_symmetric_tensor_are_asked_for_unless_they_are_rows() {
     assert_eq!(rows, Ok(vec![1.0, 2.0, 3.0, 4.0]));
 }
 
-/// A header and rows of so many columns take time and memory that grow with them alone: these would take minutes otherwise.
+/// The time and memory for wide headers and rows grow linearly: otherwise these would take minutes.
 #[test]
 fn wide_tables_are_read_in_linear_time() {
     let names: String = (0..100_000).map(|at| format!("n{at},")).collect();

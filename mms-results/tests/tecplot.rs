@@ -100,7 +100,7 @@ fn mistakes_have_their_line_and_what_to_do() {
     ] {
         assert_eq!(read(&text).unwrap_err(), said, "{text}");
     }
-    // A table with such a column is none.
+    // A table with a column of this name is still a table.
     let table = read("zone X u\n1 0.5 2\n").unwrap();
     assert_eq!(column(&table[0], "X"), [0.5]);
 }

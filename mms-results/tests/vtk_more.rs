@@ -28,7 +28,7 @@ fn one(name: &str) -> Snapshot {
     found.remove(0)
 }
 
-/// Names that a user maps.
+/// A user's mapping of names.
 fn mapped(map: &[&str]) -> Names {
     let map = map.iter().map(|it| it.parse().unwrap()).collect();
     Names { map, ..Names::default() }
@@ -39,7 +39,7 @@ fn motion<'a>(snapshot: &'a Snapshot, dimension: usize) -> Motion<'a> {
     resolve(snapshot, &found, dimension, &|_: &[f64]| 0.0, None).unwrap()
 }
 
-/// X, u and the middles of cells are those that were written.
+/// Checks that X, u and the middles of cells are the written ones.
 #[track_caller]
 fn holds_the_mesh(name: &str, snapshot: &Snapshot, rows: usize, cells: usize) {
     assert_eq!((snapshot.rows(), snapshot.cells.len()), (rows, cells), "{name}");
@@ -60,7 +60,7 @@ fn holds_the_mesh(name: &str, snapshot: &Snapshot, rows: usize, cells: usize) {
     assert_eq!(time, Some(0.25), "{name}");
 }
 
-/// The measure of a mesh.
+/// The length, area or volume of a mesh.
 fn measure(snapshot: &Snapshot, dimension: usize) -> f64 {
     let motion = motion(snapshot, dimension);
     let points = &motion.reference.numbers;
@@ -74,7 +74,7 @@ fn measure(snapshot: &Snapshot, dimension: usize) -> f64 {
 #[test]
 fn structured_grids_have_points_and_cells_by_their_extents() {
     for end in ["vti", "vtr", "vts"] {
-        // A plane of unit area, but that of which one side is longer.
+        // A plane of unit area, except the one with a longer side.
         let area = if end == "vts" { 1.05 } else { 1.0 };
         for name in [
             format!("flat.{end}"),
@@ -196,7 +196,7 @@ fn cells_of_higher_degree_are_read_in_the_order_of_their_version() {
     for name in ["lagrange.vtu", "lagrange.vtk"] {
         let found = one(name);
         assert_eq!(found.cells.types, [69, 69, 70, 70], "{name}");
-        // Two triangles and two squares, whose edges are bent without a change of area.
+        // Two triangles and two squares with edges bent so that the areas do not change.
         let area = measure(&found, 2);
         assert!((area - 3.0).abs() < 1e-10, "{name}: {area}");
     }
@@ -224,7 +224,7 @@ fn cells_that_are_not_read_are_named() {
     }
 }
 
-/// As the particles of Kratos: a vertex for each, and arrays of these.
+/// In the form of Kratos: a vertex for each particle, and arrays of the vertices.
 #[test]
 fn arrays_of_vertices_are_arrays_of_points() {
     let file = |vertices: &str, cells: &str, more: &str| {
@@ -250,7 +250,7 @@ fn arrays_of_vertices_are_arrays_of_points() {
     let turned = parsed(&file("3 6\n1 2\n1 0\n1 1\n", "3\n1\n2\n1", ""));
     assert_eq!(u(&turned), Some(vec![0.3, 0.4, 0.5, 0.6, 0.1, 0.2]));
     assert_eq!(turned.of_points[1].values, [8.0, 9.0, 7.0]);
-    // A point with two vertices and one with none; cells that are no vertices; an array that points have, too.
+    // A point with two vertices and one with none; cells that are no vertices; an array whose name points have, too.
     for text in [
         file("3 6\n1 2\n1 0\n1 2\n", "3\n1\n1\n1", ""),
         file("3 9\n2 0 1\n2 1 2\n2 2 0\n", "3\n3\n3\n3", ""),
@@ -360,7 +360,7 @@ fn lists_of_times_name_files_of_any_kind() {
     assert!(said.contains("the block `flat.vtm` is itself a list of blocks"), "{said}");
 }
 
-/// The time of a file in the legacy format, as VisIt writes it and others.
+/// The time of a file in the legacy format, in the forms of VisIt and others.
 #[test]
 fn legacy_files_have_their_time() {
     for (field, time) in [
@@ -393,7 +393,7 @@ fn odd_arrays_are_passed_over() {
     }
 }
 
-/// Files of VTK in XML, with this inside.
+/// A file of VTK in XML with this content.
 fn vtk(kind: &str, body: &str) -> Vec<u8> {
     format!("<VTKFile type=\"{kind}\">{body}</VTKFile>").into_bytes()
 }
@@ -456,7 +456,7 @@ fn extents_are_not_believed_without_arrays() {
     }
 }
 
-/// Each file of one mesh, cut off anywhere.
+/// Cuts off each file of one mesh anywhere.
 #[test]
 fn files_that_are_cut_off_are_survived() {
     let mut count = 0;

@@ -1,4 +1,4 @@
-//! What is written is read back to the bit, by readers that are held to files of meshio, VTK and NumPy (`files.rs`).
+//! Written files are read back to the bit, by readers that are tested on files of meshio, VTK and NumPy (`files.rs`).
 
 use mms_results::names::{Axes, KNOWN, Role, everything, recognise};
 use mms_results::write::{Column, Fact, Mesh, Shape, State, Value, csv, npz, vtu};
@@ -18,7 +18,7 @@ fn column(name: &str, shape: Shape, dimension: usize) -> Column {
     Column { name: name.into(), shape, values: (0..count).map(value).collect() }
 }
 
-/// A state with names as tables have them, and with those of VTK.
+/// A state with the names of tables, and one with the names of VTK.
 fn state(dimension: usize, time: f64, [x, u, f]: [&str; 3]) -> State {
     let columns = vec![
         column(x, Shape::Vector, dimension),
@@ -92,7 +92,7 @@ fn arrays_of_numpy_are_read_back() {
         npz(&state, &mut bytes).unwrap();
         let found = &snapshots(&bytes)[0];
         holds(found, &state);
-        // Facts do not change how many points there are; words are passed over.
+        // Properties do not change the number of points; words are skipped.
         let window = found.of_points.iter().find(|it| it.name == "time_window").unwrap();
         assert_eq!(window.values, [number(0), number(1)]);
         assert!(found.rows() == COUNT && found.of_points.iter().all(|it| it.name != "face_x_min"));

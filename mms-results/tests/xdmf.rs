@@ -1,4 +1,4 @@
-//! XDMF with its numbers in the XML or in files of them alone, which need no reader of HDF5.
+//! XDMF with numbers in the XML or in raw files beside it, which need no reader of HDF5.
 
 use std::path::{Path, PathBuf};
 
@@ -94,7 +94,7 @@ fn grids_are_at_times_or_pieces() {
     let found = from(&spatial).unwrap();
     assert_eq!((found.len(), found[0].rows(), found[0].cells.len()), (1, 8, 2));
     assert_eq!((times(&found), &found[0].cells.points[4..]), (vec![0.5], &[4, 5, 7, 6][..]));
-    // Two functions at the same times on one mesh are of one snapshot each.
+    // Two functions at the same times on one mesh join one snapshot for each time.
     let other = grid("<Time Value=\"0.5\"/>", 0.5).replace("Name=\"u\"", "Name=\"w\"");
     let both = series(&grid("<Time Value=\"0.5\"/>", 0.25));
     let both = both.replace("<Grid Name=\"first\"", &format!(
@@ -178,7 +178,7 @@ fn mistakes_say_where_and_what() {
     );
 }
 
-/// A file may name others from its own folder on.
+/// A file may name others in its own folder and below.
 #[test]
 fn other_files_are_beside_it() {
     let named = |file: &str| {

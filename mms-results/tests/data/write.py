@@ -1,7 +1,7 @@
-"""Writes the files beside it: one small mesh by meshio, VTK and NumPy, in every way in which they write it.
+"""Writes the files beside this script: one small mesh in all formats of meshio, VTK and NumPy.
 
-Needs meshio, vtk and numpy. What the files hold is in ../files.rs: X on a grid, u = (0.1 X Y, -0.2 X), and of each cell
-the mean of X over its points.
+Needs meshio, vtk and numpy. The files contain the data of ../files.rs: X on a grid, u = (0.1 X Y, -0.2 X), and for each
+cell the mean of X over its points.
 """
 
 import pathlib
@@ -90,7 +90,7 @@ def with_vtk():
                 else:
                     writer.SetHeaderTypeToUInt32()
                 writer.SetEncodeAppendedData(compressor == "zlib" and order == "big")
-                # More blocks than one.
+                # More than one block.
                 writer.SetBlockSize(64)
                 writer.SetFileName(str(HERE / f"vtk_{mode}_{compressor}_{order}.vtu"))
                 writer.Write()
@@ -120,7 +120,7 @@ def with_vtk():
 
 
 def corners():
-    """Where VTK has the nodes of each type of cell."""
+    """Writes the places of the nodes of each type of cell in VTK."""
     lines = []
     for kind in [3, 5, 8, 9, 10, 11, 12, 13, 14, 21, 22, 23, 24, 25, 28, 29, 26, 30, 31, 32, 33]:
         cell = vtk.vtkGenericCell.InstantiateCell(kind)

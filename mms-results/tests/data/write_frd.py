@@ -1,8 +1,8 @@
-"""Writes the files of CalculiX beside it, with its solver ccx, which must be in the path.
+"""Writes the files of CalculiX beside this script, with its solver ccx, which must be on the PATH.
 
-What the files hold is in ../frd.rs: elements of each type at their places in the reference cell, one beside the other along
-X, with u = t (0.1 X Y, -0.2 X, 0.05 Z) at all nodes. The file in the short form is written here, record by record as the
-manual describes them, since ccx writes the long one alone.
+The files contain the data of ../frd.rs: elements of each type at the places of the reference cell, one beside the other
+along X, with u = t (0.1 X Y, -0.2 X, 0.05 Z) at all nodes. This script writes the file in the short form itself, record by
+record as in the manual, since ccx writes only the long form.
 """
 
 import pathlib
@@ -14,7 +14,7 @@ HERE = pathlib.Path(__file__).parent
 HEXAHEDRON = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
 TETRAHEDRON = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 WEDGE = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)]
-# Corners, and between which of them the other nodes of ccx lie.
+# The corners, and the pairs of corners between which the other nodes of ccx lie.
 SOLIDS = {
     "C3D8": (HEXAHEDRON, []),
     "C3D20": (HEXAHEDRON, "01 12 23 30 45 56 67 74 04 15 26 37".split()),
@@ -55,7 +55,7 @@ def run(name, text):
         pathlib.Path(folder, "run.inp").write_text(text)
         subprocess.run(["ccx", "run"], cwd=folder, check=True, capture_output=True)
         found = pathlib.Path(folder, "run.frd").read_bytes()
-    # When and where it ran says nothing.
+    # The time and place of the run do not matter.
     found = re.sub(rb"(?m)^    1U(DATE|TIME|HOST|DIR|DBN|USER|COMPILETIME).*\n", b"", found)
     (HERE / name).write_bytes(found)
 

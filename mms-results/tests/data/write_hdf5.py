@@ -1,10 +1,11 @@
 """Writes the files in `hdf5/`: one small mesh in the formats over HDF5 and netCDF, and in XDMF.
 
-Needs h5py, hdf5plugin, hdf5storage, meshio[all], netCDF4, numpy and vtk. What the files hold is in ../hdf5.rs and ../xdmf.rs: X on
-a grid of 3 x 3 points, u = (1 + t) (0.1 X Y, -0.2 X) at the times t, and of each cell the mean of X over its points.
+Needs h5py, hdf5plugin, hdf5storage, meshio[all], netCDF4, numpy and vtk. The files contain the data of ../hdf5.rs and
+../xdmf.rs: X on a grid of 3 x 3 points, u = (1 + t) (0.1 X Y, -0.2 X) at the times t, and for each cell the mean of X over
+its points.
 
 h5py, hdf5storage, meshio, netCDF4 and VTK write their own files. MOOSE, dolfin and dolfinx are not packages of
-Python: their files are written here with netCDF4 and h5py, by the layout that their sources and the files of others show.
+Python: this script writes their files with netCDF4 and h5py, in the layout of their sources and of other files.
 """
 
 import os
@@ -55,7 +56,7 @@ def with_h5py():
             g["itself"] = g
             for name in ["f4", "f8", ">f4", ">f8"]:
                 g.create_dataset("as_" + name.replace(">", "big_"), data=U.astype(name))
-            # Integers: 9 times X and Y are whole.
+            # Integers: multiples of X that are whole.
             for name in ["i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", ">i2", ">u4", ">i8"]:
                 g.create_dataset("whole_" + name.replace(">", "big_"), data=(2 * X).astype(name))
             g["truth"] = X > 0.5
@@ -81,7 +82,7 @@ def with_h5py():
             plist.set_alloc_time(h5py.h5d.ALLOC_TIME_EARLY)
             made = h5py.h5d.create(g.id, b"early", h5py.h5t.IEEE_F64LE, space, plist)
             made.write(h5py.h5s.ALL, h5py.h5s.ALL, U.copy())
-            # An array of so many chunks that their index has more than one level, and a group of so many members.
+            # An array with so many chunks that their index has more than one level, and a group with so many members.
             many = numpy.arange(400, dtype="f4")
             f.create_dataset("many", data=many, chunks=(2,), maxshape=(None,))
             g = f.create_group("members")
@@ -113,7 +114,7 @@ def with_matlab():
     path = HERE / "matlab.mat"
     path.unlink(missing_ok=True)
     hdf5storage.savemat(str(path), {"X": X, "u": U, "t": 0.25, "J": 1 + X[:, :1], "name": "words"}, format="7.3")
-    # As MATLAB itself does: all axes in reverse, a class beside each array, and 512 bytes before the file.
+    # In the layout of MATLAB itself: all axes in reverse, a class beside each array, and 512 bytes before the file.
     path = HERE / "matlab_single.mat"
     with h5py.File(path, "w", userblock_size=512) as f:
         for name, value, kind in [("X", X, "double"), ("u", U.astype("f4"), "single"), ("t", [[0.25]], "double"),
@@ -150,7 +151,7 @@ def with_netcdf():
             f.title = "a run"
 
 
-# Elements of Exodus, each with its nodes where its manual has them, in units of half an edge.
+# Elements of Exodus, each with its nodes at the places in the manual, in units of half an edge.
 CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
 HEX27 = CORNERS + [(1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1),
                    (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2),
@@ -167,7 +168,7 @@ ELEMENTS = [("HEX8", HEX27[:8]), ("HEX20", HEX27[:20]), ("HEX27", HEX27), ("TETR
 
 
 def exodus(name, kind, points, blocks, times, nodal, elemental=(), is_old=False):
-    """As libraries of Exodus write it, among them that of MOOSE. `nodal` and `elemental` give values at a time."""
+    """Writes a file as libraries of Exodus do, including the one of MOOSE. `nodal` and `elemental` return values at a time."""
     with netCDF4.Dataset(HERE / name, "w", format=kind) as f:
         f.api_version = f.version = numpy.float32(5.22)
         f.floating_point_word_size = numpy.int32(8)
@@ -235,7 +236,7 @@ def with_exodus():
     read.SetFileName(str(HERE / "elements.e"))
     read.UpdateInformation()
     read.Update()
-    # Where VTK has the nodes of each, beside its type.
+    # The places of VTK's nodes for each element, and its type.
     lines = []
     blocks_read = read.GetOutput().GetBlock(0)
     for i in range(blocks_read.GetNumberOfBlocks()):
@@ -278,7 +279,7 @@ def surface(time):
 
 
 class Source(VTKPythonAlgorithmBase):
-    """A grid at times, as a filter gives it."""
+    """A filter that outputs a grid at several times."""
 
     def __init__(self, make, kind):
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType=kind)
@@ -410,7 +411,7 @@ def with_xdmf():
         g = f.create_group("u/u_0")
         g["mesh/geometry"] = X
         g["mesh/topology"] = TRIANGLES.astype("i8")
-        # Degrees of freedom in an order of their own: all nodes of one component, then those of the next one.
+        # Degrees of freedom in an arbitrary order: all nodes of one component precede those in the next one.
         order = numpy.random.default_rng(1).permutation(18).reshape(9, 2)
         vector = numpy.zeros(18)
         vector[order] = U

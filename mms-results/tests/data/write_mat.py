@@ -1,6 +1,6 @@
-"""Writes the files of MATLAB beside it, with SciPy and, for bytes in the other order, with a few lines of its own.
+"""Writes the files of MATLAB beside this script, with SciPy and, for the other byte order, with a few lines here.
 
-Needs scipy. What the files hold is in ../mat.rs: X on a grid, u = (0.1 X Y, -0.2 X), and a structure, a cell, words,
+Needs scipy. The files contain the data of ../mat.rs: X on a grid, u = (0.1 X Y, -0.2 X), and a structure, a cell, words,
 complex and sparse numbers, which are no arrays of points.
 """
 
@@ -37,7 +37,7 @@ def element(kind, data):
 
 
 def big_endian(arrays):
-    """Variables with the greatest byte first, as computers of SPARC wrote them."""
+    """Variables with the most significant byte first, as SPARC computers wrote them."""
     text = b"MATLAB 5.0 MAT-file, big-endian".ljust(116) + bytes(8) + struct.pack(">H", 0x0100) + b"MI"
     for name, array in arrays.items():
         array = numpy.atleast_2d(array)

@@ -1,9 +1,9 @@
-"""Writes the files of Gmsh beside it, with gmsh and with meshio.
+"""Writes the files of Gmsh beside this script, with gmsh and with meshio.
 
-Needs gmsh and meshio. What the files hold is in ../gmsh.rs: elements of each type at their places in the reference cell of
-VTK, one beside the other along X, in the order in which gmsh itself has their nodes, with u = t (0.1 X Y, -0.2 X, 0.05 Z)
-at all nodes. A square of two triangles with its boundary, u at the nodes of elements, and J = 1 + X at the middles of the
-triangles alone. And the grid of write.py by meshio, which with NumPy 2 writes numbers in text as `np.float64(0.5)`.
+Needs gmsh and meshio. The files contain the data of ../gmsh.rs: elements of each type at the places of the reference cell
+of VTK, one beside the other along X, with nodes in the order of gmsh, and u = t (0.1 X Y, -0.2 X, 0.05 Z) at all nodes. A
+square of two triangles with its boundary, u at the nodes of elements, and J = 1 + X at the middles of the triangles alone.
+And the grid of write.py by meshio, which with NumPy 2 writes numbers in text as `np.float64(0.5)`.
 """
 
 import pathlib
@@ -15,7 +15,7 @@ import numpy
 HERE = pathlib.Path(__file__).parent
 # Orders 3 to 5.
 HIGHER = {1: [26, 27, 28], 2: [21, 23, 25, 36, 37, 38], 3: [29, 30, 31, 92, 93, 94]}
-# By dimension: Gmsh's numbers of types. Those of quadrilaterals, hexahedra and so on reach from -1 to 1.
+# By dimension: the type numbers of Gmsh. Quadrilaterals, hexahedra and so on extend from -1 to 1.
 TYPES = {1: [1, 8], 2: [2, 3, 9, 10, 16], 3: [4, 5, 6, 7, 11, 12, 13, 17, 18, 19]}
 FROM_MINUS_1 = {1: (0,), 8: (0,), 3: (0, 1), 10: (0, 1), 16: (0, 1), 5: (0, 1, 2), 12: (0, 1, 2), 17: (0, 1, 2),
                 6: (2,), 13: (2,), 18: (2,), 7: (0, 1), 19: (0, 1)}
@@ -36,7 +36,7 @@ def model(name, types=TYPES):
             places[:, :axes] = numpy.reshape(local, (nodes, axes))
             for axis in FROM_MINUS_1.get(kind, ()):
                 places[:, axis] = (places[:, axis] + 1) / 2
-            # A pyramid's upper corner is above the middle of its base; that of VTK is above its first corner.
+            # In Gmsh a pyramid's apex is above the middle of its base, in VTK above the first corner.
             if kind in (7, 19):
                 places[:, :2] -= places[:, 2:] / 2
             places[:, 0] += 2 * count
@@ -44,7 +44,7 @@ def model(name, types=TYPES):
             gmsh.model.mesh.addNodes(dimension, dimension, tags, places.ravel())
             gmsh.model.mesh.addElementsByType(dimension, kind, [element], tags)
             node, element, count = node + nodes + 2, element + 1, count + 1
-    # Gmsh gives nodes that are in no group other numbers in version 2.2.
+    # In version 2.2, Gmsh renumbers nodes that are in no group.
     for dimension in TYPES:
         gmsh.model.addPhysicalGroup(dimension, [dimension], name=f"part {dimension}")
 
@@ -120,7 +120,7 @@ def with_gmsh():
             gmsh.option.setNumber("Mesh.Binary", binary)
             path = HERE / f"{name}_{str(version).replace('.', '')}_{'binary' if binary else 'text'}.msh"
             gmsh.write(str(path))
-            # The mesh once more with the first view, and not with the others.
+            # The mesh is written again with the first view only.
             for at, view in enumerate(found):
                 gmsh.option.setNumber("PostProcessing.SaveMesh", int(at == 0))
                 gmsh.view.write(view, str(path), True)

@@ -1,6 +1,6 @@
-"""Writes archives of NumPy with several times, and with what is no array of points.
+"""Writes archives of NumPy with several times, and with members that are no arrays of points.
 
-Needs numpy. What the files hold is in ../series.rs: X on a grid, u = t (0.1 X Y, -0.2 X) at the times t.
+Needs numpy. The files contain the data of ../series.rs: X on a grid, u = t (0.1 X Y, -0.2 X) at the times t.
 """
 
 import io

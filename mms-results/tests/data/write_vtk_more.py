@@ -1,8 +1,8 @@
 """Writes the files of VTK in `vtk_more/`: structured grids, pieces, blocks, series, and cells of higher degree.
 
 Needs vtk, meshio and numpy. Meshes of the unit square and of the unit cube carry u = (0.1 X Y, -0.2 X, 0.3 Z) in points,
-and `middle`, the X of the middle, in cells; see ../vtk_more.rs. What VTK reads back of files whose order it changes is in
-`read_back.txt`.
+and `middle`, the X of the middle, in cells; see ../vtk_more.rs. `read_back.txt` lists the data that VTK reads from files
+whose order it changes.
 """
 
 import json
@@ -83,7 +83,7 @@ def write(writer, grid, name, mode=None):
 
 
 def pieces(end, make, writer):
-    """Two pieces that share a row of points, and one that is empty, with the list that the ranks of VTK write of them."""
+    """Two pieces that share a row of points, and one that is empty, with the list of pieces that the ranks of VTK write."""
     extents = [[0, 2, 0, 4, 0, 0], [2, 4, 0, 4, 0, 0], [0, -1, 0, -1, 0, -1]]
     names = [f"pieces_{rank}.{end}" for rank in range(3)]
     for extent, name in zip(extents[:2], names):
@@ -91,7 +91,7 @@ def pieces(end, make, writer):
     empty = type(make(extents[0]))()
     empty.SetExtent(*extents[2])
     write(writer(), empty, names[2], "ascii")
-    # VTK names arrays without a name by where they are in memory.
+    # VTK names arrays without a name by their addresses in memory.
     text = (HERE / names[2]).read_text()
     (HERE / names[2]).write_text(re.sub("Array 0x[0-9a-f]+", "along", text))
     kind = "P" + re.search('type="(\\w+)"', (HERE / names[0]).read_text(errors="replace"))[1]
@@ -117,7 +117,7 @@ def structured_grids():
                 legacy.SetFileType(1 if mode == "ascii" else 2)
                 write(legacy, make(extent), f"{end}_{name}_{mode}.vtk")
         pieces(end, make, writer)
-    # Steps of a third in six digits, as the legacy writer has them.
+    # Steps of a third in six digits, as the legacy writer prints them.
     write(vtk.vtkDataSetWriter(), image([0, 3, 0, 3, 0, 0], 1 / 3), "thirds.vtk")
     # Axes that are turned by a quarter and moved.
     turned = vtk.vtkImageData()
@@ -145,7 +145,7 @@ def compressed():
 
 
 def named_components():
-    """Symmetric tensors with names of their components, in an order that no convention has."""
+    """Symmetric tensors with names of their components, in an order of no convention."""
     for end, writer in [("vti", vtk.vtkXMLImageDataWriter()), ("vtk", vtk.vtkDataSetWriter())]:
         grid = image([0, 2, 0, 2, 0, 0])
         X = numpy.array([grid.GetPoint(i) for i in range(9)])
@@ -183,7 +183,7 @@ def unstructured(extent, dtype=numpy.float64):
 
 
 def without_points():
-    """Pieces of which one has no points: with arrays, without, and with an array of other components."""
+    """Pieces one of which has no points: with arrays, without arrays, and with an array of other components."""
     grid = vtk.vtkXMLUnstructuredGridWriter()
     write(grid, unstructured([0, 4, 0, 4, 0, 0]), "some_0.vtu")
     empty = vtk.vtkUnstructuredGrid()
@@ -196,7 +196,7 @@ def without_points():
     (HERE / "some.pvtu").write_text(
         f'<VTKFile type="PUnstructuredGrid" version="1.0">\n<PUnstructuredGrid>\n{listed}\n</PUnstructuredGrid>\n</VTKFile>\n'
     )
-    # The same as several pieces in one file.
+    # Several pieces in one file.
     text = (HERE / "some_1.vtu").read_text()
     piece = text[text.index("<Piece") : text.index("</Piece>") + len("</Piece>")]
     mesh = unstructured([0, 4, 0, 4, 0, 0])
@@ -241,7 +241,7 @@ def times():
 
 
 def odd_arrays():
-    """Arrays that are no numbers of a quantity, before and behind such: bits, words, colours, numbers of points."""
+    """Arrays that belong to no quantity, before and after others: bits, words, colours, numbers of points."""
     for mode in [1, 2]:
         grid = image([0, 2, 0, 2, 0, 0])
         bits = vtk.vtkBitArray()
@@ -265,7 +265,7 @@ def odd_arrays():
 
 
 def instance(kind, points):
-    """A cell of that kind with so many points."""
+    """A cell of this kind and number of points."""
     cell = vtk.vtkGenericCell.InstantiateCell(kind)
     cell.GetPointIds().SetNumberOfIds(points)
     cell.GetPoints().SetNumberOfPoints(points)
@@ -276,7 +276,7 @@ def instance(kind, points):
 
 
 def count(kind, n):
-    """How many points a cell of Lagrange of the degree n has."""
+    """The number of points of a Lagrange cell of degree n."""
     triangle = (n + 1) * (n + 2) // 2
     return {68: n + 1, 69: triangle, 70: (n + 1) ** 2, 71: triangle * (n + 3) // 3, 72: (n + 1) ** 3, 73: triangle * (n + 1)}[kind]
 
@@ -302,7 +302,7 @@ def of_higher_degree():
         instance(kind, points).InterpolateFunctions([0.3, 0.2, 0.1], values)
         lines.append(" ".join([str(kind), *(f"{it:.12g}" for it in values)]))
     (HERE / "functions.txt").write_text("\n".join(lines) + "\n")
-    # One cell of degree 3 and of degree 4 of each kind, with x = X + 0.1 Y^2 as nodes.
+    # One cell each of degrees 3 and 4 of each kind, with nodes at x = X + 0.1 Y^2.
     grid = vtk.vtkUnstructuredGrid()
     points = vtk.vtkPoints()
     points.SetDataTypeToDouble()
@@ -316,7 +316,7 @@ def of_higher_degree():
             grid.InsertNextCell(kind, len(own), list(range(first, first + len(own))))
     write(vtk.vtkXMLUnstructuredGridWriter(), carry(grid), "lagrange.vtu")
     write(vtk.vtkUnstructuredGridWriter(), grid, "lagrange.vtk")
-    # A hexahedron of degree 3 in versions that have its nodes in two orders.
+    # A hexahedron of degree 3 in versions with different orders of nodes.
     grid = vtk.vtkUnstructuredGrid()
     points = vtk.vtkPoints()
     for place in nodes(72, 64):
