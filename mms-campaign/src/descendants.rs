@@ -58,8 +58,7 @@ pub fn remain(_: u32) -> bool {
     false
 }
 
-/// The living descendants of this process that can be seen. The number of the run's process group is the number of its first
-/// process.
+/// The visible living descendants of this process. The number of the run's process group is that group's first process.
 #[cfg(unix)]
 pub fn living(first: u32) -> Vec<Process> {
     let first = first as i32;
@@ -122,8 +121,7 @@ impl Row {
     }
 }
 
-/// Asks processes to end, or kills them if `at_once`. Signals their groups too, because a forking process may be gone when its
-/// signal arrives.
+/// Asks processes to end, or kills them if `at_once`. Signals their groups too, as a forking process may be gone by then.
 #[cfg(unix)]
 pub fn signal(processes: &[Process], at_once: bool) {
     use nix::sys::signal::{Signal, kill};

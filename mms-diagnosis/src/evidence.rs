@@ -67,8 +67,7 @@ pub const DEGREE: [usize; 3] = [9, 8, 4];
 /// The most times that are compared.
 const TIMES: usize = 4;
 
-/// The comparison of results: quantities at times, as coefficients of smooth functions, each over the size of the exact
-/// quantity.
+/// The compared results: quantities at times, as coefficients of smooth functions, each over the size of the exact one.
 #[derive(Clone, Debug)]
 pub struct Frame<const D: usize> {
     /// The times.

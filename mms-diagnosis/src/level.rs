@@ -162,8 +162,7 @@ impl<'a, const D: usize> Levels<'a, D> {
         Some(steady.chain(falling).collect())
     }
 
-    /// The error that a hypothesis makes on a mesh by a method, less the error of a right solver. `size` is for the finest
-    /// mesh.
+    /// The error that a hypothesis makes on a mesh by a method, less a right solver's error. `size` is for the finest mesh.
     pub fn wrong(
         &self,
         level: &Level<'a, D>,

@@ -243,8 +243,7 @@ where
         self.by(0, hypothesis, size).or(Some(rough))
     }
 
-    /// The differences between the responses of other methods and of the first; none for output or a hypothesis that explains
-    /// too little.
+    /// The differences of other methods' responses from the first's; none for output or a hypothesis that explains too little.
     fn doubts(
         &self,
         hypothesis: &Hypothesis<D>,

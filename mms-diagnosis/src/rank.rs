@@ -106,8 +106,7 @@ impl<const D: usize, F: Fn(&Hypothesis<D>, &[f64]) -> Vec<f64>> Effect<D> for F 
     }
 }
 
-/// Finds the part of the error that a hypothesis explains. Refines the size until its effect need not be scaled; takes a vector
-/// as linear.
+/// Finds the part of the error that a hypothesis explains. Refines the size until the scale is 1; takes a vector as linear.
 pub fn explain<const D: usize>(
     index: usize,
     hypothesis: &Hypothesis<D>,

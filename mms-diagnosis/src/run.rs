@@ -206,8 +206,7 @@ impl<'a, const D: usize> Plan<'a, D>
 where
     f64: Solve<D>,
 {
-    /// Plans runs for the results of a mesh in a frame. The grid is coarser if a run would take more steps times particles than
-    /// `most_work`.
+    /// Plans runs for the results of a mesh, on a coarser grid if a run would need more than `most_work` steps times particles.
     ///
     /// # Errors
     /// Runs that would take too long on any grid.
@@ -377,8 +376,7 @@ fn reference<const D: usize>(state: &State) -> Vec<Vector<f64, D>> {
     vectors(&pairs.map(|(x, u)| x - u).collect::<Vec<_>>())
 }
 
-/// The errors that a mistake in the written results makes at a user's points, for each time and quantity; `None` for another
-/// mistake.
+/// The errors that a mistake in written results makes at a user's points, by time and quantity; `None` for other mistakes.
 pub fn written<const D: usize>(
     exact: &Exact<'_, D>,
     frame: &Frame<D>,

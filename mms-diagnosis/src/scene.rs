@@ -204,8 +204,8 @@ pub fn hypotheses(scene: &Scene<f64>) -> Vec<Listed> {
     }
 }
 
-/// Calls a function with a field and the data of a solver with this h. Without a time step it uses about the one of the largest
-/// Courant number.
+/// Calls a function with a field and the data of a solver with this h. The default time step has the Courant number
+/// [`COURANT`].
 fn with_exact<const D: usize, R>(
     field: &dyn ManufacturedField<f64, D>,
     parameters: Option<&dyn Parameters<D>>,

@@ -40,8 +40,7 @@ pub struct Response {
 
 /// The part of the error that a named mistake may leave.
 const LEFT: f64 = 0.2;
-/// The largest error left, over the error that an impossible size leaves. At one state mistakes of several sizes are one
-/// formula.
+/// The largest error left, over the error that an impossible size leaves. At one state several mistakes are one formula.
 const NEARER: f64 = 1.3;
 /// The additional error that right methods may make, over the size of the terms of elements of degree 1: for residuals, and for
 /// accelerations, which depend on their neighbours if the mass is consistent.

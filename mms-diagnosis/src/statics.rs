@@ -169,8 +169,7 @@ impl<'a, const D: usize> System<'a, D> {
         self.tangent.solve(put.all.as_ref()?)
     }
 
-    /// The coefficients of the functions at which a mistake is in balance; `None` if there are none. Applies a large mistake in
-    /// increments.
+    /// The coefficients at which a mistake is in balance; `None` if there are none. Applies a large mistake in increments.
     fn balance(&self, field: &Changed<'_, D>, Put { loads, all }: &Put) -> Option<DVector<f64>> {
         let (none, all) = (DVector::zeros(self.weak.count()), all.as_ref()?);
         if let Some(found) = self.near(field, &self.tangent, (&none, all), loads) {

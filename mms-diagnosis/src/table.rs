@@ -62,8 +62,7 @@ pub const ARITHMETIC: f64 = 1e-11;
 /// The least part of the squared error that a named mistake explains: it fits to round-off.
 const EXPLAINED: f64 = 1.0 - 1e-6;
 
-/// The largest error left, over the error that an impossible size leaves. In a table mistakes of several sizes may be one
-/// formula.
+/// The largest error left, over the error that an impossible size leaves. In a table several mistakes may be one formula.
 const NEARER: f64 = 1.3;
 
 /// Diagnoses a law. `None` where an exact stress is not finite.

@@ -382,8 +382,7 @@ impl<const D: usize> Weak<'_, D> {
             .map(|step| of(&x.iter().map(|x| x + axis * step).collect::<Vec<_>>()))
     }
 
-    /// The sum over axes of second derivatives of a function at the points of the quadrature, each times the factor of its
-    /// axis.
+    /// The sum over axes of a function's second derivatives at the quadrature points, each times the factor of its axis.
     fn curved<T>(&self, of: impl Fn(&[Vector<f64, D>]) -> Vec<T>, axes: &Axes<D>) -> Vec<T>
     where
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,

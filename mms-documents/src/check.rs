@@ -126,8 +126,7 @@ pub struct Claim {
 pub struct Certificate {
     /// The bounds of J, if J is proved to be positive.
     pub jacobian: Option<[f64; 2]>,
-    /// True if the density is proved to be positive, and the moduli at F = I to be positive definite, over all
-    /// ranges.
+    /// True if the density is proved positive, and the moduli at F = I positive definite, over all ranges.
     pub solid: bool,
     /// True if no function ends or jumps inside the domain.
     pub analytic: bool,
@@ -162,8 +161,7 @@ pub struct Certificate {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Stability {
-    /// The least eigenvalue of the acoustic tensor, over body, time window and directions; null if no state is
-    /// finite.
+    /// The least eigenvalue of the acoustic tensor, over body, time window and directions; null if no state is finite.
     pub least_acoustic_eigenvalue: Option<f64>,
     /// The place of that eigenvalue, with the direction N.
     pub softest_wave: Option<PlaceInTheMotion>,

@@ -46,8 +46,7 @@ pub struct Judge {
     /// The times at which meshes are compared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub times: Option<Vec<f64>>,
-    /// The sampling of each quantity: `points`, `weighted points`, `cells`, `middles of cells` or `points of
-    /// faces`.
+    /// The sampling of each quantity: `points`, `weighted points`, `cells`, `middles of cells` or `points of faces`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samplings: Option<Names<String>>,
     /// The units of h, dt and the quantities, if the field states units. The unit of a quantity is the unit of its errors in
@@ -60,8 +59,7 @@ pub struct Judge {
     /// With `--tighter`: the root mean square of the difference of each quantity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub iterative_errors: Option<Names<f64>>,
-    /// The mistakes that results of u, v or F exclude if they pass; null if the project's own solver could not be
-    /// run.
+    /// The mistakes that results of u, v or F exclude if they pass; null if the project's own solver could not be run.
     #[cfg_attr(feature = "schema", schemars(extend("x-or-null" = true)))]
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
     pub excluded: Option<Option<Vec<Excluded>>>,

@@ -30,8 +30,7 @@ pub struct Show {
     pub transverse_moduli_at_rest: Option<TransverseModuli>,
     /// The bounds of x along each axis, over body, time window and ranges of parameters.
     pub extent: Vec<[f64; 2]>,
-    /// The shortest wavelength of u in a sample; null if u is linear along each axis, or if the search takes too
-    /// long.
+    /// The shortest wavelength of u in a sample; null if u is linear along each axis, or if the search takes too long.
     pub shortest_wavelength: Option<f64>,
     /// The density rho0; null if the field has none.
     pub density: Option<String>,

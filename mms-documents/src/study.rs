@@ -224,13 +224,11 @@ pub struct Level {
     pub seconds: Option<f64>,
     /// The reason why the run stopped; null if it reached its end.
     pub failure: Option<String>,
-    /// The part of `l2` that round-off may cause, and with `--relax` the forces out of balance. Absent in a row of
-    /// the matrix.
+    /// The part of `l2` that round-off may cause, and with `--relax` the forces out of balance. Absent in a row of the matrix.
     #[cfg_attr(feature = "schema", schemars(extend("x-or-null" = true)))]
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
     pub round_off: Option<Option<f64>>,
-    /// With `--relax`: the forces out of balance at the end, over the forces of the stress. Absent in a row of the
-    /// matrix.
+    /// With `--relax`: the forces out of balance at the end, over the forces of the stress. Absent in a row of the matrix.
     #[cfg_attr(feature = "schema", schemars(extend("x-or-null" = true)))]
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
     pub residual_ratio: Option<Option<f64>>,

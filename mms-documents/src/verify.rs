@@ -83,8 +83,7 @@ pub struct ListedRow {
     pub theory: String,
 }
 
-/// The document of `mms verify --defects`, of a program with the feature `defects`. The `kind` of its provenance is
-/// `defects`.
+/// The document of `mms verify --defects`, of a program with the feature `defects`. Its provenance has the `kind` `defects`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct VerifyDefects {

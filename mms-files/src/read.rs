@@ -146,8 +146,7 @@ impl Unread {
     }
 }
 
-/// Opens a plain file. Refuses others before opening them: opening a FIFO may wait for ever, and opening a device may have
-/// effects.
+/// Opens a plain file. Refuses others before opening them: a FIFO may block for ever, and opening a device may have effects.
 pub fn open(path: &Path) -> Result<File, Unread> {
     open_where(path, Metadata::is_file)
 }

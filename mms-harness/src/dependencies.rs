@@ -203,8 +203,7 @@ fn is_program(path: &Path) -> bool {
     path.metadata().is_ok_and(|found| found.is_file() && can_start(&found))
 }
 
-/// The parts of a word between separators of a shell, an option or a list; without the names of files that a shell or `tee`
-/// would write.
+/// The parts of a word between separators of a shell, an option or a list, without files that a shell or `tee` would write.
 fn pieces(word: &str) -> Vec<&str> {
     let is_between = |c: char| c.is_whitespace() || "=:;,|&<>()\"'`".contains(c);
     // An assignment of PATH is needed as a whole.

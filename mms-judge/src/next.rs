@@ -91,8 +91,7 @@ pub fn after_judgement(
     }
 }
 
-/// The command after a diagnosis by a command of these words: to judge the fixed code, or the next step if nothing explains the
-/// error.
+/// The command after a diagnosis by a command of these words: judge the fixed code, or the next step of the ladder.
 pub fn after_diagnosis(diagnosis: &Diagnosis, meshes: &Meshes, words: &[String]) -> Option<Words> {
     let field = meshes.field.as_str();
     match (diagnosis.finding, diagnosis.rung) {

@@ -208,8 +208,7 @@ mod tests {
             [0, 1, 3, 4].into_iter().flat_map(|a| [[a, a + 1, a + 4], [a, a + 4, a + 3]]).collect();
         let one_way: Vec<&[usize]> = one_way.iter().map(|it| &it[..]).collect();
         assert!(imbalance(5, &one_way, [1.0, 1.0]).is_some_and(|it| it < 1e-15));
-        // At four of the edges the cells are mirror images of each other: their middles are a third and not half of the way
-        // along it.
+        // At four edges the cells are mirror images of each other: their middles are a third and not half of the way along it.
         let star: [&[usize]; 8] = [
             &[0, 1, 4],
             &[1, 2, 4],

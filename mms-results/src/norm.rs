@@ -80,8 +80,7 @@ pub(crate) fn length(a: &[f64], b: &[f64]) -> f64 {
     differences().map(|it| (it / most).powi(2)).sum::<f64>().sqrt() * most
 }
 
-/// The norms of errors at points, weighted or with equal weights. `None` without points, or if their weights have no sum above
-/// 0.
+/// The norms of errors at points, weighted or with equal weights. `None` without points or without a positive total weight.
 pub fn over_points(
     errors: impl IntoIterator<Item = f64>,
     weights: Option<&[f64]>,

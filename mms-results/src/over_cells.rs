@@ -354,8 +354,8 @@ impl Mesh<'_> {
         Ok(())
     }
 
-    /// Evaluates the exact solution where the polynomials have their largest values, and beside these places, climbing by
-    /// parabolas.
+    /// Evaluates the exact solution where the polynomials have their largest values, and climbs by parabolas beside these
+    /// places.
     fn climb(
         &self,
         found: &mut Found,

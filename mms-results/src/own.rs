@@ -1,5 +1,4 @@
-//! The cells and points of a snapshot that count: without ghosts, which belong to another rank, and with duplicates counted
-//! once.
+//! The cells and points of a snapshot that count: ghosts belong to another rank, and duplicates count once.
 
 use std::cmp::Ordering;
 

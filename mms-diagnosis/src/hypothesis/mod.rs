@@ -351,8 +351,7 @@ impl<const D: usize> Hypothesis<D> {
         all
     }
 
-    /// The largest difference from the right size that is searched; for an unlimited factor the difference of a missing or
-    /// doubled term.
+    /// The largest searched difference from the right size; for an unlimited factor, of a missing or doubled term.
     pub fn farthest(&self) -> f64 {
         let Size::Any { right, range: [least, most], .. } = &self.size else { return 0.0 };
         match right.as_slice() {

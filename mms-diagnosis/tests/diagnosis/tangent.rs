@@ -42,8 +42,7 @@ impl At {
         At { f, j: f.determinant(), tau: field::first(h, moduli) * f.transpose(), moduli }
     }
 
-    /// lambda C^-1 x C^-1 + 2 (mu - lambda ln J) C^-1 . C^-1, with C for dS/dE and I in place of C for the pushed-forward
-    /// tangent.
+    /// lambda C^-1 x C^-1 + 2 (mu - lambda ln J) C^-1 . C^-1 with C for dS/dE; the pushed-forward tangent has I in place of C.
     fn elasticity(&self, metric: &Tensor, strain: &Tensor) -> Tensor {
         let [lambda, mu] = self.moduli;
         let inverse = metric.try_inverse().unwrap();

@@ -42,8 +42,7 @@ pub struct Reading<'a> {
     pub residual_sign: f64,
     /// Whether residuals are integrated with the shape functions of nodes.
     pub is_nodal: bool,
-    /// Right runs of the same solver on the same meshes, in the order of the files; empty if the exact solution is the
-    /// reference.
+    /// Right runs of the same solver on the same meshes, in the order of the files; empty to compare with the exact solution.
     pub right: &'a [Results],
     /// The quantities of results to compare; empty for all.
     pub wanted: &'a [quantity::Quantity],

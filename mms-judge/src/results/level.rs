@@ -243,8 +243,7 @@ impl Reading<'_> {
         Results::find(given, &wanted, self.files)
     }
 
-    /// Whether an array of that meaning is needed. `strain` means the small strain if the material has no other, or by its
-    /// name.
+    /// Whether an array of that meaning is needed. `strain` is the small strain by name, or if the material has no other.
     fn wants(&self, role: Role, exact: &Exact) -> bool {
         let is_place =
             matches!(role, Role::Reference | Role::Position | Role::Place | Role::Displacement);

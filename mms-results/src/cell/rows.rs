@@ -2,8 +2,7 @@
 
 use super::{Local, Space};
 
-/// A kind of cell as data: its number in VTK, dimension, corners, for each other node the corners in whose middle it lies, and
-/// its polynomials.
+/// A kind of cell as data: its number in VTK, dimension, corners, the corners around each other node, and its polynomials.
 pub(super) type Row = (u8, usize, &'static [Local], &'static [&'static [usize]], Space);
 
 const LINE: &[Local] = &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]];

@@ -190,8 +190,7 @@ impl Mesh {
         Ok(())
     }
 
-    /// Makes the mesh at each time of the views. Leaves out elements of lower dimension and nodes without elements, if views
-    /// lack them.
+    /// Makes the mesh at each time of the views. Omits elements of lower dimension and unconnected nodes if views lack them.
     pub fn snapshots(
         mut self,
         views: Vec<View>,
@@ -330,8 +329,7 @@ struct Held<'a> {
 }
 
 impl Held<'_> {
-    /// Selects the views that have numbers for all that need them, and converts their tags to positions; returns also the
-    /// common part.
+    /// Selects the views with numbers for all that need them, and converts their tags; returns also the common part.
     ///
     /// # Errors
     /// A view that must be read, and does not fit.
@@ -418,8 +416,7 @@ impl View {
 }
 
 impl Snapshot {
-    /// Makes the mesh at each time of these views. A single time of 0 counts as no time, because files without times contain
-    /// it.
+    /// Makes the mesh at each time of these views. A single time of 0 counts as no time: files without times contain it.
     fn at_times(
         mut self,
         mut of_points: Vec<View>,

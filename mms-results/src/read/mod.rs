@@ -268,8 +268,7 @@ fn listed(path: &Path, open: Opened<'_>) -> Result<Snapshot, Mistake> {
     Ok(Snapshot { path: name.into_owned(), ..found })
 }
 
-/// Joins one mesh at one time from a file and the files that it lists. Lists of times name lists of blocks, and these lists of
-/// pieces.
+/// Joins one mesh at one time from a file and the files in its list: times list blocks, and blocks list pieces.
 fn joined(
     found: Contents,
     beside: &dyn Fn(&str) -> PathBuf,

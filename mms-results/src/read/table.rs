@@ -133,8 +133,7 @@ pub fn block(names: Line<'_>, rows: &[Line<'_>], wanted: &Wanted<'_>) -> Result<
     Ok(Snapshot { of_points, lines, unread, units, ..Snapshot::default() })
 }
 
-/// The time in a comment, as in `# time = 0.1` or `# step 5, t = 0.1`. Clock times such as 12:30, and processor times, do not
-/// count.
+/// The time in a comment, as in `# time = 0.1` or `# step 5, t = 0.1`, but no clock time such as 12:30 or processor time.
 fn time_of(comment: &str) -> Option<&str> {
     let breaks = |it: char| it.is_whitespace() || "=:,;#%!/*\"()".contains(it);
     let words: Vec<&str> = comment.split(breaks).filter(|it| !it.is_empty()).collect();

@@ -1,5 +1,4 @@
-//! Writes states as files that codes read: tables, VTK in XML, NumPy. [`read`](crate::read()) reads these files without
-//! options.
+//! Writes states as files that codes read: tables, VTK in XML, NumPy. [`read`](crate::read()) reads them without options.
 
 mod npz;
 mod table;

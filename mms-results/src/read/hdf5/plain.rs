@@ -104,8 +104,7 @@ fn is_hidden(file: &File<'_>, set: &Set) -> bool {
     set.path.starts_with('#') || is_word() || file.numbers(&set.path, "MATLAB_empty").is_some()
 }
 
-/// Converts a variable of MATLAB, whose first axis runs fastest: HDF5 shows its axes in reverse. A row of numbers becomes a
-/// column.
+/// Converts a variable of MATLAB, whose first axis runs fastest, and is last in HDF5. A row of numbers becomes a column.
 fn of_matlab(array: Array, shape: &[usize]) -> Array {
     let axes: Vec<usize> = shape.iter().rev().copied().collect();
     if array.values.is_empty() || matches!(axes[..], [_] | [1, _] | []) {

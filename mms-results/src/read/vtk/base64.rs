@@ -12,8 +12,7 @@ use crate::Mistake;
 pub enum Encoded<'a> {
     /// Raw bytes.
     Raw(&'a [u8]),
-    /// Base64: the text not yet decoded, and decoded bytes not yet consumed. A header may be padded, and then another segment
-    /// follows.
+    /// Base64: the text not yet decoded, and decoded bytes not yet consumed. A padded header is followed by another segment.
     Base64(&'a [u8], Vec<u8>),
 }
 

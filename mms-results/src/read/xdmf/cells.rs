@@ -5,8 +5,7 @@ use roxmltree::Node;
 use super::said;
 use crate::{Cells, Mistake};
 
-/// Kinds of cells: their names, their numbers in a mixed list, the type in VTK, and the number of nodes; 0 if the file states
-/// it.
+/// Kinds of cells: names, number in a mixed list, type in VTK, and the number of nodes; 0 if the file states that number.
 const CELLS: &[(&[&str], usize, u8, usize)] = &[
     (&["polyvertex"], 1, 1, 0),
     (&["polyline"], 2, 4, 0),
