@@ -252,7 +252,7 @@ fn left(child: &mut Child, patience: Duration, kill: bool) -> io::Result<Vec<Pro
         }
         if started.elapsed() >= patience {
             let all = living(child.id());
-            let unseen = || Process { number: 0, name: "one that is not seen".into(), group: None };
+            let unseen = || Process { number: 0, name: "an invisible process".into(), group: None };
             return Ok(if all.is_empty() { vec![unseen()] } else { all });
         }
         sleep(pause);

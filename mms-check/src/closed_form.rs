@@ -97,7 +97,7 @@ fn describe(compiled: &Compiled, comparison: &Comparison, found: &Difference) ->
         false => format!("{value:e}"),
     };
     let apart = match found.derived == found.expected {
-        true => ", which differ behind the 16th digit",
+        true => ", which differ after the 16th digit",
         false => "",
     };
     format!(

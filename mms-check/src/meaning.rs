@@ -8,11 +8,11 @@ const MEANINGS: [(&str, &str); 14] = [
     ),
     (
         "bound",
-        "largest values over the same: stretches, strain rates, waves, the stable time step, digits of angles",
+        "the largest values over all of these: stretches, strain rates, waves, the stable time step, digits of angles",
     ),
     ("claim", "what the file says of a face: its motion or its traction P N is as claimed"),
     ("name", "a parameter that has the name of a quantity"),
-    ("budget", "a proof that was given up: what it would show may hold all the same"),
+    ("budget", "a proof that ended early: its claim may hold all the same"),
     (
         "rest",
         "the material at F = I: its moduli as other codes name them, or a stress where there should be none",

@@ -76,15 +76,13 @@ impl Kind {
     /// Advice for a file that is too long.
     fn advice(self) -> &'static str {
         match self {
-            Kind::Field => {
-                "is it the file that was meant? then write its formulas shorter, with [let]"
-            }
-            Kind::Study => "is it the file that was meant? its keys are the options of `mms study`",
+            Kind::Field => "is it the right file? then write its formulas shorter, with [let]",
+            Kind::Study => "is it the right file? its keys are the options of `mms study`",
             Kind::Campaign => {
-                "is it the file that was meant? it has [solver] and a [[study]] for each field"
+                "is it the right file? it has [solver] and a [[study]] for each field"
             }
-            Kind::Profile => "is it the file that was meant? it names the arrays of a code",
-            Kind::Errors => "is it the file that was meant? it has a row for each run",
+            Kind::Profile => "is it the right file? it names the arrays of a code",
+            Kind::Errors => "is it the right file? it has a row for each run",
             Kind::Results => "write fewer times to a file, or fewer quantities",
             Kind::Result => "write fewer things to one document, as with `--quantity` or `--row`",
             Kind::Stored => "remove it, and the run is made again",

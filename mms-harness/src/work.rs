@@ -253,7 +253,7 @@ impl<'a> Work<'a> {
         };
         if let Some(name) = changed() {
             return Ok(failed(format!(
-                "it was not started: `{name}` has changed since the campaign began; the same command takes it as it is now"
+                "it was not started: `{name}` has changed since the campaign began; run the same command again to use it as it is now"
             )));
         }
         let started = Instant::now();
@@ -263,7 +263,7 @@ impl<'a> Work<'a> {
             (Ended::Interrupted, _) => Outcome::Interrupted,
             (Ended::Badly(reason), _) => failed(reason + &left_behind_too(&left_behind)),
             (Ended::Well, Some(name)) => failed(format!(
-                "`{name}` changed while it ran, so nobody knows of which its results are; what a run writes belongs into \
+                "`{name}` changed during the run, so its results belong to an unknown version; a run must write into \
                  {{output}}"
             )),
             (Ended::Well, None) => match self.results(planned, job, &paths, &folder.path) {

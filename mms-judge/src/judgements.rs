@@ -172,14 +172,14 @@ impl Judgements {
         let deciding = judged.judgement.deciding();
         lines.extend(deciding.is_superconvergent().then(|| {
             format!(
-                "that is superconvergence, of values that are more accurate than theory promises everywhere: {}",
+                "superconvergence: these values are more accurate than theory promises everywhere: {}",
                 deciding.expected.order
             )
         }));
         lines.extend(fits);
         lines.extend(judged.objection.as_ref().map(|it| it.why.clone()));
         lines.extend(
-            self.part.as_ref().map(|part| format!("this is of a part of the body: {part}")),
+            self.part.as_ref().map(|part| format!("only a part of the body is judged: {part}")),
         );
         lines
     }

@@ -298,9 +298,8 @@ impl Table {
         let columns = self.header.iter().zip(&self.columns);
         let others = columns.filter(|(cell, it)| **it == Column::Other && !cell.text.is_empty());
         let names: Vec<_> = others.map(|(cell, _)| format!("`{}`", shown(&cell.text))).collect();
-        let sentence = || {
-            format!("left out, for their names say that they are no errors: {}", names.join(", "))
-        };
+        let sentence =
+            || format!("left out, because their names denote no errors: {}", names.join(", "));
         (!names.is_empty()).then(sentence).into_iter().collect()
     }
 

@@ -151,7 +151,7 @@ impl Meaning {
         };
         if let Some(odd) = columns().find(is_odd) {
             let rows = array(odd).rows();
-            return Some(format!("{} ({rows} rows, and there are other points)", self.source));
+            return Some(format!("{} ({rows} rows, and another number of points)", self.source));
         }
         let is_strain = dimension == 1 && self.role == Role::GreenLagrange && found == 1;
         let is_large = |it: &f64| it.abs() > LARGEST_STRAIN;
@@ -379,10 +379,10 @@ impl Meaning {
         let named = self.columns.iter().map(|(_, column)| name(snapshot, column.place));
         let advice = match orders {
             [] if self.has_names() && found >= expected => {
-                "; they lack an entry: a symmetric tensor has each off its diagonal once, and is no such quantity".into()
+                "; an entry is missing: off the diagonal the file has each entry once, as for a symmetric tensor, which this quantity is not".into()
             }
             [] if found == expected && !self.is_one_array() => format!(
-                "; their names tell other axes: name them in order with `--map {symbol}={}`",
+                "; their names give other axes: name them in order with `--map {symbol}={}`",
                 named.collect::<Vec<_>>().join(",")
             ),
             [] => format!("; name {expected} with `--map {symbol}=..`, row by row"),

@@ -118,7 +118,7 @@ impl<'a> Known<'a> {
         let all = [&self.reference, &self.position, &self.place, &self.displacement];
         if all.into_iter().flatten().any(|it| it.is_of_cells) {
             return Err(Mistake::new(
-                "positions are of points, and those that are named are of cells",
+                "positions must belong to points, and the named arrays belong to cells",
             ));
         }
         let mut rows = all.into_iter().flatten().map(|it| it.numbers.len() / it.components);

@@ -131,7 +131,8 @@ pub fn cells(one: &Snapshot, other: &Snapshot, points: &Pairs) -> Result<Pairs, 
     groups.extend(b.into_values().map(|rest| [Vec::new(), rest]));
     listed_pairs(groups).map_err(|(which, row)| {
         let paths = [&one.path, &other.path];
-        Mistake::new(format!("cell {row} is in no place of {}", paths[1 - which])).of(paths[which])
+        Mistake::new(format!("cell {row} has no counterpart in {}", paths[1 - which]))
+            .of(paths[which])
     })
 }
 

@@ -121,7 +121,7 @@ fn cells_are_paired_by_their_points() {
     assert_eq!(listed(&cells(&whole, &halves, &pairs).unwrap()), [[0, 1], [1, 0]]);
     let other = mesh("other", &[0.5, 1.0, 0.0, 0.5], &[[1, 0], [2, 1]]);
     let said = cells(&whole, &other, &pairs).unwrap_err().to_string();
-    assert_eq!(said, "whole: cell 0 is in no place of other");
+    assert_eq!(said, "whole: cell 0 has no counterpart in other");
 }
 
 proptest! {

@@ -55,7 +55,7 @@ fn a_difference_behind_the_digits_that_are_shown_is_said() {
         "[[check]]\nquantity = \"u\"\nequals = [\"X*(2*length - X)/length^2*A*(1 + 1e-19)\"]\n";
     let folder = Folder::new();
     folder.write("bar.toml", &format!("{BAR}\n{close}"));
-    folder.mms("check bar.toml").exits(1).prints("which differ behind the 16th digit");
+    folder.mms("check bar.toml").exits(1).prints("which differ after the 16th digit");
 }
 
 /// Of a parameter that is set, its range is not looked at.

@@ -53,7 +53,7 @@ fn a_hidden_lower_order_does_not_pass() {
 fn tables_of_other_codes_are_judged_by_their_errors() {
     let rates = "h,L2,L2 rate,H1,H1 rate\n0.1,1.2e-3,,3e-2,\n0.05,3e-4,2.0,1.5e-2,1.0\n0.025,7.5e-5,2.0,7.5e-3,1.0\n";
     let run = judge(rates, "").exits(0);
-    run.prints("left out, for their names say that they are no errors: `L2 rate`, `H1 rate`");
+    run.prints("left out, because their names denote no errors: `L2 rate`, `H1 rate`");
     let times = "level,h,L2,CPU [s]\n1,0.1,1.2e-3,1.2\n2,0.05,3e-4,3.4\n3,0.025,7.5e-5,14\n";
     judge(times, "").exits(0).prints("pass: observed order 2.00");
     let index = ",h,L2\n0,0.1,1.2e-3\n1,0.05,3e-4\n2,0.025,7.5e-5\n";

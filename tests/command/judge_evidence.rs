@@ -78,7 +78,7 @@ fn the_start_is_no_evidence() {
     let files = "start_4.pvd start_8.pvd";
     let run = judge(files, "--map X=points").exits(2);
     run.prints("no evidence: observed order 1.90").prints("a solver is given all these values");
-    run.prints("left out: 2 results, at times that not all have");
+    run.prints("left out: 2 results, at times that other files lack");
     run.complains("a solver is given all values that were compared: displacement");
     let document = judge(files, "--map X=points --json").exits(2).json();
     assert_eq!(document["verdict"], "no evidence");
@@ -119,7 +119,7 @@ fn cells_cover_the_body_or_a_part_that_is_asked_for() {
     let run = judge(files, "--map X=points").exits(2);
     run.complains("half_8.vtu: the cells cover 0.5 of the body").complains("`--part`");
     let run = judge(files, "--map X=points --part").exits(0);
-    run.prints("this is of a part of the body").prints("the cells cover 0.5 of the body");
+    run.prints("only a part of the body is judged").prints("the cells cover 0.5 of the body");
 }
 
 /// A mesh of quads between two radii and angles, in the legacy format; straight, with or without its last cell.
@@ -188,7 +188,7 @@ fn points_fill_the_body_or_a_part_that_is_asked_for() {
         let run = judged(name, "").exits(2);
         run.prints("no evidence: observed order 2.00").prints(place).prints("`--part`");
         let run = judged(name, "--part").exits(0);
-        run.prints("pass: observed order 2.00").prints("this is of a part of the body");
+        run.prints("pass: observed order 2.00").prints("only a part of the body is judged");
     }
     // A mistake is one in a part, too.
     let run = folder.mms(&format!("{WAVE} half4.csv half16.csv --quantity u --h 1/4,1/8"));

@@ -297,7 +297,7 @@ fn stresses_of_cells_have_an_order_of_their_own() {
     let second = judge(2, "");
     assert_eq!(seen(&second), ("pass".into(), [1.0, 2.0], true.into()));
     let says = &quantity(&second, "first_piola_kirchhoff")["says"];
-    assert!(says.to_string().contains("that is superconvergence"), "{says}");
+    assert!(says.to_string().contains("superconvergence: these"), "{says}");
     // Who says an order is held to it.
     assert_eq!(seen(&judge(1, "--expected-order P=2")), ("fail".into(), [2.0, 2.0], false.into()));
     let by_norm = judge(1, "--expected-order P:linf=2,u:H1=1");

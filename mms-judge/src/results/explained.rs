@@ -74,7 +74,7 @@ impl Explained {
         let counts = [
             (ghost_cells, "ghost cells"),
             (ghost_points, "ghost points"),
-            (doubled, "cells that are there twice"),
+            (doubled, "duplicate cells"),
             (unused, "points of no cell"),
         ];
         let counts = counts.into_iter().filter(|(count, _)| *count > 0);

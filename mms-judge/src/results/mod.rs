@@ -197,7 +197,7 @@ fn level(
             Some(level) => {
                 ensure!(
                     level.errors.iter().map(what).eq(found.errors.iter().map(what)),
-                    "{}: it has other quantities than the result before it, or cells where that has none",
+                    "{}: its quantities differ from the result before it, or only one of the two has cells",
                     snapshot.path
                 );
                 level.errors.iter_mut().zip(found.errors).for_each(|(most, one)| most.raise(one));
@@ -312,7 +312,7 @@ fn lengths(
             "the distance of neighbouring points, for there are no cells"
         }
         None => {
-            "(measure of the body / points)^(1/D), for there are no cells; of a point on a face half is counted"
+            "(measure of the body / points)^(1/D), for there are no cells; a point on a face counts half"
         }
     };
     notes.push(format!("h: {says}; give others with `--h`"));

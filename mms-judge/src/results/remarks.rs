@@ -85,13 +85,13 @@ pub fn left_out(common: &Common, levels: &[Level], own: &[LeftOut]) -> String {
         true => count(common.left_out, "result before the last", "results before the last"),
         false => count(
             common.left_out,
-            "result, at a time that not all have",
-            "results, at times that not all have",
+            "result, at a time that other files lack",
+            "results, at times that other files lack",
         ),
     }
     count(sum(|it| it.ghost_cells), "ghost cell", "ghost cells");
     count(sum(|it| it.ghost_points), "ghost point", "ghost points");
-    count(sum(|it| it.doubled), "cell that stands there twice", "cells that stand there twice");
+    count(sum(|it| it.doubled), "duplicate cell", "duplicate cells");
     count(sum(|it| it.unused), "point of no cell", "points of no cell");
     let found = &levels[0].found;
     if !found.passed_over.is_empty() {

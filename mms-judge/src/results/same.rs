@@ -95,7 +95,7 @@ impl Same {
         self.paired = match by {
             By::Number(name) => format!("by the number in `{name}`"),
             By::Place => "by X".into(),
-            By::Order => "in the order of the files, for neither numbers nor X tell".into(),
+            By::Order => "in the order of the files, without numbers or X to pair them".into(),
         };
         for (key, array) in arrays(one) {
             let (Some(&second), is_of_points) = (of_other.get(&key), key.1) else { continue };

@@ -105,7 +105,7 @@ impl Lowered {
         }
         let start = format!("after a start from exact values at nodes, {}", self.why);
         let other = format!(
-            "`--start projection` says that yours is another, `--expected-order {symbol}=..` the order"
+            "use `--start projection` for another start, or `--expected-order {symbol}=..` for another order"
         );
         Some(match least <= 0.0 {
             true => format!("{symbol}: its error need not fall {start}: it is not judged; {other}"),
