@@ -262,8 +262,8 @@ const SAME: [&[(&str, Option<f64>)]; 2] = [
     &[("moduli_factor", None), ("density_factor", None)],
 ];
 
-/// The most hypotheses that may explain an error as well as the best one. With more, the results do not tell them apart, and
-/// nothing is named.
+/// The most hypotheses that may explain an error as well as the best one. With more, the results do not separate them, and no
+/// hypothesis is named.
 const ALIKE: usize = 5;
 /// Limits for |scale - 1| of a response that counts as plausible: the part by which methods differ, clamped between `SCALED`
 /// and `MOST_SCALED`, plus `SCALED_BY_LEFT` times the part of the error that is left.
@@ -278,7 +278,7 @@ const OF_VECTOR: f64 = 0.12;
 /// best one, plus `UNSEEN`, a part of the squared error that is ignored.
 const AS_WELL: f64 = 1.3;
 const UNSEEN: f64 = 0.004;
-/// Two explanations are the same if they differ by no more than this part of what the first leaves.
+/// Two explanations are the same if their difference is at most this part of the error left by the first.
 const SAME_PART: f64 = 0.6;
 /// A hypothesis that explains at least 94 % of the error is named, however much an implausible hypothesis explains.
 const CLEAR: f64 = 0.06;
@@ -423,7 +423,7 @@ fn one<const D: usize>(
         let away = |it: &&crate::hypothesis::Known| (it.size - found).abs();
         let nearest =
             known.iter().filter(|it| near(it)).map(|it| away(&it)).fold(f64::INFINITY, f64::min);
-        // If the results do not tell several known sizes apart, the first of the list counts.
+        // If the results do not separate several known sizes, the first of the list counts.
         let known = known.iter().find(|it| near(it) && away(it) <= nearest + explained.margin);
         // A size that is right within the margin has no name of its own.
         if let Some(known) = known.filter(|it| (it.size - right[0]).abs() > explained.margin) {

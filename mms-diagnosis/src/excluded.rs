@@ -155,7 +155,7 @@ where
     }
     let solvers = Solvers::new(exact, &frame, &mesh, study.is_static)?;
     let runs = Runs { exact, frame: &frame, mesh: &mesh, solvers, errors: &study.errors };
-    // Large sizes of a mistake are hypotheses of their own, which exclude nothing more.
+    // Large sizes of a mistake are hypotheses of their own; excluding them adds no information.
     let own: Vec<_> = study.errors.iter().map(|(quantity, _)| *quantity).collect();
     let is_own = |it: &&Hypothesis<D>| it.also.is_empty() && it.is_of(&own);
     let hypotheses: Vec<_> = hypotheses.iter().filter(is_own).collect();

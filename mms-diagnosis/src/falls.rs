@@ -21,7 +21,7 @@ pub struct Falls {
 const OF_STEPS: [f64; 2] = [0.75, 1.25];
 /// An error with less than this order does not fall.
 const STEADY: f64 = 0.35;
-/// An order within this distance from 2 is taken for 2.
+/// The largest distance of an order from 2 that counts as order 2.
 const NEAR: f64 = 0.15;
 
 impl Falls {

@@ -69,7 +69,7 @@ where
             true => ROUNDING,
             false => LEAST / edge.powi(levels.degree() as i32 + 1),
         };
-        // Methods of degree 1 do not show what errors elements of degree 2 make.
+        // Methods of degree 1 do not show the errors of elements of degree 2.
         let known = if levels.degree() > 1 && !is_asked { &[] } else { yardsticks.as_slice() };
         let error = Error::new(
             levels.together(own).unwrap_or_default(),
@@ -286,7 +286,7 @@ const CONVERGES: f64 = 1.4;
 /// Orders that differ by less may belong to one method.
 const SAME_ORDER: f64 = 0.15;
 
-/// Diagnoses ordinary results of meshes, from coarse to fine, of a solver of which something is known.
+/// Diagnoses ordinary results of meshes, from coarse to fine, with the known facts about their solver.
 ///
 /// # Errors
 /// Results that cannot be diagnosed.

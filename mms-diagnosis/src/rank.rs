@@ -83,7 +83,7 @@ impl Error {
         Fit { found, remains, cost }
     }
 
-    /// The explained part of the square of what methods do not explain, from this remainder.
+    /// The explained part of the squared error beyond the methods' errors, from this remainder.
     pub fn share(&self, remains: &[f64]) -> f64 {
         1.0 - (size(remains) / size(&self.beyond)).powi(2)
     }

@@ -27,7 +27,7 @@ pub enum Obstacle {
     NotFinite,
     /// A run of our own would take this many steps even on the coarsest grid.
     TooManySteps(f64),
-    /// Results have too few points to tell mistakes apart.
+    /// Results have too few points to separate mistakes.
     TooFewPoints {
         /// The number of points.
         found: usize,

@@ -16,7 +16,7 @@ pub struct Smooth<const D: usize> {
 
 /// The least number of points for each function.
 const POINTS: usize = 3;
-/// The relative singular value below which points do not tell functions apart.
+/// The relative singular value below which points do not separate functions.
 const RANK: f64 = 1e-6;
 
 impl<const D: usize> Smooth<D> {

@@ -97,7 +97,7 @@ pub struct Right<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Right<'a, D> {
-    /// Uses as many points of quadrature as the sums need, and as many functions as this number of a user's points tells apart.
+    /// Uses as many quadrature points as the sums need, and as many functions as this number of a user's points can separate.
     ///
     /// # Errors
     /// A body without extent.

@@ -236,7 +236,7 @@ pub fn first(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
 }
 
 fn first_of(file: File, most: u64) -> io::Result<Vec<u8>> {
-    // Reserves room for the whole file at once; the length of what is no file is 0.
+    // Reserves room for the whole file at once; a stream has length 0.
     let length = file.metadata().map_or(0, |it| it.len().min(most));
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(length as usize + 1)?;

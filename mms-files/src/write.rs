@@ -253,7 +253,7 @@ pub fn leads_to(_: &Path, _: &File) -> bool {
     true
 }
 
-/// The most links in a chain that is not taken for a circle, as in systems.
+/// The most links in a chain before it counts as a circle, as in systems.
 const MOST_LINKS: usize = 40;
 
 /// The path with links resolved, whether its file exists or not. Follows at most [`MOST_LINKS`] links.

@@ -17,7 +17,7 @@ pub struct Motion<'a> {
     pub displacement: Option<Values<'a>>,
     /// The source of X.
     pub how: String,
-    /// Whether X follows from the exact motion: then x and u show nothing of a solver.
+    /// Whether X follows from the exact motion: then x and u do not test a solver.
     pub is_inverse: bool,
 }
 

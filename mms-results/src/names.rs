@@ -253,7 +253,7 @@ fn add(
 /// Refuses a name that may mean two quantities, one of which is wanted.
 ///
 /// # Errors
-/// Neither the file nor the user tells which it is.
+/// A name that neither the file nor the user resolves.
 fn hold_clear(
     snapshot: &Snapshot,
     names: &Names,

@@ -222,7 +222,7 @@ impl Mesh<'_> {
     /// The norms over the body of the error of the values at its points.
     ///
     /// # Errors
-    /// A cell that is flat, or turned inside out; what the exact solution says.
+    /// A cell that is flat, or turned inside out; errors of the exact solution.
     pub fn measure(&self, carried: Carried<'_>, exact: Exact<'_>) -> Result<OverCells, Mistake> {
         let mut found = Found::default();
         let mut tables: Vec<Table> = Vec::new();

@@ -74,7 +74,7 @@ pub fn points(one: &Snapshot, other: &Snapshot, names: &Names) -> Result<(Pairs,
     if let [Some(of_one), Some(of_other)] = &places {
         let tried = of_one.readings.iter().zip(&of_other.readings);
         for (a, b) in tried.filter(|(a, b)| a.components == b.components) {
-            // Rounding that hides which of two neighbours is meant decides nothing.
+            // At most a quarter of the distance of neighbours, so that rounding cannot confuse them.
             let within = (4.0 * (a.rounding + b.rounding)).min(spacing(a) / 4.0)
                 + 8.0 * f64::EPSILON * largest(a).max(largest(b));
             match by_place(&a.numbers, &b.numbers, a.components, within) {

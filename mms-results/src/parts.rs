@@ -5,7 +5,7 @@ use crate::meaning::{Part, Place};
 use crate::role::{Form, Role, plain};
 use crate::{Array, Snapshot};
 
-/// Names that may mean two quantities.
+/// Ambiguous names with two possible quantities.
 const UNCLEAR: &[(&str, [Role; 2])] = &[
     ("stress", [Role::CauchyStress, Role::FirstPiolaKirchhoff]),
     ("stresses", [Role::CauchyStress, Role::FirstPiolaKirchhoff]),
@@ -13,10 +13,10 @@ const UNCLEAR: &[(&str, [Role; 2])] = &[
     (S, [Role::CauchyStress, Role::SecondPiolaKirchhoff]),
 ];
 
-/// The Cauchy stress in Abaqus, and the second Piola-Kirchhoff stress in textbooks. A small letter is neither.
+/// The Cauchy stress in Abaqus, and the second Piola-Kirchhoff stress in textbooks. In lower case the name is neither.
 pub(crate) const S: &str = "S";
 
-/// The two quantities that a name may mean, if it may mean two.
+/// The two possible quantities of an ambiguous name; `None` for other names.
 pub(crate) fn two_meanings(name: &str, axes: Axes) -> Option<[Role; 2]> {
     let stem = stem(name, axes);
     let plain = plain(stem);
@@ -24,7 +24,7 @@ pub(crate) fn two_meanings(name: &str, axes: Axes) -> Option<[Role; 2]> {
     UNCLEAR.iter().find(|(word, _)| is_it(word)).map(|(_, roles)| *roles)
 }
 
-/// All arrays, with the places of points first.
+/// All arrays; the places of points come first.
 pub(crate) fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (Place, &Array)> + Clone {
     let grid = snapshot.points.iter().map(|array| (Place::Grid, array));
     let points =
@@ -33,7 +33,7 @@ pub(crate) fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (Place, &Array
     grid.chain(points).chain(cells)
 }
 
-/// How many names a message lists.
+/// The most names in a message.
 const MOST_LISTED: usize = 30;
 
 /// The names of all arrays.
@@ -49,12 +49,12 @@ pub fn all_names(snapshot: &Snapshot) -> String {
     }
 }
 
-/// A name without what says which component it is.
+/// A name without its component.
 pub(crate) fn stem(name: &str, axes: Axes) -> &str {
     split(name, axes).map_or(name, |(base, _)| base)
 }
 
-/// A name without what says which component it is.
+/// Splits a name into the name of a quantity and a component; `None` if it has no component.
 pub(crate) fn split(name: &str, axes: Axes) -> Option<(&str, Part)> {
     let name = name.strip_suffix([']', ')']).unwrap_or(name);
     let base = |text: &'_ str| -> usize { text.trim_end_matches(SEPARATORS).len() };
@@ -78,7 +78,7 @@ pub(crate) fn split(name: &str, axes: Axes) -> Option<(&str, Part)> {
     (!found.0.is_empty() && is_apart).then_some(found)
 }
 
-/// The component that a name tells behind the name of a quantity, as `pk1_stress_xx` does of `pk1_stress`.
+/// The component that follows the name of a quantity, as in `pk1_stress_xx` for `pk1_stress`.
 pub(crate) fn part_of(name: &str, quantity: &str, axes: Axes) -> Option<Part> {
     let rest = name.strip_prefix(quantity)?.trim_end_matches([']', ')']);
     let rest = rest.trim_start_matches(SEPARATORS);
@@ -99,7 +99,7 @@ const HOOP: &str = "theta";
 /// The letters between the name of a quantity and a component.
 const SEPARATORS: [char; 7] = ['_', ':', '.', '[', '(', '-', ' '];
 
-/// Whether this may be the name of a matrix.
+/// Whether a quantity of this name may be a matrix.
 fn has_entries(name: &str) -> bool {
     let is_matrix = |role: &Role| !matches!(role.form(), Form::Scalar | Form::Vector);
     Role::called(name).as_ref().is_some_and(is_matrix)

@@ -1,7 +1,7 @@
-//! The profile of a code: the names, the order of components and the positions that its files have.
+//! The profile of a code: the names, the order of components and the positions in its files.
 //!
-//! A profile names. Where the numbers of a file decide, they do: points of which one reading lies in the body have that
-//! reading, and components that a file names are those.
+//! A profile decides only what the numbers and names in a file leave open. If points lie in the body with one reading alone,
+//! they have this reading, and components that a file names keep their names.
 
 use crate::axes::Axes;
 use crate::components::{has_names, parts};
@@ -18,11 +18,11 @@ pub type Order = Vec<(usize, usize)>;
 pub struct Profile {
     /// The name of the code.
     pub name: String,
-    /// The position of points where both readings lie in the body: X or x.
+    /// The position of points that lie in the body with both readings: X or x.
     pub points: Option<Role>,
     /// The names of arrays, the usual one first.
     pub quantities: Vec<(Role, Vec<String>)>,
-    /// The orders of symmetric tensors, each for arrays of as many components without names.
+    /// The orders of symmetric tensors without component names, each for arrays with as many components.
     pub orders: Vec<Order>,
 }
 
@@ -34,7 +34,8 @@ impl Profile {
         Profile { name: "mms".to_owned(), quantities, ..Profile::default() }
     }
 
-    /// The parts of a quantity that the components of an array are: by the names in the file, else by the order for as many.
+    /// The parts of a quantity in the components of an array: by the names in the file, otherwise by the order for their
+    /// number.
     pub(crate) fn parts(&self, role: Role, array: &Array, axes: Axes) -> Vec<Part> {
         let is_open = role.form() == Form::Symmetric && !has_names(array, axes);
         let order = self.orders.iter().find(|it| is_open && it.len() == array.components);
@@ -44,7 +45,7 @@ impl Profile {
         }
     }
 
-    /// The quantities that the profile names, of those that `wants` takes and a snapshot has.
+    /// The quantities that the profile names, `wants` accepts and the snapshot contains.
     pub(crate) fn meanings(
         &self,
         snapshot: &Snapshot,

@@ -164,7 +164,7 @@ fn cross<const D: usize>(omega: &[f64], v: &Vector<f64, D>) -> Vector<f64, D> {
     })
 }
 
-/// Replaces each b by what a function makes of b, a and J.
+/// Replaces each b by a function of b, a and J.
 fn change<const D: usize>(
     at: &Given<'_, D>,
     b: &mut [Vector<f64, D>],

@@ -110,7 +110,7 @@ pub enum Change<const D: usize> {
     Ring(Ring),
     /// The tangent of the law, which no explicit solver has.
     Tangent(OfTangent<D>),
-    /// The order of components: the shear components 12, 13, 23 of what a law returns are these of the right ones.
+    /// The order of components: the shear components 12, 13, 23 of the result are these components of the right one.
     Order([usize; 3]),
 }
 

@@ -1,4 +1,4 @@
-//! How a file is read, and why: what `mms judge --explain` prints.
+//! The reading of a file, with reasons, as `mms judge --explain` prints it.
 
 use std::collections::BTreeMap;
 
