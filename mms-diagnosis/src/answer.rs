@@ -280,7 +280,7 @@ const AS_WELL: f64 = 1.3;
 const UNSEEN: f64 = 0.004;
 /// Two explanations are the same if their difference is at most this part of the error left by the first.
 const SAME_PART: f64 = 0.6;
-/// A hypothesis that explains at least 94 % of the error is named, however much an implausible hypothesis explains.
+/// A hypothesis that leaves at most this part of the error is named, however little implausible hypotheses leave.
 const CLEAR: f64 = 0.06;
 /// A size is a known one if it is within `KNOWN` of it, or within the margin of the fit, but at most `SURE` of its distance
 /// from the right size.

@@ -437,8 +437,8 @@ impl Reading<'_> {
         same.or(first).ok_or_else(|| anyhow!("{}: no results", snapshot.path))
     }
 
-    /// Whether an array of that meaning is judged by itself. u is judged as it was found, or over cells; x only if requested;
-    /// tractions on faces.
+    /// Whether an array of that meaning is judged by itself: u only if it is not judged with the motion of points, x only if
+    /// requested, and tractions not here but on faces.
     fn is_judged(&self, meaning: &Meaning, motion: &Motion<'_>) -> bool {
         match meaning.role {
             Role::Displacement => motion.displacement.is_none() && self.wants_u(),
