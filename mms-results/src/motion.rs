@@ -104,7 +104,7 @@ struct Known<'a> {
     displacement: Option<Values<'a>>,
 }
 
-/// The largest difference of x and X + u, in roundings: one of each, and as many for digits that are cut off.
+/// The largest difference of x and X + u, over the sum of their roundings: digits may be cut off instead of rounded.
 const ROUNDINGS: f64 = 4.0;
 
 /// The additional accepted difference of both, over x: a solver may add both in single precision.

@@ -32,7 +32,7 @@ pub struct Taken<'a> {
     pub exact: &'a mut Exact,
 }
 
-/// Computes the exact solution at a time and at places X, from the row of the first place.
+/// Computes the exact solution at a time and at places X; the third argument is the row of the first place.
 pub type Solution<'a> = &'a dyn Fn(&mut Exact, f64, usize, &[f64]) -> anyhow::Result<Vec<f64>>;
 
 /// Values compared with the exact ones.

@@ -57,7 +57,8 @@ pub fn order(of_vtk: u8, nodes: usize) -> Vec<usize> {
     shape.nodes.iter().map(place).collect()
 }
 
-/// All nodes of an element. The inner nodes form an element of an order lower by `inner`, unless the element is its only face.
+/// All nodes of an element. The inner nodes form an element of an order lower by `inner`; `None` if its only face contains
+/// them.
 fn volume(form: Form, inner: Option<i32>, order: i32) -> Vec<Steps> {
     let corners: Vec<Steps> = form.0.iter().map(|it| it.map(|it| order * it)).collect();
     let mut all = frame(&corners, form, order);

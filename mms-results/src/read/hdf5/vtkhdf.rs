@@ -213,7 +213,7 @@ impl<'a> Grid<'a> {
         let first = start(&self.first_parts, 0);
         let parts = match &self.parts {
             Some(_) => start(&self.parts, 0),
-            // Each step has the same number of pieces, or shares one.
+            // Without numbers of parts, a step has one piece if `PartOffsets` exists, otherwise all pieces.
             None if self.first_parts.is_some() => 1,
             None => self.counts.len(),
         };
