@@ -1,5 +1,5 @@
-//! The time of a compilation against the number of terms of the displacement, which ought to be in
-//! proportion: `cargo bench -p mms-codegen`. The items of the table are terms.
+//! The time of a compilation against the number of terms of the displacement; it should be proportional: `cargo bench -p
+//! mms-codegen`. The items of the table are terms.
 
 #[path = "../tests/support/fields.rs"]
 mod fields;
@@ -18,7 +18,7 @@ fn main() {
 fn bench(bencher: Bencher<'_, '_>, family: Family, dimension: usize, terms: usize) {
     let text = text(family, dimension, terms);
     let load = |_: &str| Err("no files here".to_string());
-    // 1000 terms in each of three components are more than what is allowed by default.
+    // 1000 terms in each of three components exceed the default limit.
     let options = Options { max_nodes: 2_000_000, ..Options::default() };
     bencher
         .counter(ItemsCount::new(terms * dimension))

@@ -1,10 +1,10 @@
-//! From a text to everything that follows from it.
+//! Compiles a text into everything that follows from it.
 //!
-//! A compilation, in the macro as elsewhere, looks for contradictions only, and proves nothing: each claim at 4
-//! points of its face; J <= 0, and a cut of `atan2` across which values jump, within 128 boxes and 100,000
-//! operations each; and what `f64` does not compute at a corner of the domain or in its middle. What it finds is
-//! an error. It does not search for finite values any further, and it leaves out fields whose H has more than 2000
-//! nodes. What is selected of a field does not matter: J and the claims are of the field.
+//! A compilation, in the macro as elsewhere, only looks for contradictions and proves nothing. It tests each claim at 4 points
+//! of its face; J <= 0, and a cut of `atan2` across which values jump, within 128 boxes and 100,000 operations each; and
+//! whether `f64` computes the field at the corners of the domain and in its middle. Each contradiction is an error. It does not
+//! search for finite values any further, and it skips fields whose H has more than 2000 nodes. The selection of quantities does
+//! not matter: J and the claims belong to the field.
 
 mod phases;
 pub mod quick;
@@ -37,7 +37,7 @@ use mms_symbolic::expr::{DEFAULT_MAX_NODES, Graph, Rational};
 use mms_symbolic::sorted::SortedMap;
 use mms_symbolic::work::Stop;
 
-/// What the search for a cheap program of closed forms or parameters may take, in the steps of [`mms_symbolic::work`].
+/// The budget of the search for a cheap program of closed forms or parameters, in the steps of [`mms_symbolic::work`].
 const STEPS_OF_SCHEDULE: u64 = 50_000_000;
 
 /// Reads the file of a material such as `./mine.toml`, given as the field file writes it.
@@ -50,44 +50,44 @@ pub struct Compiled {
     pub field: FieldSpec,
     /// The file of its material.
     pub material: MaterialSpec,
-    /// The texts, for messages about them.
+    /// The texts, for messages.
     pub sources: Sources,
     /// The expressions.
     pub graph: Graph,
     /// The field's own formulas.
     pub model: Model,
-    /// What follows from them, as it was derived.
+    /// The quantities that follow from these formulas, as derived.
     pub derived: Derivation,
-    /// The same; what is wanted in the forms that are cheapest to compute.
+    /// The derivation with the wanted quantities in the forms that are cheapest to compute.
     pub derivation: Derivation,
-    /// What of it was wanted.
+    /// The part of the derivation that was wanted.
     pub selection: Selection,
-    /// Which ways to compute were open.
+    /// The ways to compute that were open.
     pub form: Form,
-    /// Whether the search for cheaper and more exact ways to compute it ended as usual, and not because there was too much
-    /// to try.
+    /// Whether the search for cheaper and more exact formulas ended as usual; false if there was too much to try.
     pub simplified: bool,
-    /// What is wanted, scheduled.
+    /// The scheduled program of the wanted quantities.
     pub program: Program,
 }
 
 impl Compiled {
-    /// Every quantity that the field is compiled with: those of every field, then those of its own.
+    /// Every quantity that the field is compiled with: the quantities of every field, then those that the file defines.
     pub fn quantities(&self) -> impl Iterator<Item = Quantity> + Clone {
         let own = self.model.own.keys().map(|own| Quantity::Own(*own));
         Quantity::ALL.iter().copied().chain(own)
     }
 
-    /// The quantity of a name or alias, one on request as well.
+    /// The quantity with a name or alias; includes quantities on request.
     ///
     /// # Errors
+    ///
     /// The mistake, in one line, if no quantity has the name.
     pub fn quantity(&self, name: &str) -> Result<Quantity, String> {
         let own: Vec<Own> = self.model.own.keys().copied().collect();
         selection::evaluated(&own, name)
     }
 
-    /// Whether users are offered a quantity: those per mass need a density, which a static field may not give.
+    /// Whether users may ask for a quantity: a quantity per mass needs a density, which a static field may not have.
     pub fn offers(&self, quantity: Quantity) -> bool {
         self.model.has_density || !matches!(quantity, Quantity::BodyForce | Quantity::MassDensity)
     }
@@ -113,7 +113,7 @@ impl Compiled {
     }
 }
 
-/// Why a field file does not compile.
+/// The reason why a field file does not compile.
 #[derive(Clone, Debug)]
 pub struct Failure {
     /// The texts.
@@ -137,18 +137,18 @@ impl std::fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// What of a field is compiled, and within which limits.
+/// The part of a field to compile, and the limits of the compilation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
     /// The quantities that are wanted, and the parameters that are set or frozen.
     pub selection: Selection,
-    /// How many nodes and operands the expression graph may have.
+    /// The largest number of nodes and operands of the expression graph.
     pub max_nodes: usize,
-    /// Which ways to compute are open.
+    /// The ways to compute that are open.
     pub form: Form,
-    /// Another field that is made of this one, to evaluate at extremes.
+    /// The variation of this field to compile, for evaluation at extremes.
     pub variation: Variation,
-    /// Asked to, from another thread, all work on the field ends: compilation, proofs and comparisons.
+    /// Ends all work on the field, compilation, proofs and comparisons, when another thread requests it.
     pub stop: Stop,
 }
 
@@ -170,8 +170,8 @@ impl From<Selection> for Options {
     }
 }
 
-/// Compiles the text of a field file, without a look at what contradicts its claims: see
-/// [`compile_with`](crate::compile_with), and [`certify`](crate::certify::certificate::certify), which looks longer.
+/// Compiles the text of a field file without a search for contradictions: see [`compile_with`](crate::compile_with), and
+/// [`certify`](crate::certify::certificate::certify), which searches longer.
 pub fn compile_unproved(
     name: &str,
     path: &str,
@@ -190,7 +190,7 @@ pub fn compile_unproved(
     }
 }
 
-/// The quantities that the text of a field file defines, read without deriving anything: mistakes are left to compilation.
+/// The quantities that the text of a field file defines, read without deriving anything; mistakes are not reported.
 pub fn own_quantities(name: &str, path: &str, text: &str, load: Loader<'_>) -> Vec<Own> {
     Phases::new(&Options::default(), load).own_quantities(name, path, text)
 }
@@ -216,11 +216,12 @@ pub fn constant(text: &str) -> Result<Rational, Failure> {
 }
 
 impl Compiled {
-    /// Whether the field allows these values of its parameters, by position: each within its range, a body and a time
+    /// Checks that the field allows these values of its parameters, by position: each within its range, a body and a time
     /// window that are not empty, a positive density, an elastic material.
     ///
     /// # Errors
-    /// What it does not allow, with the place in the file that says so.
+    ///
+    /// The mistake, with the place of the violated condition in the file.
     pub fn accepts(&self, set: &SortedMap<usize, Rational>) -> Result<(), Failure> {
         let mut graph = self.graph.clone();
         graph.make_room();
@@ -232,7 +233,7 @@ impl Compiled {
         Err(Failure { sources: self.sources.clone(), diagnostics })
     }
 
-    /// The parameters' values in the order of the file; those that depend on a set one follow it.
+    /// The parameters' values in the order of the file; a parameter that depends on a set one follows it.
     pub fn parameters<T: Number>(&self, set: &SortedMap<usize, Rational>) -> Vec<T> {
         let mut graph = self.graph.clone();
         graph.make_room();
@@ -251,17 +252,17 @@ impl Compiled {
             .collect()
     }
 
-    /// What the output was made by and of: the crate's version and a hash of the input texts.
+    /// The origin of the output: the crate's version and a hash of the input texts.
     pub fn provenance(&self) -> String {
         format!("mms-codegen {} from input {}", env!("CARGO_PKG_VERSION"), self.input_hash())
     }
 
-    /// What tells the input texts from others: 16 hexadecimal digits.
+    /// A hash of the input texts: 16 hexadecimal digits.
     pub fn input_hash(&self) -> String {
         self.sources.hash()
     }
 
-    /// One sentence on what a quantity is here: at small strain there is one stress and one configuration.
+    /// One sentence about a quantity of this field: at small strain there is one stress and one configuration.
     pub fn doc(&self, quantity: Quantity) -> &'static str {
         match self.model.kind {
             _ if quantity == Quantity::Displacement && self.field.is_static() => {
@@ -272,14 +273,14 @@ impl Compiled {
         }
     }
 
-    /// The unit of what is in this one where a field's units are those of the SI, by the units of its parameters.
+    /// Converts an SI unit to the field's own system of units, found from the units of its parameters.
     pub fn unit(&self, si: &str) -> String {
         let units = self.model.parameters.iter().filter_map(|it| Unit::known(it.unit.as_deref()?));
         let own = system::own(&units.collect::<Vec<_>>(), si);
-        own.unwrap_or_else(|| "that of the field's own system".into())
+        own.unwrap_or_else(|| "unit of the field's own system".into())
     }
 
-    /// The unit of a quantity in the field's own system; empty if the file states none for one of its own.
+    /// The unit of a quantity in the field's own system; empty for a quantity of the file without a stated unit.
     pub fn unit_of(&self, quantity: Quantity) -> String {
         let unit = quantity.unit();
         let Quantity::Own(own) = quantity else { return self.unit(unit) };
@@ -290,15 +291,15 @@ impl Compiled {
         }
     }
 
-    /// Path and text of the material's file, where it is the user's own.
+    /// Path and text of the material's file, if it is the user's own.
     pub fn own_material(&self) -> Option<(&str, &str)> {
         let model = self.field.material.model.value.raw();
         let source = self.material.strain_energy.span.source;
         shipped(model).is_none().then(|| (model, self.sources.get(source).text.as_str()))
     }
 
-    /// dP/dF as a function of a displacement gradient, as [`Response::Tangent`]: a program of its
-    /// own, which costs nothing where it is not asked for. An error where it is too large.
+    /// dP/dF as a function of a displacement gradient, as [`Response::Tangent`]: a separate program, which costs nothing unless
+    /// requested. An error if it is too large.
     pub fn tangent(&self) -> Result<Program, TooLarge> {
         let mut graph = self.graph.clone();
         graph.make_room();
@@ -307,8 +308,8 @@ impl Compiled {
         Ok(schedule(&graph, &SortedMap::from([(output, components)])))
     }
 
-    /// A quantity on request at a point and a time: a program of its own, which costs nothing where it is not asked for. An
-    /// error where it is too large.
+    /// A quantity on request at a point and a time: a separate program, which costs nothing unless requested. An error if it is
+    /// too large.
     pub fn on_request(&self, quantity: Quantity) -> Result<Program, TooLarge> {
         let mut graph = self.graph.clone();
         graph.make_room();
@@ -316,7 +317,7 @@ impl Compiled {
         Ok(schedule(&graph, &SortedMap::from([(Output::Quantity(quantity), components)])))
     }
 
-    /// The face of that name; otherwise what is wrong with it, in one line.
+    /// The face of that name, or the mistake in one line.
     pub fn face(&self, name: &str) -> Result<Face, String> {
         let faces = Face::of(&self.field.domain.body, self.field.space);
         let names = || faces.iter().map(|face| face.name());
@@ -353,7 +354,7 @@ impl Compiled {
         points.into_iter().map(normal).collect()
     }
 
-    /// The quantities that have a closed form, each beside it, as one program.
+    /// The quantities that have a closed form, each followed by it, as one program.
     pub fn checks(&self) -> Program {
         let mut outputs = SortedMap::new();
         for (index, check) in self.model.checks.iter().enumerate() {
@@ -368,7 +369,7 @@ impl Compiled {
     }
 }
 
-/// A unit over an SI unit, over another in its place.
+/// Replaces an SI unit at the end of a unit by another one.
 fn over(unit: &str, si: &str, own: &str) -> String {
     unit.strip_suffix(si).map_or_else(String::new, |whole| format!("{whole}/{own}"))
 }

@@ -1,10 +1,9 @@
 //! Finds the part of a field file that makes a derivation too large. The caret of that message points at it.
 //!
-//! A graph that is full answers nothing: what was computed in it is refused. The message names the quantity, the
-//! part of the file that makes most of the nodes, how many were made, and the way out. The sizes that count are
-//! those of derivatives, up to the second, since all else is made of them. Trials in graphs of their own start at
-//! the largest component of u and go down, to a definition that it uses or to an operand, for as long as that part
-//! alone makes most of what the whole does. Trials are bounded in size and number.
+//! A full graph returns no result. The message names the quantity, the part of the file that makes most of the nodes, the
+//! number of nodes, and the remedy. A part is measured by the sizes of its derivatives, up to the second, since all quantities
+//! are made of them. Trials in graphs of their own start at the largest component of u and descend, to a definition that it
+//! uses or to an operand, as long as that part alone makes most of the nodes. Trials are bounded in size and number.
 
 use mms_mechanics::resolve::Scope;
 use mms_spec::source::Span;
@@ -15,31 +14,31 @@ use mms_symbolic::expr::{Graph, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::sorted::SortedSet;
 
-/// How large the graph of a trial may become: enough to tell sizes apart.
+/// The largest graph of a trial: enough to distinguish sizes.
 const TRIAL: usize = 20_000;
 
-/// How many definitions are tried.
+/// The largest number of definitions that are tried.
 const TRIALS: usize = 20;
 
-/// What makes most of the nodes of a derivation.
+/// The part of a field that makes most of the nodes of a derivation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Culprit {
-    /// Where it stands: a sub-expression of a formula, or all of it.
+    /// The place of the part: a sub-expression of a formula, or the whole formula.
     pub span: Span,
-    /// The definition that it is part of: a name, or a component of u.
+    /// The definition that contains the part: a name, or a component of u.
     pub definition: String,
 }
 
 /// A formula that u may depend on.
 struct Definition<'a> {
-    /// The name that later formulas know it by, if it has one.
+    /// The name of the formula in later ones, if it has one.
     name: Option<&'a str>,
     shown: String,
     formula: &'a Formula,
     ast: Ast,
 }
 
-/// Finds what makes most of the nodes; `None` where a formula cannot be read.
+/// Finds the part that makes most of the nodes; `None` if a formula cannot be read.
 pub fn culprit(field: &FieldSpec) -> Option<Culprit> {
     let definitions = definitions(field)?;
     let trial = Trial::new(field, &definitions);
@@ -58,7 +57,7 @@ pub fn culprit(field: &FieldSpec) -> Option<Culprit> {
     Some(Culprit { span, definition: definitions[index].shown.clone() })
 }
 
-/// The formulas in the order of the file, up to the displacement, and those of a rigid motion.
+/// The formulas in the order of the file, up to the displacement, and then the formulas of a rigid motion.
 fn definitions(field: &FieldSpec) -> Option<Vec<Definition<'_>>> {
     let lets = field.lets.iter().map(|definition| {
         let name = definition.name.value.as_str();
@@ -78,8 +77,7 @@ fn definitions(field: &FieldSpec) -> Option<Vec<Definition<'_>>> {
         .collect()
 }
 
-/// The first of `count` positions that holds, if the last one does; what holds at one holds at all
-/// after it.
+/// The first of `count` positions where `holds` is true, if it is true at the last one; once true, it must stay true.
 fn first(count: usize, holds: impl Fn(usize) -> bool) -> Option<usize> {
     let (mut from, mut to) = (0, count);
     while from < to {
@@ -109,12 +107,12 @@ impl<'a> Trial<'a> {
         Trial { definitions, graph, scope }
     }
 
-    /// How many nodes and operands the derivatives of a definition have, at most about [`TRIAL`].
+    /// The number of nodes and operands of the derivatives of a definition, at most about [`TRIAL`].
     fn size(&self, index: usize) -> usize {
         self.size_of_derivatives(&self.definitions[index].ast)
     }
 
-    /// The same of any expression: of the derivatives that kinematics needs.
+    /// The number of nodes and operands of the derivatives of an expression that kinematics needs.
     fn size_of_derivatives(&self, ast: &Ast) -> usize {
         let mut graph = self.graph.clone();
         let before = graph.size();
@@ -150,13 +148,13 @@ impl<'a> Trial<'a> {
         (0..index).rev().filter(move |used| is_used(&self.definitions[*used]))
     }
 
-    /// The place of the smallest sub-expression of a definition that makes most of what all of it
-    /// makes: the bottom of the chain of such operands.
+    /// The place of the smallest sub-expression of a definition that makes most of its nodes: the last such operand of the
+    /// chain.
     fn sub_expression(&self, index: usize, own: usize) -> Option<Span> {
         let ast = &self.definitions[index].ast;
         let mut root = ast.nodes.len() - 1;
         let mut chain = vec![root];
-        // The operand with the most nodes of its own tree; those trees get smaller on the way down.
+        // The operand with the most nodes of its own tree; those trees shrink on the way down.
         while let Some(next) =
             links(ast, root).into_iter().max_by_key(|operand| operand - start(ast, *operand))
         {
@@ -165,7 +163,7 @@ impl<'a> Trial<'a> {
         }
         let most =
             |node: usize| 4 * self.size_of_derivatives(&Ast { nodes: part(ast, node) }) > 3 * own;
-        // Down the chain less and less is made.
+        // Each operand down the chain makes fewer nodes.
         let too_small = first(chain.len(), |position| !most(chain[position]));
         let node = too_small.map_or(chain.len(), |position| position).checked_sub(1)?;
         Some(ast.nodes[chain[node]].span)
@@ -195,7 +193,7 @@ fn scope(graph: &mut Graph, field: &FieldSpec) -> Scope {
     }
     for (index, parameter) in field.parameters.iter().enumerate() {
         let symbol = Symbol::Parameter(index);
-        // The file itself was accepted: what it takes for positive is.
+        // The file itself was accepted, including its assumption that this is positive.
         scope.assume_positive(symbol);
         let value = graph.symbol(symbol);
         scope.define(&parameter.name.value, Some(value));
@@ -212,8 +210,8 @@ fn operands(kind: &Kind) -> Vec<usize> {
     }
 }
 
-/// The operands of a node, where a chain such as a*b*c is one product of three: no part of it is to
-/// blame for what its length makes.
+/// The operands of a node. A chain such as a*b*c is one product of three: no part of it is to blame for the length of the
+/// chain.
 fn links(ast: &Ast, root: usize) -> Vec<usize> {
     let Kind::Binary(operator, mut left, right) = ast.nodes[root].kind else {
         return operands(&ast.nodes[root].kind);
@@ -232,7 +230,7 @@ fn links(ast: &Ast, root: usize) -> Vec<usize> {
     links
 }
 
-/// The first node of the tree whose root stands at `root`: a tree is contiguous.
+/// The first node of the tree whose root is at index `root`: a tree is contiguous.
 fn start(ast: &Ast, mut root: usize) -> usize {
     while let Some(first) = operands(&ast.nodes[root].kind).into_iter().min() {
         root = first;
@@ -240,7 +238,7 @@ fn start(ast: &Ast, mut root: usize) -> usize {
     root
 }
 
-/// The nodes of the tree whose root stands at `root`.
+/// The nodes of the tree whose root is at index `root`.
 fn part(ast: &Ast, root: usize) -> Vec<syntax::Node> {
     let start = start(ast, root);
     let mut nodes = ast.nodes[start..=root].to_vec();

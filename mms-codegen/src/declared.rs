@@ -1,11 +1,11 @@
-//! Whether the numbers that a field declares make sense: its parameters, its body, its time window and its
-//! material, with the defaults when it is compiled, and with the values that a user sets.
+//! Checks the numbers that a field declares: its parameters, its body, its time window and its material, with the defaults when
+//! it is compiled, and with the values that a user sets.
 //!
-//! In 77 digits: each parameter lies within its `range`; lower < upper; 0 <= inner < outer; angles ascend, by at
-//! most a turn; edges of a polygon do not cross (`body`); first < last time; no claim is on a face without extent. At the corners of the body and at 128
-//! points in it: rho0 > 0, the direction of fibres has the length 1, and Poisson's ratio lies between -1 and 1/2;
-//! at F = I, W has two derivatives by each invariant, and the material is elliptic (`elasticity`). That is a
-//! sample, not a proof. The parameters of each `[[extreme]]` are held to the same.
+//! The conditions, in 77 digits: each parameter lies within its `range`; lower < upper; 0 <= inner < outer; angles ascend, by
+//! at most a turn; edges of a polygon do not cross (`body`); first < last time; no claim is on a face without extent. At the
+//! corners of the body and at 128 points in it: rho0 > 0, the direction of fibres has the length 1, and Poisson's ratio lies
+//! between -1 and 1/2; at F = I, W has two derivatives by each invariant, and the material is elliptic (`elasticity`). This is
+//! a sample, not a proof. The parameters of each `[[extreme]]` must fulfil the same conditions.
 
 mod body;
 pub(crate) mod elasticity;
@@ -25,19 +25,19 @@ use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 use mms_symbolic::work::Work;
 
-/// What a look at the numbers of a field may take, at its parameters alone, and at all of its extremes.
+/// The budget of checking the numbers of a field: at its parameters alone, and at all of its extremes.
 const STEPS: u64 = 50_000_000;
 const STEPS_OF_PARAMETERS: u64 = 20_000_000;
 const STEPS_OF_EXTREMES: u64 = 100_000_000;
 
-/// What it takes to copy a node.
+/// The steps of copying a node.
 const STEPS_OF_COPY: u64 = 20;
 
-/// Messages say no more than so many values of parameters.
+/// The largest number of parameter values in a message.
 const MAX_SHOWN: usize = 6;
 
-/// What is wrong with the numbers of a field whose formulas have been resolved; `set` holds the parameters that do not
-/// have their default.
+/// The mistakes in the numbers of a field whose formulas have been resolved; `set` holds the parameters that do not have their
+/// default.
 pub fn check(
     graph: &Graph,
     model: &Model,
@@ -50,7 +50,7 @@ pub fn check(
     judge(graph, model, specs, set)
 }
 
-/// What is wrong with a field at the values of its extremes: of each, the first mistake.
+/// The first mistake of a field at the values of each of its extremes.
 pub fn extremes(
     graph: &Graph,
     model: &Model,
@@ -72,7 +72,7 @@ pub fn extremes(
         let wrong = judge(graph, model, (field, material), set).into_iter().next();
         work.spend(before - left.left());
         if work.is_over() {
-            // What is wrong with this one may be that nothing was left for it.
+            // This mistake may only mean that the budget is spent.
             break;
         }
         seen += 1;
@@ -83,7 +83,7 @@ pub fn extremes(
     found
 }
 
-/// A mistake of a field at the values of an extreme, where these stand.
+/// A mistake of a field at the values of an extreme, at the place of the extreme.
 fn at_extreme(extreme: &ExtremeSpec, wrong: Diagnostic) -> Diagnostic {
     let name = quoted(extreme.name.value.raw());
     let message = format!("the extreme {name} is no state of this field: {}", wrong.message);
@@ -102,7 +102,7 @@ fn at_extreme(extreme: &ExtremeSpec, wrong: Diagnostic) -> Diagnostic {
     ))
 }
 
-/// What is wrong with a field at these values of its parameters, within the budget of the graph.
+/// The mistakes of a field at these values of its parameters, within the budget of the graph.
 fn judge(
     mut graph: Graph,
     model: &Model,
@@ -118,26 +118,26 @@ fn judge(
     let values = parameter_values(&mut graph, model, set);
     let parameters = evaluate(&graph, &[], &values);
     if graph.work().is_over() {
-        // They are needed time and again, so they may take less than other numbers.
+        // The parameters are evaluated many times, so their budget is smaller than for other numbers.
         let span = field.parameters.first().map_or(field.material.span, |first| first.name.span);
         return vec![too_long(span, "the parameters of this field")];
     }
     graph.work().allow(steps - at_first + graph.work().left());
     let mut declared =
         Declared { graph, model, field, material, parameters, diagnostics: Vec::new() };
-    // What is computed from a parameter without a value has none either.
+    // An expression of a parameter without a value has no value either.
     if declared.parameters_exist() {
         declared.ranges();
         declared.domain();
     }
     if declared.graph.work().is_over() {
-        // What there was no budget left to compute looks like what does not exist.
+        // A value that the spent budget left uncomputed looks like an undefined one.
         return vec![too_long(field.material.span, "the domain and the material of this field")];
     }
     declared.diagnostics
 }
 
-/// What would take too long to evaluate with all digits.
+/// The mistake of a part that would take too long to evaluate with all digits.
 fn too_long(span: Span, what: &str) -> Diagnostic {
     Diagnostic::error(span, format!("{what} take too long to evaluate in 77 digits"))
         .label("here, or in what it uses")
@@ -150,7 +150,7 @@ fn evaluate(graph: &Graph, parameters: &[Precise], exprs: &[Expr]) -> Vec<Precis
     Interpreter::within(graph.work(), &program, parameters).output(())
 }
 
-/// The values of expressions in the parameters at the defaults of these.
+/// The values of expressions in the parameters at their defaults.
 pub(super) fn values(graph: &Graph, model: &Model, exprs: &[Expr]) -> Vec<f64> {
     let mut graph = graph.clone();
     let defaults = parameter_values(&mut graph, model, &SortedMap::new());
@@ -179,7 +179,7 @@ impl<'a> Declared<'a> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Reports parameters without a value, but not those that only follow from such a one.
+    /// Reports parameters without a value, except those that only depend on another one without a value.
     fn parameters_exist(&mut self) -> bool {
         let undefined: SortedSet<Symbol> = (0..self.parameters.len())
             .filter(|index| !self.parameters[*index].is_defined())
@@ -226,7 +226,7 @@ impl<'a> Declared<'a> {
         let reported = self.diagnostics.len();
         let extent = self.body();
         self.axis();
-        // A body that is wrong has no points to look at.
+        // A wrong body has no points.
         if let Some(extent) = extent.filter(|_| self.diagnostics.len() == reported) {
             self.density(&extent);
             self.fibre(&extent);
@@ -264,7 +264,7 @@ impl<'a> Declared<'a> {
         Some([first?, last?])
     }
 
-    /// Reports two bounds of which the second is not the greater one.
+    /// Reports two bounds if the second is not greater than the first.
     fn ascending(&mut self, message: &str, first_is: &str, first: &Bound<'_>, last: &Bound<'_>) {
         if !last.value.at_most(&first.value) {
             return;
@@ -276,7 +276,7 @@ impl<'a> Declared<'a> {
         self.report(diagnostic);
     }
 
-    /// Reports a rotation about nothing.
+    /// Reports a rotation about an axis of length 0.
     fn axis(&mut self) {
         let rotation = self.model.rigid.as_ref().and_then(|rigid| rigid.rotation.as_ref());
         let Some(square) = rotation.and_then(|rotation| rotation.axis_squared(&mut self.graph))
@@ -332,7 +332,7 @@ impl<'a> Declared<'a> {
     }
 }
 
-/// What is wrong with the range of a parameter, or with its value there.
+/// The mistake in the range of a parameter, or in its value there, if any.
 fn range_mistake(
     name: &str,
     value: &Precise,
@@ -361,7 +361,7 @@ fn range_mistake(
     Some(Diagnostic::error(span, message).label(format!("expected {shown}")))
 }
 
-/// A number in a message: short, whatever its size.
+/// Formats a number of any size for a message, in few digits.
 fn digits(value: &Precise) -> String {
     crate::bounds::witness::digits(value.to_f64())
 }

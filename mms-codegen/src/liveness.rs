@@ -1,19 +1,19 @@
-//! Which values a stage leaves for the next ones.
+//! The values that a stage stores for the next ones.
 
 use mms_mechanics::{Output, Program};
 use mms_program::{Op, Stage, Value};
 use mms_symbolic::expr::Symbol;
 
-/// Who reads what: of the instructions that some outputs need.
+/// The readers of each value, among the instructions that some outputs need.
 pub struct Later<'a> {
     program: &'a Program,
-    /// The values that are results. Without them, `kept` tells only what is read.
+    /// The values that are results. If this is empty, `kept` returns only the values that are read.
     pub outputs: Vec<Value>,
     needed: Vec<bool>,
 }
 
 impl<'a> Later<'a> {
-    /// Of the outputs that are wanted.
+    /// Prepares the readers for the wanted outputs.
     pub fn new(program: &'a Program, of: impl Fn(&Output) -> bool) -> Self {
         let outputs: Vec<Output> = program.outputs.keys().copied().filter(of).collect();
         let needed = program.needed(&outputs);
@@ -21,8 +21,8 @@ impl<'a> Later<'a> {
         Later { program, outputs, needed }
     }
 
-    /// The values of the stages `written` that the stages `reading` read, or that are outputs: what
-    /// a struct holds. Constants are free, and arguments are passed on.
+    /// The values of the stages `written` that the stages `reading` read, or that are outputs: the members of a struct.
+    /// Constants are literals, and arguments are passed on.
     pub fn kept(&self, written: &[Stage], reading: &[Stage]) -> Vec<bool> {
         let mut kept = vec![false; self.program.instrs.len()];
         for (instr, needed) in self.program.instrs.iter().zip(&self.needed) {
@@ -39,7 +39,7 @@ impl<'a> Later<'a> {
         kept
     }
 
-    /// Like [`Later::kept`], as values.
+    /// The values that [`Later::kept`] marks.
     pub fn kept_values(&self, written: &[Stage], reading: &[Stage]) -> Vec<Value> {
         let kept = self.kept(written, reading);
         (0..kept.len()).filter(|index| kept[*index]).map(|index| Value(index as u32)).collect()

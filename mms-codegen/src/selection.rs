@@ -1,14 +1,13 @@
-//! Which quantities of a field are wanted, with which values, and which parameters become constants.
+//! The selection of quantities of a field, of values of its parameters, and of parameters that become constants.
 //!
-//! A selection is applied to the field as it was read, before any name is resolved. A set value takes the place of
-//! the file's formula, and the name of a frozen parameter stands for its value at the defaults, not for a leaf. So
-//! everything from name resolution on sees a number: the graph folds it (0 ln J vanishes, and the derivation with
-//! it), what was assumed of its sign holds, and a division by zero is reported in the formula where it happens,
-//! with the frozen values. A value that becomes undefined only by the derivation (F = 0, then 1/J) is found in the
-//! scheduled program, whose constants are evaluated in arbitrary precision.
+//! A selection is applied to the field as it was read, before any name is resolved. A set value replaces the file's formula,
+//! and the name of a frozen parameter means its value at the defaults, not a leaf. So everything from name resolution on uses a
+//! number: the graph folds it (0 ln J vanishes, and the derivation with it), assumptions about its sign hold, and a division by
+//! zero is reported in the formula where it happens, with the frozen values. A value that becomes undefined only by the
+//! derivation (F = 0, then 1/J) is found in the scheduled program, whose constants are evaluated in arbitrary precision.
 //!
-//! With `quantities` given, only these are scheduled and emitted: no domain, no material, no contract of the
-//! runtime. Messages about the selection itself point into it: `set:1:8`, or the macro's token.
+//! If `quantities` are listed, only these are scheduled and emitted: no domain, no material, no contract of the runtime.
+//! Messages about the selection itself point into it: `set:1:8`, or the macro's token.
 
 use crate::compile::Compiled;
 use mms_mechanics::Response;
@@ -27,50 +26,50 @@ use mms_spec::{FieldSpec, Formula, ParameterSpec};
 use mms_symbolic::expr::{Rational, Symbol};
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// What of a field is wanted. The default is everything, as the file says it.
+/// The wanted part of a field. The default is everything, as the file says it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
-    /// The quantities; `None` stands for all, with what else a solver needs: the body, the time
-    /// window, and the material as a function of a displacement gradient.
+    /// The quantities; `None` means all, and everything else that a solver needs: the body, the time window, and the material
+    /// as a function of a displacement gradient.
     pub quantities: Option<SortedSet<Quantity>>,
-    /// New default values: the name of a parameter and a formula, which may use the parameters
-    /// above that one. Those that depend on it follow.
+    /// New default values: the name of a parameter and a formula, which may use the parameters above that one. Parameters that
+    /// depend on it follow.
     pub set: Vec<(String, String)>,
     /// The parameters that become constants.
     pub freeze: Freeze,
     /// A rigid motion on top of the field.
     pub twin: Twin,
-    /// The first and the last time in place of the file's: formulas in the parameters.
+    /// The first and the last time, which replace the file's: formulas in the parameters.
     pub window: Option<[String; 2]>,
 }
 
-/// Which parameters become constants, at their default values. They are then no parameters of the
-/// generated code.
+/// The parameters that become constants, at their default values. They are then no parameters of the generated code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Freeze {
-    /// None of them.
+    /// No parameter.
     #[default]
     Nothing,
-    /// All of them.
+    /// All parameters.
     Everything,
-    /// Those of these names.
+    /// The parameters with these names.
     Only(Vec<String>),
 }
 
 /// The part of a selection that a message is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entry {
-    /// The value of that position in [`Selection::set`].
+    /// The value at this position of [`Selection::set`].
     Set(usize),
-    /// The name of that position in [`Freeze::Only`].
+    /// The name at this position of [`Freeze::Only`].
     Freeze(usize),
-    /// All that is frozen.
+    /// All frozen parameters.
     Frozen,
 }
 
-/// The quantity of a name or alias that a field with these quantities of its own is compiled with.
+/// The quantity with a name or alias that a field with these quantities of its own is compiled with.
 ///
 /// # Errors
+///
 /// The mistake, in one line.
 pub fn quantity(own: &[Own], name: &str) -> Result<Quantity, String> {
     match evaluated(own, name)? {
@@ -83,9 +82,10 @@ pub fn quantity(own: &[Own], name: &str) -> Result<Quantity, String> {
     }
 }
 
-/// The quantity of a name or alias, one on request as well.
+/// The quantity with a name or alias; includes quantities on request.
 ///
 /// # Errors
+///
 /// The mistake, in one line.
 pub fn evaluated(own: &[Own], name: &str) -> Result<Quantity, String> {
     Quantity::among(own, name).ok_or_else(|| {
@@ -97,7 +97,7 @@ pub fn evaluated(own: &[Own], name: &str) -> Result<Quantity, String> {
 }
 
 impl Freeze {
-    /// The names that are given.
+    /// The names that the user listed.
     fn names(&self) -> &[String] {
         match self {
             Freeze::Only(names) => names,
@@ -107,7 +107,7 @@ impl Freeze {
 }
 
 impl Selection {
-    /// Whether what a solver needs beside quantities is wanted.
+    /// Whether everything that a solver needs is wanted.
     pub fn is_for_a_solver(&self) -> bool {
         self.quantities.is_none()
     }
@@ -117,8 +117,7 @@ impl Selection {
         self.quantities.as_ref().is_none_or(|wanted| wanted.contains(&quantity))
     }
 
-    /// Whether an output is part of the program. The domain always is: it says where a field is
-    /// defined.
+    /// Whether an output is part of the program. The domain always is: it defines where the field is defined.
     pub(crate) fn schedules(&self, output: Output, field: &FieldSpec) -> bool {
         match output {
             Output::Quantity(quantity) => self.wants(quantity),
@@ -128,9 +127,9 @@ impl Selection {
         }
     }
 
-    /// The part that a message of the compiler is about, if it is not about a file.
+    /// The part of the selection that a message of the compiler is about, if it is not about a file.
     pub fn entry(&self, span: Span) -> Option<Entry> {
-        // The field file is the first source; those of the entries are the next.
+        // The field file is the first source; the entries are the next ones.
         let position = span.source.index().checked_sub(1)?;
         if position < self.set.len() {
             return Some(Entry::Set(position));
@@ -142,14 +141,13 @@ impl Selection {
         Some(if last { Entry::Frozen } else { Entry::Freeze(position - self.set.len()) })
     }
 
-    /// The position of the text that names all that is frozen.
+    /// The position of the text that names all frozen parameters.
     fn frozen_source(&self) -> usize {
         1 + self.set.len() + self.freeze.names().len()
     }
 
-    /// Puts the chosen values in the place of the file's, marks what is frozen, and puts the rigid
-    /// motion on top. The texts of the entries become sources of their own, next after the field
-    /// file.
+    /// Replaces the file's values by the chosen ones, marks frozen parameters, and adds the rigid motion. The texts of the
+    /// entries become sources of their own, directly after the field file.
     pub(crate) fn apply(
         &self,
         sources: &mut Sources,
@@ -207,7 +205,7 @@ impl Selection {
         sources.add("freeze", all);
     }
 
-    /// Adds to messages about the field which values were frozen: it does not show in the file.
+    /// Adds the frozen values to messages about the field: the file does not show them.
     pub(crate) fn explain(
         &self,
         sources: &Sources,
@@ -259,7 +257,7 @@ impl Selection {
 }
 
 impl Compiled {
-    /// What was selected, in lines without a full stop; none where that is everything.
+    /// The selection, in lines without a full stop; none if it is everything.
     pub fn selected(&self) -> Vec<String> {
         let value = |index: usize| {
             let parameter = &self.model.parameters[index];
@@ -344,7 +342,7 @@ fn mentions(formula: &str, name: &str) -> bool {
     formula.split(|c| !part(c)).any(|word| word == name)
 }
 
-/// The first instruction without operands that vary whose value is not a number.
+/// The first constant instruction whose value is not a number.
 fn undefined_constant(program: &Program) -> Option<usize> {
     let mut constants = Vec::<Value>::new();
     let mut constant = vec![false; program.instrs.len()];
@@ -357,7 +355,7 @@ fn undefined_constant(program: &Program) -> Option<usize> {
     }
     let outputs = SortedMap::from([((), constants.clone())]);
     let program = mms_program::Program { instrs: program.instrs.clone(), outputs };
-    // What depends on a parameter is not looked at.
+    // The values of instructions that depend on a parameter are ignored.
     let any = vec![Precise::from_rational(&Rational::ONE); parameter_count(&program)];
     let values = Interpreter::new(&program, &any).output(());
     let undefined = values.iter().position(|value| !value.is_defined())?;
@@ -373,7 +371,7 @@ fn parameter_count(program: &mms_program::Program<()>) -> usize {
     positions.max().unwrap_or(0)
 }
 
-/// An output as a message calls it.
+/// The name of an output in a message.
 fn output_name(output: Output) -> &'static str {
     match output {
         Output::Quantity(quantity) => quantity.name(),

@@ -1,10 +1,9 @@
-//! Variations of a field: another field that is made of it, to be evaluated at extremes that its own parameters do
-//! not reach, or simple enough that a consistent solver errs by round-off alone.
+//! Variations of a field: another field that is made of it, to be evaluated at extremes that its own parameters do not reach,
+//! or simple enough that a consistent solver errs by round-off alone.
 //!
-//! A variation is made before anything is differentiated, so what follows from the varied field is derived as that
-//! of any other: s u(X, t) where there is no amplitude, u(X - s, t) for a body off the origin, another lambda/mu
-//! in the material. What the field claims is not looked at, for its boundary may be another; but for the affine part,
-//! whose faces all get u or P N.
+//! A variation is made before anything is differentiated, so the varied field is derived like any other: s u(X, t) if there is
+//! no amplitude, u(X - s, t) for a body off the origin, another lambda/mu in the material. The claims of the field are not
+//! tested, for the varied field may violate them; only the affine part has claims, u or P N on every face.
 
 use std::ops::Range;
 
@@ -21,29 +20,28 @@ use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::{coordinates, substitute};
 use mms_symbolic::sorted::SortedMap;
 
-/// What is changed of a field.
+/// The change to a field.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Variation {
-    /// Nothing.
+    /// No change.
     #[default]
     Nothing,
-    /// The displacement is s u(X, t), with s = 1 a parameter behind those of the file.
+    /// The displacement is s u(X, t), with a new last parameter s = 1.
     Scaled,
-    /// The body lies elsewhere: u(X - s, t), and its material likewise, with s = 0 a parameter behind
-    /// those of the file, the same along each axis; of an axisymmetric field along Z alone.
+    /// The body lies elsewhere: u(X - s, t), and its material likewise. The new last parameter s = 0 is the same along each
+    /// axis; an axisymmetric field moves along Z alone.
     Shifted,
-    /// The same, and the body of a box with it.
+    /// The field is shifted as by `Shifted`, and the body of a box with it.
     Moved,
-    /// The affine part of the motion about the middle c of the body: u(c, t) + H(c, t) (X - c). Faces at rest are
-    /// prescribed then, and free ones given their traction; closed forms are left out.
+    /// The affine part of the motion about the middle c of the body: u(c, t) + H(c, t) (X - c). Faces at rest then become
+    /// prescribed, and free ones get their traction; closed forms are omitted.
     Affine,
     /// The material has this ratio of lambda to mu, a number as field files write it.
     Moduli(String),
-    /// Each parameter of the material is times a factor, of 1: parameters behind those of the file, in the order of the material's
-    /// arguments, under the names that [`factor_of`] gives them.
+    /// Each parameter of the material is multiplied by a factor of 1. The factors are new last parameters, in the order of the
+    /// material's arguments, with the names of [`factor_of`].
     Factors,
-    /// Everything is as in the file but the body force, which has the other sign: a mistake on purpose. Closed forms are left
-    /// out.
+    /// The body force has the other sign: a deliberate mistake. Everything else is as in the file; closed forms are omitted.
     ForceReversed,
 }
 
@@ -56,13 +54,13 @@ pub fn factor_of(parameter: &str) -> String {
     format!("factor_of_{parameter}")
 }
 
-/// What a material is made of, where that fixes lambda/mu = r: the argument that is replaced, the one
-/// that it is made of, and the factor as a formula of r.
+/// Pairs of material arguments that fix lambda/mu = r: the argument that is replaced, the one that it is computed from, and the
+/// factor as a formula of r.
 const PAIRS: [(&str, &str, &str); 3] =
     [("lambda", "mu", "(r)"), ("kappa", "mu", "((r) + 2/3)"), ("nu", "young", "")];
 
 impl Variation {
-    /// Whether a field can be varied so; otherwise what it lacks.
+    /// Checks that a field can be varied in this way, or returns what it lacks.
     pub fn fits(&self, field: &FieldSpec) -> Result<(), String> {
         match self {
             Variation::Moved if !matches!(field.domain.body, mms_spec::Body::Box { .. }) => {
@@ -83,8 +81,7 @@ impl Variation {
         }
     }
 
-    /// Changes formulas and parameters, before any name is resolved. Each text that is put in becomes
-    /// a source of its own.
+    /// Changes formulas and parameters, before any name is resolved. Each inserted text becomes a source of its own.
     pub(crate) fn rewrite(&self, sources: &mut Sources, field: &mut FieldSpec) {
         match self {
             Variation::Nothing => {}
@@ -99,7 +96,7 @@ impl Variation {
         }
     }
 
-    /// Changes what was derived.
+    /// Changes the derived quantities.
     pub(crate) fn falsify(&self, graph: &mut Graph, derivation: &mut Derivation) {
         if *self == Variation::ForceReversed {
             for quantity in FORCES {
@@ -110,7 +107,7 @@ impl Variation {
         }
     }
 
-    /// Changes what the formulas mean.
+    /// Changes the meaning of the formulas.
     pub(crate) fn transform(&self, graph: &mut Graph, model: &mut Model) {
         if *self == Variation::Affine {
             return affine(graph, model);
@@ -140,7 +137,7 @@ impl Variation {
     }
 }
 
-/// Adds a parameter behind the others, under a name that no file can have.
+/// Adds a parameter after the others, under a name that no file can have.
 fn add_parameter(sources: &mut Sources, field: &mut FieldSpec, name: &str, value: &str) {
     let source = sources.add("variation", value);
     let span = sources.span(source, 0, value.len());
@@ -198,7 +195,7 @@ fn set_factors(sources: &mut Sources, field: &mut FieldSpec) {
     }
 }
 
-/// What faces claim of a motion is not true of its affine part: they get the data of that.
+/// Replaces claims of faces that are not true of the affine part by its data.
 fn give_data(field: &mut FieldSpec) {
     for boundary in &mut field.boundary {
         let claim = &mut boundary.claim.value;
@@ -231,8 +228,8 @@ fn affine(graph: &mut Graph, model: &mut Model) {
     model.displacement = affine;
 }
 
-/// The point of a body halfway between its bounds, which of what is round are those of radius and angles; in a polygon the
-/// middle of its largest triangle.
+/// The point of a body halfway between its bounds: in radius and angles if the body is round, the middle of the largest
+/// triangle if it is a polygon.
 fn middle(graph: &mut Graph, model: &Model) -> Vec<Expr> {
     match &model.domain.body {
         Region::Block(block) => {
@@ -257,12 +254,12 @@ fn mean(graph: &mut Graph, exprs: &[Expr]) -> Expr {
     graph.scale(sum, Rational::ONE / Rational::from(exprs.len()))
 }
 
-/// The axes along which a field may lie elsewhere: an axisymmetric one stays about its axis.
+/// The axes along which a field can be shifted: an axisymmetric one stays about its axis.
 pub fn free_axes(space: Space) -> Range<usize> {
     usize::from(space.is_axisymmetric())..space.coordinates()
 }
 
-/// X becomes X - s everywhere.
+/// Replaces X by X - s everywhere.
 fn shift(graph: &mut Graph, model: &mut Model, by: Expr) {
     let axes = free_axes(model.space);
     let moved = coordinates(graph, axes.map(|axis| (axis, by)), Graph::sub);

@@ -1,12 +1,11 @@
-//! No text makes the compiler panic, hang or overflow a stack. The same function is the target of
-//! the fuzzer in `fuzz/`.
+//! No text makes the compiler panic, hang or overflow a stack. The fuzzer in `fuzz/` calls the same function.
 
 use mms_codegen::Options;
 use proptest::prelude::*;
 
 use crate::sampled::{all_is_tried, sampled, sampled_count};
 
-/// The limits are those that users get.
+/// Checks a text within the limits that users get.
 fn survive(text: &str) {
     crate::survive::survive(text, &Options::default());
 }
@@ -22,7 +21,7 @@ const SHAFT: &str = "[field]\ntitle = \"x\"\ndimension = 2\ncoordinates = \"axis
     [[balance]]\nname = \"heat\"\nflux = [\"F11*R\", \"u_theta\", \"v_r\"]\n\
     [rigid]\ntranslation = [0, \"t\"]\n";
 
-/// What completes a field of one dimension.
+/// The tables that complete a field of one dimension.
 const REST: &str = "[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
                     [domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n";
 

@@ -1,5 +1,5 @@
-//! Axisymmetric fields against the three-dimensional fields of which they are sections, in 77 digits, and against
-//! numbers from elsewhere.
+//! Axisymmetric fields against the three-dimensional fields of which they are sections, in 77 digits, and against independent
+//! numbers.
 
 use mms_codegen::{Compiled, compile};
 use mms_math::Scalar as _;
@@ -14,7 +14,7 @@ fn compiled(text: &str) -> Compiled {
         .unwrap_or_else(|failure| panic!("{failure}\n{text}"))
 }
 
-/// A field in R and Z, and the tables that say the same in space.
+/// A field in R and Z, and the tables for the same field in space.
 struct Section {
     /// u_R and u_Z.
     u: [&'static str; 2],
@@ -42,7 +42,7 @@ impl Section {
     }
 }
 
-/// The text of the field in space of which this one is the section.
+/// The text of the field in space whose section this is.
 fn in_space(flat: &Compiled) -> String {
     mms_spec::section::in_space(&flat.field).expect("a text")
 }
@@ -83,7 +83,7 @@ fn precise(value: f64) -> Precise {
     Precise::from_f64(value)
 }
 
-/// A quantity at a point, in any numbers.
+/// A quantity at a point, in any number type.
 fn value(compiled: &Compiled, quantity: Quantity, time: f64, at: &[f64]) -> Vec<Precise> {
     let parameters = compiled.parameters(&Default::default());
     let request;
@@ -109,10 +109,10 @@ fn value(compiled: &Compiled, quantity: Quantity, time: f64, at: &[f64]) -> Vec<
     interpreter.output(output)
 }
 
-/// Where R, Z and theta are in space at the reference angle.
+/// The axes in space of R, Z and theta at the reference angle.
 const ORDER: [usize; 3] = [0, 2, 1];
 
-/// The components in space that those of a section stand for; the others are 0.
+/// The components in space that correspond to the components of a section; the others are 0.
 fn places(shape: Shape, vector: usize) -> Vec<usize> {
     match shape {
         Shape::Scalar => vec![0],
@@ -156,7 +156,7 @@ fn a_section_has_the_quantities_of_the_field_in_space() {
     }
 }
 
-/// SymPy and mpmath, not through this project.
+/// Compares with numbers of SymPy and mpmath, which do not depend on this project.
 #[test]
 fn a_case_from_elsewhere_has_its_numbers() {
     let field = compiled(
@@ -191,7 +191,7 @@ fn numbers(compiled: &Compiled, quantity: Quantity, time: f64, at: &[f64]) -> Ve
     interpreter.output(output)
 }
 
-/// Sections whose R can be taken out of what is divided by it: all but those with fibres that lean outwards.
+/// Sections whose formulas have no pole at R = 0: all except those with fibres that lean outwards.
 fn reaching_the_axis() -> impl Iterator<Item = Compiled> {
     let sections = SECTIONS.iter().filter(|section| section.fibre.is_none());
     sections.map(|section| compiled(&section.text("0")))
@@ -206,7 +206,7 @@ fn on_the_axis_values_are_limits_and_exact() {
             for (near, at) in near.iter().zip(&at) {
                 assert!(at.is_defined(), "{}", quantity.name());
                 let off = (near.clone() - at.clone()).to_f64().abs();
-                // What changes along R has a slope of some units.
+                // Near the axis, a quantity that varies along R has a slope of a few units.
                 assert!(off <= 1e-43 * scale, "{}: {off:e}", quantity.name());
             }
             if quantity.is_on_request() {
@@ -221,7 +221,7 @@ fn on_the_axis_values_are_limits_and_exact() {
     }
 }
 
-/// The source of a balance has the part of the flux that spreads, Q_R/R; C^-1 and the gradient are those of a body that
+/// The source of a balance includes the spreading part of the flux, Q_R/R; C^-1 and the gradient are taken from a body that
 /// twists.
 #[test]
 fn a_balance_has_the_source_of_the_field_in_space() {
@@ -258,7 +258,7 @@ fn a_balance_has_the_source_of_the_field_in_space() {
     assert!((near - at).to_f64().abs() <= 1e-43);
 }
 
-/// A translation along the axis changes b by its acceleration, and no strain.
+/// A translation along the axis changes b by its acceleration, and changes no strain.
 #[test]
 fn a_twin_is_carried_along_the_axis() {
     let text = SECTIONS[1].text("0");
@@ -276,7 +276,7 @@ fn a_twin_is_carried_along_the_axis() {
     by(Quantity::FirstPiolaKirchhoff, 0.0);
 }
 
-/// Parameters that move the body to the axis, or beyond it, are held to what the file is.
+/// Parameters that move the body to the axis, or beyond it, are checked like the file.
 #[test]
 fn a_body_may_be_moved_to_the_axis_only_where_all_is_finite_there() {
     let with = |radial: &str| {

@@ -1,5 +1,5 @@
-//! Bodies of every shape: what is claimed on their faces is proved or refuted, J > 0 is proved over them and over nothing
-//! else, and what is given on faces is what geometry and the quantities say.
+//! Bodies of every shape: claims on their faces are proved or refuted, J > 0 is proved over exactly the body, and the data on
+//! faces agree with geometry and the quantities.
 
 use mms_codegen::certify::certificate::{Certificate, certify};
 use mms_codegen::certify::claims::Finding;
@@ -18,7 +18,7 @@ use mms_spec::{Claim, Face};
 
 use crate::sampled::sampled;
 
-/// A file of a displacement and a `[domain]` with what comes after it.
+/// A file of a displacement and a `[domain]` followed by `rest`.
 fn file(dimension: usize, lets: &str, u: &str, rest: &str) -> String {
     format!(
         "[field]\ntitle = \"x\"\ndimension = {dimension}\n[let]\n{lets}\n[displacement]\nu = [{u}]\n\
@@ -35,7 +35,7 @@ fn compiled(text: &str) -> Compiled {
     try_compile(text).unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-/// Whether J > 0 and every claim is proved, and nothing is objected to.
+/// Asserts that J > 0 and every claim is proved, and that there is no objection.
 fn assert_proved(text: &str) -> Certificate {
     let compiled = compiled(text);
     let certificate = certify(&compiled);
@@ -97,7 +97,7 @@ fn claims_on_a_sphere_are_proved() {
     assert_proved(&file(3, &lets, &u, &part));
 }
 
-/// A uniform expansion, and a shape for which the charts of all bodies meet in a point or in a line.
+/// A uniform expansion plus a shape, for bodies whose charts meet in a point or in a line.
 #[test]
 fn bodies_with_an_axis_or_a_centre_are_proved() {
     let plane = "\"t*X/10 + t*X*Y/20\", \"t*Y/10\"";
@@ -131,7 +131,7 @@ fn claims_on_edges_of_polygons_are_proved() {
     }
 }
 
-/// J is negative in the square that a corner leaves out, which every box around the body has.
+/// J is negative in the square that a corner leaves out, which every box around the body contains.
 #[test]
 fn a_polygon_is_proved_over_itself_alone() {
     let u = "\"-t*X^2*Y^2/10\", \"0\"";
@@ -237,7 +237,7 @@ fn each_face_of_each_body_has_its_own_normal() {
                     .map(|(x, n)| x.to_f64() + 1e-3 * n.to_f64())
                     .collect();
                 assert!(near.contains(&inward) && !near.contains(&outward), "{face:?}, {body}");
-                // A step of that length along the normal goes that far from the face.
+                // A step of that length along the normal ends at that distance from the face.
                 assert!((near.distance_to(face, &inward) - 1e-3).abs() < 1e-9, "{face:?}, {body}");
                 let found = value(&compiled, output, &place, &[]);
                 let expected =
@@ -252,7 +252,7 @@ fn each_face_of_each_body_has_its_own_normal() {
     }
 }
 
-/// A point of a face, to all digits, and the normal that the program gives there.
+/// A point of a face, to all digits, and the normal that the program computes there.
 fn placed(compiled: &Compiled, face: Face, index: usize) -> (Vec<Precise>, Vec<Precise>) {
     let (extent, _) = domain::<Precise>(&compiled.program, &[]);
     let mut fractions: Vec<Precise> = halton(index).to_vec();
@@ -322,7 +322,7 @@ fn faces_that_are_not_there_have_no_functions() {
     assert_eq!(faces(2, "shape = \"none\"\n"), Vec::<String>::new());
 }
 
-/// Without a body there are numbers, at points of the unit cube where points have to be chosen.
+/// A field without a body is evaluated at points of the unit cube where points have to be chosen.
 #[test]
 fn a_field_without_a_body_is_numbers() {
     let compiled = compiled(&file(2, "", "\"t*ln(X + 1)\", \"t*Y/9\"", "shape = \"none\"\n"));

@@ -1,5 +1,5 @@
-//! Fields that leave an analytic branch, or have no value as computed: each is refused where it does, and what is
-//! single-valued passes. An adversary hunts for what a certificate overlooks.
+//! Fields that leave an analytic branch, or have no value as computed: each is refused at the place of the formula, and
+//! single-valued formulas pass. An adversarial search looks for places that a certificate overlooks.
 
 #[path = "support/hunt.rs"]
 mod hunt;
@@ -15,7 +15,7 @@ use proptest::prelude::*;
 
 use crate::sampled::{sampled, sampled_count};
 
-/// A field: what u is, in which body, when, and what else the file says.
+/// A field: u, the body, the time window, and the other tables of the file.
 struct Case<'a> {
     u: &'a [&'a str],
     body: &'a str,
@@ -48,7 +48,7 @@ impl<'a> Case<'a> {
     }
 }
 
-/// An energy of one's own with a cut at J = 1.
+/// An energy of a user's own with a cut at J = 1.
 const CUT_ENERGY: &str = "[material]\ntitle = \"x\"\nstrain_energy = \"mu/2*(I1 - 3) - mu*ln(J) + mu/100*(J - 1)^4*atan2(J - 1, -1)\"\n\
                           [parameters]\nmu = { unit = \"Pa\" }\n";
 
@@ -61,7 +61,7 @@ fn certified(text: &str) -> (Compiled, Certificate) {
     (compiled, certificate)
 }
 
-/// Asserts that a field is refused at a part of its text, and that its other proofs pass or not.
+/// Asserts that a field is refused at a part of its text, and whether the refusal is certain.
 fn refused_at(case: &Case<'_>, place: &str, is_certain: bool) {
     let text = case.text();
     let (compiled, certificate) = certified(&text);
@@ -84,7 +84,7 @@ fn passes(case: &Case<'_>) {
 fn a_cut_inside_the_domain_is_refused_where_it_is() {
     let cut = "atan2(X - 1/2, -1)";
     refused_at(&Case::of(&[&format!("-0.05*{cut}")], BOX), cut, true);
-    // Where no cell has its corner or its middle.
+    // The cut lies where no cell has a corner or its middle.
     let odd = "atan2(X - 1/3, -1)";
     refused_at(&Case::of(&[&format!("-0.05*{odd}")], BOX), odd, true);
     let in_time = "atan2(t - 0.3, -1)";
@@ -156,7 +156,7 @@ fn roots_logarithms_and_arcs_end_where_they_are_not_analytic() {
         ("acos(2*X - 1.5)", "acos(2*X - 1.5)", true),
         ("tan(2*X)", "tan(2*X)", true),
         ("hypot(X - 0.5, t - 0.5)^5", "hypot(X - 0.5, t - 0.5)", true),
-        // The square is never negative: that it is 0 somewhere is not seen where no corner is.
+        // The square is never negative; that it is 0 somewhere is only found at a corner of a cell.
         ("sqrt((X - 1/3)^2)^5", "sqrt((X - 1/3)^2)", false),
         ("sqrt((X - 1/2)^2)^5", "sqrt((X - 1/2)^2)", true),
     ];
@@ -189,7 +189,7 @@ fn what_is_single_valued_across_the_cut_passes() {
     passes(&Case::of(&["0.01*atan2(X, 2 + Y)", "0"], SQUARE));
     let sector = "shape = \"annulus\"\ninner = 0.5\nouter = 1\ntheta = [0, \"3*pi/4\"]";
     passes(&Case::of(&["0.01*atan2(Y, X)", "0.01*sqrt(X^2 + Y^2)"], sector));
-    // About the origin there is no angle.
+    // At the origin there is no angle.
     refused_at(
         &Case::of(&["0.01*hypot(X, Y)^2*cos(2*atan2(Y, X))", "0"], SQUARE),
         "atan2(Y, X)",
@@ -203,7 +203,7 @@ fn a_constant_needs_no_branch() {
     passes(&Case { rest: constant, ..Case::of(&["0.01*X*(1 + sqrt(e) + atan2(e, -1))"], BOX) });
 }
 
-/// What a compilation finds, without a proof.
+/// A compilation finds a cut, without a proof.
 #[test]
 fn a_compilation_finds_a_cut() {
     let text = Case::of(&["-0.05*atan2(X - 1/2, -1)"], BOX).text();
@@ -221,7 +221,7 @@ fn fault(name: &str) -> (Compiled, Certificate) {
     certified(&fs::read_to_string(folder.join(name)).expect("a readable file"))
 }
 
-/// Whatever the certificate says of these, evaluation says the same.
+/// The evaluation of these files agrees with the certificate.
 #[test]
 fn what_is_proved_finite_is_computed() {
     for name in sampled(["time_sine_nan.toml", "xbig.toml", "time_03.toml"], 3) {
@@ -235,7 +235,7 @@ fn what_is_proved_finite_is_computed() {
 
 #[test]
 fn what_overflows_on_the_way_is_told() {
-    // Pascals are too small for single precision here, and not for double.
+    // 1e39 Pa is too large for single precision, but not for double.
     let stiff = "model = \"neo_hookean\"\nlambda = 1e39\nmu = 1e39\ndensity = 1";
     let case = Case { material: stiff, ..Case::of(&["0.01*X^2"], BOX) };
     let (compiled, certificate) = certified(&case.text());
@@ -258,10 +258,10 @@ fn digits_that_sums_lose_are_counted() {
         let (digits, _) = digits("0.01*sin(X + 30*t)", window);
         assert!((13.0..16.0).contains(&digits), "{window}: {digits}");
     }
-    // Turns are taken off with 106 bits, of angles up to 2^50.
+    // Whole turns are subtracted with 106 bits, for angles up to 2^50.
     let (digits_of_large, at) = digits("0.01*sin(X + 30*t)", "0, 1e15");
     assert!(digits_of_large < 0.0 && at == 1e15, "{digits_of_large} {at}");
-    // No part of it is known before X is. 3e13 has a last digit of 1/256, and its half is what may be missing.
+    // No part of the angle is known before X is. 3e13 has a last digit of 1/256, and half of it may be missing.
     let (far, at) = digits("1e-15*sin((X + 2)*t)", "0, 1e13");
     assert!((1.0..3.0).contains(&far) && at == 1e13, "{far} {at}");
 }
@@ -274,7 +274,7 @@ proptest! {
     }
 }
 
-/// As many fields as `MMS_HUNT_FIELDS` says, or 200, and what became of them.
+/// Tries `MMS_HUNT_FIELDS` fields, or 200, and counts the results.
 #[test]
 #[ignore = "takes a minute: .ci/long runs it"]
 fn a_longer_hunt() {

@@ -1,5 +1,5 @@
-//! Certificates: honest fields, liars (see `data/fail/refuted_*`), and random fields whose values
-//! must lie within what is proved.
+//! Certificates: honest fields, fields with false claims (see `data/fail/refuted_*`), and random fields whose values must lie
+//! within the proved bounds.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ use proptest::prelude::*;
 
 use crate::sampled::{all_is_tried, is_in_depth, sampled_count};
 
-/// What a certificate may take in the mean: some 0.2 ms a box in two dimensions, and 1 ms in three.
+/// The largest mean number of boxes of a certificate: a box takes about 0.2 ms in two dimensions, and 1 ms in three.
 const BOXES: usize = 1000;
 
 /// The honest fields that are not proved to be strongly elliptic.
@@ -38,10 +38,10 @@ const UNPROVED: [&str; 6] = [
     "twisted_tube",
 ];
 
-/// The most cells that the proof about a program may take, for a field of the gallery.
+/// The largest number of cells of the proof about a program, for a field of the gallery.
 const MOST_CELLS: usize = 250;
 
-/// Fields of the gallery and some more that are right, with their certificates.
+/// The fields of the gallery and some more correct ones, with their certificates.
 static HONEST: LazyLock<Vec<(PathBuf, Compiled, Certificate)>> = LazyLock::new(|| {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folders = ["tests/data/certify", "../fields"].map(|folder| root.join(folder));
@@ -96,7 +96,7 @@ fn honest_fields_are_proved_cheaply_and_sharply() {
             gallery.push(excess(compiled, &bounds(certificate).1));
         }
     }
-    // Bounds of dP/dF are wide in three dimensions, and of fibres.
+    // Bounds of dP/dF are wide in three dimensions, and for fibres.
     unproved
         .retain(|file| !UNPROVED.iter().any(|name| file.file_stem().is_some_and(|it| it == *name)));
     assert!(unproved.is_empty(), "not proved to be strongly elliptic: {unproved:?}");
@@ -115,7 +115,7 @@ fn honest_fields_are_computed_in_both_precisions() {
         let [double, single] = &certificate.computed;
         assert_eq!(double.finding, computed::Finding::Proved, "{shown}");
         assert!(double.cells <= MOST_CELLS, "{shown}: {}", double.cells);
-        // A J of a millionth is about as large as what f32 rounds.
+        // A J of 1e-6 is about as large as the rounding of f32.
         if !file.ends_with("sliver_2d.toml") {
             assert_eq!(single.finding, computed::Finding::Proved, "{shown}");
             assert!(single.cells <= MOST_CELLS, "{shown}: {}", single.cells);
@@ -123,11 +123,11 @@ fn honest_fields_are_computed_in_both_precisions() {
     }
 }
 
-/// By how much the stretch, the strain rate and the reference wave speed may exceed what is attained on a grid,
-/// in the geometric mean over the gallery: in four variables a search may end early.
+/// The largest ratio of the bounds of stretch, strain rate and reference wave speed to the values attained on a grid, in the
+/// geometric mean over the gallery: in four variables a search may end early.
 const EXCESS: [f64; 3] = [1.06, 1.2, 1.2];
 
-/// Each rate over what is attained; a body at rest has no strain rate.
+/// The ratio of each bound to the attained value; a body at rest has no strain rate.
 fn excess(compiled: &Compiled, rates: &Rates) -> [f64; 3] {
     let bounds = [rates.principal_stretch, rates.strain_rate, rates.reference_wave_speed];
     let most = attained(compiled);
@@ -166,7 +166,7 @@ fn bounds_are_near_the_largest_values() {
     assert!(fastest <= speed && speed < 1.1 * fastest, "{speed} {fastest}");
 }
 
-/// The stretch around the axis, and shear by the twist, are among what is bounded.
+/// The bounds include the stretch around the axis, and the shear of the twist.
 #[test]
 fn bounds_of_an_axisymmetric_field_hold_all_around() {
     let (compiled, certificate) = of_file("solid_shaft.toml");
@@ -178,7 +178,7 @@ fn bounds_of_an_axisymmetric_field_hold_all_around() {
     assert!(rates.principal_stretch > 1.02, "{rates:?}");
 }
 
-/// A run asks about its own parameters and its own time step, and no further.
+/// A run bounds waves for its own parameters and its own time step, and no further.
 #[test]
 fn the_speed_of_waves_is_bounded_for_the_parameters_that_are_set() {
     let (compiled, certificate) = of_file("axis_aligned_1d.toml");
@@ -195,7 +195,7 @@ fn the_speed_of_waves_is_bounded_for_the_parameters_that_are_set() {
     let deformed = speed(defaults.clone(), Frame::Deformed, 0.0);
     assert!(fastest <= deformed && deformed < 1.1 * fastest, "{deformed} {fastest}");
     assert!(deformed <= rates.wave_speed * 1.1 && rates.wave_speed < 1.1 * fastest, "{rates:?}");
-    // What is enough is not made sharper; what is not is.
+    // A bound that is enough is not sharpened; another one is.
     let coarse = speed(defaults, Frame::Reference, 2.0 * reference);
     assert!(reference <= coarse && coarse <= 2.0 * reference, "{coarse}");
     // Waves are ten times as fast in a body that is a hundred times as stiff.
@@ -206,8 +206,8 @@ fn the_speed_of_waves_is_bounded_for_the_parameters_that_are_set() {
 
 #[test]
 fn a_rotation_leaves_the_bounds_sharp() {
-    // A vortex shears by gamma = R g h', which stretches by gamma/2 + sqrt(1 + gamma^2/4); h' is
-    // largest where 48 y^2 = 1 for R = 1 + y.
+    // A vortex shears by gamma = R g h', which stretches by gamma/2 + sqrt(1 + gamma^2/4); h' is largest where 48 y^2 = 1 for
+    // R = 1 + y.
     let (_, certificate) = of_file("generalized_vortex.toml");
     let ([lower, upper], rates) = bounds(&certificate);
     assert_eq!([lower, upper], [1.0, 1.0]);
@@ -273,7 +273,7 @@ proptest! {
                 prop_assert!(*least <= x && x <= *most, "{x} {least} {most}");
             }
             prop_assert!(jacobian[0] <= j[0] && j[0] <= jacobian[1], "{} {jacobian:?}", j[0]);
-            // The stretch of any direction, and the speed of any wave.
+            // The stretch in any direction, and the speed of any wave.
             let at: Vec<_> =
                 point.coordinates.iter().map(|x| Dual::constant(x.to_f64())).collect();
             let now = Dual::variable(point.time.to_f64());
@@ -321,7 +321,7 @@ fn inverse(matrix: &Matrix) -> Matrix {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| cofactor(j, i) / determinant))
 }
 
-/// |F n| for the n that repeated stretching turns to.
+/// |F n| for the n that power iteration converges to.
 fn stretch(deformation: &Matrix) -> f64 {
     let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j| deformation[j][i]));
     let mut direction = [0.6, 0.5, 0.4];
@@ -340,7 +340,7 @@ fn strain_rate(deformation: &Matrix, rate: &Matrix) -> f64 {
     pairs.map(|(i, j)| ((entry(i, j) + entry(j, i)) / 2.0).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The greatest m_i N_J A_iJkL m_k N_L that turning m and N by turns leads to.
+/// The greatest m_i N_J A_iJkL m_k N_L that alternating updates of m and N find.
 fn modulus(tangent: &[f64], dimension: usize) -> f64 {
     let size = dimension * dimension;
     let mut greatest = 0.0_f64;
@@ -450,7 +450,7 @@ fn tangent(
     (tangent, interpreter.output(outputs[1])[0].value)
 }
 
-/// A field that its graph has no room for is refused: what was left out is no 0 that proves anything.
+/// A field that needs a larger graph is refused: omitted expressions are not 0, and prove nothing.
 #[test]
 fn a_graph_that_is_full_proves_nothing() {
     let text = |end: &str| {

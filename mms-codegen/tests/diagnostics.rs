@@ -1,8 +1,8 @@
-//! Every file in `data/fail` is wrong, and says what it is about: the text that a user sees for
-//! `NAME.toml` must be exactly `NAME.expected`. The folder is its own list.
+//! Every file in `data/fail` is wrong, and says in its first line how: the messages for `NAME.toml` must be exactly
+//! `NAME.expected`. The folder is its own list.
 //!
-//! After a deliberate change, `MMS_BLESS=1 cargo test -p mms-codegen --test suite diagnostics` writes
-//! the `.expected` files anew; read the difference before it is committed.
+//! After a deliberate change, `MMS_BLESS=1 cargo test -p mms-codegen --test suite diagnostics` writes the `.expected` files
+//! anew; read the difference before you commit it.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -32,8 +32,8 @@ fn cases() -> Vec<PathBuf> {
     cases
 }
 
-/// The mistakes in a text. Files named `material_*` are material files on their own; those of
-/// `data/fail/materials` are named by fields.
+/// The mistakes in a text. Files named `material_*` are material files on their own; fields name the files of
+/// `data/fail/materials`.
 fn mistakes(name: &str, text: &str) -> (Sources, Vec<Diagnostic>) {
     let path = format!("{name}.toml");
     if name.starts_with("material_") {
@@ -50,19 +50,19 @@ fn mistakes(name: &str, text: &str) -> (Sources, Vec<Diagnostic>) {
         fs::read_to_string(folder().join(material)).map_err(missing)
     };
     match compile(name, &path, text, &load) {
-        // What a compilation does not look for is found by `mms check`.
+        // `mms check` finds the mistakes that a compilation does not look for.
         Ok(compiled) => (compiled.sources.clone(), certify(&compiled).objections(&compiled)),
         Err(failure) => (failure.sources, failure.diagnostics),
     }
 }
 
-/// What a user sees for a text.
+/// The messages that a user sees for a text.
 fn rendered(name: &str, text: &str) -> String {
     let (sources, diagnostics) = mistakes(name, text);
     render(&sources, &diagnostics)
 }
 
-/// The places in a source file where a message is made, tests left out.
+/// The lines of a source file where a message is made, without tests.
 fn sites_in(path: &Path) -> Vec<usize> {
     let text = fs::read_to_string(path).expect("a source file");
     let tests = text.find("#[cfg(test)]\nmod tests").unwrap_or(text.len());
@@ -96,8 +96,9 @@ const FIELD: &str = "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = { 
                      lambda = 1\nmu = 1\ndensity = 1\n[domain]\nshape = \"box\"\n\
                      lower = [0]\nupper = [1]\ntime = [0, 1]\n";
 
-/// The mistakes of `--set`, `--freeze`, `--rigid` and `--window`: a name that is unknown, one that is given twice, a stretch
-/// of 0, which J is divided by, a second rigid motion, a window or a standard motion of a static field, and a standard motion without a body.
+/// The mistakes of `--set`, `--freeze`, `--rigid` and `--window`: a name that is unknown, a name that is set twice, a stretch
+/// of 0 (J is a divisor), a second rigid motion, a window or a standard motion of a static field, and a standard motion without
+/// a body.
 fn wrong_selections() -> Vec<Failure> {
     let set = |value: &str| vec![("a".to_string(), value.to_string())];
     let freeze = |names: &[&str]| Freeze::Only(names.iter().map(|name| name.to_string()).collect());
@@ -124,8 +125,8 @@ fn wrong_selections() -> Vec<Failure> {
     failures
 }
 
-/// The standard motion is made of what the file says of body and window: in as many lines as it says it, and with no
-/// word of its own about what the file does not say.
+/// The standard motion is made from the body and the window of the file: it adds as many lines as the file has for them, and no
+/// message about what the file lacks.
 #[test]
 fn the_standard_motion_is_of_any_text() {
     let load = |_: &str| Err("no files here".to_string());
@@ -139,7 +140,7 @@ fn the_standard_motion_is_of_any_text() {
     assert_eq!(places.len(), 1, "{failure}");
 }
 
-/// Why a field that is right does not compile within so many nodes, if it does not.
+/// The failure of a correct field within so many nodes, if it fails.
 fn bounded(max_nodes: usize) -> Option<Failure> {
     let options = Options { max_nodes, ..Options::default() };
     let load = |_: &str| Err("no files here".to_string());
@@ -172,19 +173,19 @@ fn every_message_of_the_compiler_has_a_wrong_file() {
             diagnostics.iter().map(|found| place(found.site.file(), found.site.line() as usize)),
         );
     }
-    // A file of its own for this one would be too long to read.
+    // A file for this mistake would be too long to read.
     let (_, diagnostics) = mistakes("long", &"#".repeat(2_000_000));
     assert_eq!(diagnostics.len(), 1);
     provoked.extend(
         diagnostics.iter().map(|found| place(found.site.file(), found.site.line() as usize)),
     );
-    // Nor has a value of the command line a file.
+    // A value of the command line has no file either.
     let failure = constant("2^(1/2)").expect_err("irrational");
     provoked.extend(failure.diagnostics.iter().map(|found| {
         assert_eq!(found.message, "the value is not a rational number");
         place(found.site.file(), found.site.line() as usize)
     }));
-    // Nor has a selection, or a bound, or what somebody stopped.
+    // Selections, limits and stopped work have no file either.
     let others = bounded(1).into_iter().chain(endless()).chain(stopped());
     for failure in wrong_selections().into_iter().chain(others) {
         provoked.extend(
@@ -239,7 +240,7 @@ fn each_wrong_file_gets_its_message() {
     );
 }
 
-/// Whatever step a bound stops, and however early, the message says so.
+/// The message is right for every step and every size at which the graph becomes full.
 #[test]
 fn a_graph_that_is_too_small_is_always_said_to_be() {
     for limit in (1..40).chain((40..4000).step_by(61)) {

@@ -1,4 +1,4 @@
-//! What is given on the faces of a body: normals by geometry, u and P N by the quantities.
+//! The data on the faces of a body: normals by geometry, u and P N by the quantities.
 
 use mms_codegen::{Compiled, compile};
 use mms_math::Scalar as _;
@@ -142,7 +142,7 @@ fn assert_given(compiled: &Compiled, placed: Placed) {
     }
 }
 
-/// u is given on a face that claims it, and on one that claims nothing.
+/// A face that claims u, and one that claims nothing, get u as data.
 #[test]
 fn each_face_of_a_box_has_what_its_claim_calls_for() {
     use Datum::{Displacement, Normal, Traction};
@@ -166,7 +166,7 @@ fn each_face_of_a_sector_has_its_own_normal() {
     assert_given(&sector, on_sector);
 }
 
-/// The coordinate that is constant on a face of a box is not read there.
+/// The data on a face of a box do not read the coordinate that is constant there.
 #[test]
 fn what_is_given_on_a_box_ignores_the_constant_coordinate() {
     let block = field(BLOCK);

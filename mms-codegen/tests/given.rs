@@ -18,7 +18,7 @@ const DISPLACEMENTS: [&str; 3] = [
     "[\"0.1*sin(X*Y + Z)*cos(t)\", \"0.1*X*Z^2*sin(t + Y)\", \"0.1*exp(X - Y)*cos(Z + t)\"]",
 ];
 
-/// Half the distance between the points of a difference: differences err by the square of it.
+/// Half the distance between the points of a difference: the error is proportional to its square.
 const STEP: f64 = 1e-20;
 const CLOSE: f64 = 1e-30;
 
@@ -44,7 +44,7 @@ fn precise(value: f64) -> Precise {
     Precise::from_f64(value)
 }
 
-/// A quantity at a place and a time; `normal` is taken by those that need one.
+/// A quantity at a place and a time; quantities that need a normal read `normal`.
 fn value(compiled: &Compiled, name: &str, time: &Precise, at: &[Precise]) -> Vec<Precise> {
     let quantity = compiled.quantity(name).expect("a quantity");
     let parameters = compiled.parameters(&Default::default());
@@ -91,7 +91,7 @@ fn sum(values: impl IntoIterator<Item = Precise>) -> Precise {
     values.into_iter().fold(precise(0.0), |sum, value| sum + value)
 }
 
-/// The body force of the case, derived with SymPy and mpmath apart from this project.
+/// The body force of the case, derived with SymPy and mpmath independently of this project.
 #[test]
 fn the_body_force_of_a_given_pressure_is_that_on_paper() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/given");
@@ -170,7 +170,7 @@ fn the_source_of_a_balance_is_the_rate_of_its_storage_and_the_divergence_of_its_
     }
 }
 
-/// Every name of the language of balances, as the residual of a constraint, beside the quantities of the field.
+/// Compares every name of the language of balances, as the residual of a constraint, with the quantities of the field.
 #[test]
 fn the_names_of_balances_are_the_motion() {
     let rigid = "[rigid]\nrotation = \"t^2 + 1/3\"\ntranslation = [\"t/5\", \"t^2\"]\n";
@@ -216,7 +216,7 @@ fn the_names_of_balances_are_the_motion() {
     }
 }
 
-/// The wave speed is that at rest, whatever the pressure is; so is the stress that is judged.
+/// The wave speed is the one at rest for any pressure; the judged stress, too.
 #[test]
 fn the_material_is_judged_with_given_fields_at_rest() {
     let of = |p: &str| {
@@ -242,7 +242,7 @@ fn the_material_is_judged_with_given_fields_at_rest() {
     assert!((stress(&none) - stress(&some)).abs() > 0.1);
 }
 
-/// A static field has no rates, and its balances no storage that changes.
+/// A static field has no rates, and its balances no change of storage.
 #[test]
 fn a_static_field_has_given_fields_without_rates() {
     let text = "[field]\ntitle = \"a field\"\ndimension = 1\n[given]\nT = { value = \"X^2\" }\n[displacement]\n\

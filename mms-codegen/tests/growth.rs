@@ -1,5 +1,4 @@
-//! The size of what is made grows with the size of the field, not faster: counted in nodes and
-//! instructions, never in time.
+//! The output grows with the size of the field, not faster: counted in nodes and instructions, never in time.
 
 #[path = "support/fields.rs"]
 mod fields;
@@ -17,7 +16,7 @@ fn compiled(family: Family, dimension: usize, terms: usize) -> Compiled {
 
 const FEW: [&[usize]; 3] = [&[1, 10, 100], &[1, 10], &[1, 10]];
 
-/// Three components of 1000 terms would pass the bound of the graph.
+/// Three components of 1000 terms would exceed the limit of the graph.
 const MANY: [&[usize]; 3] = [&[100, 1000], &[10, 100], &[10, 100]];
 
 /// Nodes with operands, and instructions.
@@ -26,12 +25,12 @@ fn size(family: Family, dimension: usize, terms: usize) -> [usize; 2] {
     [compiled.graph.size(), compiled.program.instrs.len()]
 }
 
-/// Of fields of one to three components, of as many terms each.
+/// Asserts linear growth for fields of one to three components, each with these numbers of terms.
 fn hold(family: Family, counts: [&[usize]; 3]) {
     for (dimension, counts) in (1..).zip(counts) {
         let sizes: Vec<_> = counts.iter().map(|terms| size(family, dimension, *terms)).collect();
         for pair in sizes.windows(2) {
-            // What every field has, whatever its size, makes the factor smaller.
+            // The constant part of every field makes the factor smaller.
             for (smaller, larger) in pair[0].iter().zip(pair[1]) {
                 assert!(larger <= 10 * smaller, "{family:?} in {dimension}D: {sizes:?}");
             }
@@ -56,8 +55,7 @@ fn so_they_do_for_as_many_terms_as_a_graph_holds() {
     hold(Family::Polynomial, MANY);
 }
 
-/// Each definition uses the one before it twice: what is walked again wherever it is used takes 2^45 steps,
-/// and 2^60 where everything is tried.
+/// Each definition uses the one before it twice: walking every use takes 2^45 steps, and 2^60 if all cases are tried.
 #[test]
 fn what_is_used_twice_is_walked_once() {
     let levels = if all_is_tried() { 60 } else { 45 };

@@ -1,4 +1,4 @@
-//! The language of formulas: what each construct means, to the last digit.
+//! The language of formulas: the meaning of each construct, to the last digit.
 
 use mms_codegen::compile::{Failure, compile_unproved, constant};
 use mms_codegen::{Compiled, Options};
@@ -19,7 +19,7 @@ fn field(parameters: &str, lets: &str, u: &str) -> String {
     )
 }
 
-/// What follows from a text, whether or not J > 0: formulas are what is tested here.
+/// Compiles a text, whether or not J > 0: these tests are about formulas.
 fn compiled(text: &str) -> Result<Compiled, Failure> {
     let load = |_: &str| Err("no files here".to_string());
     compile_unproved("x", "x.toml", text, &load, &Options::default())
@@ -119,7 +119,7 @@ fn a_variable_exponent_needs_a_base_that_is_not_seen_to_be_negative() {
     {
         assert!(value(positive, "", &format!("{base}^(X*t)")).is_ok(), "{base}");
     }
-    // Whether these are positive over a body is proved there.
+    // A certificate proves whether these are positive over a body.
     for (base, at) in [("X", 0.3_f64), ("(1 + X)", 1.3), ("(X^2)", 0.09), ("(1 - X^2)", 0.91)] {
         let found = value("", "", &format!("{base}^t")).unwrap();
         assert!((found - at.powf(0.7)).abs() < 1e-15, "{base}");
@@ -139,7 +139,7 @@ fn definitions_and_parameters_are_read_in_order() {
     assert_eq!(value("b = { value = \"a\" }\na = { value = 2 }", "", "X"), later("a"));
     assert_eq!(value("", "c = \"d\"\nd = \"X\"", "c"), later("d"));
     assert_eq!(value("", "c = \"c*X\"", "c"), Err("`c` is defined by itself".into()));
-    // Case tells names apart.
+    // Names are case-sensitive.
     let found = value("a = { value = 2 }\nA = { value = 3 }", "", "a*X + A*t");
     assert_eq!(found, Ok(2.0 * 0.3 + 3.0 * 0.7));
 }
@@ -153,8 +153,8 @@ fn what_the_language_lacks_is_refused_and_not_guessed() {
     }
 }
 
-/// Powers and nests that are far too large to be written out are answered, by an amount of work
-/// that is counted: the nodes of the graph, or a message.
+/// Powers and nests that are far too large to be written out return a result, after a counted amount of work: the nodes of the
+/// graph, or a message.
 #[test]
 fn what_is_huge_takes_little_work() {
     let few = |u: &str| {
@@ -192,7 +192,7 @@ fn what_is_huge_takes_little_work() {
     assert_eq!(few(&format!("X{}", "*X".repeat(40_000))), Ok(()));
 }
 
-/// A chain of definitions as long as a file can hold, or a tenth of it.
+/// A chain of definitions as long as a file can contain, or a tenth of it.
 #[test]
 fn a_long_chain_of_definitions_is_answered() {
     let chain = |count: usize, step: &str| {

@@ -1,5 +1,5 @@
-//! What holds for every material in `materials/`, in 77 digits: the folder is its own list. Dual
-//! numbers and differences know nothing of symbolic derivatives.
+//! Laws for every material in `materials/`, in 77 digits: the folder is its own list. Dual numbers and differences do not
+//! depend on symbolic derivatives.
 
 use std::sync::LazyLock;
 
@@ -57,14 +57,14 @@ fn no_files(_: &str) -> Result<String, String> {
     Err("only shipped materials".to_string())
 }
 
-/// A field without a displacement: what a material answers to a gradient depends on none.
+/// A field without a displacement: the response of a material to a gradient depends on none.
 fn field(dimension: usize, material: &str, arguments: &str) -> Compiled {
     let displacement = format!("[{}]", vec!["0"; dimension].join(", "));
     let text = text(dimension, &displacement, material, arguments);
     compile("field", "field.toml", &text, &no_files).unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-/// A field of the usual displacement, of which nothing but the stress and its divergence is made.
+/// A field of the usual displacement, with only the stress and its divergence.
 fn moving(dimension: usize, material: &str, arguments: &str) -> Compiled {
     let text = text(dimension, DISPLACEMENTS[dimension - 1], material, arguments);
     let quantities = Some([Quantity::FirstPiolaKirchhoff, Quantity::DivP].into());
@@ -73,8 +73,8 @@ fn moving(dimension: usize, material: &str, arguments: &str) -> Compiled {
         .unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-/// The arguments of a material: distinct stresses that change from place to place, a large
-/// number for what has no unit, and this formula for each given field.
+/// The arguments of a material: distinct stresses that change from place to place, a large number for arguments without a unit,
+/// and this formula for each given field.
 fn arguments(spec: &MaterialSpec, given: &str) -> String {
     let line = |(index, parameter): (usize, &mms_spec::MaterialParameter)| {
         let unit = parameter.unit.as_ref().map(|unit| unit.value.as_str());
@@ -163,7 +163,7 @@ fn assert_close(what: &str, a: &Precise, b: &Precise, tolerance: f64) {
     assert!(difference.at_most(&precise(tolerance)), "{what}: {:e}, {:e}", a.to_f64(), b.to_f64());
 }
 
-/// Both sides have 77 digits, and cancel some.
+/// The tolerance: both sides have 77 digits, and some cancel.
 const EXACT: f64 = 1e-60;
 
 #[test]
@@ -222,8 +222,7 @@ fn kirchhoff_stress_is_stress_times_the_transposed_gradient() {
     }
 }
 
-/// A rotation in the plane or in space, in exact numbers: that of the quaternion 1, 2, 3, 4 in
-/// space, by an angle of cosine 3/5 in the plane.
+/// An exact rotation: by an angle of cosine 3/5 in the plane, by the quaternion (1, 2, 3, 4) in space.
 fn rotation(dimension: usize) -> Option<Vec<Precise>> {
     let (numbers, scale): (&[i32], i32) = match dimension {
         1 => return None,
@@ -265,7 +264,7 @@ fn energy_stays_the_same_under_rotations_unless_a_material_says_otherwise() {
     assert_eq!(others.map(|spec| spec.name.shown()).collect::<Vec<_>>(), ["linear_elastic"]);
 }
 
-/// It has no transverse waves, and is no less of a material.
+/// A fluid has no transverse waves, but is accepted as a material.
 #[test]
 fn a_fluid_is_a_material() {
     for dimension in 1..=3 {
@@ -316,7 +315,7 @@ fn no_wave_is_faster_than_the_wave_speed() {
             largest = largest.max(greatest_eigenvalue(&acoustic, dimension));
         }
         assert!(largest <= bound * (1.0 + 1e-12), "{}: {largest} {bound}", spec.name.shown());
-        // The fibres leave the plane: then no direction in it is theirs.
+        // If the fibres leave the plane, no direction in it is theirs.
         if !spec.has_fibres() {
             assert!(largest > bound * 0.999, "{}: {largest} {bound}", spec.name.shown());
         }
@@ -351,7 +350,7 @@ fn positive(matrix: &[f64], dimension: usize) -> bool {
     minors.into_iter().all(|minor| minor > 0.0)
 }
 
-/// By powers of the matrix.
+/// The greatest eigenvalue, by powers of the matrix.
 fn greatest_eigenvalue(matrix: &[f64], dimension: usize) -> f64 {
     let mut vector = vec![1.0, 0.7, 0.3];
     vector.truncate(dimension);
@@ -366,7 +365,7 @@ fn greatest_eigenvalue(matrix: &[f64], dimension: usize) -> f64 {
     length
 }
 
-/// Div P against central differences of P in a field of that material.
+/// Compares Div P with central differences of P in a field of that material.
 fn momentum_balances(name: &str, compiled: &Compiled) {
     let dimension = compiled.field.dimension;
     let step = precise(1e-20);
@@ -410,7 +409,7 @@ fn the_divergence_is_that_of_the_stress() {
     }
 }
 
-/// tau = lambda ln J I + mu (B - I), typed by hand.
+/// Compares with tau = lambda ln J I + mu (B - I), typed by hand.
 #[test]
 fn neo_hookean_is_what_is_on_paper() {
     let compiled = field(3, "neo_hookean", "lambda = 5\nmu = 3");
@@ -433,7 +432,7 @@ fn neo_hookean_is_what_is_on_paper() {
     }
 }
 
-/// A strain as small as rounding leaves it costs no digits of the stress.
+/// A strain as small as rounding costs no digits of the stress.
 #[test]
 fn small_strains_lose_nothing() {
     for (spec, compiled) in FIELDS.iter() {

@@ -41,7 +41,7 @@ const QUANTITIES: [Quantity; 5] = [
     Quantity::Acceleration,
 ];
 
-/// A motion, of which nothing but that is made, and its material, which is the same without a motion.
+/// A motion with only the quantities that are compared, and its material, which is the same without a motion.
 struct Case {
     motion: Compiled,
     material: Compiled,
@@ -198,7 +198,7 @@ fn the_wave_speed_is_that_of_lame() {
     );
 }
 
-/// A material at rest carries no stress.
+/// A material at rest has no stress.
 #[test]
 fn the_undeformed_state_is_free_of_stress() {
     for compiled in [field(3, SPACE, NEO_HOOKEAN, "1"), field(2, PLANE, GRADED, "1")] {

@@ -1,4 +1,4 @@
-//! No text makes the compiler take more memory than a stated bound: counted by the allocator.
+//! No text makes the compiler allocate more memory than a stated bound: counted by the allocator.
 
 use allocation_counter::measure;
 use mms_codegen::Options;
@@ -6,11 +6,11 @@ use mms_codegen::Options;
 use crate::sampled::sampled;
 use crate::survive::survive;
 
-/// What a compilation may hold at once. The graph holds at most 200,000 nodes and operands of some
-/// 100 bytes each; the programs and the texts that are made of it take several times as much.
+/// The largest allocation of a compilation. The graph has at most 200,000 nodes and operands of about 100 bytes each; the
+/// programs and the texts that are made of it need several times as much.
 const BOUND: u64 = 128 << 20;
 
-/// What completes a field of one dimension.
+/// The tables that complete a field of one dimension.
 const REST: &str = "[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
                     [domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n";
 
@@ -24,7 +24,7 @@ fn repeated(count: usize, piece: impl Fn(usize) -> String) -> String {
     (1..=count).map(piece).collect()
 }
 
-/// Asserts that no text of a sweep takes more than the bound; each has a name.
+/// Asserts that no text of a sweep allocates more than the bound; each has a name.
 fn hold(texts: &[(&str, String)]) {
     for (what, text) in sampled(texts, 5) {
         let taken = measure(|| survive(text, &Options::default())).bytes_max;
@@ -54,7 +54,7 @@ fn no_text_takes_more_memory_than_the_bound() {
     ]);
 }
 
-/// The text that takes the most.
+/// The text that needs the most memory.
 #[test]
 #[ignore = "takes a minute: .ci/long runs it"]
 fn long_numbers_take_no_more_memory_than_the_bound() {

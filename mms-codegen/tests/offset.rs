@@ -4,7 +4,7 @@ use mms_codegen::compile::{Options, compile_unproved};
 use mms_symbolic::expr::Node;
 use mms_symbolic::expr::print::Names;
 
-/// u of a bar, as it is derived from.
+/// The offset of the coordinate in u of a bar, as it is derived.
 fn displacement(parameters: &str, u: &str, bounds: [&str; 2]) -> String {
     let [lower, upper] = bounds;
     let text = format!(
@@ -31,7 +31,7 @@ fn coordinates_are_taken_less_the_place_that_parameters_say() {
     let both = "a = { value = 0.1 }\nb = { value = 0.2 }";
     let near = ["0", "1"];
     assert_eq!(displacement(both, "b*sin(3*X - 3*a - t)", near), "X - a");
-    // b is a wave number beside a part of the place, and a is b times another.
+    // b is a wave number and a part of the offset, and a is b times another number.
     assert_eq!(displacement(both, "b*sin(X - a - b)", near), "X - a");
     assert_eq!(displacement(both, "a*sin(X - a)/9 + b/9", near), "");
     assert_eq!(displacement(both, "X*sin(X - a)/9 + b/9", near), "");

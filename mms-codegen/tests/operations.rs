@@ -1,7 +1,7 @@
-//! How many operations the body force takes, for fields of the kinds that grow most.
+//! The number of operations of the body force, for fields of the kinds that grow most.
 //!
-//! The bounds are a little above what is reached; without any of the passes that they are due to
-//! (sharing, nesting, relations, kernels in derivatives) at least one of them is exceeded.
+//! The bounds are a little above the present counts; without any of the passes (sharing, nesting, relations, kernels in
+//! derivatives) at least one of them is exceeded.
 
 use mms_codegen::compile;
 use mms_mechanics::Output;
@@ -45,7 +45,7 @@ fn vortex(h: &str) -> String {
     field(&definitions, &["X*cos(alpha) - Y*sin(alpha) - X", "X*sin(alpha) + Y*cos(alpha) - Y"])
 }
 
-/// Operations of the quantity, in all and those that depend on X.
+/// The operations of the quantity: all of them, and those that depend on X.
 fn operations(text: &str, quantity: Quantity) -> (usize, usize) {
     let load = |_: &str| Err("no files here".to_string());
     let compiled =
@@ -65,7 +65,7 @@ fn a_vortex_costs_little_more_than_by_hand() {
     for h in ["((4*R - 3)*(4*R - 5))^2", "1 - 32*(R - 1)^2 + 256*(R - 1)^4", "exp(-8*(R - 1)^2)"] {
         let text = vortex(h);
         at_most(&text, 70, 48);
-        // det F is 1, and no operation is left of it.
+        // det F is 1, and needs no operation.
         assert_eq!(operations(&text, Quantity::Jacobian), (0, 0));
     }
 }

@@ -54,11 +54,11 @@ fn materials_are_read_without_a_word() {
     }
 }
 
-/// Those whose name begins with `units` have formulas that agree with their units, or need not.
+/// Compiles the files whose names begin with `units`: their formulas agree with their units, or state none.
 #[test]
 fn right_units_compile_without_a_word() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/pass");
-    // Units are those of the whole file, whatever of it is made.
+    // Units are checked in the whole file, for any selection.
     let quantities = Some([Quantity::Displacement].into());
     let options = Selection { quantities, ..Selection::default() }.into();
     let mut compiled = 0;

@@ -1,4 +1,4 @@
-//! Ranges in which the density and the moduli at F = I are positive, and those in which they are not.
+//! Ranges in which the density and the moduli at F = I are positive, and ranges in which they are not.
 
 use mms_codegen::certify::certificate::{Certificate, certify};
 use mms_codegen::certify::sign::Sign;
@@ -62,7 +62,7 @@ fn ranges_are_refused_from_where_moduli_are_not_positive_definite() {
 }
 
 /// With W = ... + r/2 (I4 - 1)^2 and I4 - 1 = 2 a.E a, the stiffness is C = lambda I x I + 2 mu I + 4 r a x a x a x a. Its
-/// shear moduli are mu, and what is left are 2 (lambda + mu) and E = lambda + 2 mu + 4 r - lambda^2/(lambda + mu).
+/// shear moduli are mu, and the other two moduli are 2 (lambda + mu) and E = lambda + 2 mu + 4 r - lambda^2/(lambda + mu).
 #[test]
 fn fibres_are_refused_from_where_they_give_way() {
     let fibres = ["[1, 0, 0]", "[0.6, 0.8, 0]", "[0, 0, 1]", "[\"cos(X)\", \"sin(X)\", 0]"];
@@ -89,7 +89,7 @@ fn fibres_are_refused_from_where_they_give_way() {
     }
 }
 
-/// Moduli that no range moves are judged for the defaults, by which a fluid is a material too.
+/// Moduli that depend on no range are judged for the defaults only, which allows a fluid.
 #[test]
 fn moduli_without_a_range_are_not_looked_at() {
     let fluid = "model = \"neo_hookean\"\nlambda = \"a\"\nmu = 0\ndensity = \"1 + X*a\"";

@@ -1,5 +1,5 @@
-//! A check ends soon, whatever the text: it counts steps, and says what it left. And it stops when it is asked to. Where
-//! formulas are too large to be derived, the one that makes them so is named.
+//! A check ends soon for any text: it counts steps, and names the parts that it left out. It also stops on request. If formulas
+//! are too large to be derived, the message names the one that makes them so.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ use mms_symbolic::work::Stop;
 
 use crate::sampled::{all_is_tried, sampled};
 
-/// A check ends within ten seconds of the processor's time. What takes this long has no end.
+/// The limit of a check that has hung: a check ends within ten seconds of processor time.
 const ENDLESS: Duration = Duration::from_secs(120);
 
 fn faults() -> PathBuf {
@@ -39,7 +39,7 @@ fn compiled(text: &str, options: &Options) -> Result<Compiled, Failure> {
     compile_unproved("x", "x.toml", text, &load, options)
 }
 
-/// All that `mms check` does with a field.
+/// Runs everything that `mms check` does with a field.
 fn check(text: &str) -> Result<(Compiled, Vec<Comparison>, Certificate), Failure> {
     let begun = ThreadTime::now();
     let compiled = compiled(text, &Options::default());
@@ -84,8 +84,8 @@ fn the_cases_end_and_say_what_they_left() {
     }
 }
 
-/// A function that arbitrary precision is left with is charged as that: some hundred cells spend the budget, where ten
-/// thousand took 18 s. And where the budget is spent, no place is said to fail.
+/// A function in arbitrary precision is charged its full cost: a few hundred cells spend the budget, where ten thousand took 18
+/// s. Once the budget is spent, no place is reported as a failure.
 #[test]
 fn functions_of_tiny_numbers_end() {
     let text = fault("slow_atan2.toml");
@@ -157,7 +157,7 @@ fn many_extremes_end() {
     let _ = check(&field("a*X", "", "", &extremes));
 }
 
-/// One value of u in 77 digits would take longer than a budget: nothing is compared, and nothing passes.
+/// One value of u in 77 digits would exceed a budget: nothing is compared, and nothing passes.
 #[test]
 fn a_closed_form_that_takes_too_long_is_not_compared() {
     let terms: Vec<_> = (1..8000).map(|k| format!("sinh(X*{k}/8000)")).collect();
@@ -178,7 +178,7 @@ fn who_is_asked_to_stop_says_so() {
     assert!(failure.to_string().contains("stopped before its end"), "{failure}");
 }
 
-/// The budgets of a stop are empty from the start, and so are those of a part that comes after a spent one.
+/// After a stop all budgets are empty from the start, and so is the budget of a part after a spent one.
 #[test]
 fn a_proof_that_is_stopped_proves_nothing_and_refutes_nothing() {
     let fields = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
@@ -213,7 +213,7 @@ fn a_stress_at_rest_is_found_with_its_components() {
     assert!(warning.is_warning && warning.message.contains("stress at rest"));
 }
 
-/// The text that is found guilty in a field of these definitions, and what it is part of.
+/// The text that is blamed in a field of these definitions, and the definition that contains it.
 fn found(lets: &str, u: &str) -> Option<(String, String)> {
     let text = format!(
         "[field]\ntitle = \"x\"\ndimension = 1\n[let]\n{lets}\n[displacement]\nu = [\"{u}\"]\n"

@@ -1,11 +1,11 @@
-//! Finds the sines and cosines whose angle is proved to be less than a quarter turn, so that they need no range
-//! reduction (`sin_near_zero`, `cos_near_zero`), and those whose angle is at most 1, or a little more, so that
-//! fewer terms are enough (`sin_within_one`, `cos_within_one`).
+//! Finds the sines and cosines whose angle is proved to be less than a quarter turn, so that they need no range reduction
+//! (`sin_near_zero`, `cos_near_zero`), and those whose angle is at most 1, or a little more, so that fewer terms are enough
+//! (`sin_within_one`, `cos_within_one`).
 //!
-//! The proof is for the body, the time window and the ranges of parameters, with the box, the bounds and the
-//! search of certificates, in at most 128 cells and 50,000 operations. Elsewhere the functions are right too, only
-//! slower (`mms_math::batch`). So an angle that depends on a parameter without a range, which may be set to
-//! anything, is left as it is; `freeze` makes a number of such a parameter. Ports call the plain functions.
+//! The proof is for the body, the time window and the ranges of parameters, with the box, the bounds and the search of
+//! certificates, in at most 128 cells and 50,000 operations. For other angles these functions are right too, only slower
+//! (`mms_math::batch`). An angle that depends on a parameter without a range is left as it is, since a user may set that
+//! parameter to any number; `freeze` replaces such a parameter by a number. Ports call the plain functions.
 
 use super::chart::Chart;
 use super::enclosure::Formulas;
@@ -19,15 +19,15 @@ use mms_symbolic::expr::{Expr, Function, Graph, Node, Small, Symbol};
 use mms_symbolic::pass::substitute::rebuild;
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// The magnitude that is proved of small angles: less than the sine and the cosine of such know
-/// (`mms_math::WITHIN_ONE` and `mms_math::NEAR_ZERO`), since a computed angle has errors.
+/// The magnitude that must be proved of an angle for each kind of small angle. Each is less than the limit of the functions
+/// themselves (`mms_math::WITHIN_ONE` and `mms_math::NEAR_ZERO`), since a computed angle has errors.
 const LIMITS: [(f64, Small); 2] = [(1.0 + 1.0 / 32.0, Small::WithinOne), (1.5, Small::NearZero)];
 
-/// How many cells and operations a proof may take.
+/// The cells and operations that one proof may use.
 const CELLS: usize = 128;
 const OPERATIONS: usize = 50_000;
 
-/// Says of the angles of sines and cosines that they are small where that is proved.
+/// Marks the angles of sines and cosines that are proved to be small.
 pub fn near_zero(
     graph: &mut Graph,
     field: &FieldSpec,
@@ -36,7 +36,7 @@ pub fn near_zero(
 ) {
     let roots: Vec<Expr> = outputs.values().flatten().copied().collect();
     let candidates = candidates(graph, model, &roots);
-    // Without a body nothing bounds an angle.
+    // No angle is bounded without a body.
     if candidates.is_empty() || field.domain.body.is_nothing() {
         return;
     }
@@ -58,7 +58,7 @@ pub fn near_zero(
     }
 }
 
-/// The angles at points of the body that depend on nothing without bounds.
+/// The angles at points of the body that depend only on bounded variables.
 fn candidates(graph: &Graph, model: &Model, roots: &[Expr]) -> SortedSet<Expr> {
     let is_bounded = |expr: Expr| is_bounded(graph, model, expr);
     let mut bounds = model.domain.body.values().into_iter();
@@ -86,7 +86,7 @@ fn is_bounded(graph: &Graph, model: &Model, expr: Expr) -> bool {
     })
 }
 
-/// What is proved of an angle.
+/// The narrowest kind of small angle that is proved for an angle.
 fn proved(graph: &mut Graph, chart: &Chart, angle: Expr) -> Option<Small> {
     let angle = chart.pull_back(graph, &[angle]);
     let formulas = Formulas::new(graph, chart, &angle);

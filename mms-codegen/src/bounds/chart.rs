@@ -1,9 +1,8 @@
-//! What a field depends on, as a box: parameters with a range, the time, and coordinates between
-//! whose bounds the body lies.
+//! The variables of a field as a box: parameters with a range, the time, and coordinates between the bounds of the body.
 //!
-//! A round body is a box in radius and angles; a face is a box of one variable less. A polygon is a row of triangles,
-//! each the image of a square, one side of which is a corner. So everything that is proved over a domain is proved over
-//! a box. Where all angles are one place, as on an axis, nothing is lost: bounds hold at places, not at angles.
+//! A round body is a box in radius and angles; a face is a box of one variable less. A polygon is a row of triangles, each the
+//! image of a square, one side of which collapses to a corner. So every proof over a domain is a proof over a box. Where all
+//! angles map to one place, as on an axis, the bounds are still valid: they bound values at places, not at angles.
 
 use super::search::{Cell, Limit};
 use mms_math::coordinates::System;
@@ -26,14 +25,14 @@ use mms_symbolic::pass::substitute::{rebuild, substitute};
 use mms_symbolic::sorted::SortedMap;
 use mms_symbolic::work::Work;
 
-/// The variables of a field on its body or on a face, and what they replace.
+/// The variables of a field on its body or on a face, and the expressions of everything that they replace.
 #[derive(Clone, Debug)]
 pub struct Chart {
     /// The symbols that vary: parameters, the time, coordinates.
     variables: Vec<Symbol>,
-    /// What stands for the other parameters, and for a coordinate that is constant on a face.
+    /// The expressions that replace the other parameters, and a coordinate that is constant on a face.
     fixed: SortedMap<Symbol, Expr>,
-    /// X in terms of radius and angles; empty where they are themselves.
+    /// X in terms of radius and angles; empty if the coordinates are Cartesian.
     places: SortedMap<Symbol, Expr>,
     system: System,
     /// The triangles of a polygon, as many as a power of two, so that no cell of a search lies across two for long.
@@ -44,14 +43,14 @@ pub struct Chart {
     /// How many components X has, and how many parameters there are.
     dimension: usize,
     parameters: usize,
-    /// What all that is evaluated in the chart may take together.
+    /// The budget of all evaluations in the chart.
     work: Work,
 }
 
-/// What the chart's program computes.
+/// An output of the chart's program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Output {
-    /// The two bounds of the variable of that index.
+    /// The two bounds of the variable of this index.
     Bounds(usize),
     /// The vertices of a polygon, one after another.
     Vertices,
@@ -121,12 +120,12 @@ impl Chart {
         }
     }
 
-    /// What may still be evaluated: the budget of the graph.
+    /// The remaining budget for evaluations: the budget of the graph.
     pub fn work(&self) -> &Work {
         &self.work
     }
 
-    /// A search of at most so many cells, within that budget.
+    /// The limit of a search of at most `cells` cells within this budget.
     pub fn limit(&self, cells: usize) -> Limit<'_> {
         Limit { cells, work: Some(&self.work) }
     }
@@ -136,7 +135,7 @@ impl Chart {
         &self.variables
     }
 
-    /// Formulas in X in terms of the variables.
+    /// Rewrites formulas in X in terms of the variables.
     pub fn pull_back(&self, graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
         let general = straightened(graph, formulas, &self.places);
         self.fix(graph, &general)
@@ -163,8 +162,8 @@ impl Chart {
         reduced.unwrap_or_else(|| rotated.components().to_vec())
     }
 
-    /// By how much each fraction alone moves each variable in a cell, and by how much the parameters
-    /// move it along with their own range.
+    /// By how much each fraction moves each variable in a cell by itself, and by how much the parameters move it along with
+    /// their own range.
     fn widths(&self, cell: &Cell, place: &[Interval]) -> Vec<[f64; 2]> {
         let total = || place.iter().map(|side| side.width());
         if self.ranged().next().is_none() {
@@ -181,7 +180,7 @@ impl Chart {
         own.zip(total()).map(|(own, total)| [own, (total - own).max(0.0)]).collect()
     }
 
-    /// How much each variable changes formulas with these slopes over a cell, all of them together.
+    /// By how much each variable changes all formulas with these slopes together over a cell.
     pub fn changes(&self, cell: &Cell, place: &[Interval], slopes: &[Vec<Interval>]) -> Vec<f64> {
         let widths = self.widths(cell, place);
         let slopes = slopes.iter().map(|by| by.iter().map(|slope| slope.farthest()).sum::<f64>());
@@ -212,7 +211,7 @@ impl Chart {
         }
         let [from, to] = self.within(&cell.0[first]);
         if from != to {
-            // What lies across two triangles is cut between them first.
+            // A cell that lies across two triangles is cut between them first.
             changes[first] = f64::INFINITY;
         }
     }
@@ -243,7 +242,7 @@ impl Chart {
             let s = along - T::from_f64(first as f64);
             return point(first, &s, &fractions[1]);
         }
-        // The image of a rectangle is the hull of those of its corners, for X and Y are linear in each fraction.
+        // The image of a rectangle is the hull of the images of its corners, for X and Y are linear in each fraction.
         let mut hull: Option<[T; 2]> = None;
         for triangle in first..=last {
             let ends = [from, to].map(|end| (end - triangle as f64).clamp(0.0, 1.0));
@@ -262,7 +261,7 @@ impl Chart {
         hull.unwrap_or_else(|| [0, 1].map(|_| T::from_f64(f64::NAN)))
     }
 
-    /// Formulas in all parameters in terms of the variables: the others have their defaults.
+    /// Rewrites formulas in all parameters in terms of the variables; parameters that do not vary get their defaults.
     pub fn fix(&self, graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
         substitute(graph, formulas, &self.fixed)
     }
@@ -304,13 +303,13 @@ impl Chart {
         })
     }
 
-    /// Which variables are parameters.
+    /// The indices of the variables that are parameters.
     fn ranged(&self) -> impl Iterator<Item = usize> {
         let count = self.variables.iter().position(|symbol| *symbol == Symbol::Time);
         0..count.unwrap_or(0)
     }
 
-    /// Values of the variables among the parameters; what is not known yet is 0, and unused.
+    /// The values of all parameters; those whose variables have no value yet are 0, and unused.
     fn raw_parameters<T: Number>(&self, values: &[T]) -> Vec<T> {
         let mut parameters = vec![T::from_f64(0.0); self.parameters];
         for (symbol, value) in self.variables.iter().zip(values) {
@@ -335,7 +334,7 @@ impl Chart {
         (time, coordinates)
     }
 
-    /// Prepares a program of formulas that were pulled back.
+    /// Prepares a program of pulled-back formulas.
     pub fn run<'a, T: Number, K: Key>(&'a self, program: &'a Program<K>) -> Run<'a, T, K> {
         let ready = self.ranged().next().is_none().then(|| {
             let parameters = self.raw_parameters::<T>(&[]);
@@ -344,7 +343,7 @@ impl Chart {
         Run { chart: self, program, ready, plans: Vec::new(), times: 1 }
     }
 
-    /// Prepares what a place is without the chart: see [`Run::point`].
+    /// Prepares the map from the variables of the chart to parameters, time and X: see [`Run::point`].
     pub fn points<T: Number>(&self) -> Run<'_, T, Output> {
         self.run(&self.program)
     }
@@ -354,18 +353,18 @@ impl Chart {
 pub struct Run<'a, T: Number, K> {
     chart: &'a Chart,
     program: &'a Program<K>,
-    /// After the stage of parameters, where none of them varies.
+    /// The interpreter after the stage of parameters, if none of them varies.
     ready: Option<Interpreter<'a, T, K>>,
-    /// What outputs need that were asked for.
+    /// The instructions that each requested list of outputs needs.
     plans: Vec<(Vec<K>, Vec<bool>)>,
-    /// How many times what an operation takes is charged.
+    /// How many times the budget is charged for an operation.
     times: u64,
 }
 
 /// All parameters, t and X.
 #[derive(Clone, Debug)]
 pub struct Spot<T> {
-    /// In the order of the file.
+    /// The parameters, in the order of the file.
     pub parameters: Vec<T>,
     /// t.
     pub time: T,
@@ -374,7 +373,7 @@ pub struct Spot<T> {
 }
 
 impl Spot<Precise> {
-    /// Whether all of it was computed.
+    /// Whether every number was computed.
     pub fn is_known(&self) -> bool {
         let all = self.parameters.iter().chain(&self.coordinates).chain([&self.time]);
         all.into_iter().all(Precise::is_defined)
@@ -387,24 +386,24 @@ impl<T: Number> Run<'_, T, Output> {
         let [parameters, coordinates] = self
             .at(values, &[Output::Parameters, Output::Coordinates])
             .try_into()
-            .unwrap_or_else(|_| unreachable!("two outputs were asked for"));
+            .unwrap_or_else(|_| unreachable!("two outputs were requested"));
         Spot { parameters, time: self.chart.split(values).0, coordinates }
     }
 }
 
 impl<T: Number, K: Key> Run<'_, T, K> {
-    /// Charges every operation as so many.
+    /// Charges every operation `times` times.
     pub fn charge(&mut self, times: u64) {
         self.times = times;
         self.ready.iter_mut().for_each(|ready| ready.charge(times));
     }
 
-    /// Some outputs at values of the variables.
+    /// Computes some outputs at values of the variables.
     pub fn at(&mut self, values: &[T], outputs: &[K]) -> Vec<Vec<T>> {
         self.with(values, &|_| unreachable!("all leaves are variables"), outputs)
     }
 
-    /// Some outputs at values of the variables and of the leaves that are left open.
+    /// Computes some outputs at values of the variables and of the leaves that `open` supplies.
     pub fn with(&mut self, values: &[T], open: &dyn Fn(Symbol) -> T, outputs: &[K]) -> Vec<Vec<T>> {
         let known = self.plans.iter().position(|(planned, _)| planned == outputs);
         let plan = known.unwrap_or_else(|| {
@@ -431,8 +430,8 @@ impl<T: Number, K: Key> Run<'_, T, K> {
     }
 }
 
-/// Formulas in X in terms of radius and angles, and without sqrt(X^2 + Y^2) and sqrt(X^2 + Y^2 + Z^2), which are a radius
-/// or its part across the axis.
+/// Rewrites formulas in X in terms of radius and angles, with sqrt(X^2 + Y^2) and sqrt(X^2 + Y^2 + Z^2) replaced by the radius,
+/// or by its part across the axis.
 pub fn straightened(
     graph: &mut Graph,
     formulas: &[Expr],
@@ -459,7 +458,7 @@ pub fn straightened(
     short.unwrap_or(replaced)
 }
 
-/// R sin phi, where X is given by radius and two angles.
+/// R sin phi, if X is given by radius and two angles.
 fn across(graph: &mut Graph, places: &SortedMap<Symbol, Expr>) -> Option<Expr> {
     let angle = graph.symbol(POLAR_ANGLE);
     let cosine = graph.call(Function::Cos, &[angle]);
@@ -476,7 +475,7 @@ fn across(graph: &mut Graph, places: &SortedMap<Symbol, Expr>) -> Option<Expr> {
 const ACROSS: Symbol = Symbol::Local(0);
 const WHOLE: Symbol = Symbol::Local(1);
 
-/// Formulas with names for these two, in whatever powers they are.
+/// Replaces these two roots in formulas by their names, in any power.
 fn with_radii(graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
     let coordinates = face::coordinates(graph);
     let squares = coordinates.map(|it| (graph.power(it, 2), Rational::ONE));

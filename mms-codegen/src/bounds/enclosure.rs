@@ -25,7 +25,7 @@ pub struct Formulas {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Output {
     Values,
-    /// The derivatives by the variable of that index.
+    /// The derivatives by the variable of this index.
     Slopes(usize),
 }
 
@@ -34,7 +34,7 @@ impl Formulas {
     pub fn new(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Self {
         let mut outputs = SortedMap::from([(Output::Values, compact(graph, formulas))]);
         for (index, symbol) in chart.variables().iter().enumerate() {
-            // Without a budget what is scheduled has no value, whatever it is.
+            // Once the budget is spent no value of the program is used, so any formulas will do as slopes.
             let slopes = match graph.work().is_over() {
                 true => formulas.to_vec(),
                 false => differentiate(graph, formulas, *symbol),
@@ -44,12 +44,12 @@ impl Formulas {
         Formulas { program: schedule_plainly(graph, &outputs), variables: chart.variables().len() }
     }
 
-    /// How many operations one evaluation takes.
+    /// The number of operations of one evaluation.
     pub fn size(&self) -> usize {
         self.program.instrs.len()
     }
 
-    /// Prepares their evaluation in a scalar.
+    /// Prepares an evaluation in one scalar type.
     pub fn run<'a, T: Number>(&'a self, chart: &'a Chart) -> Evaluation<'a, T> {
         let mut outputs = vec![Output::Values];
         outputs.extend((0..self.variables).map(Output::Slopes));
@@ -57,7 +57,7 @@ impl Formulas {
     }
 }
 
-/// Bounds over boxes that several searches ask for: the first boxes are the same for all.
+/// Bounds over boxes, kept for several searches: their first boxes are the same.
 pub struct Enclosures<'a> {
     evaluation: Evaluation<'a, Interval>,
     known: HashMap<Vec<u64>, Rc<Enclosure>>,
@@ -81,7 +81,7 @@ impl<'a> Enclosures<'a> {
     }
 }
 
-/// What tells a box from others.
+/// The bits that identify a box.
 pub fn key(place: &[Interval]) -> Vec<u64> {
     place.iter().flat_map(|side| [side.lower(), side.upper()].map(f64::to_bits)).collect()
 }
@@ -93,7 +93,7 @@ pub struct Evaluation<'a, T: Number> {
 }
 
 impl<T: Number> Evaluation<'_, T> {
-    /// The values.
+    /// The values at a place.
     pub fn values(&mut self, place: &[T]) -> Vec<T> {
         self.run.at(place, &self.outputs[..1]).swap_remove(0)
     }
@@ -102,16 +102,16 @@ impl<T: Number> Evaluation<'_, T> {
 /// Bounds of some formulas over a box.
 #[derive(Clone, Debug)]
 pub struct Enclosure {
-    /// Of each formula.
+    /// The bounds of each formula.
     pub values: Vec<Interval>,
-    /// Of its derivative by each variable: first by variable, then by formula.
+    /// The bounds of each derivative: first by variable, then by formula.
     pub slopes: Vec<Vec<Interval>>,
 }
 
 impl Evaluation<'_, Interval> {
-    /// Bounds over a box: those of interval arithmetic, and within them those of the mean-value
-    /// form f(c) + f'(box) (box - c), whose excess shrinks with the square of the box (Moore,
-    /// Kearfott & Cloud, Introduction to Interval Analysis, 2009, section 6.3).
+    /// Bounds formulas over a box by interval arithmetic, intersected with the mean-value form f(c) + f'(box) (box - c), whose
+    /// excess shrinks with the square of the box (Moore, Kearfott & Cloud, Introduction to Interval Analysis, 2009, section
+    /// 6.3).
     pub fn enclose(&mut self, place: &[Interval]) -> Enclosure {
         let mut outputs = self.run.at(place, &self.outputs);
         let slopes = outputs.split_off(1);

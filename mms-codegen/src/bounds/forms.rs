@@ -1,11 +1,11 @@
-//! Formulas in the forms that intervals bound best: each variable in as few places as can be.
+//! Formulas in the forms that intervals bound best: each variable occurs as few times as possible.
 
 use mms_symbolic::expr::{Expr, Graph, Node, Rational, Symbol, is_negative};
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::substitute::rebuild;
 
-/// Formulas with common factors taken out and squares completed: in 4 x^3 (1 - x)^4 - 4 x^4 (1 - x)^3
-/// as it stands, intervals would not see that most of it cancels.
+/// Takes out common factors and completes squares. Intervals would not see that most of 4 x^3 (1 - x)^4 - 4 x^4 (1 - x)^3
+/// cancels.
 pub fn compact(graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
     let short = graph.attempt(|graph| {
         let factored = factor(graph, formulas);
@@ -35,7 +35,7 @@ fn with_squares(graph: &mut Graph, factors: Vec<(Expr, Rational)>) -> Expr {
             None => product.push((base, exponent)),
         }
     }
-    // What has one exponent is paired first.
+    // Factors of one exponent are paired first.
     linear.sort_by(|a, b| b.exponent.cmp(&a.exponent));
     let one = graph.number(1);
     while let Some(first) = linear.pop() {

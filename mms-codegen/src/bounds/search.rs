@@ -1,8 +1,7 @@
 //! Branch and bound: a rigorous upper bound of a function over a box, refined where it is largest.
 //!
-//! A box is split in halves, and always the one with the largest bound (Moore, Kearfott & Cloud,
-//! Introduction to Interval Analysis, 2009, chapter 11). What was bounded stays bounded when the
-//! search ends early: then the bound is only less sharp.
+//! The box with the largest bound is split in halves next (Moore, Kearfott & Cloud, Introduction to Interval Analysis, 2009,
+//! chapter 11). A search that ends early still returns a valid bound, only a less sharp one.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -10,7 +9,7 @@ use std::collections::BinaryHeap;
 use mms_program::interval::Interval;
 use mms_symbolic::work::Work;
 
-/// Cells are not split beyond this part of the whole box.
+/// The smallest width of a cell, as a part of the whole box.
 const SMALLEST: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// A part of the unit box: for each variable the fractions that it lies between.
@@ -23,12 +22,12 @@ impl Cell {
         Cell(vec![Interval::new(0.0, 1.0); dimension])
     }
 
-    /// Its centre.
+    /// The centre of the cell.
     pub fn centre(&self) -> Vec<f64> {
         self.0.iter().map(|side| side.middle()).collect()
     }
 
-    /// Its halves across one variable; `None` where it is too small.
+    /// The halves of the cell across one variable; `None` if it is too small to split.
     fn halves(&self, variable: usize) -> Option<[Cell; 2]> {
         let side = *self.0.get(variable)?;
         if side.width() <= SMALLEST {
@@ -48,8 +47,8 @@ impl Cell {
         self.largest(|side, _| side.width())
     }
 
-    /// The variable in whose direction most changes, given by how much of it each variable makes; the widest of those whose
-    /// changes are not finite; the widest of all where nothing changes.
+    /// The variable across which the cell changes most, given the changes that each variable makes. If some changes are not
+    /// finite, the widest of these variables; if nothing changes, the widest of all.
     pub fn steepest(&self, changes: &[f64]) -> usize {
         if changes.iter().any(|change| !change.is_finite()) {
             let width = |side: &Interval, variable: usize| match changes[variable].is_finite() {
@@ -76,27 +75,27 @@ impl Cell {
     }
 }
 
-/// What is known of a function in a cell.
+/// The bounds of a function in a cell.
 #[derive(Clone, Debug)]
 pub struct Measure {
-    /// No value in the cell is greater; infinite where that is not known.
+    /// An upper bound of the function in the cell; infinite if none is known.
     pub bound: f64,
-    /// A value in the cell; minus infinity where there is none.
+    /// A value in the cell; minus infinity if there is none.
     pub attained: f64,
-    /// Where that is, as fractions.
+    /// The place of this value, as fractions.
     pub at: Vec<f64>,
     /// The variable across which to split.
     pub split: usize,
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// No value anywhere is greater.
+    /// An upper bound of the function everywhere.
     pub bound: f64,
     /// The greatest value that was met.
     pub attained: f64,
-    /// Where that is, as fractions.
+    /// The place of this value, as fractions.
     pub at: Vec<f64>,
     /// The cell whose bound is the greatest.
     pub worst: Cell,
@@ -113,7 +112,7 @@ struct Open {
 
 impl Ord for Open {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Of equal bounds, the older cell.
+        // Of two equal bounds, the older cell comes first.
         self.bound.total_cmp(&other.bound).then(other.number.cmp(&self.number))
     }
 }
@@ -132,13 +131,13 @@ impl PartialEq for Open {
 
 impl Eq for Open {}
 
-/// What a search may take: so many cells, and steps of a budget on which those who measure draw. Cells differ in what
-/// they take, so the budget is what bounds the time.
+/// The limit of a search: a number of cells, and a budget that each measurement draws on. Cells differ in cost, so the budget
+/// bounds the time.
 #[derive(Clone, Copy, Debug)]
 pub struct Limit<'a> {
-    /// How many cells.
+    /// The largest number of cells.
     pub cells: usize,
-    /// What measuring them may take.
+    /// The budget for measuring them.
     pub work: Option<&'a Work>,
 }
 
@@ -154,8 +153,8 @@ impl Limit<'_> {
     }
 }
 
-/// Bounds a function over the unit box from above, until `enough` says so of the bound and the
-/// greatest value, or the limit is reached.
+/// Bounds a function over the unit box from above, until `enough` accepts the bound and the greatest value, or the limit is
+/// reached.
 pub fn largest<'a>(
     dimension: usize,
     limit: impl Into<Limit<'a>>,

@@ -7,7 +7,7 @@ use mms_program::precise::Precise;
 /// The budget of finding a place or a culprit after a search, in the steps of [`mms_symbolic::work`].
 pub const STEPS: u64 = 10_000_000;
 
-/// A place, a time, and the values there of the parameters that have a range.
+/// A place, a time, and the values of the parameters that have a range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Witness {
     /// X.
@@ -25,9 +25,9 @@ impl Witness {
         Self::at_precise(chart, &fractions)
     }
 
-    /// The same for fractions of 77 digits.
+    /// The witness at fractions of 77 digits, and its spot.
     pub fn at_precise(chart: &Chart, fractions: &[Precise]) -> (Witness, Spot<Precise>) {
-        // Where a search ended is said, whatever is left of its budget.
+        // The place where a search ended is reported even if its budget is spent.
         let place = || chart.points().point(&chart.place(fractions));
         let spot = chart.work().aside(STEPS, place);
         let value = |index: usize| (index, spot.parameters[index].to_f64());
@@ -53,7 +53,7 @@ impl Witness {
     }
 }
 
-/// A number in a message: short, whatever its size.
+/// Formats a number of any size for a message, in few digits.
 pub fn digits(value: f64) -> String {
     let plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
     if plain { value.to_string() } else { format!("{value:e}") }

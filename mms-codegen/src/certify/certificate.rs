@@ -1,4 +1,4 @@
-//! Everything that is proved of a field, and the cheaper search for what contradicts it.
+//! All proofs about a field, and the cheaper search for contradictions.
 
 use super::branches::{self, Exit};
 use super::claims::{self, Finding};
@@ -22,14 +22,14 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Graph, Rational};
 use mms_symbolic::sorted::SortedMap;
 
-/// How many cells each bound may take.
+/// The largest number of cells of each bound.
 pub const CELLS: usize = 2000;
 
-/// How many cells a rate may take: its bound holds however many there were.
+/// The largest number of cells of a rate: its bound is valid after any number of cells.
 const CELLS_OF_RATES: usize = 500;
 
-/// The budget of each part of a proof, in steps of [`mms_symbolic::work`]: the formulas, J, density and moduli, the rates, bounds of
-/// x, finite values, branches, the program in two precisions, and all claims.
+/// The budget of each part of a proof, in steps of [`mms_symbolic::work`]: the formulas, J, density and moduli, the rates,
+/// bounds of x, finite values, branches, the program in two precisions, and all claims.
 const FORMULAS: u64 = 50_000_000;
 const VOLUME: u64 = 40_000_000;
 const SOLID: u64 = 20_000_000;
@@ -40,49 +40,49 @@ const BRANCHES: u64 = 60_000_000;
 const COMPUTED: u64 = 80_000_000;
 const CLAIMS: u64 = 80_000_000;
 
-/// What a compilation may take for the contradictions that it looks for.
+/// The budget of a compilation for its search for contradictions.
 const QUICK: u64 = 30_000_000;
 
-/// How many operations the proofs about branches may take, all of them together.
+/// The largest number of operations of all proofs about branches together.
 const OPERATIONS_OF_BRANCHES: usize = 4_000_000;
 
-/// How many operations a proof about a program in one precision may take.
+/// The largest number of operations of a proof about a program in one precision.
 const OPERATIONS_AS_COMPUTED: usize = 8_000_000;
 
-/// How many operations a compilation spends on looking for J <= 0, and cells at most.
+/// The largest numbers of operations and of cells of a compilation's search for J <= 0.
 const QUICK_OPERATIONS: usize = 100_000;
 const QUICK_CELLS: usize = 128;
 
-/// What a compilation looks at has no more nodes than this: other fields are left to [`certify`].
+/// The largest number of nodes of a field that a compilation searches: it leaves larger fields to [`certify`].
 const QUICK_NODES: usize = 2_000;
 
-/// At how many points of each face a compilation evaluates a claim.
+/// The number of points of each face where a compilation evaluates a claim.
 const QUICK_POINTS: usize = 4;
 
-/// What was proved of a field, what was refuted, and what is open.
+/// The proofs, refutations and open questions of a field.
 #[derive(Clone, Debug)]
 pub struct Certificate {
     /// Every claim of the file, in its order.
     pub claims: Vec<(BoundarySpec, Finding)>,
     /// Whether J > 0.
     pub jacobian: Sign,
-    /// Whether the density and the moduli at F = I are positive, of those that vary.
+    /// Whether the density and the moduli at F = I are positive; only those that vary.
     pub solid: Vec<(Part, Sign)>,
     /// The operations that are not proved to stay within one analytic branch.
     pub exits: Vec<Exit>,
     /// Whether all quantities exist.
     pub finite: Finite,
-    /// Whether they are computed in `f64`, and in `f32`.
+    /// Whether they can be computed in `f64`, and in `f32`.
     pub computed: [AsComputed; 2],
-    /// The largest stretch, strain rate and wave speed; only of a field with J > 0.
+    /// The largest stretch, strain rate and wave speed; only if J > 0.
     pub rates: Option<Rates>,
-    /// Whether waves run in every direction; not looked at without J > 0.
+    /// Whether waves run in every direction; not examined unless J > 0.
     pub ellipticity: Ellipticity,
     /// Bounds of x by axis.
     pub reach: Vec<[f64; 2]>,
-    /// How many cells it took.
+    /// The number of cells of all searches.
     pub boxes: usize,
-    /// What was left before its end, since its budget was spent.
+    /// The parts that ended early, since their budget was spent.
     pub spent: Vec<String>,
 }
 
@@ -95,7 +95,7 @@ pub fn certify(compiled: &Compiled) -> Certificate {
     let motion = ChartMotion::new(&mut graph, &chart, compiled);
     let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
     budget.end(&graph, "the formulas of J and the strain");
-    // What a compilation finds is found first, so that both say the same.
+    // The contradictions of a compilation are sought first, so that both report the same.
     let (jacobian, mut boxes) = budget.part(&mut graph, VOLUME, "J > 0", |graph| {
         match inversion(graph, &chart, compiled) {
             Some((witness, value)) => (Sign::Refuted(witness, value), 0),
@@ -185,7 +185,8 @@ impl Budget {
         }
     }
 
-    /// What a part comes to within so many steps. A graph that it fills is as it was for the next.
+    /// Runs a part within `steps` steps, and returns its result. If it fills the graph, the next part gets the graph from
+    /// before.
     fn part<R>(
         &mut self,
         graph: &mut Graph,
@@ -200,9 +201,9 @@ impl Budget {
     }
 }
 
-/// Bounds the speed of waves over the body and the time window of a field, in a frame, no sharper than it
-/// takes to see that it is at most `speed`. Parameters have their defaults, but for those that are `set`, by
-/// position. `None` where J > 0 is not proved, or nothing bounds the speed.
+/// Bounds the speed of waves over the body and the time window of a field, in a frame, until the bound is at most `speed`.
+/// Parameters have their defaults, or the values that are `set`, by position. `None` where J > 0 is not proved, or nothing
+/// bounds the speed.
 pub fn wave_speed(
     compiled: &Compiled,
     set: &SortedMap<usize, Rational>,
@@ -227,7 +228,7 @@ pub fn reach(compiled: &Compiled) -> Vec<[f64; 2]> {
     reach_in(compiled, |graph| Chart::new(graph, &compiled.field, &compiled.model, None))
 }
 
-/// The same where parameters have their defaults, but for those that are `set`, by position.
+/// Bounds of x where parameters have their defaults, or the values that are `set`, by position.
 pub fn reach_at(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> Vec<[f64; 2]> {
     reach_in(compiled, |graph| chart_of(graph, compiled, set))
 }
@@ -242,8 +243,8 @@ fn reach_in(compiled: &Compiled, chart: impl Fn(&mut Graph) -> Chart) -> Vec<[f6
     reach::bound(&mut graph, &chart, compiled)
 }
 
-/// What a precision does not compute at a corner or in the middle of the domain of a field, though it has a value there.
-/// Parameters have their defaults, but for those that are `set`, by position.
+/// Finds a quantity that a precision does not compute at a corner or in the middle of the domain of a field, though it has a
+/// value there. Parameters have their defaults, or the values that are `set`, by position.
 pub fn not_computed(
     compiled: &Compiled,
     set: &SortedMap<usize, Rational>,
@@ -273,19 +274,19 @@ pub(super) fn chart_of(
 }
 
 impl Certificate {
-    /// What is refuted or not proved, each at its place in the file.
+    /// The refuted and the unproved parts, each at its place in the file.
     pub fn objections(&self, compiled: &Compiled) -> Vec<Diagnostic> {
         let mut objections: Vec<_> =
             self.exits.iter().map(|exit| message::leaves_branch(compiled, exit)).collect();
         match &self.finite {
             Finite::Proved => {}
-            // Where J is not proved, neither is what it divides.
+            // If J is not proved to be positive, a quotient by J cannot be proved finite.
             Finite::Unproved(..) if !matches!(self.jacobian, Sign::Positive(_)) => {}
-            // Nor is matter that is turned inside out a state of any material.
+            // An inverted body is no state of any material.
             Finite::Undefined(quantity, _)
                 if *quantity > Quantity::Jacobian && matches!(self.jacobian, Sign::Refuted(..)) => {
             }
-            // What a function that ends there leaves without a value is no mistake of its own.
+            // A quantity without a value where a function ends is no mistake of its own: the exit is reported.
             Finite::Undefined(_, witness)
                 if self.exits.iter().any(|it| it.is_certain && it.witness == *witness) => {}
             Finite::Undefined(quantity, witness) => {
@@ -328,11 +329,11 @@ impl Certificate {
     }
 }
 
-/// What contradicts a compiled field, as far as a short search finds it: a claim that does not hold
-/// at one of a few points, and J, density or moduli that are not positive within a few cells. It proves nothing.
+/// The contradictions of a compiled field that a short search finds: a claim that does not hold at one of a few points, and J,
+/// density or moduli that are not positive within a few cells. An empty list proves nothing.
 pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
     if compiled.field.domain.body.is_nothing() {
-        // Nothing is claimed anywhere.
+        // Such a field claims nothing anywhere.
         return Vec::new();
     }
     let quantities = &compiled.derived.quantities;
@@ -350,7 +351,7 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
     }
     let (exits, _) =
         branches::exits(&mut graph, &chart, compiled, None, [QUICK_CELLS, QUICK_OPERATIONS]);
-    // Where a function ends, its values or its derivatives do, and whoever evaluates them sees that.
+    // Where a function ends, its values or its derivatives are not finite, and their evaluation reports that.
     let certain: Vec<_> = exits.iter().filter(|exit| exit.is_certain).collect();
     if certain.iter().any(|exit| exit.must.is_blind()) {
         found.extend(certain.iter().map(|exit| message::leaves_branch(compiled, exit)));
@@ -379,7 +380,7 @@ fn inversion(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Option<(W
     }
 }
 
-/// The field's graph, with room for proofs.
+/// A copy of the field's graph, with more room for proofs.
 fn room(compiled: &Compiled) -> Graph {
     let mut graph = compiled.graph.clone();
     graph.make_room();

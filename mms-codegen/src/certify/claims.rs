@@ -1,8 +1,8 @@
-//! The claims of a file on the faces of its body: proved as an identity where that is possible, else enclosed, or
-//! refuted at a point.
+//! The claims of a file on the faces of its body: each is proved as an identity if possible, else enclosed, or refuted at a
+//! point.
 //!
-//! The scale is the size of the body for u, and the longitudinal modulus at F = I for P N. `prescribed` and
-//! `traction` claim only that u and P N are finite.
+//! The natural scale of u is the size of the body; the natural scale of P N is the longitudinal modulus at F = I. `prescribed`
+//! and `traction` claim only that u and P N are finite.
 
 use mms_math::Scalar as _;
 
@@ -27,33 +27,33 @@ use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::substitute;
 
-/// At how many points of a face a claim is evaluated in 77 digits.
+/// The number of points of a face where a claim is evaluated in 77 digits.
 pub const POINTS: usize = 32;
 
-/// What is less than this part of its natural scale may be what 77 digits round.
+/// The part of the natural scale below which a value may be rounding of 77 digits.
 const DOUBT: f64 = 1e-40;
 
-/// What is enclosed more narrowly than this, relative to its natural scale, passes for 0.
+/// The width of an enclosure, relative to the natural scale, that passes for 0.
 const NARROW: f64 = 1e-12;
 
-/// What a scale may take, in the steps of [`mms_symbolic::work`].
+/// The budget for computing a scale, in the steps of [`mms_symbolic::work`].
 const STEPS_OF_SCALE: u64 = 20_000_000;
 
-/// What is known of a claim.
+/// The verdict about a claim.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
-    /// It holds identically.
+    /// The claim holds identically.
     Proved,
-    /// What should be 0 lies between these numbers, which are near enough.
+    /// The value that should be 0 lies between these numbers, which are near enough.
     Enclosed([f64; 2]),
-    /// What should be 0 has this value here.
+    /// The value that should be 0 has this value here.
     Refuted(Witness, f64),
-    /// What should be 0, or exist, lies between these numbers: not near enough.
+    /// The value that should be 0, or exist, lies between these numbers: not near enough.
     Unproved([f64; 2]),
 }
 
 impl Finding {
-    /// The word for it in reports.
+    /// The word for the verdict in reports.
     pub fn status(&self) -> &'static str {
         match self {
             Finding::Proved => "proved",
@@ -64,15 +64,15 @@ impl Finding {
     }
 }
 
-/// What a claim compares.
+/// The components that a claim compares, and their scales.
 struct Compared {
-    /// What must be 0; for `prescribed` and `traction`, what must exist.
+    /// The components that must be 0; for `prescribed` and `traction`, those that must exist.
     components: Vec<Expr>,
-    /// What is 0 if the claim holds, component by component: the scale of each.
+    /// The scale of each component.
     scales: Vec<Scale>,
 }
 
-/// What a component is compared with.
+/// The scale that a component is compared with.
 #[derive(Clone, Copy, PartialEq)]
 enum Scale {
     /// The size of the body.
@@ -82,7 +82,7 @@ enum Scale {
 }
 
 impl Compared {
-    /// The scales of the components as numbers, each found once.
+    /// The scales of the components as numbers, each computed once.
     fn scales(&self, compiled: &Compiled) -> Vec<f64> {
         let found = |scale: Scale, find: fn(&Compiled) -> f64| match self.scales.contains(&scale) {
             true => find(compiled),
@@ -99,12 +99,12 @@ struct OnFace<'a> {
     compiled: &'a Compiled,
     face: Face,
     chart: Chart,
-    /// Whether the coordinate that is constant on the face is left open, on the face and in its normal: what holds for all
-    /// of them holds for one, and a sine of a symbol is shorter than that of a number.
+    /// Whether the coordinate that is constant on the face is left open, on the face and in its normal: a proof for all its
+    /// values is a proof for one, and a sine of a symbol is shorter than a sine of a number.
     is_open: bool,
 }
 
-/// Proves or refutes a claim; the cells that it took come second.
+/// Proves or refutes a claim, and counts the cells.
 pub fn judge(
     graph: &mut Graph,
     compiled: &Compiled,
@@ -128,7 +128,7 @@ pub fn judge(
     on_face.enclose(&formulas, &scales, must_vanish, limit)
 }
 
-/// A point where a claim does not hold, if one of `points` points shows it.
+/// Finds a point where a claim does not hold, among `points` points.
 pub fn refute(
     graph: &mut Graph,
     compiled: &Compiled,
@@ -153,7 +153,7 @@ impl<'a> OnFace<'a> {
         OnFace { compiled, face, chart, is_open: false }
     }
 
-    /// Formulas in X in terms of the coordinates that vary on the face, for any parameters.
+    /// Rewrites formulas in X in terms of the coordinates that vary on the face, for any parameters.
     fn restrict(&self, graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
         let body = &self.compiled.model.domain.body;
         let places = face::places(graph, body, Some(self.face));
@@ -179,7 +179,7 @@ impl<'a> OnFace<'a> {
         self.restrict(graph, &normal)
     }
 
-    /// P N, from the reduced H on the face: what vanishes in H or in C - I there vanishes in P.
+    /// P N, from the reduced H on the face: terms that vanish there in H or in C - I vanish in P.
     fn traction(&self, graph: &mut Graph) -> Vec<Expr> {
         let Compiled { field, derived, .. } = self.compiled;
         let rows = field.space.rows();
@@ -201,7 +201,7 @@ impl<'a> OnFace<'a> {
         }
     }
 
-    /// What a claim is about, for any parameters.
+    /// The components and scales of a claim, for any parameters.
     fn subject(&self, graph: &mut Graph, claim: Claim) -> Compared {
         let with = |components: Vec<Expr>, scale: Scale| Compared {
             scales: vec![scale; components.len()],
@@ -212,7 +212,7 @@ impl<'a> OnFace<'a> {
             Claim::Free | Claim::Traction => with(self.traction(graph), Scale::Modulus),
             Claim::Axis => {
                 let mut leaving = self.displacement(graph);
-                // What moves along the axis stays on it.
+                // A displacement along the axis stays on the axis.
                 leaving.remove(1);
                 let radius = graph.symbol(Symbol::Coordinate(0));
                 leaving.extend(self.restrict(graph, &[radius]));
@@ -240,14 +240,14 @@ impl<'a> OnFace<'a> {
         }
     }
 
-    /// Whether formulas are 0 identically: for any parameters, or for those that are declared.
+    /// Whether formulas are 0 identically: for any parameters, or for the declared ones.
     fn vanishes(&self, graph: &mut Graph, components: &[Expr]) -> bool {
         let zero = |graph: &mut Graph, components: &[Expr]| {
             graph.attempt(|graph| {
                 let relations = Relations::find(graph, components);
                 let thorough = relations.thorough().unwrap_or(relations);
                 let reduced = reduce(graph, components, &thorough);
-                // Lower powers may show what cancels.
+                // Lower powers may show that terms cancel.
                 let relations = Relations::find(graph, &reduced);
                 let reduced = reduce(graph, &reduced, &relations);
                 reduced.iter().all(|component| graph.is_zero(*component))
@@ -300,7 +300,7 @@ impl<'a> OnFace<'a> {
         })
     }
 
-    /// Bounds what should be 0, each component in units of its scale.
+    /// Bounds the components that should be 0, each in units of its scale.
     fn enclose(
         &self,
         formulas: &Formulas,
@@ -323,7 +323,7 @@ impl<'a> OnFace<'a> {
             let enclosure = bounds.enclose(&place);
             let relative =
                 enclosure.values.iter().zip(scales).map(|(value, scale)| farthest(value) / scale);
-            // Without a scale nothing is small.
+            // If there is no scale, no value is small.
             let relative = relative.map(|it| if it.is_nan() { f64::INFINITY } else { it });
             Measure {
                 bound: relative.fold(0.0, f64::max),
@@ -343,7 +343,7 @@ impl<'a> OnFace<'a> {
     }
 }
 
-/// Formulas reduced modulo their own relations, as far as the graph has room for it.
+/// Reduces formulas modulo their own relations, as far as the graph has room for it.
 fn reduced(graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
     let reduced = graph.attempt(|graph| {
         let relations = Relations::find(graph, formulas);

@@ -1,5 +1,4 @@
-//! Each `[[check]]` of a file: a closed form from paper against the derived quantity, in
-//! arbitrary precision.
+//! Compares each `[[check]]` of a file, a closed form from paper, with the derived quantity, in arbitrary precision.
 
 use crate::compile::Compiled;
 use mms_mechanics::model::Check;
@@ -13,39 +12,39 @@ use mms_spec::source::Span;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::work::Work;
 
-/// At how many points of the domain a closed form is compared.
+/// The number of points of the domain where a closed form is compared.
 pub const POINTS: usize = 128;
 
-/// What all closed forms together may take, in the steps of [`mms_symbolic::work`].
+/// The budget of all closed forms together, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 100_000_000;
 
-/// How one closed form compares.
+/// The comparison of one closed form.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// What it is a closed form of.
+    /// The quantity that the closed form is for.
     pub quantity: Quantity,
     /// Where it was published.
     pub source: Option<Foreign>,
-    /// Where it stands in the file.
+    /// The place of the closed form in the file.
     pub span: Span,
-    /// At how many points both were evaluated: [`POINTS`], or fewer where that takes too long.
+    /// The number of points where both were evaluated: [`POINTS`], or fewer if that takes too long.
     pub points: usize,
-    /// What was found.
+    /// The result.
     pub finding: Finding,
 }
 
-/// What the comparison of one closed form found.
+/// The result of comparing one closed form.
 #[derive(Clone, Debug)]
 pub enum Finding {
     /// Both have the same value at every point.
     Agrees,
-    /// One evaluation would take too long, and nothing was compared.
+    /// One evaluation would take too long, so that nothing was compared.
     Unmeasured,
-    /// They have different values at a point.
+    /// The closed form and the quantity have different values at a point.
     Differs(Difference),
-    /// Nowhere do they differ, but at some points one or both have no value.
+    /// The values differ nowhere, but at some points one or both do not exist.
     Undefined {
-        /// At how many of the points.
+        /// The number of these points.
         points: usize,
         /// The first of them.
         first: Difference,
@@ -59,16 +58,16 @@ pub struct Difference {
     pub coordinates: Vec<f64>,
     /// t.
     pub time: f64,
-    /// Which component, row-major.
+    /// The index of the component, row-major.
     pub component: usize,
-    /// The derived value; not a number where it is undefined.
+    /// The derived value; NaN where it is undefined.
     pub derived: f64,
-    /// The closed form's value; not a number where it is undefined.
+    /// The closed form's value; NaN where it is undefined.
     pub expected: f64,
 }
 
-/// Compares every closed form of a field at [`POINTS`] points: each component may differ by 1e-20
-/// of the largest component at that point.
+/// Compares every closed form of a field at [`POINTS`] points: the tolerance of each component is 1e-20 of the largest
+/// component at that point.
 pub fn compare(compiled: &Compiled) -> Vec<Comparison> {
     let checks = compiled.model.checks.iter().enumerate();
     let work = compiled.graph.work().clone();
@@ -77,7 +76,7 @@ pub fn compare(compiled: &Compiled) -> Vec<Comparison> {
     let program = compiled.checks();
     let all = samples(&compiled.program, &parameters, POINTS);
     let compared = |(index, check): (usize, &Check)| {
-        // Each may take its part of what is left.
+        // Each closed form may spend an equal part of the remaining budget.
         let part = work.left() / (compiled.model.checks.len() - index) as u64;
         let own = work.clone();
         own.allow(part);
@@ -98,7 +97,7 @@ fn finding(
     work: &Work,
 ) -> (usize, Finding) {
     let outputs = [Output::Quantity(quantity), Output::Expected(check)];
-    // To prepare it takes a look at every instruction.
+    // Preparing the interpreter reads every instruction.
     work.spend(program.instrs.len() as u64);
     let mut interpreter = Interpreter::within(work, program, parameters);
     let plan = interpreter.plan(&outputs);

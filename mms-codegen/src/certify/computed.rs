@@ -1,20 +1,19 @@
-//! Proves that what is finite is finite as computed, too: by the scheduled program, with every intermediate value,
-//! in the precision that it runs in.
+//! Proves that finite values are finite as computed, too: by the scheduled program, with every intermediate value, in the
+//! precision that it runs in.
 //!
-//! Each value is a pair (`program/computed.rs`): bounds of the exact value, and of how far a computed one may be
-//! from it, which every operation passes on by the mean-value theorem and adds its rounding and the least
-//! subnormal number to. The exact part can take what is known of it: what the program divides by and takes roots
-//! and logarithms of is written as a formula in the variables of the box once more, where it is a multiple of J,
-//! or is bounded by its mean-value form. A divisor, a root or a logarithm must be of the right sign with the
-//! error. What overflows has no value, and neither has a sine in twice the digits of more than 2^50. Numbers that
-//! vary are those of the precision; the first two stages have the wider one.
+//! Each value is a pair (`program/computed.rs`): bounds of the exact value, and of the distance of a computed value from it.
+//! Every operation passes the distance on by the mean-value theorem, and adds its rounding and the least subnormal number. The
+//! exact part is made sharper by formulas: each operand of a division, a root or a logarithm is written once more as a formula
+//! in the variables of the box, as a multiple of J or bounded by its mean-value form. A divisor, a root or a logarithm must be
+//! of the right sign with the error included. An overflow has no value, and neither has a sine in twice the digits of more than
+//! 2^50. Numbers that vary have this precision; the first two stages have the wider one.
 //!
-//! `f64` decides with the verdict that all is finite. `f32` is a line of its own, and an error of `mms run` and
-//! `mms study` only, where it fails at a corner or in the middle.
+//! `f64` is part of the verdict that everything is finite. `f32` has a line of its own, and is an error of `mms run` and `mms
+//! study` only if it fails at a corner or in the middle.
 //!
-//! The errors of the angles of sines, cosines and tangents tell how many digits are left of them. Where whole
-//! turns are taken off c t, the exact value is what is left when as many are taken off as are taken off what is
-//! computed: of angles that may be more than a few turns only the size is known then.
+//! The errors of the angles of sines, cosines and tangents bound how many of their digits are right. Whole turns are taken off
+//! an angle such as c t. The exact value of the result is defined with as many turns taken off as the computed one has; so for
+//! angles of more than a few turns only its size is known.
 
 use mms_math::Scalar as _;
 
@@ -35,48 +34,48 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Function, Graph, Symbol};
 use mms_symbolic::sorted::SortedSet;
 
-/// Angles of which so many digits are right after the point are told from their neighbours.
+/// The number of right digits after the point that tells an angle from its neighbours.
 pub const ENOUGH_DIGITS: f64 = 6.0;
 
-/// The steps of an operation of bounds and errors, unless it takes more than so many; and those of one in 77
-/// digits, a function or not.
+/// The steps of one operation on bounds and errors, unless it takes more; and the steps of one operation in 77 digits, a
+/// function or not.
 const STEPS: u64 = 20;
 const SLOW: u64 = 10_000;
 const STEPS_OF_DIGITS: u64 = 2_000;
 
-/// What is known of a program in one precision.
+/// The verdict about a program in one precision.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
     /// Every quantity is computed as a finite number everywhere, and J as a positive one.
     Proved,
-    /// Not here, and what has no value there.
+    /// A quantity that is not computed at this place; the text names the operation that has no value.
     Fails(Quantity, Witness, String),
-    /// Not refuted, and near here not proved.
+    /// Nothing is refuted, but near here this quantity is not proved to be computed.
     Unproved(Quantity, Witness),
-    /// There is nothing to compute: not everything has a value, or J > 0 is not proved.
+    /// Nothing can be computed: not everything has a value, or J > 0 is not proved.
     NotAsked,
 }
 
 /// A program in one precision.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AsComputed {
-    /// Whether it computes.
+    /// Whether the program computes its quantities.
     pub finding: Finding,
-    /// How many digits after the point are right of every angle that a sine, a cosine or a tangent is taken of, and
-    /// where the fewest are; `None` where there are no such angles, or where it is not known.
+    /// The least number of right digits after the point of the angles of sines, cosines and tangents, and the place where it is
+    /// least; `None` if there are no such angles, or if the number is not known.
     pub angles: Option<(f64, Witness)>,
-    /// How many cells it took.
+    /// The number of cells.
     pub cells: usize,
 }
 
 impl AsComputed {
-    /// What is said where nothing was asked.
+    /// The result if there is nothing to compute.
     pub const NOT_ASKED: AsComputed =
         AsComputed { finding: Finding::NotAsked, angles: None, cells: 0 };
 }
 
-/// The program of a field in `f64` and in `f32`, each with at most so many operations. J, an expression, is known to lie
-/// within bounds.
+/// Bounds the program of a field in `f64` and in `f32`, each with at most `operations` operations. `jacobian` is J with its
+/// known bounds.
 pub fn bound(
     graph: &mut Graph,
     chart: &Chart,
@@ -92,8 +91,8 @@ pub fn bound(
     ]
 }
 
-/// What a precision does not compute at a corner or in the middle of a chart, though it has a value there. It proves
-/// nothing.
+/// Finds a quantity that a precision does not compute at a corner or in the middle of a chart, though it has a value there.
+/// `None` proves nothing.
 pub fn failure(compiled: &Compiled, chart: &Chart, precision: Precision) -> Option<Finding> {
     let quantities = QuantityProgram::new(compiled);
     let whole = Cell::whole(chart.variables().len());
@@ -129,9 +128,9 @@ fn computed<F: Format>(spot: &Spot<Interval>) -> Spot<Computed<F>> {
 /// The part of a program that computes the quantities.
 struct QuantityProgram<'a> {
     program: &'a Program,
-    /// What the quantities need.
+    /// The instructions that the quantities need.
     plan: Vec<bool>,
-    /// The angles that circular functions are taken of, by position, and in which unit.
+    /// The angles of circular functions, by position, and their units.
     angles: Vec<(usize, f64)>,
 }
 
@@ -155,7 +154,7 @@ impl<'a> QuantityProgram<'a> {
         QuantityProgram { program, plan, angles }
     }
 
-    /// What is divided by, and what roots, logarithms, powers and arcs are taken of, in order.
+    /// The operands of divisions, roots, logarithms, powers and arc functions, in order.
     fn sensitive(&self) -> Vec<usize> {
         let of = |op: &Op| match *op {
             Op::Divide(_, x) => Some(x),
@@ -171,7 +170,7 @@ impl<'a> QuantityProgram<'a> {
         all.into_iter().collect()
     }
 
-    /// What is known of the program in a precision.
+    /// Bounds the program in one precision.
     fn bound<F: Format, T: Number + Into<f64> + Copy>(
         &self,
         chart: &Chart,
@@ -184,12 +183,12 @@ impl<'a> QuantityProgram<'a> {
         let (mut worst, mut failure) = (None::<(f64, Cell)>, None);
         let mut fails = |fractions: &[f64]| {
             let spot = at.point(&chart.place(fractions));
-            // Without a budget no place is a number.
+            // If the budget is spent, every value is missing.
             let (quantity, cause) = self.failure::<T>(&spot).filter(|_| !chart.work().is_over())?;
             Some(Finding::Fails(quantity, Witness::at(chart, fractions).0, cause))
         };
         let mut candidates = corners(&Cell::whole(dimension));
-        // Of a cell itself, of its operands, and of what is thinner by one variable.
+        // One evaluation for the cell itself, one for each operand, and one for each cell that is thinner by one variable.
         let limit = operations / ((4 + dimension) * self.program.instrs.len().max(1));
         let is_enough = |bound: f64, attained: f64| bound <= 0.0 || attained > 0.0;
         let found = largest(dimension, chart.limit(limit), is_enough, |cell| {
@@ -224,7 +223,7 @@ impl<'a> QuantityProgram<'a> {
         AsComputed { finding, angles, cells: found.cells }
     }
 
-    /// All values at a spot, and for any normal, where some exact ones are bounded.
+    /// Bounds all values at a spot, for any normal, with `known` bounds of some exact values.
     fn bounded<F: Format>(
         &self,
         spot: &Spot<Computed<F>>,
@@ -241,7 +240,7 @@ impl<'a> QuantityProgram<'a> {
         self.values(spot, normal, meet, meet_wide)
     }
 
-    /// The steps that it took to bound these values.
+    /// The steps that bounding these values took.
     fn steps<F: Format>(&self, values: &Values<Computed<F>>) -> u64 {
         let of = |(index, _): (usize, &bool)| match self.program.instrs[index].op {
             Op::Unary(function, _, x) | Op::Binary(function, x, _) => {
@@ -253,7 +252,7 @@ impl<'a> QuantityProgram<'a> {
         needed.map(|it| of(it).filter(|steps| *steps > SLOW).unwrap_or(STEPS)).sum()
     }
 
-    /// All values that are needed at a spot; what is known of a value goes in before others use it.
+    /// Computes all values that are needed at a spot; `meet` changes each value before others use it.
     fn values<T: Number>(
         &self,
         spot: &Spot<T>,
@@ -287,7 +286,7 @@ impl<'a> QuantityProgram<'a> {
         Values { narrow, wide }
     }
 
-    /// The first quantity that may not be computed, in the order of derivation.
+    /// The first quantity that may fail to be computed, in the order of derivation.
     fn gap<F: Format>(&self, values: &Values<Computed<F>>) -> Option<Quantity> {
         self.first_quantity(|quantity, index| {
             let value = values.narrow[index];
@@ -305,7 +304,7 @@ impl<'a> QuantityProgram<'a> {
         })
     }
 
-    /// How far an angle may be off, in radians.
+    /// The error bound of the angles, in radians.
     fn angle_error<F: Format>(&self, values: &Values<Computed<F>>) -> Option<f64> {
         let error = |&(index, unit): &(usize, f64)| match values.wide.get(index) {
             Some(wide) => unit * wide.error(),
@@ -372,7 +371,7 @@ impl<'a> QuantityProgram<'a> {
     }
 }
 
-/// Whether a function of one argument has no value, or no slope, somewhere.
+/// Whether a function of one argument has no value, or no slope, at some argument.
 fn ends(function: Function) -> bool {
     matches!(
         function,
@@ -387,7 +386,7 @@ fn ends(function: Function) -> bool {
     )
 }
 
-/// In which unit a circular function takes its angle.
+/// The unit in which a circular function reads its angle.
 fn unit(function: Function) -> Option<f64> {
     match function {
         Function::Sin | Function::Cos | Function::Tan => Some(1.0),
@@ -396,17 +395,17 @@ fn unit(function: Function) -> Option<f64> {
     }
 }
 
-/// The corner where numbers are largest, and their digits coarsest.
+/// The corner with the largest numbers, whose digits are the coarsest.
 fn farthest_corner(chart: &Chart, cell: &Cell) -> Vec<f64> {
     let size = |corner: &Vec<f64>| chart.place(corner).iter().map(|x: &f64| x.abs()).sum::<f64>();
     let farthest = corners(cell).into_iter().max_by(|a, b| size(a).total_cmp(&size(b)));
     farthest.unwrap_or_else(|| cell.centre())
 }
 
-/// What a program divides by and takes roots and logarithms of, as formulas that a chart bounds better than one operation
+/// The operands of divisions, roots and logarithms of a program, as formulas that a chart bounds better than one operation
 /// after the other.
 struct Operands {
-    /// In the order of the program: where it stands, and which formula or multiple of J it is.
+    /// The position of each operand, in the order of the program, and the formula or multiple of J that it is.
     known: Vec<(usize, Known)>,
     formulas: Option<Formulas>,
 }
@@ -418,7 +417,7 @@ enum Known {
 }
 
 impl Operands {
-    /// Those of a program where J, an expression, lies within bounds; none where there is no room for them.
+    /// Finds these operands in a program where J, an expression, lies within bounds; none if the graph has no room for them.
     fn new(
         graph: &mut Graph,
         chart: &Chart,
@@ -461,7 +460,7 @@ impl Operands {
         Operands { known, formulas: Some(Formulas::new(graph, chart, &formulas)) }
     }
 
-    /// What is known of a value, where the formulas have some bounds.
+    /// The known bounds of a value, given bounds of the formulas.
     fn of(&self, index: usize, bounds: &[Interval]) -> Option<Interval> {
         let place = self.known.binary_search_by_key(&index, |(index, _)| *index).ok()?;
         match self.known[place].1 {
@@ -493,12 +492,12 @@ fn expressions(graph: &mut Graph, program: &Program) -> Vec<Expr> {
     made
 }
 
-/// A function as files have it.
+/// A circular function in the form that files use.
 fn circular(graph: &mut Graph, function: Function, x: Expr) -> Expr {
     let plain = match function {
         Function::SinPi => Function::Sin,
         Function::CosPi => Function::Cos,
-        // Only sines and cosines of it are taken, to which turns are nothing.
+        // Only sines and cosines read this result, and whole turns do not change them.
         other if other.takes_turns_off() => return x,
         other => return graph.call(other, &[x]),
     };
@@ -516,7 +515,7 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// The quantity that may not be computed in a cell, and how far an angle may be off there.
+    /// The quantity that may fail to be computed in a cell, and the error bound of the angles there.
     fn judge<F: Format>(&mut self, cell: &Cell) -> (Option<Quantity>, Option<f64>) {
         let place = self.chart.place(&cell.0);
         let spot = computed::<F>(&self.spots.point(&place));

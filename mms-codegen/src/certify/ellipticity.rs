@@ -1,10 +1,10 @@
-//! Strong ellipticity: every acoustic tensor A_iJkL N_J N_L is positive definite over body, window and ranges, so that
-//! waves run in every direction and none grows.
+//! Strong ellipticity: every acoustic tensor A_iJkL N_J N_L is positive definite over body, window and ranges, so that waves
+//! run in every direction and none grows.
 //!
-//! The quadratic form of A is bounded over all h of rank one. On these the minors h_iJ h_kL - h_iL h_kJ are 0, so
-//! multiples of them may be added first (null Lagrangians): what is left is bounded as a matrix over all h. In two
-//! dimensions some multiple loses nothing (Terpstra, Math. Ann. 116, 1938); in three those are taken that part the shears
-//! of a pair of axes.
+//! The quadratic form of A is bounded over all h of rank one. On these the minors h_iJ h_kL - h_iL h_kJ are 0, so multiples of
+//! them may be added first (null Lagrangians): the sum is bounded as a matrix over all h. In two dimensions some multiple loses
+//! nothing (Terpstra, Math. Ann. 116, 1938); in three dimensions the multiples that separate the shears of a pair of axes are
+//! added.
 
 use std::cell::{Cell, RefCell};
 use std::ops::Add;
@@ -23,30 +23,30 @@ use crate::bounds::enclosure::{Enclosures, Formulas};
 use crate::bounds::search::{Found, Measure, largest};
 use crate::compile::Compiled;
 
-/// How many boxes of states are looked at at most, by dimension: in space one takes as long as some ten of others. And of
-/// places and times.
+/// The largest number of boxes of states, by dimension (a box in space takes about ten times as long as others), and of boxes
+/// of places and times.
 const CELLS: [usize; 3] = [1000, 1000, 460];
 const CELLS_OF_FIELD: usize = 100;
 
-/// By how many steps the multiples of minors are sought, and the part of the most that is possible which is good enough.
+/// The number of steps of the search for multiples of minors, and the part of the largest possible bound that ends it.
 const STEPS: usize = 24;
 const GOOD: f64 = 0.9;
 
-/// What is known of the acoustic tensors.
+/// The verdict about the acoustic tensors.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ellipticity {
-    /// No eigenvalue of any of them is less than this, which is greater than 0.
+    /// All their eigenvalues are at least this positive number.
     Strong(f64),
     /// One of them is not positive definite.
     Lost(Softening),
-    /// It is not known that all of them are positive definite.
+    /// Some of them may not be positive definite.
     Unproved,
 }
 
-/// Bounds the acoustic tensors from below, and says how many cells of the chart it took.
+/// Bounds the acoustic tensors from below, and returns the number of cells of the chart.
 ///
-/// Isotropic matter is looked at in all states whose stretches and J lie within bounds, whether or not they occur: these are
-/// few variables. Where that does not tell, and of other matter, it is looked at in the states of the field.
+/// Isotropic matter is examined in all states whose stretches and J lie within bounds, whether or not they occur: these have
+/// few variables. If that does not decide, and for other matter, the states of the field are examined.
 pub(super) fn bound(
     graph: &mut Graph,
     compiled: &Compiled,
@@ -58,7 +58,7 @@ pub(super) fn bound(
         let states = States::new(graph, searches, stretches);
         let mut compliance = Compliance::new(searches.chart, &stress);
         let found = compliance.of_all(&states);
-        // A state that is not strongly elliptic need not occur.
+        // A state that is not strongly elliptic may never occur in the field.
         if compliance.lost.is_none() {
             return (judged(&found), 0);
         }
@@ -81,7 +81,7 @@ fn judged(found: &Found) -> Ellipticity {
 struct States<'a> {
     chart: &'a Chart,
     dimension: usize,
-    /// The stretches lie within these, J within those.
+    /// The bounds of the stretches, and of J.
     stretches: [Interval; 2],
     volume: Interval,
     /// Which variables of the chart the stress depends on.
@@ -102,7 +102,7 @@ impl<'a> States<'a> {
         }
     }
 
-    /// How many variables there are.
+    /// The number of variables.
     fn variables(&self) -> usize {
         self.dimension + self.is_seen.iter().filter(|is_seen| **is_seen).count()
     }
@@ -131,11 +131,11 @@ impl<'a> States<'a> {
     }
 }
 
-/// One over the least eigenvalue of acoustic tensors; infinite where that is not positive.
+/// The reciprocal of the least eigenvalue of acoustic tensors; infinite if that is not positive.
 struct Compliance<'a> {
     chart: &'a Chart,
     tangent: Tangent<'a>,
-    /// A place where it is not known to be finite at one state: then smaller cells tell no more.
+    /// A place of one state where it may be infinite: then smaller cells cannot decide.
     lost: Option<Vec<f64>>,
 }
 
@@ -144,7 +144,7 @@ impl<'a> Compliance<'a> {
         Compliance { chart, tangent: Tangent::new(chart, stress), lost: None }
     }
 
-    /// A bound over a box of states, no sharper than it takes to be finite.
+    /// A bound over a box of states; sharpened only until it is finite.
     fn bound(&mut self, gradient: &[Interval], volume: Interval, place: &[Interval]) -> f64 {
         let coarse = compliance(least_acoustic(&self.tangent.enclose(gradient, volume, place)));
         if coarse.is_finite() || self.lost.is_some() {
@@ -156,7 +156,7 @@ impl<'a> Compliance<'a> {
         }
     }
 
-    /// A value at one state, or almost.
+    /// The value at one state, or at almost one.
     fn value(&mut self, gradient: &[Interval], volume: Interval, place: &[Interval]) -> f64 {
         let value = self.bound(gradient, volume, place);
         if self.lost.is_none() && value.is_infinite() {
@@ -165,7 +165,7 @@ impl<'a> Compliance<'a> {
         value
     }
 
-    /// Over all states that are possible.
+    /// The largest value over all possible states.
     fn of_all(&mut self, states: &States<'_>) -> Found {
         let this = RefCell::new(self);
         let most = CELLS[states.dimension - 1];
@@ -186,7 +186,7 @@ impl<'a> Compliance<'a> {
         })
     }
 
-    /// Over the states of a field.
+    /// The largest value over the states of a field.
     fn of_field(
         &mut self,
         graph: &mut Graph,
@@ -215,7 +215,7 @@ impl<'a> Compliance<'a> {
     }
 }
 
-/// How many boxes were looked at, and how many of them have no bound.
+/// The number of boxes examined, and of those without a bound.
 #[derive(Default)]
 struct Open {
     all: Cell<usize>,
@@ -228,8 +228,8 @@ impl Open {
         self.unbounded.set(self.unbounded.get() + usize::from(bound.is_infinite()));
     }
 
-    /// Whether more boxes are still to be split in halves than the limit allows. All that were split had no bound, and each
-    /// that is left takes two at least.
+    /// Whether the boxes that remain to be split need more boxes than the limit allows. Every box that was split had no bound,
+    /// and each remaining one needs at least two.
     fn is_hopeless(&self, most: usize) -> bool {
         let (all, unbounded) = (self.all.get(), self.unbounded.get());
         let left = unbounded.saturating_sub(all.saturating_sub(1) / 2);
@@ -237,13 +237,13 @@ impl Open {
     }
 }
 
-/// One over a bound; infinite where that is not positive.
+/// The reciprocal of a bound; infinite if that is not positive.
 fn compliance(least: f64) -> f64 {
     if least > 0.0 { (1.0 / least).next_up() } else { f64::INFINITY }
 }
 
-/// The bound of a mean-value form. The least eigenvalue is concave, so that of what is linear is least at a corner; what the
-/// slopes are not known by is taken off.
+/// A lower bound from a mean-value form. The least eigenvalue is concave, so over a linear form it is least at a corner; the
+/// uncertainty of the slopes is subtracted.
 fn least_of_form(form: &MeanValue) -> f64 {
     let parts = || [&form.centre].into_iter().chain(form.slopes.iter().map(|(_, slopes)| slopes));
     if !parts().flatten().all(|entry| entry.is_defined() && entry.farthest().is_finite()) {
@@ -272,7 +272,7 @@ fn least_of_form(form: &MeanValue) -> f64 {
     least - shifts.reach(&unknown) - ROUNDING * spectral_radius(&centre)
 }
 
-/// No m_i N_J A_iJkL m_k N_L with unit vectors m and N is less, where A, row-major in (i, J) and (k, L), lies within these
+/// A lower bound of m_i N_J A_iJkL m_k N_L for unit vectors m and N, where A, row-major in (i, J) and (k, L), lies within these
 /// bounds.
 fn least_acoustic(entries: &[Interval]) -> f64 {
     let middle: Vec<f64> = entries.iter().map(|entry| entry.middle()).collect();
@@ -286,16 +286,16 @@ fn least_acoustic(entries: &[Interval]) -> f64 {
     least.fold(f64::INFINITY, f64::min)
 }
 
-/// A multiple of a minor h_iJ h_kL - h_iL h_kJ with i < k, J < L: the places of its factors, and how much of it.
+/// A multiple of a minor h_iJ h_kL - h_iL h_kJ with i < k, J < L: the places of its factors, and the multiple.
 type Multiple = ([[usize; 2]; 2], f64);
 
 /// The multiples of minors that may be added to a tensor.
 struct Shifts<'a> {
     tensor: &'a [f64],
     dimension: usize,
-    /// How much each multiple changes with the part that is sought.
+    /// The change of each multiple per unit of the part that `best` searches.
     step: f64,
-    /// No bound is greater.
+    /// An upper bound of every least eigenvalue.
     most: f64,
 }
 
@@ -308,7 +308,7 @@ impl<'a> Shifts<'a> {
         Shifts { tensor, dimension: order.isqrt(), step, most }
     }
 
-    /// Those that part the shears of two axes; in two dimensions with a part of the largest component added to them.
+    /// The multiples that separate the shears of two axes, plus `part` of the largest component (not 0 in two dimensions only).
     fn multiples(&self, part: f64) -> Vec<Multiple> {
         let size = self.dimension;
         let pairs = || (0..size).flat_map(|a| (a + 1..size).map(move |b| [a, b]));
@@ -322,8 +322,7 @@ impl<'a> Shifts<'a> {
         minors.map(multiple).collect()
     }
 
-    /// The part that leaves the greatest least eigenvalue, which is concave in it, or one that is good enough; none in three
-    /// dimensions.
+    /// The part with the greatest least eigenvalue, which is concave in it, or one that is good enough; 0 in three dimensions.
     fn best(&self) -> f64 {
         let (mut from, mut to) = (-1.0, 1.0);
         let mut best = (self.least(0.0), 0.0);
@@ -342,9 +341,9 @@ impl<'a> Shifts<'a> {
         best.1
     }
 
-    /// By how much no least eigenvalue changes more when each entry of the tensor changes by no more than these.
+    /// The largest change of a least eigenvalue when each entry of the tensor changes by at most these radii.
     fn reach(&self, radii: &[f64]) -> f64 {
-        // A multiple that is an entry moves the others as much.
+        // A multiple that is an entry of the tensor changes the others as much as itself.
         let multiples = Shifts { tensor: radii, step: 0.0, ..*self }.multiples(0.0);
         let mut sum = radii.to_vec();
         let order = sum.len().isqrt();
@@ -382,7 +381,7 @@ fn shifted<T: Copy + Add<Output = T>>(
     shifted
 }
 
-/// The symmetric part.
+/// The symmetric part of a matrix.
 fn symmetric<T: Part>(matrix: Vec<T>) -> Vec<T> {
     let order = matrix.len().isqrt();
     (0..matrix.len()).map(|at| matrix[at].with(matrix[at % order * order + at / order])).collect()
@@ -390,9 +389,9 @@ fn symmetric<T: Part>(matrix: Vec<T>) -> Vec<T> {
 
 /// An entry of a symmetric matrix: a number, or bounds of one.
 trait Part: Copy {
-    /// What both are that are equal but for what is not known of them.
+    /// Merges two entries that are equal in exact arithmetic: their mean, or their common bounds.
     fn with(self, other: Self) -> Self;
-    /// Whether it is 0 and nothing else.
+    /// Whether the entry is exactly 0.
     fn is_zero(self) -> bool;
 }
 
@@ -416,7 +415,7 @@ impl Part for Interval {
     }
 }
 
-/// The blocks of a symmetric matrix that 0 parts from each other.
+/// The blocks of a symmetric matrix that zeros separate.
 fn blocks<T: Part>(matrix: &[T]) -> Vec<Vec<T>> {
     let order = matrix.len().isqrt();
     let mut block_of: Vec<usize> = (0..order).collect();

@@ -19,19 +19,18 @@ use mms_symbolic::pass::substitute::replace;
 use mms_symbolic::sorted::SortedMap;
 use mms_symbolic::work::Work;
 
-/// What is known of the values of all quantities.
+/// The verdict about the values of all quantities.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finite {
-    /// All exist everywhere.
+    /// All quantities exist everywhere.
     Proved,
-    /// This one has no value here.
+    /// A quantity has no value at this place.
     Undefined(Quantity, Witness),
-    /// All that were evaluated exist, but near here this one is not proved to.
+    /// All evaluated quantities exist, but near here this one is not proved to.
     Unproved(Quantity, Witness),
 }
 
-/// Proves that all quantities exist where J lies within bounds, with at most `limit` cells, and says
-/// how many there were.
+/// Proves that all quantities exist where J lies within bounds, with at most `limit` cells, and counts the cells.
 pub fn bound(
     graph: &mut Graph,
     chart: &Chart,
@@ -44,7 +43,7 @@ pub fn bound(
     let quantities = Quantities::new(graph, compiled, chart.work());
     let positive = Interval::new(least_jacobian.max(0.0), f64::INFINITY);
     let dimension = chart.variables().len();
-    // A singularity often lies where a body or its time window ends, or in the middle.
+    // A singularity often lies at an end of a body or of its time window, or in the middle.
     let mut candidates: Vec<Vec<f64>> = corners(&Cell::whole(dimension));
     let mut ratios = jacobian.run::<Interval>(chart);
     let mut spots = chart.points::<Interval>();
@@ -83,7 +82,7 @@ pub fn bound(
     for fractions in candidates {
         let (witness, spot) = Witness::at(chart, &fractions);
         let quantity = quantities.without_value(&spot, None, Precise::is_defined);
-        // What there was no budget left to compute is no value that does not exist.
+        // A value that the spent budget left uncomputed is no missing value.
         if chart.work().is_over() {
             break;
         }
@@ -116,7 +115,7 @@ pub(super) fn blame(cell: &Cell, mut well: impl FnMut(&Cell) -> bool) -> usize {
 /// The corners of a cell.
 pub(super) fn corners(cell: &Cell) -> Vec<Vec<f64>> {
     let sides = &cell.0;
-    // Beyond a few parameters with a range their corners are too many to look at.
+    // With more than six variables the corners are too many to examine.
     let count = sides.len().min(6);
     (0..1usize << count)
         .map(|corner| {
@@ -130,14 +129,13 @@ pub(super) fn corners(cell: &Cell) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// All quantities, with J taken out of them: interval arithmetic alone would not know that it is
-/// positive where it is small.
+/// All quantities, with J replaced by a symbol: interval arithmetic alone would not know that J is positive where it is small.
 struct Quantities<'a> {
     work: &'a Work,
-    /// In the order of derivation.
+    /// The quantities in the order of derivation.
     quantities: Vec<Quantity>,
     program: Program,
-    /// The same with J in place.
+    /// The program with J not replaced.
     whole: Program,
 }
 
@@ -146,7 +144,7 @@ impl<'a> Quantities<'a> {
         let mut outputs = SortedMap::new();
         for (quantity, components) in &compiled.derived.quantities {
             let mut components = components.clone();
-            // As finite as the tensor or the vector, whatever N is.
+            // The traction and the normal are finite for every N if the tensor is.
             match quantity {
                 Quantity::Traction => {
                     let stress = &compiled.derived.quantities[&Quantity::FirstPiolaKirchhoff];
@@ -170,8 +168,8 @@ impl<'a> Quantities<'a> {
         Quantities { work, quantities, program: schedule_plainly(graph, &outputs), whole }
     }
 
-    /// A quantity that is not proved to be bounded in a cell. With J in place of what it is made of
-    /// its other parts may be bounded less well: either way will do.
+    /// A quantity that is not proved to be bounded in a cell. With J replaced, the other parts of a quantity may be bounded
+    /// less well, so a bound by either program will do.
     fn unbounded(&self, spot: &Spot<Interval>, jacobian: Interval) -> Option<Quantity> {
         let gap = self.without_value(spot, Some(jacobian), is_bounded)?;
         self.without_value(spot, None, is_bounded).map(|_| gap)

@@ -1,27 +1,27 @@
 //! Where the functions of the language are analytic, and where they have a value.
 //!
-//! Sums, products, whole powers, exp, sinh, cosh, tanh, sin, cos and atan are so everywhere. The others have
-//! limits, each of which `branches` proves as a sign; `tests/branches.rs` has a test for each:
+//! Sums, products, whole powers, exp, sinh, cosh, tanh, sin, cos and atan are analytic everywhere. The others have limits, each
+//! of which `branches` proves as a sign; `tests/branches.rs` has a test for each:
 //!
 //! | | is analytic | has a value | proved by |
 //! |---|---|---|---|
 //! | 1/x, x^-n | x is not 0 | there | all quantities are finite; where it cancels, the sign of x |
 //! | sqrt(x), x^(p/q) | x > 0 | x >= 0, for a positive power | x > 0 |
 //! | hypot(x, y) | not both are 0 | everywhere | x^2 + y^2 > 0; on an annulus it is the radius |
-//! | x^y | x > 0 | there | the form of x is one of what is positive, or the file is refused when it is read; then x > 0 |
+//! | x^y | x > 0 | there | x has the form of a positive expression, or the file is refused when it is read; then x > 0 |
 //! | cbrt(x) | x is not 0 | everywhere | the sign of x |
 //! | ln(x), in W ln(J) | x > 0 | there | x > 0; J > 0 is proved already |
 //! | tan(x) | cos(x) is not 0 | there | the sign of cos(x) |
 //! | asin(x), acos(x) | -1 < x < 1 | -1 <= x <= 1 | 1 + x > 0, 1 - x > 0 |
 //! | atan2(y, x) | y is not 0, or x > 0 | everywhere | the sign of y, or x > 0 |
 //!
-//! An angle `atan2(y, x)` that only sines and cosines of whole multiples of it read, and tangents of half of such,
-//! may pass its cut, since a turn more changes nothing: all that it needs is that y and x are not both 0.
+//! An angle `atan2(y, x)` may pass its cut if only sines and cosines of whole multiples of it, and tangents of halves of these,
+//! read it: one more turn changes none of them. Such an angle only needs that y and x are not both 0.
 
 use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, is_negative};
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// What must hold of operands.
+/// A condition on operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Must {
     /// x > 0.
@@ -30,29 +30,29 @@ pub enum Must {
     NotBeNegative,
     /// x is not 0.
     NotVanish,
-    /// Of (y, x): y is not 0, or x > 0.
+    /// For (y, x): y is not 0, or x > 0.
     KeepOffCut,
-    /// Of (y, x): they are not both 0.
+    /// For (y, x): they are not both 0.
     KeepOffOrigin,
 }
 
 impl Must {
-    /// Whether a value jumps where it does not hold, so that no derivative sees it.
+    /// Whether a value jumps where the condition fails, so that no derivative shows the failure.
     pub fn is_blind(self) -> bool {
         matches!(self, Must::KeepOffCut | Must::KeepOffOrigin)
     }
 }
 
-/// Where an operation ends.
+/// The end of an operation: where it stops being analytic, or being defined.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Limit {
-    /// What must hold where the operation is analytic.
+    /// The condition for being analytic.
     pub analytic: Must,
-    /// What must hold where it has a value; `None` where it always has one.
+    /// The condition for having a value; `None` if the operation always has one.
     pub defined: Option<Must>,
-    /// Of what.
+    /// The operands that the conditions are about.
     pub operands: Vec<Expr>,
-    /// Whether it is a pole of a quotient, which has no value either.
+    /// Whether the limit is a pole of a quotient, which has no value either.
     pub is_pole: bool,
 }
 
@@ -62,7 +62,7 @@ impl Limit {
     }
 }
 
-/// The limits of one operation, without those of its operands.
+/// The limits of one operation itself; its operands have their own.
 pub fn limits_of(graph: &mut Graph, expr: Expr) -> Vec<Limit> {
     match graph.node(expr).clone() {
         // A number times one other expression.
@@ -138,11 +138,11 @@ fn of_call(graph: &mut Graph, function: Function, arguments: Vec<Expr>) -> Vec<L
     }
 }
 
-/// All limits of some formulas and of what they are made of, operands before users.
+/// All limits of some formulas and of their sub-expressions, operands before users.
 pub fn limits(graph: &mut Graph, formulas: &[Expr]) -> Vec<Limit> {
     let turning = single_valued_angles(graph, formulas);
     let (mut found, mut seen) = (Vec::new(), SortedSet::new());
-    // A sum has none but those of its terms.
+    // A sum has only the limits of its terms.
     let is_own = |graph: &Graph, expr: &Expr| !matches!(graph.node(*expr), Node::Sum(..));
     let reachable = graph.reachable(formulas);
     for expr in reachable.into_iter().filter(|expr| is_own(graph, expr)).collect::<Vec<_>>() {
@@ -158,10 +158,10 @@ pub fn limits(graph: &mut Graph, formulas: &[Expr]) -> Vec<Limit> {
     found
 }
 
-/// Angles, each with how many times it is taken.
+/// Angles, each with its multiple.
 type Turns = SortedMap<Expr, Rational>;
 
-/// The angles whose whole turns nothing sees.
+/// The angles of which no formula changes with a whole turn.
 fn single_valued_angles(graph: &Graph, formulas: &[Expr]) -> SortedSet<Expr> {
     let mut turns = SortedMap::<Expr, Turns>::new();
     let (mut angles, mut seen) = (SortedSet::new(), SortedSet::new());
@@ -197,7 +197,7 @@ fn single_valued_angles(graph: &Graph, formulas: &[Expr]) -> SortedSet<Expr> {
     angles
 }
 
-/// Whether a function has the same value when each of these angles is a whole turn more.
+/// Whether a function keeps its value when each of these angles grows by a whole turn.
 fn hides(function: Function, turns: &Turns) -> bool {
     let whole = |parts: i32| turns.values().all(|times| (times * Rational::from(parts)).is_int());
     match function {
@@ -212,7 +212,7 @@ mod tests {
     use super::*;
     use mms_symbolic::expr::Symbol;
 
-    /// Whether the cut of the angle of (X, Y) is seen in what is made of it.
+    /// Whether an expression of the angle of (X, Y) changes across the cut of that angle.
     fn sees_cut(make: impl Fn(&mut Graph, Expr) -> Expr) -> bool {
         let mut graph = Graph::default();
         let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
@@ -238,12 +238,12 @@ mod tests {
         assert!(circular(Function::Sin, 1, 2) && circular(Function::Tan, 1, 4));
         assert!(circular(Function::Tanh, 1, 1));
         assert!(sees_cut(|_, angle| angle));
-        // Once is enough.
+        // One use that changes across the cut is enough.
         assert!(sees_cut(|graph, angle| {
             let sine = graph.call(Function::Sin, &[angle]);
             graph.mul(sine, angle)
         }));
-        // Half a turn and half a turn are a whole one.
+        // Two half turns are a whole one.
         assert!(!sees_cut(|graph, angle| {
             let half = graph.scale(angle, mms_symbolic::expr::HALF);
             let twice = graph.add(half, half);

@@ -1,22 +1,20 @@
 //! Upper bounds of eigenvalues of symmetric matrices whose entries are known within intervals.
 //!
-//! A matrix is its midpoint, in double precision, and a radius: no eigenvalue moves by more than the Frobenius
-//! norm of what is added (Weyl). What some hundred operations round is below 1e-12 of the norm; 1e-9 of it, a
-//! thousand times that, is added.
+//! A matrix is its midpoint, in double precision, and a radius: adding a matrix moves no eigenvalue by more than its Frobenius
+//! norm (Weyl). A few hundred operations round by less than 1e-12 of the norm; the bounds allow for 1e-9 of it, a thousand
+//! times as much.
 
 use mms_math::Scalar as _;
 
 use mms_program::interval::Interval;
 
-/// What rounding may have taken from a bound, relative to it.
+/// The allowance for rounding in a bound, relative to the bound.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// How often a matrix is squared: tr (A^32)^(1/32) exceeds the largest eigenvalue by 3.5 % at most
-/// in three dimensions.
+/// The number of squarings of a matrix: tr (A^32)^(1/32) exceeds the largest eigenvalue by 3.5 % at most in three dimensions.
 const SQUARINGS: u32 = 5;
 
-/// The midpoints of intervals, and the Frobenius norm of what they differ by; infinite where one
-/// has no bounds.
+/// The midpoints of intervals, and the Frobenius norm of their radii; infinite if one has no bounds.
 pub fn split(entries: &[Interval]) -> (Vec<f64>, f64) {
     let middles: Vec<f64> = entries.iter().map(|entry| entry.middle()).collect();
     let radius = |(entry, middle): (&Interval, &f64)| {
@@ -28,7 +26,7 @@ pub fn split(entries: &[Interval]) -> (Vec<f64>, f64) {
     (middles, radius)
 }
 
-/// A bound that no eigenvalue of a symmetric row-major matrix exceeds in magnitude.
+/// An upper bound of the magnitudes of the eigenvalues of a symmetric row-major matrix.
 pub fn spectral_radius(matrix: &[f64]) -> f64 {
     match matrix.len() {
         1 => radius_of::<1>(matrix),
@@ -86,12 +84,11 @@ fn product(a: &[f64], b: &[f64], order: usize) -> Vec<f64> {
     (0..order * order).map(|k| entry(k / order, k % order)).collect()
 }
 
-/// Intervals that hold the eigenvalues of every symmetric matrix within these bounds, in ascending
-/// order.
+/// Intervals that hold the eigenvalues of every symmetric matrix within these bounds, in ascending order.
 ///
-/// With the midpoint M and the radii R, none is greater than the greatest of M + S R S, nor less than
-/// the least of M - S R S, for the diagonal matrices S of signs (Hertz, IEEE Trans. Automat. Control
-/// 37, 1992); what is between follows Weyl.
+/// With the midpoint M and the radii R, none is greater than the greatest of M + S R S, nor less than the least of M - S R S,
+/// for the diagonal matrices S of signs (Hertz, IEEE Trans. Automat. Control 37, 1992); the eigenvalues between follow from
+/// Weyl.
 pub fn eigenvalues(entries: &[Interval]) -> Vec<Interval> {
     let (middles, radius) = split(entries);
     let scale = spectral_radius(&middles);
@@ -177,12 +174,12 @@ pub(super) fn diagonal(mut matrix: Vec<f64>) -> Vec<f64> {
     values
 }
 
-/// No sqrt(tr (C^-1 A C^-1 A)) with symmetric C and A within these bounds is greater, where no
-/// eigenvalue of C is less than `floor` > 0.
+/// An upper bound of sqrt(tr (C^-1 A C^-1 A)) for symmetric C and A within these bounds, if no eigenvalue of C is less than
+/// `floor` > 0.
 ///
-/// Let the eigenvalues of C differ from those of its midpoint M by r at most, and m be the least of
-/// these. Then C >= (1 - r/m) M in the order of forms, so that the value falls short of
-/// (|M^-1/2 B M^-1/2| + |A - B|/m)/(1 - r/m) with the midpoint B of A; and of |A|/floor.
+/// Let r be the largest distance of the eigenvalues of C from those of its midpoint M, and m the least eigenvalue of M. Then C
+/// >= (1 - r/m) M in the order of forms, so that the value is at most (|M^-1/2 B M^-1/2| + |A - B|/m)/(1 - r/m) with the
+/// midpoint B of A; and at most |A|/floor.
 pub fn largest_relative_rate(form: &[Interval], rate: &[Interval], floor: f64) -> f64 {
     let order = form.len().isqrt();
     let ((form, spread), (rate, change)) = (split(form), split(rate));
@@ -203,12 +200,11 @@ pub fn largest_relative_rate(form: &[Interval], rate: &[Interval], floor: f64) -
     sharp.min(coarse)
 }
 
-/// No |sym(A F^-1)| with A and F within these bounds is greater, where no singular value of F is less
-/// than `floor` > 0.
+/// An upper bound of |sym(A F^-1)| for A and F within these bounds, if no singular value of F is less than `floor` > 0.
 ///
-/// With the midpoints B and M, L = A F^-1 is L = B M^-1 + ((A - B) - L (F - M)) M^-1, so that it
-/// differs from B M^-1 by no more than (|A - B| + |L| |F - M|)/m with the least singular value m of M;
-/// and |L| by the same rule is at most (|B M^-1| + |A - B|/m)/(1 - |F - M|/m), and at most |A|/floor.
+/// With the midpoints B and M, L = A F^-1 is L = B M^-1 + ((A - B) - L (F - M)) M^-1, so that it differs from B M^-1 by at most
+/// (|A - B| + |L| |F - M|)/m with the least singular value m of M; and |L| by the same rule is at most (|B M^-1| + |A -
+/// B|/m)/(1 - |F - M|/m), and at most |A|/floor.
 pub fn largest_rate(form: &[Interval], rate: &[Interval], floor: f64) -> f64 {
     let order = form.len().isqrt();
     let (form_radii, rate_radii) = (radii(form), radii(rate));
@@ -229,7 +225,7 @@ pub fn largest_rate(form: &[Interval], rate: &[Interval], floor: f64) -> f64 {
     let share = 1.0 - spread / least;
     let whole = if share > 0.0 { (norm(&gradient) + change / least) / share } else { coarse };
     let excess = (change + whole.min(coarse) * spread) / least;
-    // The same by entries, where that of L is at most that of B M^-1 and the excess.
+    // The bound by entries: each entry of L is at most the entry of B M^-1 plus the excess.
     let size = |matrix: &[f64]| matrix.iter().map(|entry| entry.abs()).collect::<Vec<_>>();
     let reach: Vec<f64> = gradient.iter().map(|entry| entry.abs() + excess).collect();
     let carried = product(&reach, &form_radii, order);
@@ -243,12 +239,12 @@ pub fn largest_rate(form: &[Interval], rate: &[Interval], floor: f64) -> f64 {
     (norm(&sharp) * (1.0 + ROUNDING)).min(coarse)
 }
 
-/// By how much the entries may differ from their midpoints.
+/// The largest distances of the entries from their midpoints.
 fn radii(entries: &[Interval]) -> Vec<f64> {
     entries.iter().map(|entry| entry.width() / 2.0 * (1.0 + ROUNDING)).collect()
 }
 
-/// The Frobenius norm.
+/// The Frobenius norm of a matrix.
 fn norm(matrix: &[f64]) -> f64 {
     matrix.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
@@ -269,14 +265,13 @@ fn inverse_times(a: &[f64], b: &[f64], order: usize) -> Vec<f64> {
     (0..order * order).map(|at| b[at] / a[at / order * (order + 1)]).collect()
 }
 
-/// No m_i N_J A_iJkL m_k N_L with unit vectors m and N is greater, where A, row-major in (i, J) and
-/// (k, L), lies within these bounds: the largest eigenvalue of the acoustic tensors.
+/// An upper bound of m_i N_J A_iJkL m_k N_L for unit vectors m and N, where A, row-major in (i, J) and (k, L), lies within
+/// these bounds: the largest eigenvalue of the acoustic tensors.
 ///
-/// The acoustic tensor is taken on a grid of directions N. On the great circle between a direction
-/// and the nearest of the grid, an angle of d or less away, the quadratic form in N lies between
-/// its extrema M and m over all directions, so that for the extrema q and p on the grid
-/// q >= M cos^2 d + m sin^2 d and p <= m cos^2 d + M sin^2 d, and with both
-/// M <= (q cos^2 d - p sin^2 d)/(cos^2 d - sin^2 d).
+/// The acoustic tensor is evaluated on a grid of directions N. Let d be the largest angle between a direction and the nearest
+/// of the grid, and M and m the extrema of the quadratic form in N over the great circle through both. Then the extrema q and p
+/// on the grid satisfy q >= M cos^2 d + m sin^2 d and p <= m cos^2 d + M sin^2 d, so that M <= (q cos^2 d - p sin^2 d)/(cos^2
+/// d - sin^2 d).
 pub fn largest_acoustic(grid: &Grid, entries: &[Interval]) -> f64 {
     let (tensor, radius) = split(entries);
     if !radius.is_finite() {
@@ -310,7 +305,7 @@ fn extrema<const D: usize>(grid: &Grid, tensor: &[f64]) -> [f64; 2] {
     [greatest, least]
 }
 
-/// No v A v with a unit vector v changes by more while A stays within these bounds.
+/// An upper bound of the change of v A v for unit vectors v while A stays within these bounds.
 fn largest_change(entries: &[Interval]) -> f64 {
     let radii = radii(entries);
     let pairs = radii.iter().zip(transposed(&radii));
@@ -340,8 +335,7 @@ fn acoustic<const D: usize>(tensor: &[f64], normal: &[f64; 3]) -> [[f64; D]; D] 
     symmetric
 }
 
-/// Unit vectors, and the square of the sine of the angle within which one of them or its opposite
-/// is near to every direction.
+/// Unit vectors, and the squared sine of the largest angle between any direction and the nearest of them or of their opposites.
 pub struct Grid {
     dimension: usize,
     directions: Vec<[f64; 3]>,
@@ -361,8 +355,8 @@ impl Grid {
                 ((0..COUNT).map(at).collect(), sine_squared)
             }
             _ => {
-                // Points on three faces of a cube, 1/2 apart. None of a face is farther from one of
-                // them than the middle of the four about its centre: tan^2 = 1/8, sin^2 = 1/9.
+                // Points on three faces of a cube, 1/2 apart. On a face the point farthest from all of them is the middle of
+                // the four about the centre: tan^2 = 1/8, sin^2 = 1/9.
                 let steps = [-1.0, -0.5, 0.0, 0.5, 1.0];
                 let mut directions = Vec::new();
                 for axis in 0..3 {
@@ -386,7 +380,7 @@ impl Grid {
 mod tests {
     use super::*;
 
-    /// Hertz bounds the ends, and Weyl what is between.
+    /// Hertz bounds the extreme eigenvalues, and Weyl the others.
     #[test]
     fn eigenvalues_of_intervals_are_sharp_at_the_ends() {
         let [one, three] = [1.0, 3.0].map(|middle| Interval::new(middle - 0.125, middle + 0.125));
@@ -418,7 +412,7 @@ mod tests {
         }
     }
 
-    /// The rates of a C and of an F that are known exactly, by hand.
+    /// The rates of a C and of an F with exact entries, by hand.
     #[test]
     fn rates_of_numbers_are_those_numbers() {
         let near = |bound: f64, value: f64| (value..value * (1.0 + 1e-8)).contains(&bound);

@@ -1,4 +1,4 @@
-//! What is said of a field that is not what it claims to be.
+//! Messages about a field that is not what it claims to be.
 
 use super::branches::Exit;
 use super::computed;
@@ -15,7 +15,7 @@ use mms_spec::source::Span;
 use mms_spec::{BoundarySpec, Claim};
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 
-/// What the search for a parameter to blame may take, in the steps of [`mms_symbolic::work`].
+/// The budget of the search for a parameter to blame, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 20_000_000;
 
 /// J is not positive.
@@ -42,7 +42,7 @@ pub fn not_positive(compiled: &Compiled, witness: &Witness, value: f64) -> Diagn
         .help("reduce the amplitude, or write u in a form that bounds itself more sharply")
 }
 
-/// The density, or a modulus at F = I, is not positive, or not proved to be; `None` where it is.
+/// The density, or a modulus at F = I, is not positive, or not proved to be; `None` if it is proved.
 pub fn not_solid(compiled: &Compiled, part: Part, sign: &Sign) -> Option<Diagnostic> {
     let (is, witness, value) = match sign {
         Sign::Positive(_) => return None,
@@ -107,16 +107,16 @@ pub fn stressed_at_rest(compiled: &Compiled, stress: &[f64], witness: &Witness) 
         .help("where it is meant, the solver that you test needs the same stress in its undeformed body")
 }
 
-/// An operation ends, or is not proved not to.
+/// An operation leaves its branch, or is not proved to stay within it.
 pub fn leaves_branch(compiled: &Compiled, exit: &Exit) -> Diagnostic {
     let written = quoted(compiled.sources.slice(exit.span));
     let place = place(compiled, &exit.witness);
     let (why, help) = match exit.must {
-        Must::BePositive => {
-            ("what must be positive is not", "keep what it is taken of away from 0")
+        Must::BePositive => ("what must be positive is not", "keep its operand away from 0"),
+        Must::NotBeNegative => {
+            ("what must not be negative is", "write the simplified formula instead")
         }
-        Must::NotBeNegative => ("what must not be negative is", "write what is left of it instead"),
-        Must::NotVanish => ("what must not be 0 is", "keep what it is taken of away from 0"),
+        Must::NotVanish => ("what must not be 0 is", "keep its operand away from 0"),
         Must::KeepOffCut => (
             "the point (x, y) of atan2(y, x) is on the negative x axis, and the angle jumps by a turn",
             "turn the axes so that the cut lies outside, or take the angle only in sines and cosines of whole multiples of it",
@@ -231,8 +231,8 @@ fn displacement(compiled: &Compiled) -> Span {
     compiled.field.displacement.first().map_or(compiled.field.material.span, |it| it.span)
 }
 
-/// The parameter whose range is to blame for a formula that is not positive: with its default in its place, the formula is
-/// positive at the same place and time.
+/// The parameter whose range is to blame for a formula that is not positive: with its default instead, the formula is positive
+/// at the same place and time.
 fn culprit(
     compiled: &Compiled,
     witness: &Witness,
@@ -261,13 +261,13 @@ fn culprit(
     Some((range(compiled, index)?, compiled.field.parameters[index].name.value.clone()))
 }
 
-/// Where the range of a parameter stands.
+/// The place of the range of a parameter in the file.
 fn range(compiled: &Compiled, index: usize) -> Option<Span> {
     let [first, last] = compiled.field.parameters[index].range.as_ref()?;
     Some(Span { end: last.span.end, ..first.span })
 }
 
-/// The field's graph, with room and steps for a search.
+/// A copy of the field's graph, with room and steps for a search.
 fn room(compiled: &Compiled) -> Graph {
     let mut graph = compiled.graph.clone();
     graph.make_room();

@@ -16,13 +16,12 @@ use mms_symbolic::sorted::SortedMap;
 
 /// The motion of a field in the variables of a chart.
 ///
-/// Strains are reduced, so that rotations cancel in them, and on an annulus they are those in the
-/// basis of radius and angle: what does not depend on a rotation is bounded as sharply with it as
-/// without.
+/// Strains are reduced, so that rotations cancel in them, and on an annulus they are in the basis of radius and angle: a value
+/// that does not depend on a rotation is bounded as sharply as without the rotation.
 #[derive(Clone, Debug)]
 pub struct ChartMotion {
     dimension: usize,
-    /// H in the basis of space, of a material whose stress does not follow from C alone.
+    /// H in the basis of space, for a material whose stress does not follow from C alone.
     pub oriented: Option<Vec<Expr>>,
     /// H, in the basis of the chart's coordinates.
     pub gradient: Vec<Expr>,
@@ -58,8 +57,8 @@ impl ChartMotion {
         let gradient_rate = differentiate(graph, &gradient, Symbol::Time);
         let density = chart.pull_back(graph, &[compiled.model.density])[0];
         let stress = chart.pull_back(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
-        // Rotations of the deformed and of the reference body then rotate the stress and nothing
-        // else, and all that matters of F is C, in whatever basis.
+        // Rotations of the deformed and of the reference body then only rotate the stress, so that C in any basis determines
+        // it.
         let is_isotropic = compiled.model.kind == Kind::Isotropic;
         let stress = if is_isotropic { principal(graph, &stress, dimension) } else { stress };
         ChartMotion {
@@ -82,8 +81,8 @@ impl ChartMotion {
     }
 }
 
-/// 2 J^2 D : D = 2 (dJ/dt)^2 - det dC/dt in two dimensions, where tr A^2 = (tr A)^2 - 2 det A for
-/// A = C^-1 dC/dt, and tr A = 2 dJ/dt/J.
+/// 2 J^2 D : D = 2 (dJ/dt)^2 - det dC/dt in two dimensions, since tr A^2 = (tr A)^2 - 2 det A for A = C^-1 dC/dt, and tr A = 2
+/// dJ/dt/J.
 fn squared_rate(graph: &mut Graph, jacobian: Expr, right_rate: &[Expr]) -> Option<Expr> {
     let [first, shear, _, second] = right_rate else { return None };
     let rate = differentiate(graph, &[jacobian], Symbol::Time)[0];
@@ -93,7 +92,7 @@ fn squared_rate(graph: &mut Graph, jacobian: Expr, right_rate: &[Expr]) -> Optio
     Some(graph.sum([(rate, Rational::from(2)), (shear, one.clone()), (product, -one)]))
 }
 
-/// A stress with the symbol for J - 1.
+/// Writes a stress in terms of the symbol for J - 1.
 fn principal(graph: &mut Graph, stress: &[Expr], dimension: usize) -> Vec<Expr> {
     let gradient =
         Tensor::from_fn(dimension, |row, column| graph.symbol(Symbol::Gradient(row, column)));
@@ -102,8 +101,8 @@ fn principal(graph: &mut Graph, stress: &[Expr], dimension: usize) -> Vec<Expr> 
     replace(graph, stress, &values)
 }
 
-/// H; that of the field inside for a rigid twin. Its strain is the same, and so is its stress but for
-/// the rotation, which then need not cancel.
+/// H of the field, without the rigid motion if the field has one. The strain is the same, and the stress differs by the
+/// rotation only, which then need not cancel.
 pub fn gradient(graph: &mut Graph, compiled: &Compiled) -> Vec<Expr> {
     if compiled.model.rigid.is_none() {
         return compiled.derived.quantities[&Quantity::DisplacementGradient].clone();
@@ -115,7 +114,7 @@ pub fn gradient(graph: &mut Graph, compiled: &Compiled) -> Vec<Expr> {
     (0..displacement.len()).flat_map(|row| columns.iter().map(move |column| column[row])).collect()
 }
 
-/// What follows from a gradient, reduced where that makes it shorter.
+/// The strain of a gradient, reduced if that makes it shorter.
 fn strain(graph: &mut Graph, gradient: &[Expr]) -> Strain {
     let dimension = gradient.len().isqrt();
     let tensor = || Tensor::from_fn(dimension, |row, column| gradient[row * dimension + column]);
@@ -133,8 +132,8 @@ fn strain(graph: &mut Graph, gradient: &[Expr]) -> Strain {
     }
 }
 
-/// What J, J - 1 and what J is a multiple of are in terms of [`SUPPLIED_VOLUME`]. Interval arithmetic
-/// alone would not know that J is positive where it is small.
+/// J, J - 1 and the expression of which J is a multiple, each in terms of [`SUPPLIED_VOLUME`]. Interval arithmetic alone would
+/// not know that J is positive where it is small.
 pub fn without_volume(graph: &mut Graph, jacobian: Expr) -> SortedMap<Expr, Expr> {
     if graph.as_number(jacobian).is_some() {
         return SortedMap::new();

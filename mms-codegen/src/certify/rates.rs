@@ -1,15 +1,14 @@
-//! Bounds of the principal stretch, of the strain rate and of the wave speed over the domain: how far, how fast
-//! and how stiffly a field deforms.
+//! Bounds of the principal stretch, of the strain rate and of the wave speed over the domain: how far, how fast and how stiffly
+//! a field deforms.
 //!
-//! Strains are bounded by C = F^T F in the basis of the coordinates, so that rotations cost no sharpness, and by F
-//! beside it, whose entries are shorter where nothing rotates; the least of the bounds counts. Eigenvalues of C
-//! are bounded by Hertz and Weyl, singular values of F by Weyl. The strain rate D comes from C as D : D = tr (C^-1
-//! dC/dt)^2/4, in two dimensions as (2 (dJ/dt)^2 - det dC/dt)/(2 J^2), and from F as sym(dF/dt F^-1).
+//! Strains are bounded by C = F^T F in the basis of the coordinates, so that rotations cost no sharpness, and also by F, whose
+//! entries are shorter where nothing rotates; the smaller bound counts. Eigenvalues of C are bounded by Hertz and Weyl,
+//! singular values of F by Weyl. The strain rate D is computed from C as D : D = tr (C^-1 dC/dt)^2/4, in two dimensions as (2
+//! (dJ/dt)^2 - det dC/dt)/(2 J^2), and from F as sym(dF/dt F^-1).
 //!
-//! The wave speed is that of the acoustic tensor on a grid of directions, whose gaps are bounded, over the least
-//! rho0; for isotropic materials in principal axes. In the deformed body it is made of F_pJ F_qL A_iJkL instead of
-//! A_iJkL. The stable time step is the cell size over the larger of the two wave speeds; it knows nothing of the
-//! speed of particles.
+//! The wave speed follows from the acoustic tensor on a grid of directions, whose gaps are bounded, and from the least rho0;
+//! for isotropic materials in principal axes. In the deformed body F_pJ F_qL A_iJkL replaces A_iJkL. The stable time step is
+//! the cell size over the larger of the two wave speeds; the speed of particles does not enter.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -28,10 +27,10 @@ use mms_program::interpret::Number as _;
 use mms_program::interval::Interval;
 use mms_symbolic::expr::{Expr, Graph};
 
-/// A bound that exceeds a value by no more than this part of it is sharp enough.
+/// The relative excess over a value at which a bound is sharp enough.
 const SHARPNESS: f64 = 0.1;
 
-/// Bounds of rates that no state of the field exceeds.
+/// Upper bounds of rates for all states of the field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
     /// The largest principal stretch.
@@ -45,14 +44,13 @@ pub struct Rates {
 }
 
 impl Rates {
-    /// No wave crosses a cell in a time step of less than this times the cell size, whether the
-    /// cells lie in the reference or in the deformed body.
+    /// The time that the fastest wave needs per cell size, whether the cells lie in the reference or in the deformed body.
     pub fn time_step_per_cell_size(&self) -> f64 {
         1.0 / self.wave_speed.max(self.reference_wave_speed)
     }
 }
 
-/// Where the cells lie that waves cross.
+/// The configuration in which the waves cross cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
     /// In the reference configuration.
@@ -61,7 +59,7 @@ pub enum Frame {
     Deformed,
 }
 
-/// Bounds all four, and says how many cells it took beside those of the stretches.
+/// Bounds all four rates, and counts the cells, without the cells of the stretches.
 pub(super) fn bound(
     graph: &mut Graph,
     searches: &Searches<'_>,
@@ -74,15 +72,15 @@ pub(super) fn bound(
     let rates = Rates {
         principal_stretch,
         strain_rate: rate.bound,
-        // No stretch carries a wave farther, either.
+        // A stretch by at most this factor carries a wave no farther.
         wave_speed: deformed.bound.min(reference.bound * principal_stretch),
         reference_wave_speed: reference.bound,
     };
     (rates, rate.cells + reference.cells + deformed.cells)
 }
 
-/// A bound of the speed of waves in a frame, where J lies within `jacobian`; no sharper than it takes to
-/// see that it is at most `speed`. It takes at most `limit` cells for each stretch and for itself.
+/// A bound of the speed of waves in a frame, where J lies within `jacobian`, sharpened only until it is at most `speed`. The
+/// search uses at most `limit` cells for each stretch and for the speed.
 pub fn wave_speed(
     graph: &mut Graph,
     chart: &Chart,
@@ -97,15 +95,15 @@ pub fn wave_speed(
     found.bound
 }
 
-/// What the search for each rate starts from.
+/// The common inputs of the search for each rate.
 pub(super) struct Searches<'a> {
     pub chart: &'a Chart,
     pub motion: &'a ChartMotion,
-    /// J, H and C - I, with which the formulas of every search begin.
+    /// J, H and C - I, the first formulas of every search.
     pub strain: Vec<Expr>,
     /// The bounds of J everywhere.
     pub volume: Interval,
-    /// How many cells each may take.
+    /// The largest number of cells of each search.
     pub limit: usize,
 }
 
@@ -113,12 +111,12 @@ pub(super) struct Searches<'a> {
 pub(super) struct Stretches {
     pub least: f64,
     pub greatest: f64,
-    /// How many cells it took.
+    /// The number of cells.
     pub cells: usize,
 }
 
 impl Stretches {
-    /// The largest principal stretch; the dimensions that a field lacks are not stretched.
+    /// The largest principal stretch; a missing dimension has the stretch 1.
     fn principal(&self, motion: &ChartMotion) -> f64 {
         self.greatest.max(if motion.dimension() < 3 { 1.0 } else { 0.0 })
     }
@@ -185,7 +183,7 @@ impl<'a> Searches<'a> {
         })
     }
 
-    /// The fastest wave in each frame, no sharper than it takes to see that it is at most `speed`.
+    /// The fastest wave in each frame, sharpened only until it is at most `speed`.
     fn wave_speeds<const N: usize>(
         &self,
         graph: &mut Graph,
@@ -226,9 +224,8 @@ impl<'a> Searches<'a> {
     }
 }
 
-/// Bounds a measure of formulas: in a cell from bounds of the formulas, and at its centre from their
-/// values there. The measure is told which bound is sharp enough; cells are split where the formulas
-/// that steer change most.
+/// Bounds a measure of formulas: in a cell from bounds of the formulas, and at its centre from their values there. `measure`
+/// gets the bound that is sharp enough; cells are split where the steering formulas change most.
 fn search(
     chart: &Chart,
     bounds: &mut Enclosures<'_>,
@@ -240,7 +237,7 @@ fn search(
     search_until(chart, bounds, limit, steering, sharp, measure)
 }
 
-/// The same, where `sharp` tells which bound of a value is sharp enough.
+/// Bounds a measure as [`search`] does, where `sharp` computes the bound that is sharp enough for a value.
 pub(super) fn search_until(
     chart: &Chart,
     bounds: &mut Enclosures<'_>,
@@ -272,13 +269,13 @@ pub(super) fn search_until(
     })
 }
 
-/// dP/dF over boxes that several searches ask for, by place.
+/// Bounds of dP/dF over boxes, kept by place for several searches.
 struct Tangents<'a> {
     tangent: Tangent<'a>,
     known: HashMap<Vec<u64>, OfPlace>,
 }
 
-/// Bounds of dP/dF over one box: those that cost little, and others where they were asked for.
+/// Bounds of dP/dF over one box: cheap ones, and sharper ones if requested.
 struct OfPlace {
     coarse: Vec<Interval>,
     sharp: Option<Vec<Interval>>,
@@ -300,7 +297,7 @@ impl<'a> Tangents<'a> {
         &known.entry(key(place)).or_insert_with(new).coarse
     }
 
-    /// Of a box whose coarse bounds were asked for.
+    /// Sharper bounds over a box whose coarse bounds exist already.
     fn sharp(&mut self, gradient: &[Interval], place: &[Interval]) -> &[Interval] {
         let Tangents { tangent, known } = self;
         let Some(OfPlace { coarse, sharp }) = known.get_mut(&key(place)) else { return &[] };
@@ -308,21 +305,20 @@ impl<'a> Tangents<'a> {
     }
 }
 
-/// What is known of the deformation in a cell.
+/// The bounds of the deformation in a cell.
 pub(super) struct State {
     /// C.
     right: Vec<Interval>,
     /// F.
     deformation: Vec<Interval>,
-    /// The principal stretches, in ascending order: C bounds them whatever the rotation is, F more
-    /// sharply where it is small.
+    /// The principal stretches, in ascending order: C bounds them under any rotation, F more sharply under a small one.
     stretches: Vec<Interval>,
     /// J.
     pub volume: Interval,
 }
 
 impl State {
-    /// From J, H and C - I.
+    /// Bounds the state from J, H and C - I.
     fn new(volume: Interval, gradient: &[Interval], right: &[Interval]) -> Self {
         let deformation = with_identity(gradient);
         let both = with_identity(right).into_iter().zip(gram(&deformation));
@@ -330,7 +326,7 @@ impl State {
         let roots = eigenvalues(&right).into_iter().map(|square| square.sqrt());
         let stretches = roots.zip(singular_values(&deformation));
         let mut stretches: Vec<_> = stretches.map(|(root, value)| root.meet(value)).collect();
-        // J is the product of all of them.
+        // J is the product of all principal stretches.
         for axis in 0..stretches.len() {
             let others = stretches.iter().enumerate().filter(|(other, _)| *other != axis);
             let rest = others.fold(volume, |rest, (_, stretch)| rest / *stretch);
@@ -339,20 +335,20 @@ impl State {
         State { right, deformation, stretches, volume }
     }
 
-    /// |D| from 2 J^2 D : D.
+    /// A bound of |D| from 2 J^2 D : D.
     fn rate(&self, squared: Interval) -> f64 {
         let square = squared.meet(Interval::new(0.0, f64::INFINITY)) / self.volume.square();
         let rate = (square / Interval::from_f64(2.0)).sqrt();
         if rate.is_defined() { rate.upper() } else { f64::INFINITY }
     }
 
-    /// H of a material that is told by it, else one of the same principal stretches.
+    /// H for a material that needs it, else a gradient with the same principal stretches.
     pub fn gradient(&self, oriented: &[Interval], all: Interval) -> Vec<Interval> {
         if oriented.is_empty() { self.principal_gradient(all) } else { oriented.to_vec() }
     }
 
-    /// The principal stretches less 1, as a gradient: with a material that sees nothing but them, a
-    /// state in its principal axes. No stretch lies outside `all`.
+    /// The principal stretches less 1, as a gradient: the state in its principal axes, for a material whose stress depends on
+    /// the stretches only. No stretch lies outside `all`.
     fn principal_gradient(&self, all: Interval) -> Vec<Interval> {
         let dimension = self.stretches.len();
         let mut gradient = vec![Interval::from_f64(0.0); dimension * dimension];
@@ -385,15 +381,14 @@ fn with_identity(matrix: &[Interval]) -> Vec<Interval> {
     matrix
 }
 
-/// F_pJ F_qL A_iJkL: with it in place of A, waves cross the deformed body (Ogden, Non-linear Elastic
-/// Deformations, 1984, section 6.1).
+/// F_pJ F_qL A_iJkL: it replaces A for waves in the deformed body (Ogden, Non-linear Elastic Deformations, 1984, section 6.1).
 fn pushed(tangent: &[Interval], deformation: &[Interval]) -> Vec<Interval> {
     let dimension = deformation.len().isqrt();
     let order = dimension * dimension;
     let sum = |terms: &mut dyn Iterator<Item = Interval>| {
         terms.fold(Interval::from_f64(0.0), |sum, term| sum + term)
     };
-    // Of the pair (i, J) of a row, or (k, L) of a column, J or L becomes p or q.
+    // In the pair (i, J) of a row, or (k, L) of a column, J or L becomes p or q.
     let moved = |pair: usize, j: usize| pair / dimension * dimension + j;
     let along = |pair: usize, j: usize| deformation[pair % dimension * dimension + j];
     let rows = |at: usize| {

@@ -1,4 +1,4 @@
-//! Where the motion leads: bounds of x over body, window and ranges, which a background grid has to hold.
+//! Bounds of x over body, window and ranges, which a background grid has to contain.
 
 use mms_math::Scalar as _;
 
@@ -11,13 +11,13 @@ use mms_spec::Space;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Function, Graph, Rational};
 
-/// A bound that exceeds a value by no more than this part of the distance between both bounds is sharp enough.
+/// The excess of a bound over a value that is sharp enough, as a part of the distance between both bounds.
 const SHARPNESS: f64 = 0.01;
 
-/// How many cells each bound may take: it holds however many there were.
+/// The largest number of cells of each bound: it is valid after any number of cells.
 const CELLS: usize = 100;
 
-/// The least and the greatest x by axis; infinite where no bound is found. Of an axisymmetric field these are the distance
+/// The least and the greatest x by axis; infinite if no bound is found. For an axisymmetric field the axes are the distance
 /// from the axis and the coordinate along it.
 pub(super) fn bound(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Vec<[f64; 2]> {
     let mut position = compiled.derived.quantities[&Quantity::Position].clone();
@@ -41,7 +41,7 @@ fn ends(graph: &mut Graph, chart: &Chart, component: Expr) -> [f64; 2] {
     [-lower, upper]
 }
 
-/// A bound of a component times a sign, within an excess; one cell will do where that is infinite.
+/// A bound of a component times a sign, within an excess; if the excess is infinite, one cell is enough.
 fn greatest(chart: &Chart, formulas: &Formulas, sign: f64, excess: f64) -> f64 {
     let mut bounds = formulas.run::<Interval>(chart);
     let mut values = formulas.run::<f64>(chart);

@@ -1,8 +1,8 @@
-//! The stress of the undeformed body, P at F = I: whether it is 0, symbolically, or at 16 points for the defaults
-//! and 16 within the ranges.
+//! The stress of the undeformed body, P at F = I: whether it is 0, symbolically, or at 16 points for the defaults and 16 within
+//! the ranges.
 //!
-//! Given fields of the material are at their values at rest. A material without a stress at rest has none. A file that forgot a term of W has one, which no proof and no
-//! study of its own sees. It may be meant, so it is a warning.
+//! Given fields of the material are at their values at rest. A material without a stress at rest has none. A file without some
+//! term of W has one, which no proof and no study of this file reveals. It may be intended, so it is a warning.
 
 use mms_math::Scalar as _;
 
@@ -20,26 +20,28 @@ use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 use mms_symbolic::sorted::SortedMap;
 
-/// At how many points of the body, for the defaults and again for parameters within their ranges.
+/// The number of points of the body, for the defaults and again for parameters within their ranges.
 const POINTS: usize = 16;
 
-/// What is less than this part of the longitudinal modulus may be what 77 digits round.
+/// The part of the longitudinal modulus below which a value may be rounding of 77 digits.
 const DOUBT: f64 = 1e-40;
 
-/// What the search may take, in the steps of [`mms_symbolic::work`].
+/// The budget of the search, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 20_000_000;
 
-/// What is known of P at F = I.
+/// The verdict about P at F = I.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Rest {
-    /// It is 0, identically or at all points that were looked at.
+    /// The stress is 0, identically or at all examined points.
     Free,
-    /// Its components, row-major, where the greatest of them is greatest; in space where those of the field's dimensions are 0.
+    /// The components of P, row-major, where the greatest of them is greatest; in space if the components within the field's
+    /// dimensions are 0.
+    /// are 0.
     Stressed(Vec<f64>, Witness),
-    /// Its components likewise, a multiple of I that these given fields of the material set: they stand for the pressure that
-    /// balances it.
+    /// The components of P likewise, a multiple of I that these given fields of the material set: they include the pressure
+    /// that balances it.
     Pressed(Vec<f64>, Vec<String>),
-    /// To evaluate it takes too long.
+    /// The evaluation takes too long.
     Unknown,
 }
 
@@ -78,7 +80,7 @@ pub fn stress(compiled: &Compiled) -> Rest {
     let is_free = |graph: &Graph, stress: &[Expr]| stress.iter().all(|it| graph.is_zero(*it));
     let mut pressed = Vec::new();
     if !compiled.model.givens.is_empty() {
-        // Given fields are at rest here, and what they do elsewhere is no stress at rest.
+        // Given fields are at rest here; the stress that they cause elsewhere is no stress at rest.
         let [space, _] = at_rest(&mut graph, &compiled.model);
         let (field, material, model) = (&compiled.field, &compiled.material, &compiled.model);
         if is_spherical(&graph, &space) {
@@ -90,7 +92,7 @@ pub fn stress(compiled: &Compiled) -> Rest {
         stress = (0..9).filter(in_plane).map(|place| space[place]).collect();
     }
     if is_free(&graph, &stress) {
-        // Fibres across a plane body may pull at what holds it flat.
+        // Fibres across a plane body may pull at the constraint that keeps it plane.
         [stress, _] = at_rest(&mut graph, &compiled.model);
     }
     if is_free(&graph, &stress) {
@@ -111,8 +113,8 @@ pub fn stress(compiled: &Compiled) -> Rest {
     }
 }
 
-/// Of points spread over a chart, that where a component of a stress is greatest beside the modulus, which comes last;
-/// if any is beyond doubt.
+/// The stress and the place where a component is greatest relative to the modulus, which is the last formula, among points
+/// spread over a chart; `None` if all components may be rounding.
 fn greatest(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Option<(Vec<f64>, Witness)> {
     let formulas = chart.pull_back(graph, formulas);
     let program = schedule_plainly(graph, &SortedMap::from([((), formulas)]));

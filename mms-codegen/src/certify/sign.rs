@@ -9,18 +9,17 @@ use crate::bounds::witness::Witness;
 use mms_program::interval::Interval;
 use mms_program::precise::Precise;
 
-/// How near a bound must be to a value, relative to that.
+/// The distance of a bound from a value, relative to the value, that ends a search.
 const SHARPNESS: f64 = 0.2;
 
-/// The sign of an expression that must be positive, as far as it is known.
+/// The verdict about the sign of an expression that must be positive.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sign {
-    /// It is positive everywhere, within these bounds.
+    /// The expression is positive everywhere, within these bounds.
     Positive([f64; 2]),
-    /// It is not positive here, where it has this value.
+    /// The expression is not positive here, where it has this value.
     Refuted(Witness, f64),
-    /// No point was found where it is not positive, and it is not proved to be: it may be as small
-    /// as the value, near the place.
+    /// The expression is positive at all examined points, but not proved to be: near the place it may be as small as the value.
     Unproved(Witness, f64),
 }
 
@@ -28,7 +27,7 @@ pub enum Sign {
 pub struct Positive<'a> {
     chart: &'a Chart,
     formula: &'a Formulas,
-    /// The sign of a value of a smaller magnitude is taken from 77 digits.
+    /// The magnitude below which the sign of a value is computed in 77 digits.
     doubtful: f64,
 }
 
@@ -43,7 +42,7 @@ impl<'a> Positive<'a> {
         Positive { chart, formula, doubtful: f64::INFINITY }
     }
 
-    /// Bounds it from both sides, with at most `limit` cells each, and says how many there were.
+    /// Bounds the formula from both sides, with at most `limit` cells each, and counts the cells.
     pub fn bound(&self, limit: usize) -> (Sign, usize) {
         let (sign, cells) = self.least(limit);
         let Sign::Positive([least, _]) = sign else { return (sign, cells) };
@@ -52,7 +51,8 @@ impl<'a> Positive<'a> {
         (Sign::Positive([least, greatest.bound]), cells + greatest.cells)
     }
 
-    /// Bounds it from below, until it is found not to be positive or `limit` cells have been looked at; and how many were.
+    /// Bounds the formula from below, until a value that is not positive is found or `limit` cells are examined, and counts the
+    /// cells.
     pub fn least(&self, limit: usize) -> (Sign, usize) {
         let enough = |bound: f64, value: f64| {
             let (lower, value) = (-bound, -value);
@@ -70,7 +70,7 @@ impl<'a> Positive<'a> {
         (sign, least.cells)
     }
 
-    /// Where it is not positive at a corner of the chart, moved along these variables alone.
+    /// A corner of the chart, moved along these variables alone, where the formula is not positive.
     pub fn at_corners(&self, variables: &[usize]) -> Option<Sign> {
         let mut values = self.values();
         (0..1_usize << variables.len()).find_map(|corner| {
@@ -88,7 +88,7 @@ impl<'a> Positive<'a> {
         Values { chart, double: formula.run(chart), precise: formula.run(chart), doubtful }
     }
 
-    /// Bounds `sign` times its values from above.
+    /// Bounds `sign` times the formula from above.
     fn extremum(&self, limit: usize, sign: f64, enough: impl Fn(f64, f64) -> bool) -> Found {
         let Positive { chart, formula, .. } = *self;
         let (mut bounds, mut values) = (formula.run::<Interval>(chart), self.values());
@@ -98,7 +98,7 @@ impl<'a> Positive<'a> {
             let enclosure = bounds.enclose(&place);
             let split = cell.steepest(&chart.changes(cell, &place, &enclosure.slopes));
             let mut bound = upper(enclosure.values[0] * signed);
-            // Where it only grows or only falls along a variable, the extremum is at one end.
+            // If the formula is monotonic in a variable, the extremum is at one end.
             let mut at = cell.centre();
             let mut ends = false;
             for (variable, slopes) in enclosure.slopes.iter().enumerate() {
@@ -135,7 +135,7 @@ struct Values<'a> {
 }
 
 impl Values<'_> {
-    /// The value, of certain sign; `None` where there is none.
+    /// The value, with a certain sign; `None` if it does not exist.
     fn at(&mut self, fractions: &[f64]) -> Option<f64> {
         let value = self.double.values(&self.chart.place(fractions))[0];
         if value.is_finite() && value.abs() > self.doubtful {

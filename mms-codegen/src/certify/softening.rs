@@ -13,22 +13,22 @@ use crate::bounds::enclosure::Formulas;
 use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
 
-/// How often m is sought for an N, and N for an m; and how many steps each takes.
+/// The number of alternations between a search of m for an N and of N for an m, and the number of steps of each search.
 const TURNS: usize = 12;
 const STEPS: usize = 24;
 
-/// A wave that grows without a bound, however short it is.
+/// A wave that grows without a bound, at any wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Softening {
-    /// Where and when.
+    /// The place and the time.
     pub witness: Witness,
     /// N, of length 1.
     pub direction: Vec<f64>,
-    /// The least eigenvalue of the acoustic tensor of N is not greater than this, which is not positive.
+    /// An upper bound of the least eigenvalue of the acoustic tensor of N; not positive.
     pub value: f64,
 }
 
-/// Looks for directions at values of the variables of the chart.
+/// Searches for directions at values of the variables of the chart.
 pub(super) fn softening(
     graph: &mut Graph,
     chart: &Chart,
@@ -49,7 +49,7 @@ pub(super) fn softening(
     }
     let (m, n) = softest(&tangent, compiled.field.space.rows());
     let form = form(&tangent, &m, &n);
-    // Vectors of length 1 but for their rounding.
+    // The vectors have length 1 up to rounding.
     let value = (form / (squared_length(&m) * squared_length(&n))).upper();
     let spot = chart.points::<f64>().point(place);
     let parameters = chart.varying_parameters().map(|index| (index, spot.parameters[index]));
@@ -76,8 +76,8 @@ fn form(tangent: &[Interval], m: &[f64], n: &[f64]) -> Interval {
     terms.fold(Interval::from_f64(0.0), |sum, term| sum + term)
 }
 
-/// The m and N of the least form that is found, from each axis on: the least eigenvector for one of them, and in turn for
-/// the other.
+/// The m and N with the least form that is found, starting from each axis: alternately the least eigenvector for one of them
+/// and for the other.
 fn softest(tangent: &[Interval], dimension: usize) -> (Vec<f64>, Vec<f64>) {
     let middle: Vec<f64> = tangent.iter().map(|entry| entry.middle()).collect();
     let order = dimension * dimension;
@@ -110,7 +110,7 @@ fn softest(tangent: &[Interval], dimension: usize) -> (Vec<f64>, Vec<f64>) {
     least.map(|(_, directions)| directions).expect("a start for each axis")
 }
 
-/// By powers of the matrix turned over, from a vector on.
+/// The least eigenvector, by powers of a matrix with reversed eigenvalues, from a start vector.
 fn least_eigenvector(matrix: &[f64], start: Vec<f64>) -> Vec<f64> {
     let dimension = start.len();
     let most = matrix.iter().map(|entry| entry.abs()).sum::<f64>();
@@ -126,7 +126,7 @@ fn least_eigenvector(matrix: &[f64], start: Vec<f64>) -> Vec<f64> {
     vector
 }
 
-/// The vector of length 1; one along the first axis where there is none.
+/// Normalises a vector to length 1; returns the first axis if that is impossible.
 fn unit(mut vector: Vec<f64>) -> Vec<f64> {
     let length = vector.iter().map(|it| it * it).sum::<f64>().sqrt();
     if length > 0.0 {

@@ -1,7 +1,7 @@
-//! Whether the material is an elastic solid throughout: the density is positive over the body and the ranges of parameters,
-//! and the moduli at F = I are positive definite over the ranges.
+//! Whether the material is an elastic solid throughout: the density is positive over the body and the ranges of parameters, and
+//! the moduli at F = I are positive definite over the ranges.
 //!
-//! For the defaults, `declared` looks at both. Moduli that depend on no range are left to it: a fluid has mu = 0.
+//! For the defaults, `declared` checks both. It alone checks moduli that depend on no range: a fluid has mu = 0.
 
 use super::message;
 use super::sign::{Positive, Sign};
@@ -11,7 +11,7 @@ use crate::compile::Compiled;
 use mms_spec::diagnostic::Diagnostic;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 
-/// Corners are looked at along so many variables at most. Ranges are wrong at their ends first of all.
+/// The largest number of variables along which corners are examined. Wrong ranges are wrong at their ends first of all.
 const MOST_OF_CORNERS: usize = 8;
 
 /// An expression that must be positive.
@@ -19,12 +19,12 @@ const MOST_OF_CORNERS: usize = 8;
 pub enum Part {
     /// rho0.
     Density,
-    /// The modulus at F = I of that name.
+    /// The modulus at F = I of this name.
     Modulus(&'static str),
 }
 
 impl Part {
-    /// Its name.
+    /// The name of the part.
     pub fn name(self) -> &'static str {
         match self {
             Part::Density => "rho0",
@@ -32,7 +32,7 @@ impl Part {
         }
     }
 
-    /// The formula of it, in X and all parameters.
+    /// The formula of the part, in X and all parameters.
     pub(super) fn formula(self, graph: &mut Graph, compiled: &Compiled) -> Option<Expr> {
         match self {
             Part::Density => Some(compiled.model.density),
@@ -44,8 +44,8 @@ impl Part {
     }
 }
 
-/// The sign of the density, where it varies, and of each modulus that depends on a range; and how many cells that took, of at
-/// most `limit` each.
+/// The sign of the density, if it varies, and of each modulus that depends on a range; and the number of cells, at most `limit`
+/// for each.
 pub(super) fn bound(
     graph: &mut Graph,
     chart: &Chart,

@@ -13,30 +13,31 @@ use mms_program::schedule::schedule_plainly;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::sorted::SortedMap;
 
-/// dP/dF, by dual numbers, and its own derivatives by dual numbers of these.
+/// dP/dF by dual numbers, and its derivatives by dual numbers over these.
 pub struct Tangent<'a> {
     first: Run<'a, Fan<Interval>, ()>,
     second: Run<'a, Fan<Dual<Interval>>, ()>,
 }
 
-/// dP/dF is its value in the middle and, for each entry of H that varies, its slope times what that departs from the middle.
+/// A mean-value form of dP/dF: its value in the middle plus, for each entry of H that varies, the slope times the distance from
+/// the middle.
 pub struct MeanValue {
-    /// In the middle of H.
+    /// The value in the middle of H.
     pub centre: Vec<Interval>,
-    /// By how much an entry departs at most, and bounds of the slopes.
+    /// The largest distance of an entry from the middle, and bounds of the slopes.
     pub slopes: Vec<(f64, Vec<Interval>)>,
 }
 
-/// By so many entries of H at most, dP/dF is differentiated: beyond, that does not pay.
+/// The largest number of varying entries of H by which dP/dF is differentiated: with more, that does not pay.
 const DIRECTIONS: usize = 4;
 
 impl<'a> Tangent<'a> {
-    /// The program of P at a gradient that is supplied.
+    /// The program of P at a supplied gradient.
     pub fn program(graph: &Graph, stress: &[Expr]) -> Program<()> {
         schedule_plainly(graph, &SortedMap::from([((), stress.to_vec())]))
     }
 
-    /// Of the stress of such a program.
+    /// Prepares the tangent of the stress of such a program.
     pub fn new(chart: &'a Chart, stress: &'a Program<()>) -> Self {
         Tangent { first: chart.run(stress), second: chart.run(stress) }
     }
@@ -58,7 +59,7 @@ impl<'a> Tangent<'a> {
         matrix(&stress, |it, column| slope_of(it.value, it.slope(column)))
     }
 
-    /// The same by the mean-value form, within bounds that are known.
+    /// Sharpens known bounds of dP/dF by the mean-value form.
     pub fn sharpen(
         &mut self,
         mut tangent: Vec<Interval>,
@@ -80,7 +81,7 @@ impl<'a> Tangent<'a> {
         tangent
     }
 
-    /// The mean-value form about the middle of a gradient; `None` where nothing varies, or too much does.
+    /// The mean-value form about the middle of a gradient; `None` if no entry varies, or too many do.
     pub fn mean_value(&mut self, gradient: &[Interval], place: &[Interval]) -> Option<MeanValue> {
         let varies = |entry: &usize| gradient[*entry].width() > 0.0;
         let directions: Vec<usize> = (0..gradient.len()).filter(varies).collect();
@@ -118,7 +119,7 @@ impl<'a> Tangent<'a> {
     }
 }
 
-/// What a stress is a function of: H, and J - 1 in its own right.
+/// The leaves of a stress: H, and J - 1 as a leaf of its own.
 fn leaves<T: Clone>(gradient: &[T], volume: &T) -> impl Fn(Symbol) -> T {
     let dimension = gradient.len().isqrt();
     move |symbol| match symbol {
@@ -128,12 +129,12 @@ fn leaves<T: Clone>(gradient: &[T], volume: &T) -> impl Fn(Symbol) -> T {
     }
 }
 
-/// The slope of a value: of what has none, for instance since a budget is spent, nothing is known.
+/// The slope of a value; undefined if the value is, for instance since a budget is spent.
 fn slope_of(value: Interval, slope: Interval) -> Interval {
     if value.is_defined() { slope } else { Interval::UNDEFINED }
 }
 
-/// J - 1 of a gradient that is diagonal but for what derivatives are taken by.
+/// J - 1 of a gradient that is diagonal up to the entries of derivatives.
 fn volume<T: Number>(gradient: &[T]) -> T {
     let one = T::from_f64(1.0);
     let stretches = gradient.iter().step_by(gradient.len().isqrt() + 1);
@@ -141,7 +142,7 @@ fn volume<T: Number>(gradient: &[T]) -> T {
     stretches.fold(one.clone(), |product, stretch| product * stretch) - one.clone()
 }
 
-/// A square matrix, row-major, from what there is for each row.
+/// A square matrix, row-major, from one item for each row.
 fn matrix<T>(rows: &[T], entry: impl Fn(&T, usize) -> Interval) -> Vec<Interval> {
     let entry = &entry;
     rows.iter().flat_map(|row| (0..rows.len()).map(move |column| entry(row, column))).collect()

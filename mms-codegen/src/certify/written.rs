@@ -1,7 +1,7 @@
-//! The displacement as it is written: where it has no value.
+//! The displacement as it is written: the points where it has no value.
 //!
-//! Canonical form cancels: sqrt(X)*sqrt(X) becomes X, which is defined where the former is not. So
-//! the formulas are evaluated once operation by operation, as they stand in the file.
+//! Canonical form cancels: sqrt(X)*sqrt(X) becomes X, which is defined for X < 0, too. So the formulas are evaluated operation
+//! by operation, as they are written in the file.
 
 use mms_math::Scalar as _;
 
@@ -16,36 +16,37 @@ use mms_spec::{FieldSpec, Formula, RigidSpec};
 use mms_symbolic::expr::Function;
 use mms_symbolic::sorted::SortedMap;
 
-/// At how many points of the domain u is evaluated.
+/// The number of points of the domain where u is evaluated.
 pub const POINTS: usize = 32;
 
-/// What all points together may take, in the steps of [`mms_symbolic::work`], and what an operation does, a power, and a function.
+/// The budget of all points together, in the steps of [`mms_symbolic::work`], and the steps of an operation, of a power and of
+/// a function.
 const STEPS: u64 = 50_000_000;
 const STEPS_OF_OPERATION: u64 = 60;
 const STEPS_OF_POWER: u64 = 3_000;
 const STEPS_OF_FUNCTION: u64 = 10_000;
 
-/// Greater integer powers are taken by the power function.
+/// The largest integer exponent for repeated multiplication; the power function computes greater ones.
 const MAX_REPEATED: f64 = 4096.0;
 
 /// An operation that has no value at some points of the domain.
 #[derive(Clone, Debug)]
 pub struct Gap {
-    /// The component of u, from 0 on; `None` where it is the rigid motion on top of u.
+    /// The component of u, from 0 on; `None` for the rigid motion on top of u.
     pub component: Option<usize>,
-    /// Where the operation stands.
+    /// The place of the operation in the file.
     pub span: Span,
-    /// At how many of [`POINTS`] points.
+    /// The number of points, out of [`POINTS`], without a value.
     pub points: usize,
-    /// X and t of the first of them.
+    /// X and t of the first of these points.
     pub first: (Vec<f64>, f64),
 }
 
-/// A value, and the operation to blame where it is undefined.
+/// A value, and the operation to blame if it is undefined.
 type Traced = (Precise, Option<Span>);
 
-/// Every component of u, and every formula of a rigid motion, that has no value somewhere, with the operation that is to blame at the
-/// first such point.
+/// The components of u, and the formulas of a rigid motion, that have no value somewhere, each with the operation to blame at
+/// the first such point.
 pub fn gaps(compiled: &Compiled) -> Vec<Gap> {
     let field = &compiled.field;
     let Some([lets, formulas]) = parsed(field) else { return Vec::new() };
@@ -69,7 +70,7 @@ pub fn gaps(compiled: &Compiled) -> Vec<Gap> {
     found.into_iter().flatten().collect()
 }
 
-/// At how many points u is evaluated: [`POINTS`], or fewer where that takes too long.
+/// The number of points where u is evaluated: [`POINTS`], or fewer if that takes too long.
 pub fn points(compiled: &Compiled) -> usize {
     let Some(formulas) = parsed(&compiled.field) else { return POINTS };
     let steps = |ast: &Ast| ast.nodes.iter().map(|node| steps(&node.kind)).sum::<u64>();
@@ -94,7 +95,7 @@ fn parsed(field: &FieldSpec) -> Option<[Vec<Ast>; 2]> {
     Some([lets.collect::<Option<_>>()?, formulas.collect::<Option<_>>()?])
 }
 
-/// What a formula may use beside definitions.
+/// The names that a formula may use beside definitions.
 fn leaves<'a>(
     compiled: &'a Compiled,
     parameters: &[Precise],
@@ -111,8 +112,7 @@ fn leaves<'a>(
     names
 }
 
-/// The value of a formula. The blame goes to the first operation without a value whose operands
-/// have one.
+/// The value of a formula, and the first operation without a value whose operands have one.
 fn evaluate(ast: &Ast, names: &SortedMap<&str, Traced>) -> Traced {
     let mut values: Vec<Traced> = Vec::with_capacity(ast.nodes.len());
     for node in &ast.nodes {
@@ -120,7 +120,7 @@ fn evaluate(ast: &Ast, names: &SortedMap<&str, Traced>) -> Traced {
         let (value, operands) = match &node.kind {
             Kind::Number(number) => (Precise::from_rational(number), Vec::new()),
             Kind::Name(name) => {
-                // Every name was resolved before.
+                // Every name was resolved before this evaluation.
                 let known = names.get(name.as_str()).cloned();
                 values.push(known.unwrap_or((Precise::from_f64(f64::NAN), Some(node.span))));
                 continue;
@@ -167,7 +167,7 @@ fn call(name: &str, arguments: &[Precise]) -> Precise {
     match (function, arguments) {
         (Some(function), [x]) => unary(*function, None, x.clone()),
         (Some(function), [a, b]) => binary(*function, a.clone(), b.clone()),
-        // hypot is the one function that the graph has not.
+        // hypot is the one function that the graph does not have.
         (None, [a, b]) => (a.clone() * a.clone() + b.clone() * b.clone()).sqrt(),
         _ => Precise::from_f64(f64::NAN),
     }

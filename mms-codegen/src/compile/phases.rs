@@ -1,7 +1,7 @@
 //! The phases of a compilation: read a text, transform it, derive from it, simplify, and schedule.
 //!
-//! Each phase has its own budget of steps ([`crate::work`]). Reading and deriving are refused beyond theirs.
-//! Simplifying and scheduling keep the shortest form that they have found when theirs ends.
+//! Each phase has its own budget of steps ([`crate::work`]). If reading or deriving spends its budget, the text is refused. If
+//! simplifying or scheduling does, the shortest form found so far is kept.
 
 use super::{Compiled, Loader, Options};
 use crate::bounds::angles::near_zero;
@@ -35,14 +35,13 @@ use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::whole_turns::whole_turns;
 use mms_symbolic::sorted::SortedMap;
 
-/// How many steps reading and deriving may take, each, for each node that a graph may have: beyond them a text is
-/// refused.
+/// The budget of reading, and of deriving, in steps for each node that a graph may have: a text that needs more is refused.
 const STEPS_PER_NODE: u64 = 700;
 
-/// The same of simplifying and of scheduling, which leave untried what is beyond.
+/// The budget of simplifying, and of scheduling, for each node: once it is spent, further forms are not tried.
 const STEPS_OF_SIMPLIFYING: u64 = 4200;
 
-/// A compilation on its way: what is asked for, the texts that were read, and every mistake that was found.
+/// A compilation in progress: the request, the texts read so far, and every mistake found.
 pub(super) struct Phases<'a> {
     options: &'a Options,
     load: Loader<'a>,
@@ -50,7 +49,7 @@ pub(super) struct Phases<'a> {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// What the texts say, without a mistake.
+/// A field file and its material, read without a mistake.
 struct Read {
     field: FieldSpec,
     material: MaterialSpec,
@@ -62,7 +61,7 @@ impl<'a> Phases<'a> {
         Phases { options, load, sources: Sources::default(), diagnostics: Vec::new() }
     }
 
-    /// All of them; a mistake ends them, or is found beside others.
+    /// Runs all phases; a mistake may end them, or be found beside others.
     pub fn run(&mut self, name: &str, path: &str, text: &str) -> Option<Compiled> {
         let mut graph = Graph::with_limit(self.options.max_nodes).stopped_by(&self.options.stop);
         self.allow(&graph, STEPS_PER_NODE);
@@ -75,7 +74,7 @@ impl<'a> Phases<'a> {
         self.options.variation.falsify(&mut graph, &mut derivation);
         self.allow(&graph, STEPS_OF_SIMPLIFYING);
         let program = self.schedule(&mut graph, &read, &derivation)?;
-        // What others do with it has budgets of its own.
+        // Later work on the graph has budgets of its own.
         graph.work().allow(u64::MAX);
         let Read { field, material, model } = read;
         Some(Compiled {
@@ -102,7 +101,7 @@ impl<'a> Phases<'a> {
         own_quantities(&field, material.as_ref())
     }
 
-    /// What is said where somebody asked to stop, in place of what came of that.
+    /// Replaces all messages by one that says that the work was stopped.
     pub fn stopped(&mut self) {
         let Some(source) = self.sources.nth(0) else { return };
         let message = "the work on this field was stopped before its end";
@@ -110,13 +109,13 @@ impl<'a> Phases<'a> {
         self.diagnostics = vec![start.help("whoever asked for the field asked for that, too")];
     }
 
-    /// What a phase may take for each node that a graph may have.
+    /// Grants a phase `steps` steps for each node that a graph may have.
     fn allow(&self, graph: &Graph, steps: u64) {
         let nodes = self.options.max_nodes.max(DEFAULT_MAX_NODES) as u64;
         graph.work().allow(steps.saturating_mul(nodes));
     }
 
-    /// The field and its material; everything that is wrong with them is reported.
+    /// Reads the field and its material, and reports every mistake.
     fn read(&mut self, graph: &mut Graph, name: &str, path: &str, text: &str) -> Option<Read> {
         let Options { selection, variation, .. } = self.options;
         let source = self.sources.add(path, text);
@@ -149,7 +148,7 @@ impl<'a> Phases<'a> {
         diagnostics.is_empty().then_some(Read { field, material, model })
     }
 
-    /// What follows from the model, as it was derived and, where there is room for that, simplified.
+    /// Derives the quantities of the model, plainly and, if there is room for that, simplified.
     fn derive(
         &mut self,
         graph: &mut Graph,
@@ -161,7 +160,7 @@ impl<'a> Phases<'a> {
         #[cfg(feature = "defects")]
         let derived = misread(graph, read, derived)?;
         let Options { selection, form, .. } = self.options;
-        // The force of a twin needs the motion of the field.
+        // The force of a rigid twin needs the motion of the field.
         let needed = |quantity| read.model.rigid.is_some() || selection.wants(quantity);
         self.allow(graph, STEPS_OF_SIMPLIFYING);
         let simplified =
@@ -176,7 +175,7 @@ impl<'a> Phases<'a> {
         })
     }
 
-    /// What is wanted of a derivation, as a program.
+    /// Schedules the wanted part of a derivation as a program.
     fn schedule(
         &mut self,
         graph: &mut Graph,
@@ -250,7 +249,7 @@ impl<'a> Phases<'a> {
     }
 }
 
-/// Of the wrong moduli that a deliberate mistake takes, but for what a solver asks the material.
+/// Derives the field with the wrong moduli of a deliberate mistake; the responses that a solver uses keep the right ones.
 #[cfg(feature = "defects")]
 fn misread(graph: &mut Graph, read: &mut Read, derived: Derivation) -> Option<Derivation> {
     let Read { field, material, model } = read;
@@ -262,7 +261,7 @@ fn misread(graph: &mut Graph, read: &mut Read, derived: Derivation) -> Option<De
     Some(Derivation { responses: derived.responses, ..of_wrong })
 }
 
-/// A rotation of a material that a rotation strains.
+/// Refuses a rotation of a material whose energy changes under rotations.
 fn rotates_unfit_material(field: &FieldSpec, material: &MaterialSpec) -> Option<Diagnostic> {
     let angle = field.rigid.as_ref()?.angle().filter(|_| !material.frame_indifferent)?;
     let message =
@@ -274,7 +273,7 @@ fn rotates_unfit_material(field: &FieldSpec, material: &MaterialSpec) -> Option<
     )
 }
 
-/// A constant that no double precision number is near to, if the program has one.
+/// A constant outside the range of double precision, if the program has one.
 fn unrepresentable(field: &FieldSpec, program: &Program) -> Option<Diagnostic> {
     let infinite = |op: &Op| match op {
         Op::Constant(number) => number.to_f64().value().is_infinite(),
@@ -296,7 +295,7 @@ fn unrepresentable(field: &FieldSpec, program: &Program) -> Option<Diagnostic> {
     )
 }
 
-/// Where a formula has a number that no double precision number is near to.
+/// The place of a number in a formula that is outside the range of double precision.
 fn huge_number(formula: &Formula) -> Option<Span> {
     let is_huge = |kind: &Kind| match kind {
         Kind::Number(number) => number.to_f64().value().is_infinite(),
@@ -306,7 +305,7 @@ fn huge_number(formula: &Formula) -> Option<Span> {
     ast.nodes.iter().find(|node| is_huge(&node.kind)).map(|node| node.span)
 }
 
-/// The derivation of `what` filled the graph: points at the part of the file that made most of it.
+/// The message that the derivation of `what` filled the graph; it points at the part of the file that made most of it.
 fn too_large(field: &FieldSpec, graph: &Graph, what: &str) -> Diagnostic {
     let culprit = culprit(field);
     let span = match &culprit {
@@ -322,7 +321,7 @@ fn too_large(field: &FieldSpec, graph: &Graph, what: &str) -> Diagnostic {
     Diagnostic { help: graph.exhaustion(), ..diagnostic }
 }
 
-/// The path of a file that is named relative to another one.
+/// The path of a file that is written relative to another one.
 fn beside(path: &str, relative: &str) -> String {
     let relative = relative.trim_start_matches("./");
     match path.rsplit_once('/') {

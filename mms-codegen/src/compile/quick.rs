@@ -1,7 +1,7 @@
-//! A quick test, in microseconds, whether a field surely allows the values that a user sets.
+//! A quick test, in microseconds, that a field surely allows the values that a user sets.
 //!
-//! It evaluates what [`Compiled::accepts`] looks at once, in intervals that hold for the whole body. Where that does
-//! not decide, or something is wrong, it says nothing.
+//! It evaluates the conditions of [`Compiled::accepts`] once, in intervals that enclose the whole body. If that does not
+//! decide, or something is wrong, it returns `None`.
 
 use mms_math::Double;
 use mms_math::coordinates::System;
@@ -20,13 +20,13 @@ use mms_spec::{Claim, Face};
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
 use mms_symbolic::sorted::SortedMap;
 
-/// Sectors of a turn are left to those who tell them from full rings.
+/// The largest sector that the test decides: the full check distinguishes larger ones from full rings.
 const TURN: f64 = std::f64::consts::TAU * (1.0 - 1e-9);
 
-/// An angle from +Z up to this is surely at most pi, or is pi itself but for rounding.
+/// An angle from +Z up to this is surely at most pi, or is pi up to rounding.
 const POLE: f64 = std::f64::consts::PI * (1.0 + 4.0 * f64::EPSILON);
 
-/// What is looked at.
+/// An expression that the test evaluates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Output {
     Ranges,
@@ -57,7 +57,7 @@ pub struct Quick {
 #[derive(Debug)]
 enum Default {
     Number(Interval, Double),
-    /// Of the parameters before it.
+    /// Computed from the parameters before it.
     Made(Program<()>),
 }
 
@@ -71,7 +71,7 @@ impl Default {
         }
     }
 
-    /// Its enclosure and its value, where the parameters before it have these.
+    /// The enclosure and the value of the parameter, given all parameters before it.
     fn of(&self, enclosures: &[Interval], values: &[Double]) -> (Interval, Double) {
         match self {
             Default::Number(enclosure, value) => (*enclosure, *value),
@@ -84,7 +84,7 @@ impl Default {
 }
 
 impl Quick {
-    /// What is to be looked at of a field; nothing where that would not do.
+    /// Prepares the test for a field; `None` if the test cannot decide anything.
     pub fn new(compiled: &Compiled) -> Option<Self> {
         let (model, field) = (&compiled.model, &compiled.field);
         let mut graph = compiled.graph.clone();
@@ -92,7 +92,7 @@ impl Quick {
         let is_simple = model.rigid.is_none() && !matches!(model.kind, Kind::Fibrous(_));
         let outputs = is_simple.then(|| outputs(&mut graph, model))?;
         let mut exprs = outputs.values().flatten();
-        // What changes in time is judged where it is read.
+        // Expressions that change in time are judged when they are read.
         let moves = exprs.any(|expr| graph.symbols(*expr).contains(&Symbol::Time));
         if field.incomplete || graph.is_exhausted() || moves {
             return None;
@@ -102,7 +102,7 @@ impl Quick {
             mms_spec::Body::Round(round) => round.theta.is_some(),
             _ => false,
         };
-        // A face on the axis may claim nothing else.
+        // A face on the axis may have no other claim.
         let has_other_claim = field
             .boundary
             .iter()
@@ -120,14 +120,14 @@ impl Quick {
         })
     }
 
-    /// The values of all parameters where some are set, if the field surely allows them.
+    /// The values of all parameters if the field surely allows those that are set.
     pub fn accepted(&self, set: &SortedMap<usize, Rational>) -> Option<Vec<f64>> {
         let (mut enclosures, mut values) = (Vec::new(), Vec::new());
         for (index, default) in self.defaults.iter().enumerate() {
             let (enclosure, value) = match set.get(&index) {
                 None => default.of(&enclosures, &values),
                 Some(number) => {
-                    // What is set is a double precision number, or is left to others.
+                    // A set value must be a double precision number exactly; the full check handles others.
                     let value = number.to_f64().value();
                     Rational::try_from(value).ok().filter(|exact| exact == number)?;
                     (Interval::new(value, value), Double::from(value))
@@ -169,12 +169,12 @@ impl Quick {
             && self.is_stiff(&interpreter.output(Output::Stiffness))
     }
 
-    /// Coordinates that the body lies within, unless it may be empty.
+    /// Coordinates that enclose the body; `None` if it may be empty.
     fn corners(&self, body: &[Interval]) -> Option<Vec<Interval>> {
         let zero = Interval::new(0.0, 0.0);
         let ascend = |bounds: &[Interval; 2]| below(bounds[0], bounds[1]);
         let hull = |[from, to]: &[Interval; 2]| Interval::new(from.lower(), to.upper());
-        // Whether the edges of a polygon cross is not looked at here.
+        // The test does not check whether the edges of a polygon cross.
         let Region::Block(block) = self.body.with(body.to_vec()) else { return None };
         if block.system == System::Cartesian {
             let inner = block.bounds[0][0];
@@ -206,9 +206,9 @@ impl Quick {
         (is_ring && is_within && (is_part || !self.is_sector)).then_some(corners)
     }
 
-    /// Whether Q_ik = A_i1k1 is positive definite: of an isotropic solid, that is all (see [`super::elasticity`]).
+    /// Whether Q_ik = A_i1k1 is positive definite: for an isotropic solid, that is enough (see [`super::elasticity`]).
     fn is_stiff(&self, tangent: &[Interval]) -> bool {
-        // Of dP/dF, which has the fourth power of the rows.
+        // dP/dF has the fourth power of the number of rows.
         let size = tangent.len().isqrt().isqrt();
         let entry = |i: usize, k: usize| tangent[(i * size * size + k) * size];
         let mut matrix: Vec<Vec<_>> =
@@ -230,7 +230,7 @@ impl Quick {
     }
 }
 
-/// The expressions that are looked at.
+/// The expressions that the test evaluates.
 fn outputs(graph: &mut Graph, model: &Model) -> SortedMap<Output, Vec<Expr>> {
     let ranges = model.parameters.iter().filter_map(|parameter| parameter.range).flatten();
     let body = model.domain.body.values();
@@ -246,12 +246,12 @@ fn outputs(graph: &mut Graph, model: &Model) -> SortedMap<Output, Vec<Expr>> {
     ])
 }
 
-/// Whether a < b, whatever numbers of the intervals they are.
+/// Whether a < b for all numbers of the intervals.
 fn below(a: Interval, b: Interval) -> bool {
     a.is_defined() && b.is_defined() && a.upper() < b.lower()
 }
 
-/// Whether a <= b likewise.
+/// Whether a <= b for all numbers of the intervals.
 fn at_most(a: Interval, b: Interval) -> bool {
     a.is_defined() && b.is_defined() && a.upper() <= b.lower()
 }

@@ -1,5 +1,4 @@
-//! Whether the numbers of a body make one: boxes with edges of positive length, radii and angles that ascend, polygons
-//! whose edges do not cross.
+//! Checks the numbers of a body: boxes have edges of positive length, radii and angles ascend, edges of polygons do not cross.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +15,7 @@ use mms_symbolic::expr::Expr;
 use super::{Bound, Declared, digits, evaluate};
 
 impl<'a> Declared<'a> {
-    /// The body in numbers; none where something is wrong with it, or there is none.
+    /// The body in numbers; `None` if it is wrong, or if there is none.
     pub(super) fn body(&mut self) -> Option<Extent<Precise>> {
         let model = self.model;
         match (&self.field.domain.body, &model.domain.body) {
@@ -51,7 +50,7 @@ impl<'a> Declared<'a> {
         (from.len() == lower.len()).then(|| Region::cuboid(from, to))
     }
 
-    /// Reports a body beyond the axis, and what has no value on an axis that the body reaches.
+    /// Reports a body beyond the axis, and formulas without a value on an axis that the body reaches.
     fn about_the_axis(&mut self, inner: &Bound<'_>) {
         let zero = Precise::from_f64(0.0);
         if !zero.at_most(&inner.value) {
@@ -82,7 +81,7 @@ impl<'a> Declared<'a> {
         }
     }
 
-    /// The formula that has a pole, the quotient that it is about, and how to write it without.
+    /// The formula that has a pole, the quotient that has it, and a way to write it without the pole.
     fn divided(&self, pole: Pole) -> (Option<&'a Formula>, String, &'static str) {
         const TIMES_R: &str = "write it as R times another formula, or let the body begin at R > 0";
         let displacement = &self.field.displacement;
@@ -136,7 +135,7 @@ impl<'a> Declared<'a> {
         for (at, pair) in [&round.theta, third].into_iter().enumerate() {
             let Some(exprs) = block.bounds.get(at + 1) else { continue };
             let Some(pair) = pair else {
-                // All around, or from pole to pole.
+                // These bounds go all around, or from pole to pole.
                 bounds.push(evaluate(&self.graph, &self.parameters, exprs).try_into().ok()?);
                 continue;
             };
@@ -176,7 +175,7 @@ impl<'a> Declared<'a> {
         self.ascending("the sector is empty", "its first angle is", first, last);
         let turn = Precise::from_f64(2.0) * Precise::pi();
         let length = last.value.clone() - first.value.clone();
-        // Angles that differ by a turn do so to 60 digits of 77 at least.
+        // Angles that differ by a turn do so to at least 60 of the 77 digits.
         let rounding = turn.clone() * Precise::from_f64(1e-60);
         if !length.at_most(&(turn.clone() + rounding.clone())) {
             let label = format!("{} from the first angle, more than {TAU}", digits(&length));
@@ -194,7 +193,7 @@ impl<'a> Declared<'a> {
         }
     }
 
-    /// The angles of a sphere from +Z lie between 0 and pi; where they are those, the axis is no face.
+    /// The angles of a sphere from +Z lie between 0 and pi; if they are 0 or pi, the axis is no face.
     fn polar_angles(&mut self, first: &Bound<'_>, last: &Bound<'_>) {
         self.ascending("the part of the sphere is empty", "its first angle is", first, last);
         let (zero, half) = (Precise::from_f64(0.0), Precise::pi());

@@ -1,7 +1,7 @@
-//! Whether a material is an elastic solid in the undeformed body: W is smooth at F = I, and no wave grows there.
+//! Checks that a material is an elastic solid in the undeformed body: W is smooth at F = I, and no wave grows there.
 //!
-//! The acoustic tensor Q_ik = A_iJkL n_J n_L must have no negative eigenvalue, and not be 0: along one direction
-//! of an isotropic solid, which says all, and along some tens with fibres. Points of the body are sampled, which
+//! The acoustic tensor Q_ik = A_iJkL n_J n_L must have no negative eigenvalue, and not be 0: along one direction of an
+//! isotropic solid, where all are alike, and along some tens of directions with fibres. Points of the body are sampled, which
 //! is no proof.
 
 use mms_math::Scalar as _;
@@ -24,7 +24,7 @@ use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::substitute;
 use mms_symbolic::sorted::SortedMap;
 
-/// What is of this size beside the entries of a matrix is 0 but for rounding.
+/// The size relative to the entries of a matrix below which a value is 0 up to rounding.
 const ROUNDING: f64 = 1e-60;
 
 impl Declared<'_> {
@@ -35,8 +35,8 @@ impl Declared<'_> {
         }
     }
 
-    /// Whether W, its slopes and its curvatures by the invariants exist at F = I: the stress and its
-    /// divergence are made of them. Reports the first that does not.
+    /// Checks that W, its slopes and its curvatures by the invariants exist at F = I: the stress and its divergence are made of
+    /// them. Reports the first that does not.
     fn smoothness(&mut self, extent: &Extent<Precise>) -> bool {
         let (names, exprs) = curvatures(&mut self.graph, self.model);
         let Some(found) = self.sought_with_arguments(extent, &exprs, |_| true) else {
@@ -69,9 +69,9 @@ impl Declared<'_> {
         false
     }
 
-    /// Reports a material in which a wave grows at F = I, or nothing travels: where an acoustic
-    /// tensor Q_ik = A_iJkL n_J n_L has a negative eigenvalue, or all are 0 (Ogden, Non-linear
-    /// Elastic Deformations, 1984, section 6.2). A fluid has waves, though none are transverse.
+    /// Reports a material in which a wave grows at F = I, or none travels: an acoustic tensor Q_ik = A_iJkL n_J n_L has a
+    /// negative eigenvalue, or all are 0 (Ogden, Non-linear Elastic Deformations, 1984, section 6.2). A fluid passes: it has
+    /// longitudinal waves.
     fn waves(&mut self, extent: &Extent<Precise>) {
         let model = self.model;
         let tangent = stiffness(&mut self.graph, model);
@@ -102,7 +102,7 @@ impl Declared<'_> {
         self.refute(Diagnostic::error(span, message), &label, &found, help);
     }
 
-    /// What is sought of expressions, with the arguments of the material ahead of them.
+    /// Searches for a point where expressions are wrong, with the material's arguments before them.
     fn sought_with_arguments(
         &self,
         extent: &Extent<Precise>,
@@ -111,7 +111,7 @@ impl Declared<'_> {
     ) -> Option<Counterexample> {
         let exprs = [&self.model.arguments, exprs].concat();
         let moves = |expr: &Expr| self.graph.symbols(*expr).contains(&Symbol::Time);
-        // What changes in time is reported where it is read, and so is a graph that is too large.
+        // Expressions that change in time are reported when they are read, and so is a graph that is too large.
         if self.graph.is_exhausted() || exprs.iter().any(moves) {
             return None;
         }
@@ -127,7 +127,7 @@ impl Declared<'_> {
         least.map(|((_, formula), _)| formula.span)
     }
 
-    /// Where W is written: the field's own choice, if it is that of a shipped material.
+    /// The place where W is written: the choice of a shipped material in the field file, or the user's own formula.
     fn density_of_energy(&self) -> Span {
         let model = &self.field.material.model;
         if shipped(model.value.raw()).is_some() {
@@ -169,7 +169,7 @@ fn name(symbol: Symbol) -> &'static str {
     INVARIANTS.iter().find(|it| it.symbol == symbol).map_or("?", |invariant| invariant.name)
 }
 
-/// Directions in a body, of any length: one says all of an isotropic solid.
+/// Directions in a body, of any length: for an isotropic solid one is enough.
 fn normals(kind: &Kind, dimension: usize) -> Vec<Vec<i32>> {
     if !matches!(kind, Kind::Fibrous(_)) {
         return vec![(0..dimension).map(|axis| i32::from(axis == 0)).collect()];
@@ -202,15 +202,15 @@ fn acoustic(tangent: &[Precise], normal: &[i32]) -> Vec<Vec<Precise>> {
     (0..dimension).map(|i| (0..dimension).map(|k| entry(i, k)).collect()).collect()
 }
 
-/// What is wrong with a stiffness.
+/// A mistake in a stiffness.
 enum Fault {
     /// A wave along this direction grows: the row and the pivot that show it.
     Growth(Vec<i32>, usize, Precise),
-    /// There is none.
+    /// No wave travels along any direction.
     Slack,
 }
 
-/// What is wrong with dP/dF for waves along these directions, if anything is.
+/// The mistake in dP/dF for waves along these directions, if any.
 fn fault(tangent: &[Precise], normals: &[Vec<i32>]) -> Option<Fault> {
     let zero = Precise::from_f64(0.0);
     let mut is_slack = true;
@@ -224,8 +224,8 @@ fn fault(tangent: &[Precise], normals: &[Vec<i32>]) -> Option<Fault> {
     is_slack.then_some(Fault::Slack)
 }
 
-/// The pivot that shows that a symmetric matrix has a negative eigenvalue, with its row: it is
-/// negative, or 0 in a row that is not.
+/// The pivot that proves a negative eigenvalue of a symmetric matrix, with its row: it is negative, or it is 0 in a row that is
+/// not 0.
 fn negative_pivot(mut matrix: Vec<Vec<Precise>>) -> Option<(usize, Precise)> {
     let size = matrix.iter().flatten().cloned().map(Precise::magnitude);
     let largest = size.reduce(|a, b| if a.at_most(&b) { b } else { a })?;

@@ -1,4 +1,4 @@
-//! What a field declares about its material: looked at in points of the body, which is no proof.
+//! Checks the declarations of a field about its material at points of the body; this is no proof.
 
 use mms_math::Scalar as _;
 
@@ -16,15 +16,15 @@ use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::sorted::SortedMap;
 
-/// At how many points of the body a material is looked at, beside the corners.
+/// The number of points of the body where a material is checked, beside the corners.
 pub const POINTS: usize = 128;
 
-/// Values that are not what they must be, and the point where they are not.
+/// Values that violate a condition, and the point where they do.
 pub(super) struct Counterexample {
     exprs: Vec<Expr>,
-    /// What they are there.
+    /// The values of the expressions at the point.
     pub values: Vec<Precise>,
-    /// Empty where the values are the same everywhere.
+    /// The point; empty if the values are the same everywhere.
     point: Vec<Precise>,
 }
 
@@ -44,7 +44,7 @@ impl Declared<'_> {
         let (density, Some(formula)) = (self.model.density, &self.field.material.density) else {
             return;
         };
-        // A number is judged where it is read, and so is a density that changes in time.
+        // A number is judged when it is read, and so is a density that changes in time.
         if self.is_judged(density) {
             return;
         }
@@ -88,7 +88,7 @@ impl Declared<'_> {
         }
     }
 
-    /// Reports a ratio of Poisson's that no solid has, where the moduli are made of it.
+    /// Reports an impossible Poisson's ratio if the moduli are made of it.
     pub(super) fn poisson(&mut self, extent: &Extent<Precise>) {
         let Some(ratio) = self.model.poisson.filter(|ratio| !self.is_judged(*ratio)) else {
             return;
@@ -104,13 +104,13 @@ impl Declared<'_> {
         }
     }
 
-    /// Whether an expression was judged where it was read: a number, or what changes in time.
+    /// Whether an expression was judged when it was read: a number, or an expression that changes in time.
     fn is_judged(&self, expr: Expr) -> bool {
         let is_number = self.graph.as_number(expr).is_some();
         is_number || self.graph.symbols(expr).contains(&Symbol::Time)
     }
 
-    /// Looks for a point where values are not defined, or not what they must be.
+    /// Searches for a point where values are undefined, or where they violate a condition.
     pub(super) fn sought(
         &self,
         extent: &Extent<Precise>,
@@ -123,7 +123,7 @@ impl Declared<'_> {
         let mut symbols = exprs.iter().flat_map(|expr| self.graph.symbols(*expr));
         let varies = symbols.any(|symbol| matches!(symbol, Symbol::Coordinate(_)));
         let count = if varies { usize::MAX } else { 1 };
-        // It is a sample, and may be a smaller one: of what else is looked at there is a half left.
+        // A sample may be smaller: half of the remaining budget is kept for the other checks.
         let floor = self.graph.work().left() / 2;
         let affordable =
             |(index, _): &(usize, Vec<Precise>)| *index == 0 || self.graph.work().left() > floor;
@@ -137,7 +137,7 @@ impl Declared<'_> {
         })
     }
 
-    /// Reports values that are not what they must be, and where.
+    /// Reports values that violate a condition, and where.
     pub(super) fn refute(
         &mut self,
         diagnostic: Diagnostic,

@@ -1,4 +1,4 @@
-//! The adapter: the kernels as the runtime's contract, over batches of points.
+//! The adapter: implements the runtime's contract with the kernels, over batches of points.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens as _, format_ident, quote};
@@ -78,8 +78,8 @@ impl Emitter<'_> {
                 }
             }
         });
-        // A solver asks for these two, and for the stress, at every particle in every step, and for the others
-        // at some points or times: loops over many points are long to compile.
+        // A solver evaluates these two, and the stress, at every particle in every step, and the other quantities at some
+        // points or times only: loops over many points are slow to compile.
         let batches = [Quantity::Displacement, Quantity::BodyForce].map(|quantity| {
             let name = format_ident!("{}", quantity.name());
             let batch = format_ident!("{name}_batch_aos");
@@ -190,8 +190,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// Writes, for an axisymmetric field, stress and energy at its own hoop strains, and the contract of a body of revolution, whose
-    /// stress is `material`.
+    /// Writes the stress and the energy of an axisymmetric field at its own hoop strains, and the contract of a body of
+    /// revolution, whose stress is `material`.
     fn revolved(&self, material: &TokenStream, energy_owner: &TokenStream) -> [TokenStream; 3] {
         let runtime = Ident::new(RUNTIME, Span::call_site());
         let dimension = self.dimension();
@@ -254,20 +254,20 @@ impl Emitter<'_> {
         [own_stress, own_energy, revolved]
     }
 
-    /// The components of strain and stress that the solver keeps, column by column; of an axisymmetric field those of the
-    /// meridian and the one around the axis.
+    /// The components of strain and stress that the solver stores, column by column; for an axisymmetric field the components
+    /// of the meridian plane and the one around the axis.
     fn components(&self) -> impl Iterator<Item = (usize, usize)> {
         let hoop = self.compiled.field.space.is_axisymmetric().then_some((2, 2));
         self.axes().flat_map(|j| self.axes().map(move |i| (i, j))).chain(hoop)
     }
 
-    /// Whether the Kirchhoff stress of a displacement gradient is another one elsewhere in the body.
+    /// Whether the Kirchhoff stress of a displacement gradient depends on the place in the body.
     fn stress_depends_on_position(&self) -> bool {
         let stress = Output::Response(Response::KirchhoffStress);
         self.needs(stress, |symbol| matches!(symbol, Symbol::Coordinate(_)))
     }
 
-    /// The owner of a function of the material: the field, or the field at one time where given fields change it.
+    /// The owner of a function of the material: the field, or the field at one time if given fields change the function.
     fn owner(&self, response: Response) -> TokenStream {
         match self.is_timed(Output::Response(response)) {
             true => quote!(self.at_time(time)),
@@ -275,7 +275,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The Kirchhoff stress of a displacement gradient, as a kernel. Matrices go by columns here.
+    /// The Kirchhoff stress of a displacement gradient, as a kernel. Matrices are stored by columns here.
     fn response(&self) -> TokenStream {
         let columns = |symbol: &dyn Fn(usize, usize) -> TokenStream| -> Vec<TokenStream> {
             self.components().map(|(i, j)| symbol(i, j)).collect()
@@ -397,7 +397,7 @@ impl Emitter<'_> {
             };
             let condition = match boundary.claim.value {
                 Claim::Fixed => quote!(Fixed),
-                // The axis is a plane that is not left, and has no traction along it.
+                // The axis acts as a plane that points do not leave, without traction along it.
                 Claim::Roller | Claim::Axis => quote!(Roller),
                 Claim::Free => quote!(Free),
                 Claim::Prescribed => quote!(Prescribed),

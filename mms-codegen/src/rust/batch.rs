@@ -19,8 +19,8 @@ impl Emitter<'_> {
         if self.contract { quote!(::#name::math) } else { quote!(::#name) }
     }
 
-    /// What the loops over points need: the prepared field in the scalar of a loop, the cache of many
-    /// points, and a kernel for each quantity.
+    /// The items of the loops over points: the prepared field in the scalar of a loop, the cache of many points, and a kernel
+    /// for each quantity.
     pub(super) fn batches(&self) -> TokenStream {
         let reads: Vec<_> = self
             .quantities()
@@ -86,11 +86,11 @@ impl Emitter<'_> {
         );
         let count = Literal::usize_unsuffixed(count);
         quote! {
-            /// What many reference positions determine, as one column for each value.
+            /// The values that many reference positions determine, as one column for each value.
             ///
             #[doc = #size]
-            /// It pays where computing those values costs more than reading them from
-            /// memory: for sines, exponentials and roots, not for a product or two.
+            /// Use it if computing those values costs more than reading them from memory:
+            /// for sines, exponentials and roots, not for a product or two.
             #[derive(Clone, Debug)]
             pub struct Points<T: batch::Float> {
                 kept: batch::Kept<T, #count>,
@@ -146,8 +146,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// The kernels of a quantity that needs these `columns` of a point, and the functions that drive them: what it takes
-    /// of `all` that is kept of many points is its own.
+    /// The kernels of a quantity that needs these `columns` of a point, and the functions that drive them. The kernel stores
+    /// its own part of `all` columns of many points.
     fn kernels_of(
         &self,
         quantity: Quantity,
@@ -171,7 +171,7 @@ impl Emitter<'_> {
         let inputs = count(dimension + normals);
         let with_normals = takes_normal.then(|| quote!(normals,));
         let Columns { axes: own_axes, values } = &own.columns;
-        let column = |value| dimension + all.binary_search(value).expect("what is read is kept");
+        let column = |value| dimension + all.binary_search(value).expect("every value that is read is stored");
         let indices = own_axes.iter().copied().chain(values.iter().map(column));
         let indices = indices.map(count);
         let from_position = if is_worth_two(self.program, self.values(Output::Quantity(quantity))) {
@@ -198,7 +198,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// A kernel of a quantity that needs these `columns` of a point, and makes them of what it takes.
+    /// A kernel of a quantity that needs these `columns` of a point; it computes them from its arguments.
     pub(super) fn over_columns(
         &self,
         quantity: Quantity,
@@ -234,8 +234,8 @@ impl Emitter<'_> {
         self.axes().map(|axis| self.input(Symbol::Coordinate(axis))).collect()
     }
 
-    /// How those loops go about it: together, if the first one has divisions or roots and, beside them, only sums and
-    /// products. Functions have coefficients, more than there are registers for beside those of the second loop.
+    /// The way of running those two loops: together, if the first one has divisions or roots and otherwise only sums and
+    /// products. Functions have coefficients, too many for the registers that the second loop leaves free.
     pub(super) fn loops_of(&self, quantity: Quantity) -> Ident {
         let roots = self.values(Output::Quantity(quantity));
         let needed = self.program.needed_for(roots.iter().copied());
@@ -262,7 +262,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// A point of which only these columns are known.
+    /// A point with only these columns; the others are 0.
     fn point_of(&self, columns: &Columns) -> TokenStream {
         let zero = quote!(S::from_f64(0.0));
         let position = self.axes().map(|axis| match columns.axes.contains(&axis) {
@@ -280,12 +280,12 @@ impl Emitter<'_> {
     }
 }
 
-/// Whether an operation keeps the part of a processor busy that divides.
+/// Whether an operation occupies the divider of a processor.
 fn divides(op: &Op) -> bool {
     matches!(op, Op::Divide(..) | Op::Unary(Function::Sqrt, ..))
 }
 
-/// Whether an operation is a function that is made of sums and products.
+/// Whether an operation is a function that is computed by sums and products.
 fn is_function(op: &Op) -> bool {
     matches!(op, Op::Unary(..) | Op::Binary(..)) && !divides(op)
 }

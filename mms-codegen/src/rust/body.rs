@@ -10,13 +10,13 @@ use mms_program::{Op, Value, unary_name};
 use mms_symbolic::expr::Symbol;
 
 impl Emitter<'_> {
-    /// What `outputs` need of the stages that a function computes.
+    /// The statements that compute `outputs`, within the stages that a function computes.
     pub(super) fn body(&self, outputs: &[Output], place: &Context) -> TokenStream {
         let roots = outputs.iter().flat_map(|output| self.values(*output)).copied();
         self.statements(roots, place)
     }
 
-    /// What `roots` need of the stages that a function computes.
+    /// The statements that compute `roots`, within the stages that a function computes.
     pub(super) fn statements(
         &self,
         roots: impl IntoIterator<Item = Value>,
@@ -41,14 +41,14 @@ impl Emitter<'_> {
         written.map(|index| body.statement(Value(index as u32))).collect()
     }
 
-    /// These values, and nothing else.
+    /// The statements for these values only.
     pub(super) fn one_by_one(&self, values: &[Value], place: &Context) -> TokenStream {
         let body = Body { emitter: self, place, fusion: Fusion::none(&self.program.instrs) };
         values.iter().map(|value| body.statement(*value)).collect()
     }
 }
 
-/// A function, and what its processor does in one go.
+/// A function, and the operations that its processor fuses.
 struct Body<'a> {
     emitter: &'a Emitter<'a>,
     place: &'a Context,
@@ -56,7 +56,7 @@ struct Body<'a> {
 }
 
 impl Body<'_> {
-    /// Constants stand where they are read, and arguments have their names already.
+    /// Constants are written where they are read, and arguments have names already.
     fn is_written(&self, index: usize) -> bool {
         let has_a_value = match self.emitter.program.instrs[index].op {
             Op::Constant(_) | Op::Pi => false,

@@ -1,10 +1,9 @@
-//! Splits the kernel of a quantity into two loops over points, and decides what is kept of many points.
+//! Splits the kernel of a quantity into two loops over points, and decides which values of many points are stored.
 //!
-//! The first loop hands to the second what it has found, in whole lines of the cache, and as little as it can:
-//! sums and products of what is there anyway are left to the second one. What is kept of many points comes from
-//! memory every time, so a number that up to three sums and products make of others is not kept:
-//! `generalized_vortex` keeps 17 numbers where `Point`, in registers, has 21, and of b alone 4 where that has 5.
-//! `program/loops.rs` has the rules.
+//! The first loop passes values to the second in whole lines of the cache, and as few as possible: the second loop computes
+//! sums and products of the values that it has. Stored values of many points are read from memory every time, so a number that
+//! up to three sums and products compute from others is not stored: `generalized_vortex` stores 17 numbers where `Point`, in
+//! registers, has 21, and for b alone 4 where `Point` has 5. `program/loops.rs` has the rules.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -53,7 +52,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// What a quantity that needs these `columns` of a point reads of the cache of many: these, or fewer.
+    /// The stored values of many points that a quantity reads if it needs these `columns`: all of them, or fewer.
     pub(super) fn kept_for(&self, columns: &Columns) -> Cut {
         let cut = Cut::new(self.program, columns, WORTH_IN_MEMORY);
         if cut.columns.count() < columns.count() {

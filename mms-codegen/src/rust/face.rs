@@ -1,4 +1,4 @@
-//! What is given on the faces of the body: one function for each face and datum.
+//! The data on the faces of the body: one function for each face and datum.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -11,7 +11,7 @@ use mms_spec::Face;
 use mms_spec::quantity::{Quantity, Shape};
 
 impl Emitter<'_> {
-    /// Functions such as `x_max_traction`, of a point on that face.
+    /// Functions such as `x_max_traction`, for a point on that face.
     pub(super) fn on_faces(&self) -> impl Iterator<Item = TokenStream> {
         self.program.outputs.keys().filter_map(|output| match *output {
             Output::Face(face, datum) => Some(self.on_face(face, datum)),

@@ -10,9 +10,9 @@ use crate::compile::Compiled;
 /// A file that a target made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
-    /// Its name, without a folder.
+    /// The name of the file, without a folder.
     pub name: String,
-    /// All of it.
+    /// The text of the file.
     pub text: String,
 }
 

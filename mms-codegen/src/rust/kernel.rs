@@ -1,4 +1,4 @@
-//! What needs no time: the parameters, the struct of their stage, the domain and the material.
+//! The items that need no time: the parameters, the struct of their stage, the domain and the material.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -35,8 +35,8 @@ impl Emitter<'_> {
         let values = outputs.iter().map(|output| self.narrowed(self.values(*output)[0], &place));
         let own_material = self.contract.then(|| self.own_material());
         let doc = match self.compiled.selection.set.is_empty() {
-            true => " The parameters; their defaults are those of the field file.",
-            false => " The parameters; their defaults are those of the field file, or set.",
+            true => " The parameters; their defaults come from the field file.",
+            false => " The parameters; their defaults come from the field file, or were set.",
         };
         // A struct without members cannot be generic in their type.
         let generic = self.parameters_generic();
@@ -89,7 +89,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The struct of the Parameter stage, and what needs no time.
+    /// The struct of the Parameter stage, and the items that need no time.
     pub(super) fn field(&self) -> TokenStream {
         let kept = self.kept_in(Stage::Parameter);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
@@ -155,7 +155,7 @@ impl Emitter<'_> {
             }
         };
         let time = function(Bound::Time);
-        // Where there is no body, there is nothing that bounds it.
+        // If there is no body, there are no bounds of it.
         let parts = self.program.outputs.keys().filter_map(|output| match output {
             Output::Bound(bound) if !matches!(bound, Bound::Time | Bound::Space) => Some(*bound),
             _ => None,

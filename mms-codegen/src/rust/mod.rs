@@ -1,4 +1,4 @@
-//! Rust: a module of kernels over arrays, generic in the scalar, and their face to the runtime.
+//! Rust: a module of kernels over arrays, generic in the scalar, and its adapter to the runtime.
 
 mod adapter;
 mod batch;
@@ -26,21 +26,21 @@ use mms_symbolic::sorted::SortedMap;
 
 pub use file::{File, file};
 
-/// The crate that generated code finds the contract in, and the scalar trait with it.
+/// The crate that defines the contract and the scalar trait of generated code.
 const RUNTIME: &str = "mms_runtime";
 
 /// The crate of the scalar trait, for code that needs no contract.
 const MATH: &str = "mms_math";
 
-/// A field as a module named after it: kernels, and the contract of the runtime. Where only some
-/// quantities were selected there is no contract, and the module needs `mms-math` alone.
+/// A field as a module named after it: kernels, and the contract of the runtime. If only some quantities were selected there is
+/// no contract, and the module needs `mms-math` alone.
 pub fn module(compiled: &Compiled) -> TokenStream {
     module_named(compiled, &identifier(compiled.field.name.raw()))
 }
 
-/// As [`module`], under another name.
+/// A field as a module like [`module`], under another name.
 pub fn module_named(compiled: &Compiled, name: &Ident) -> TokenStream {
-    // The runtime has no rings that turn.
+    // The runtime does not support rings that turn.
     let swirls = compiled.field.space == (Space::Axisymmetric { swirl: true });
     let solver = compiled.is_for_a_solver() && !swirls;
     let emitter = Emitter::new(compiled, solver);
@@ -57,7 +57,7 @@ pub fn module_named(compiled: &Compiled, name: &Ident) -> TokenStream {
     }
 }
 
-/// What the field is, and what the code was made by, of and for: lines.
+/// The lines of documentation: the field, the compiler, the input and the selection.
 fn docs(compiled: &Compiled) -> Vec<String> {
     let mut docs = vec![format!(" {}.", compiled.field.title.in_a_comment())];
     if let Some(reference) = &compiled.field.reference {
@@ -70,7 +70,7 @@ fn docs(compiled: &Compiled) -> Vec<String> {
     docs
 }
 
-/// How many scalars the generated `Point` holds: the reference position, and what is kept of it.
+/// The number of scalars in the generated `Point`: the reference position, and its stored values.
 pub fn point_values(compiled: &Compiled) -> usize {
     compiled.field.dimension + Emitter::new(compiled, false).kept_in(Stage::Point).len()
 }
@@ -81,9 +81,9 @@ pub fn text(compiled: &Compiled) -> String {
     prettyplease::unparse(&file)
 }
 
-/// A user's name as an identifier: keywords become raw, and those that cannot get an underscore.
+/// A user's name as an identifier: a keyword becomes raw, or gets an underscore if it cannot.
 fn identifier(name: &str) -> Ident {
-    // `syn` takes the word that edition 2024 reserved for a name.
+    // `syn` accepts the word that edition 2024 reserved as a name.
     if name != "gen" && syn::parse_str::<Ident>(name).is_ok() {
         return Ident::new(name, Span::call_site());
     }
@@ -92,7 +92,7 @@ fn identifier(name: &str) -> Ident {
         keyword if syn::parse_str::<syn::Ident>(&format!("r#{keyword}")).is_ok() => {
             Ident::new_raw(keyword, Span::call_site())
         }
-        // A file's stem may hold anything.
+        // A file's stem may contain any character.
         other => {
             let word = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
             format_ident!("field_{}", other.chars().map(word).collect::<String>())
@@ -100,7 +100,7 @@ fn identifier(name: &str) -> Ident {
     }
 }
 
-/// Distinct names as distinct identifiers: one that had to be changed makes way for the others.
+/// Distinct names as distinct identifiers: a name that had to be changed is changed further if another has it.
 fn distinct(names: &[&str]) -> Vec<Ident> {
     names
         .iter()
@@ -114,14 +114,14 @@ fn distinct(names: &[&str]) -> Vec<Ident> {
         .collect()
 }
 
-/// Where the body of a function finds the values that earlier stages left. Those of the stage
-/// Time are members of `self`, and those of the stage Point of `point`.
+/// The places where the body of a function finds the values of earlier stages. Values of the stage Time are members of `self`,
+/// and values of the stage Point members of `point`.
 struct Context {
     /// The struct that holds the Parameter stage.
     field: TokenStream,
     /// The stages that the function computes itself.
     own: &'static [Stage],
-    /// The scalar that it computes in.
+    /// The scalar type of the function.
     scalar: TokenStream,
 }
 
@@ -176,7 +176,7 @@ impl<'a> Emitter<'a> {
         Emitter { compiled, program, contract, parameter_names, kept, kept_wide, kept_at_points }
     }
 
-    /// Everything but the contract.
+    /// The module without the contract.
     fn kernels(&self) -> TokenStream {
         let math = self.math();
         let (parameters, field) = (self.parameters(), self.field());
@@ -242,7 +242,7 @@ impl<'a> Emitter<'a> {
         self.values_of(stage, kept)
     }
 
-    /// What the Time stage reads of the Parameter stage.
+    /// The values of the Parameter stage that the Time stage reads.
     fn kept_for_times(&self) -> Vec<Value> {
         self.values_of(Stage::Parameter, &self.kept_wide)
     }
@@ -286,7 +286,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A value that this function computes with more digits, as it is kept.
+    /// A value that this function computes with more digits, rounded to the stored type.
     fn narrowed(&self, value: Value, place: &Context) -> TokenStream {
         match self.program.instr(value).op {
             Op::Constant(ref number) => constant(number, &quote!(T)),
@@ -298,7 +298,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The member with all digits of a value.
+    /// The member that stores a value with all digits.
     fn wide_name(&self, value: Value) -> Ident {
         format_ident!("w{}", value.index())
     }
@@ -311,7 +311,7 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// The parameters that are left, as members of a struct.
+/// The parameters that are not frozen, as members of a struct.
 fn parameter_names(compiled: &Compiled) -> SortedMap<usize, Ident> {
     let parameters = compiled.field.parameters.iter().enumerate();
     let (positions, names): (Vec<_>, Vec<_>) = parameters

@@ -1,4 +1,4 @@
-//! The cache of a point: what its position determines, computed once for all times.
+//! The cache of a point: the values that its position determines, computed once for all times.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -8,8 +8,8 @@ use mms_program::Stage;
 use mms_symbolic::expr::Symbol;
 
 impl Emitter<'_> {
-    /// The struct of the Point stage. The position is in it, so that it says what it is of, and
-    /// for quantities that read a coordinate itself.
+    /// The struct of the Point stage. The position is a member, so that it identifies the point, and for quantities that read a
+    /// coordinate itself.
     pub(super) fn point_cache(&self) -> TokenStream {
         let kept = self.kept_in(Stage::Point);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
@@ -23,8 +23,8 @@ impl Emitter<'_> {
             8 * (axes.len() + kept.len())
         );
         quote! {
-            /// What a reference position determines, to be computed once and used at all times.
-            /// It belongs to the parameters of the field that made it.
+            /// The values that a reference position determines, computed once for all times.
+            /// They belong to the parameters of the field that computed them.
             ///
             #[doc = #size]
             #[derive(Clone, Copy, Debug)]

@@ -9,11 +9,12 @@ use mms_program::Stage;
 use mms_spec::quantity::{Quantity, Shape};
 use mms_symbolic::expr::Symbol;
 
-/// The endings of the functions that are made beside that of each quantity, and on faces.
+/// The endings of the further functions of each quantity and of faces.
 const ENDINGS: [&str; 7] =
     ["_at", "_of", "_batch", "_batch_aos", "_normal", "_displacement", "_traction"];
 
-/// The function of a quantity: its name; a name of the file's own that Rust or another function may have gets an underscore.
+/// The function of a quantity: its name, with an underscore if it is a name of the file's own that Rust or another function may
+/// use.
 pub(super) fn function(quantity: Quantity) -> Ident {
     let name = identifier(quantity.name());
     let is_own = matches!(quantity, Quantity::Own(_));
@@ -23,7 +24,7 @@ pub(super) fn function(quantity: Quantity) -> Ident {
     }
 }
 
-/// The function that gives a quantity from what was kept of a point.
+/// The function that computes a quantity from the stored values of a point.
 pub(super) fn at(quantity: Quantity) -> Ident {
     format_ident!("{}_at", function(quantity))
 }
@@ -36,7 +37,7 @@ impl Emitter<'_> {
         let place = Context::once(quote!(self), &[Stage::Time]);
         let body = self.statements(kept.iter().copied(), &place);
         let values = kept.iter().map(|value| self.narrowed(*value, &place));
-        // Only where there is something to compute.
+        // The time is widened only if some value is computed from it.
         let widened = (!kept.is_empty()).then(|| quote!(let t = t.widen();));
         let quantities = self.quantities().map(|quantity| self.quantity(quantity));
         let faces = self.on_faces();
@@ -82,7 +83,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// A quantity from a point, and from what was kept of it.
+    /// The functions of a quantity: from a point, and from its stored values.
     fn quantity(&self, quantity: Quantity) -> TokenStream {
         let (name, at) = (function(quantity), at(quantity));
         let doc = self.compiled.doc(quantity);

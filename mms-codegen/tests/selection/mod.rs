@@ -1,4 +1,4 @@
-//! Only what is asked for: selected quantities, changed defaults, frozen parameters.
+//! Selections: selected quantities, changed defaults, frozen parameters.
 
 mod quick;
 mod refusals;
@@ -69,8 +69,7 @@ fn compiled(text: &str, selection: &Selection) -> Compiled {
     selected(text, selection).unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-/// The values of a quantity at some points of the domain, for the default parameters but for those
-/// set here.
+/// The values of a quantity at some points of the domain, for the default parameters with `set` in their place.
 fn values(compiled: &Compiled, quantity: Quantity, set: &SortedMap<usize, Rational>) -> Vec<f64> {
     let parameters = compiled.parameters::<f64>(set);
     let output = Output::Quantity(quantity);
@@ -89,7 +88,7 @@ fn values(compiled: &Compiled, quantity: Quantity, set: &SortedMap<usize, Ration
         .collect()
 }
 
-/// Both took other roads to the same number; each rounds some tens of operations.
+/// Both values were computed in different ways; each way rounds some tens of operations.
 fn assert_same(found: &[f64], expected: &[f64], what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     let size = expected.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
@@ -146,7 +145,7 @@ fn each_quantity_alone_has_its_values_and_no_other_code() {
         let [found, expected] = [&alone, &all].map(|of| values(of, *quantity, &none));
         assert_same(&found, &expected, quantity.name());
         let (name, at) = (quantity.name().to_string(), format!("{}_at", quantity.name()));
-        // Those of a field, of its stages, and of what many points share.
+        // The functions of a field, of its stages, and of the code for many points.
         let mut expected: Vec<String> = ["default", "from_array", "prepare", "at_time", "at_point"]
             .into_iter()
             .chain(["at_points", "len", "is_empty", "standing", "drive", "at"])
@@ -193,7 +192,7 @@ fn a_body_force_without_lambda_has_no_logarithm_and_no_stress() {
     assert!(plain.text.contains(".ln_1p()"));
     assert!(!emitted.contains(".ln"), "{emitted}");
     assert!(!emitted.contains("stress") && !emitted.contains("lambda:"), "{emitted}");
-    // By another route: the unfrozen program where the parameter is 0.
+    // By another way: the unfrozen program with the parameter 0.
     let all = compiled(&text, &Selection::default());
     let zero = SortedMap::from([(0, Rational::ZERO)]);
     let expected = values(&all, Quantity::BodyForce, &zero);
@@ -213,7 +212,7 @@ fn a_field_at_rest_has_no_code_for_its_motion() {
     }
     let b = all.program.operations(&[Output::Quantity(Quantity::BodyForce)]);
     assert_eq!((b[&Stage::Time], b[&Stage::PointTime]), (0, 0));
-    // All of it may be kept with the point.
+    // All of it may be stored with the point.
     assert_eq!(functions["body_force_at"], 1, "{emitted}");
     assert!(functions["body_force"] > 1);
 }
@@ -263,7 +262,7 @@ fn a_frozen_parameter_keeps_the_value_that_the_defaults_give() {
     let twice = SortedMap::from([(2, Rational::from(2_000_000))]);
     let expected = values(&plain, Quantity::BodyForce, &twice);
     assert_same(&values(&frozen, Quantity::BodyForce, &SortedMap::new()), &expected, "b");
-    // What it depended on has no effect any more.
+    // The parameter that it depended on has no effect any more.
     let other = SortedMap::from([(1, Rational::from(7))]);
     assert_same(&values(&frozen, Quantity::BodyForce, &other), &expected, "b");
 }
@@ -320,7 +319,7 @@ fn subsets_are_not_dearer_than_the_whole() {
     }
 }
 
-/// Which of the functions of angles the program calls, and what is proved of these.
+/// The functions of angles that the program calls, and the proved bounds of their angles.
 fn functions_of_angles(compiled: &Compiled) -> SortedSet<(Function, Option<Small>)> {
     let called = compiled.program.instrs.iter().filter_map(|instr| match instr.op {
         Op::Unary(function, small, _) if instr.stage >= Stage::Point => Some((function, small)),
@@ -333,7 +332,7 @@ fn functions_of_angles(compiled: &Compiled) -> SortedSet<(Function, Option<Small
 fn nothing_is_taken_off_an_angle_that_is_proved_small() {
     let [any, near_zero, within_one] = [None, Some(Small::NearZero), Some(Small::WithinOne)]
         .map(|small| SortedSet::from([(Function::Sin, small), (Function::Cos, small)]));
-    // The angle grows to `size`, which may be set to anything unless it is frozen or has a range.
+    // The angle grows to `size`, which may be any number unless it is frozen or has a range.
     let text = FIELD.replace("size*X*(1 - X)*TIME", "sin(size*X^2*t)/10");
     let free = compiled(&text, &Selection::default());
     assert_eq!(functions_of_angles(&free), any);

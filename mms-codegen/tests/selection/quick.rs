@@ -1,4 +1,4 @@
-//! Values that are accepted quickly.
+//! Values that the quick test accepts.
 
 use mms_codegen::compile;
 use mms_codegen::compile::quick::Quick;
@@ -12,7 +12,7 @@ const FIELDS: [(&str, &str); 4] = [
     ("expanding_ring", include_str!("../../../fields/expanding_ring.toml")),
 ];
 
-/// What is accepted is so by all who look longer, with the same values; ordinary values are, and wrong ones are not.
+/// Values that the quick test accepts pass the full check with the same results; it accepts ordinary values, and no wrong ones.
 #[test]
 fn what_is_accepted_quickly_is_accepted() {
     for (name, text) in FIELDS {

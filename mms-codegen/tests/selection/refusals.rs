@@ -1,4 +1,4 @@
-//! What is wrong with a selection, and what a selection makes wrong.
+//! Mistakes in a selection, and mistakes that a selection causes.
 
 use mms_codegen::selection::Selection;
 use mms_spec::quantity::Quantity;
@@ -77,7 +77,7 @@ fn a_wrong_value_is_shown_in_its_own_text() {
     let failure = refusal(&moving(), &wrong);
     for expected in [
         "division by zero\n --> set:1:8\n  |\n1 | mu = 1/0\n  |        ^ this is exactly 0",
-        // A parameter may use those above it only.
+        // A parameter may only use the parameters above it.
         "unknown name `sise`\n --> set:1:10",
         " --> set:1:11\n  |\n1 | size = 1 +\n",
     ] {
@@ -110,16 +110,16 @@ error: division by zero
 
 #[test]
 fn a_value_that_leaves_a_quantity_undefined_is_refused() {
-    // u = -X puts the whole bar into one point: F = 0.
+    // u = -X moves the whole bar to one point: F = 0.
     let text = moving().replace("size*X*(1 - X)*cos(30*t)", "size*X");
     let collapse = |quantities: &[Quantity]| selection(quantities, &[("size", "-1")], &["size"]);
     let failure = refusal(&text, &collapse(&[Quantity::BodyForce, Quantity::CauchyStress]));
     assert!(failure.contains("is not defined with these values\n --> freeze:1:1"), "{failure}");
     assert!(failure.contains("choose other values, or freeze fewer parameters"), "{failure}");
-    // J is defined, but not positive: whatever of the field is asked for.
+    // J is defined, but not positive: an error for any selected quantity.
     let failure = refusal(&text, &collapse(&[Quantity::Displacement, Quantity::Jacobian]));
     assert!(failure.contains("J = det F is not positive"), "{failure}");
-    // Nor is a modulus that makes the wave speed the root of a negative number.
+    // A modulus that makes the wave speed the root of a negative number is an error, too.
     let negative = |quantities: &[Quantity]| selection(quantities, &[("lambda", "-1e7")], &["*"]);
     for quantities in [&[][..], &[Quantity::BodyForce]] {
         let failure = refusal(&moving(), &negative(quantities));

@@ -14,19 +14,19 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
-/// How many points and times.
+/// The number of points and times.
 const POINTS: usize = 24;
 
 /// The error of one output of one field.
 pub struct Excess {
     what: String,
-    /// max |error| / max |value| over points and components, in units of eps; infinite where a value
-    /// that is 0 everywhere is not computed as 0.
+    /// max |error| / max |value| over points and components, in units of eps; infinite if a quantity that is 0 everywhere is
+    /// not computed as 0.
     pub eps: f64,
 }
 
 impl Excess {
-    /// Whether a bound is broken; what is no number breaks every bound.
+    /// Whether a bound is exceeded; NaN exceeds every bound.
     pub fn is_beyond(&self, bound: f64) -> bool {
         self.eps.is_nan() || self.eps > bound
     }
@@ -38,7 +38,7 @@ impl fmt::Display for Excess {
     }
 }
 
-/// What is supplied at one evaluation.
+/// The inputs of one evaluation.
 struct Case {
     time: f64,
     coordinates: Vec<f64>,
@@ -80,8 +80,7 @@ pub fn of_field(compiled: &Compiled, name: &str, set: Option<(usize, f64)>) -> V
     compare(&compiled.program, &parameters, &cases, &outputs, &format!("{name}{set}"))
 }
 
-/// The stress and the energy of a material at gradients of about that size, without a rotation
-/// beyond theirs.
+/// The stress and the energy of a material at displacement gradients whose components are of about that size.
 pub fn of_responses(compiled: &Compiled, name: &str, size: f64) -> Vec<Excess> {
     let dimension = compiled.field.dimension;
     let component = |index: usize| halton::<f64>(index)[0] - 0.5;
@@ -133,7 +132,7 @@ fn compare(
             let pairs = double.output(*output).into_iter().zip(reference.output(*output));
             for (found, expected) in pairs {
                 let error = (Precise::from_f64(found) - expected.clone()).magnitude().to_f64();
-                // Not a number must win, which `max` would not let it.
+                // NaN must win, and `max` would drop it.
                 if largest.error <= error || error.is_nan() {
                     largest.error = error;
                 }

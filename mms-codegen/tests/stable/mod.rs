@@ -1,6 +1,5 @@
-//! The stable form holds its accuracy: of every quantity, at any amplitude down to 1e-12 of the
-//! size, the largest error over points spread over body and time window is at most 64 eps of the
-//! largest magnitude of that quantity over these points.
+//! The accuracy of the stable form: for every quantity, at any amplitude down to 1e-12 of the size, the largest error over
+//! points spread over body and time window is at most 64 eps of the largest magnitude of that quantity over these points.
 //!
 //! The reference is the same program in 77 digits, on the very same `f64` numbers.
 
@@ -27,7 +26,7 @@ use crate::sampled::sampled;
 /// The bound, in units of eps.
 const BOUND: f64 = 64.0;
 
-/// What is tried for the parameter that scales the strain, beside its default.
+/// The tested values of the parameter that scales the strain, beside its default.
 const AMPLITUDES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
 /// Parameters that scale a motion.
@@ -50,14 +49,14 @@ fn compiled(name: &str, text: &str) -> Compiled {
     with_own_material(name, text, "")
 }
 
-/// A field that may be of a material of its own.
+/// A field, possibly with a material of its own.
 fn with_own_material(name: &str, text: &str, material: &str) -> Compiled {
     let load = |_: &str| Ok(material.to_string());
     compile_unproved(name, name, text, &load, &Options::default())
         .unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-/// Everything of a field at every amplitude.
+/// Measures all outputs of a field at every amplitude.
 fn measured(name: &str, text: &str) -> Vec<Excess> {
     at_every_amplitude(name, &compiled(name, text))
 }
@@ -76,7 +75,7 @@ fn at_every_amplitude(name: &str, compiled: &Compiled) -> Vec<Excess> {
     measured
 }
 
-/// The largest first; the test fails where one is beyond the bound.
+/// Prints the largest errors first, and fails if one exceeds the bound.
 #[track_caller]
 fn hold(mut measured: Vec<Excess>) {
     assert!(!measured.is_empty());
@@ -88,7 +87,7 @@ fn hold(mut measured: Vec<Excess>) {
     assert!(beyond.is_empty(), "{} of {} are beyond {BOUND} eps", beyond.len(), measured.len());
 }
 
-/// Everything of every field of a folder, or of one field in `share`.
+/// Measures every field of a folder, or one field in `share`.
 fn measured_in(folder: &str, share: usize) -> Vec<Excess> {
     let of = |path: &PathBuf| {
         let text = fs::read_to_string(path).expect("a readable file");
@@ -103,14 +102,13 @@ fn every_field_of_the_gallery_holds() {
     hold(measured_in("../fields", 5));
 }
 
-/// What is left of b and Div P where all that is of first order cancels: of waves at the speed of the material, and of
-/// harmonic motions.
+/// The remainder of b and Div P if all terms of first order cancel: waves at the speed of the material, and harmonic motions.
 #[test]
 fn what_is_of_second_order_in_the_amplitude_holds() {
     hold(measured_in("tests/data/second_order", 2));
 }
 
-/// Constants that are large beside what changes, or added to what is large.
+/// Constants that are much larger than the variable part, or added to something large.
 #[test]
 fn what_stands_beside_constants_holds() {
     hold(measured_in("tests/data/constants", 1));
@@ -122,7 +120,7 @@ fn fields_about_a_place_far_away_hold() {
     hold(measured_in("tests/data/far", 1));
 }
 
-/// What is measured above is measured against the same program. This is not: the field at the origin has no offsets.
+/// Compares with a different program, unlike the other tests: the field at the origin has no offsets.
 #[test]
 fn a_field_far_away_has_the_values_of_the_same_field_at_the_origin() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/far/wave_from_afar.toml");
@@ -150,7 +148,7 @@ fn a_field_far_away_has_the_values_of_the_same_field_at_the_origin() {
     }
 }
 
-/// What is kept apart for the sake of small strains may lose digits at large ones.
+/// Terms that are separated for small strains may lose digits at large ones.
 #[test]
 fn waves_hold_after_many_periods() {
     hold(measured_in("tests/data/late", 1));
@@ -186,8 +184,7 @@ fn stresses_of_materials_of_ones_own_hold() {
     hold(measured);
 }
 
-/// A motion with a material, its resistance to changes of volume of that size. The files lack their last table,
-/// [material].
+/// A motion with a material whose bulk modulus has that size. The files lack their last table, [material].
 fn with_material(stem: &str, text: &str, spec: &MaterialSpec, bulk: usize) -> (String, String) {
     let line = |(index, parameter): (usize, &mms_spec::MaterialParameter)| {
         let unit = parameter.unit.as_ref().map(|unit| unit.value.as_str());
@@ -199,7 +196,7 @@ fn with_material(stem: &str, text: &str, spec: &MaterialSpec, bulk: usize) -> (S
         format!("{} = {value}\n", parameter.name.value)
     };
     let arguments: String = spec.parameters.iter().enumerate().map(line).collect();
-    // Given fields are at rest, so that they add nothing to what is small.
+    // Given fields are at rest, so that they add nothing to small terms.
     let givens = spec.givens.iter().map(|given| format!("{} = 0\n", given.name.value));
     let arguments = arguments + &givens.collect::<String>();
     let fibre = if spec.has_fibres() { "fibre = [\"3/5\", \"4/5\", 0]\n" } else { "" };
@@ -236,14 +233,13 @@ fn motions_with_large_rotations_and_tiny_strains_hold_for_every_material() {
     hold(with_every_material("tests/data/stable", 2, 28));
 }
 
-/// Where the divergence of u is 0, which the formulas do not show, a bulk modulus multiplies what is of second order
-/// alone.
+/// If the divergence of u is 0, which the formulas do not show, a bulk modulus only multiplies terms of second order.
 #[test]
 fn motions_without_divergence_hold_near_incompressibility() {
     hold(with_every_material("tests/data/one_volume", 3000, 12));
 }
 
-/// What fibres of another direction everywhere add to Div P is as small as the stress.
+/// The contribution to Div P of fibres whose direction varies is as small as the stress.
 #[test]
 fn fibres_that_turn_over_the_body_hold() {
     let of = |displacement: &str| {

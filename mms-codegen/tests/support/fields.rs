@@ -1,6 +1,6 @@
-//! Fields of any size, to see how the work grows: shared by tests and benches.
+//! Fields of any size, to measure the growth of the work: shared by tests and benches.
 
-/// What the terms of a displacement are.
+/// The kind of terms of a displacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// Distinct waves: sin(k X + t).

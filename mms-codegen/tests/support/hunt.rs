@@ -1,5 +1,5 @@
-//! Hunts points where a certificate says one thing and the program that is evaluated another: shared by the tests and by
-//! the fuzzer.
+//! Searches for points where a certificate and the evaluated program contradict each other: shared by the tests and by the
+//! fuzzer.
 
 use mms_codegen::bounds::chart::Chart;
 use mms_codegen::bounds::enclosure::Formulas;
@@ -20,30 +20,30 @@ use mms_program::precise::Precise;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Graph;
 
-/// At how many points beside the corners a program is evaluated.
+/// The number of points, beside the corners, where a program is evaluated.
 const POINTS: usize = 48;
 
-/// How often the half is taken in which u changes more.
+/// The number of bisections towards the half in which u changes more.
 const HALVINGS: usize = 44;
 
-/// How often after that, in 77 digits.
+/// The number of further bisections, in 77 digits.
 const EXACT_HALVINGS: usize = 1200;
 
-/// A step of u that no slope explains, in parts of its largest change along a way.
+/// A step of u that no slope explains, relative to its largest change along the path.
 const JUMP: f64 = 1e-3;
 
-/// What a hunt came to.
+/// The result of a hunt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hunt {
-    /// It is no field, or too large a one.
+    /// The text is no field, or too large a one.
     Refused,
     /// The certificate promises nothing.
     NotCertified,
-    /// What it promises held at every point.
+    /// The promises of the certificate held at every point.
     Held,
 }
 
-/// Bytes, and zeros when they are used up.
+/// Bytes, followed by zeros.
 struct Bytes<'a>(core::slice::Iter<'a, u8>);
 
 impl Bytes<'_> {
@@ -90,7 +90,7 @@ fn formula(bytes: &mut Bytes<'_>, names: &[&str], depth: usize) -> String {
     }
 }
 
-/// A field file that bytes say.
+/// The field file that bytes encode.
 pub fn field(data: &[u8]) -> String {
     let mut bytes = Bytes(data.iter());
     let dimension = 1 + bytes.next() % 2;
@@ -128,15 +128,15 @@ pub fn field(data: &[u8]) -> String {
     )
 }
 
-/// How many cells and operations each proof may take: the searches are those of `mms check`, and end earlier.
+/// The limits of cells and operations of each proof: the searches are those that `mms check` runs, but end earlier.
 const CELLS: usize = 48;
 const OPERATIONS: usize = 300_000;
 
-/// What is proved of a field.
+/// The proved properties of a field.
 struct Promise {
     double: bool,
     single: bool,
-    /// Whether it stays within one branch, and its angles have digits enough to tell a jump.
+    /// Whether the field stays within one branch, and its angles have enough digits to detect a jump.
     smooth: bool,
 }
 
@@ -163,8 +163,8 @@ impl Promise {
     }
 }
 
-/// Proves what it can of a text, and tries the points that bytes say, corners, and the way to where u changes most. Panics
-/// where a promise is broken.
+/// Proves the properties of a text, and tests the points that bytes encode, the corners, and the path to where u changes most.
+/// Panics if a promise is broken.
 pub fn hunt(text: &str, data: &[u8]) -> Hunt {
     let options = Options { max_nodes: 20_000, ..Options::default() };
     let load = |_: &str| Err("no files here".to_string());
@@ -252,8 +252,8 @@ impl Prey<'_> {
         }
     }
 
-    /// Halves the way between two points, and goes on with the half on which u changes more. A step that stays one in 77
-    /// digits is a jump.
+    /// Bisects the path between two points towards the half on which u changes more. A step that remains in 77 digits is a
+    /// jump.
     fn has_no_jump(&self, from: &[f64], to: &[f64]) {
         let u = |at: &[f64]| self.values(&self.defaults, at, Quantity::Displacement);
         let (from, to, [largest, step]) = closing_in(from, to, HALVINGS, |a, b| (a + b) / 2.0, u);
@@ -264,7 +264,7 @@ impl Prey<'_> {
         let half = Precise::from_f64(0.5);
         let middle = |a: &Precise, b: &Precise| (a.clone() + b.clone()) * half.clone();
         let [first, last] = [first.collect::<Vec<_>>(), last.collect()];
-        // Beside the first end, since a large u would lose its changes in doubles.
+        // Relative to the first end, since a large u would lose its changes in doubles.
         let start = self.exact(&first);
         let exact = |at: &[Precise]| {
             let changes = self.exact(at).into_iter().zip(&start);
@@ -287,7 +287,7 @@ impl Prey<'_> {
     }
 }
 
-/// The ends of the way that is left, the largest change that was seen, and the one that is left.
+/// The ends of the remaining path, the largest change seen, and the change on the remaining path.
 fn closing_in<T: Clone>(
     from: &[T],
     to: &[T],

@@ -1,4 +1,4 @@
-//! What any text must not break: shared by the tests and by the fuzzer.
+//! The check that any text must pass: shared by the tests and by the fuzzer.
 
 use mms_codegen::{Options, compile_with};
 use mms_spec::diagnostic::render;
@@ -6,7 +6,7 @@ use mms_spec::source::Sources;
 use mms_spec::syntax::parse;
 use mms_spec::{read_field, read_material};
 
-/// Reads a text as a field and as a material, parses every formula, and renders what was found.
+/// Reads a text as a field and as a material, parses every formula, and renders the mistakes.
 pub fn survive(text: &str, options: &Options) {
     let mut sources = Sources::default();
     let id = sources.add("x.toml", text);

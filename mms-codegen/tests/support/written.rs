@@ -19,12 +19,12 @@ pub const NEO_HOOKEAN: &str = "model = \"neo_hookean\"\nlambda = 3\nmu = 2";
 pub const GRADED: &str =
     "model = \"./every.toml\"\nk1 = \"2 + X/3\"\nk2 = 1\nk3 = \"8 + 2*X/3\"\nk4 = 5";
 
-/// All that a solver needs of a field.
+/// A field with everything that a solver needs.
 pub fn field(dimension: usize, displacement: &str, material: &str, density: &str) -> Compiled {
     field_of(dimension, displacement, material, density, Selection::default())
 }
 
-/// A part of it.
+/// A field with selected quantities.
 pub fn field_of(
     dimension: usize,
     displacement: &str,
