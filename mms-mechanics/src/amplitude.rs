@@ -1,15 +1,13 @@
-//! Finds the parameter with which a motion vanishes (its amplitude, at the defaults of the others), and the
-//! expressions that lose digits where it is small.
+//! Finds the parameter with which a motion vanishes (its amplitude, at the defaults of the others), and the expressions that
+//! lose digits at a small amplitude.
 //!
-//! An expression that vanishes with the amplitude keeps its digits if no sum in it vanishes while its terms do
-//! not: see [`Amplitude::keeps`]. An expression that does not is replaced by its remainder ([`difference`]), order
-//! by order: u, H, C - I, B - I and J - 1, and for Div P and what is made of it also v, a and the second gradient,
-//! for a map such as r(R, a) - R has small ones too. The test is numerical, at a few places, and only chooses a
-//! candidate: each form is exact, whatever the values are.
+//! An expression that vanishes with the amplitude keeps its digits if no sum in it vanishes while its terms do not: see
+//! [`Amplitude::keeps`]. Any other is replaced by its remainder ([`difference`]), order by order: u, H, C - I, B - I and J - 1,
+//! and for Div P and the quantities made of it also v, a and the second gradient, for a map such as r(R, a) - R has small ones
+//! too. The test is numerical, at a few places, and only chooses a candidate: each form is exact for all values.
 //!
-//! The part without an amplitude is left out where it is 0 for any signs of X and of the parameters, in 31 digits
-//! at 24 places; elsewhere it stays. A quotient that has no value at a corner or in the middle of the body, where
-//! the whole has one, is not taken.
+//! The part without an amplitude is omitted if it is 0 for any signs of X and of the parameters, in 31 digits at 24 places;
+//! else it stays. A quotient is rejected if it has no value at a corner or in the middle of the body while the whole has one.
 
 use mms_math::{Double, Scalar as _};
 
@@ -24,31 +22,31 @@ use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::substitute::replace;
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// How many orders in the amplitude may cancel.
+/// The number of orders in the amplitude that may cancel.
 const ORDERS: usize = 3;
 
-/// At how many places of the body an expression is looked at.
+/// The number of places of the body where an expression is evaluated.
 const PLACES: usize = 2;
 
-/// A part of its default that is a small amplitude.
+/// A small amplitude, relative to its default.
 const SMALL: f64 = 1e-6;
 
 /// A parameter with which u vanishes at every X and t.
 #[derive(Clone, Debug)]
 pub struct Amplitude {
     symbol: Symbol,
-    /// Its number among the parameters, and its default, or 1 for 0.
+    /// The index of the parameter, and its default, or 1 if that is 0.
     index: usize,
     usual: Double,
-    /// Places of the body, and places anywhere, where it is 0.
+    /// Places of the body, and places anywhere, with the parameter set to 0.
     body: Vec<Spot>,
     anywhere: Vec<Spot>,
-    /// Corners of the body, its middle and those of its faces, where it has its default.
+    /// Corners, middle and middles of faces of the body, with the parameter at its default.
     edges: Vec<Spot>,
 }
 
 impl Amplitude {
-    /// Its number among the parameters.
+    /// The index of the parameter.
     pub fn index(&self) -> usize {
         self.index
     }
@@ -90,8 +88,8 @@ impl Amplitude {
         })
     }
 
-    /// `settled`, where that keeps its digits, else what is more exact: `plain`, of the same values,
-    /// less what it is without an amplitude, where that is 0.
+    /// The expressions `settled` if they keep their digits, else more exact ones: the expressions `plain`, of the same values,
+    /// without their part at amplitude 0 if that part is 0.
     pub fn mend(&self, graph: &mut Graph, plain: &[Expr], settled: &[Expr]) -> Vec<Expr> {
         let keeps = self.kept(graph, settled).keeps;
         let lost = |index: &usize| keeps[settled[*index]] != Keeps::All;
@@ -104,7 +102,7 @@ impl Amplitude {
         for (index, apart) in lost.into_iter().zip(self.apart(graph, &lossy)) {
             mended[index] = apart.unwrap_or(mended[index]);
         }
-        // Terms of the first order may cancel and leave those of the next.
+        // If terms of first order cancel, terms of the next order remain.
         for _ in 0..ORDERS {
             mended = factor(graph, &mended);
             let Kept { lossy, .. } = self.kept(graph, &mended);
@@ -121,7 +119,7 @@ impl Amplitude {
         if self.has_values(graph, settled, &mended) { mended } else { settled.to_vec() }
     }
 
-    /// Whether `after` have values wherever `before` have.
+    /// Whether `after` have values where `before` have.
     fn has_values(&self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
         let values = evaluate(graph, &[before, after].concat(), &self.edges);
         let finite = |expr: &Expr| values[*expr].iter().map(|value| value.to_f64().is_finite());
@@ -129,7 +127,7 @@ impl Amplitude {
         pairs().all(|(old, new)| finite(old).zip(finite(new)).all(|(old, new)| new || !old))
     }
 
-    /// What expressions that vanish with the amplitude are more than without it.
+    /// The difference between each expression and its limit at amplitude 0.
     fn apart(&self, graph: &mut Graph, exprs: &[Expr]) -> Vec<Option<Expr>> {
         let parts = difference(graph, exprs, self.symbol);
         let limits: Vec<Expr> = parts.iter().flatten().map(|parts| parts.limit).collect();
@@ -141,9 +139,9 @@ impl Amplitude {
         parts.into_iter().map(|parts| parts.map(&mut apart)).collect()
     }
 
-    /// What is of second order in the amplitude, at the defaults of the other parameters: without what is of first
-    /// order, where that is 0 whatever they are, or beside it. `None` if it is of first order, or has a part for which
-    /// there is no rule.
+    /// Forms of expressions that are of second order in the amplitude, at the defaults of the other parameters. Parts of lower
+    /// order are omitted if they are 0 for all parameters, else added. `None` if the expressions are of first order, or have a
+    /// part without a rule.
     pub fn of_second_order(&self, graph: &mut Graph, roots: &[Expr]) -> Option<Vec<Expr>> {
         if !self.shrinks_twice(graph, roots) {
             return None;
@@ -168,7 +166,7 @@ impl Amplitude {
         Some(early.chunks(2).zip(&parts).map(&mut with_early).collect())
     }
 
-    /// Whether half of a small amplitude makes no more than a quarter of these.
+    /// Whether half of a small amplitude reduces these to about a quarter.
     fn shrinks_twice(&self, graph: &Graph, roots: &[Expr]) -> bool {
         let largest = |amplitude: f64| {
             let mut places = self.body.clone();
@@ -183,9 +181,9 @@ impl Amplitude {
         half > 0.0 && half < 0.3 * whole
     }
 
-    /// Whether all of these keep their digits where the amplitude is small: each is not small with it,
-    /// or it is made by sums of what is, by products with what keeps them, and by functions of what
-    /// keeps them. Of a product it is enough that one small factor does.
+    /// Whether all of these keep their digits at a small amplitude. An expression does if it is not small with the amplitude,
+    /// or if it is a sum of small terms that keep theirs, a product with one small factor that does, or a function of an
+    /// operand that does.
     pub fn keeps(&self, graph: &Graph, roots: &[Expr]) -> bool {
         let keeps = self.kept(graph, roots).keeps;
         roots.iter().all(|root| keeps[*root] != Keeps::None)
@@ -206,7 +204,7 @@ impl Amplitude {
                     let least = terms.min().unwrap_or(Keeps::All);
                     if constant.is_zero() { least } else { Keeps::None }
                 }
-                // The error of a factor is multiplied by what the others are.
+                // The error of a factor is multiplied by the other factors.
                 Node::Product(factors) => {
                     let small = || factors.iter().filter_map(|(base, _)| of(base));
                     match small().min() {
@@ -228,7 +226,7 @@ impl Amplitude {
     }
 }
 
-/// `settled`, mended where a motion has an amplitude: see [`Amplitude::mend`].
+/// Returns `settled`, or a more exact form if a motion has an amplitude: see [`Amplitude::mend`].
 pub(super) fn mended(
     graph: &mut Graph,
     amplitude: Option<&Amplitude>,
@@ -241,15 +239,15 @@ pub(super) fn mended(
 /// How well an expression that is small with the amplitude keeps its digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Keeps {
-    /// Its error is of the size of what cancels in it.
+    /// The error is as large as the terms that cancel.
     None,
-    /// So is that of a factor of it, and another factor is small.
+    /// The error of one factor is as large as the terms that cancel in it, and another factor is small.
     First,
     /// No part of it cancels.
     All,
 }
 
-/// Of all that expressions are made of, how well it keeps its digits, and which sums do not.
+/// For all sub-expressions, how well each keeps its digits, and the sums that lose them.
 struct Kept {
     keeps: ByExpr<Keeps>,
     lossy: Vec<Expr>,

@@ -1,7 +1,8 @@
-//! Derivatives of axisymmetric fields: what turning the basis about the axis adds to those by R and Z.
+//! Derivatives of axisymmetric fields: the terms of the basis that turns about the axis, in addition to the derivatives by R
+//! and Z.
 //!
-//! Components refer to the fixed basis e_R, e_Z, e_theta at the reference angle, in this order. Around the hoop a
-//! vector turns with its point, so its gradient has a third column, and the gradient of a scalar a third entry 0:
+//! Components refer to the fixed basis e_R, e_Z, e_theta at the reference angle, in this order. Around the hoop a vector turns
+//! with its point, so its gradient has a third column, and the gradient of a scalar a third entry 0:
 //!
 //! ```text
 //!         u_R,R   u_R,Z   -u_t/R                 u_R,RR   u_R,RZ   H_Rt,R
@@ -9,11 +10,11 @@
 //!         u_t,R   u_t,Z    u_R/R                 H_Rt,R   H_Rt,Z   H_tt,R    u_t,tt = -H_Rt,R
 //! ```
 //!
-//! The second gradient is that of H in curvilinear coordinates. Differences of quotients are written as the derivative of
-//! one quotient: (u_R,R - u_R/R)/R is (u_R/R),R. All other formulas of mechanics are those of three dimensions, and
-//! (Div P)_R contains (P_RR - P_tt)/R since its second gradients do. So only u_R, u_t and u_Z,R are divided by R, and
-//! R-components of fluxes and directions. R is taken out of each in exact numbers, so that the axis is a point as any
-//! other; [`poles`] are the formulas of which it cannot be taken out.
+//! The second gradient is the gradient of H in curvilinear coordinates. Differences of quotients are written as the derivative
+//! of one quotient: (u_R,R - u_R/R)/R is (u_R/R),R. All other formulas of mechanics are the three-dimensional ones, and (Div
+//! P)_R contains (P_RR - P_tt)/R since its second gradients do. So only u_R, u_t and u_Z,R are divided by R, and R-components
+//! of fluxes and directions. R is divided out of each in exact numbers, so that the axis is a point like any other; [`poles`]
+//! lists the formulas that R does not divide.
 
 use crate::model::Model;
 use crate::tensor::{Tensor, derivative};
@@ -22,12 +23,12 @@ use mms_symbolic::expr::{ByExpr, Expr, Graph, Node, Rational, Symbol, reachable}
 use mms_symbolic::pass::expand::expand;
 use mms_symbolic::pass::factor::factor;
 
-/// A formula whose quotient by R has no value on the axis, as it is written.
+/// A formula, as written in the file, whose quotient by R has no value on the axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pole {
-    /// The component of the displacement of that index; of the one along the axis, its slope along R.
+    /// The component of the displacement at this index; for the component along the axis, its slope along R.
     Displacement(usize),
-    /// The component of the direction of fibres of that index.
+    /// The component of the direction of fibres at this index.
     Fibre(usize),
     /// The component along R of a flux.
     Flux(Own),
@@ -72,7 +73,7 @@ pub(super) fn spreading(graph: &mut Graph, radius: Expr, flux: &[Expr]) -> Expr 
     over_radius(graph, radius, flux[0])
 }
 
-/// The formulas of a field whose quotients by R have no value on the axis, as they are written.
+/// The formulas of a field, as written in the file, whose quotients by R have no value on the axis.
 pub fn poles(graph: &mut Graph, model: &Model) -> Vec<Pole> {
     let Some(radius) = model.radius else { return Vec::new() };
     graph.aside(|graph| {
@@ -89,7 +90,7 @@ pub fn poles(graph: &mut Graph, model: &Model) -> Vec<Pole> {
     })
 }
 
-/// The quotient by R; with R taken out, wherever it can be.
+/// The quotient by R; R is divided out if possible.
 fn over_radius(graph: &mut Graph, radius: Expr, expr: Expr) -> Expr {
     match divide(graph, radius, expr) {
         Some(quotient) => factor(graph, &[quotient])[0],
@@ -97,7 +98,7 @@ fn over_radius(graph: &mut Graph, radius: Expr, expr: Expr) -> Expr {
     }
 }
 
-/// The quotient of an expression that R divides, with common factors out or multiplied out.
+/// The quotient of an expression that R divides, tried with common factors taken out, and multiplied out.
 fn divide(graph: &mut Graph, radius: Expr, expr: Expr) -> Option<Expr> {
     let expr = factor(graph, &[expr])[0];
     divide_terms(graph, radius, expr).or_else(|| {
@@ -106,7 +107,7 @@ fn divide(graph: &mut Graph, radius: Expr, expr: Expr) -> Option<Expr> {
     })
 }
 
-/// The quotient of an expression each of whose terms R divides: of a sum all terms, of a product one factor.
+/// The quotient of an expression if R divides it term by term: all terms of a sum, one factor of a product.
 fn divide_terms(graph: &mut Graph, radius: Expr, root: Expr) -> Option<Expr> {
     let operands = |expr: Expr| -> Vec<Expr> {
         match graph.node(expr) {

@@ -1,8 +1,8 @@
-//! What a solver is given on the faces of a body: u where the field claims `prescribed` or nothing, N and P N
-//! where it claims `traction`. They become functions of their own, such as `x_max_traction`.
+//! The data for a solver on the faces of a body: u if the field claims `prescribed` or nothing, N and P N if it claims
+//! `traction`. They become functions of their own, such as `x_max_traction`.
 //!
-//! Normals are exact (`face`), and on a face of a box the coordinate that is constant there is put in before the
-//! code is made, so that nothing is computed which a face does not need.
+//! Normals are exact (`face`). On a face of a box the constant coordinate is substituted before the code is made, so that the
+//! code of a face computes nothing that the face does not need.
 
 use crate::derivation::Derivation;
 use crate::face::{normal, projection};
@@ -13,19 +13,19 @@ use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 use mms_symbolic::sorted::SortedMap;
 
-/// What is given on a face.
+/// One item of the data on a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Datum {
     /// The outward reference unit normal N.
     Normal,
-    /// u, where it is prescribed.
+    /// u, on a face with prescribed displacement.
     Displacement,
-    /// P N, where it is.
+    /// P N, on a face with prescribed traction.
     Traction,
 }
 
 impl Datum {
-    /// The word for it in the names of functions.
+    /// The name of the datum in the names of functions.
     pub fn name(self) -> &'static str {
         match self {
             Datum::Normal => "normal",
@@ -35,9 +35,8 @@ impl Datum {
     }
 }
 
-/// What a field gives on each face: u where the file claims `prescribed` or nothing, N and P N where
-/// it claims `traction`; N has a component for each coordinate. On a face of a box they do not depend on the coordinate
-/// that is constant there.
+/// The data of a field on each face: u if the file claims `prescribed` or nothing, N and P N if it claims `traction`; N has a
+/// component for each coordinate. On a face of a box they do not depend on the coordinate that is constant there.
 pub fn data(
     graph: &mut Graph,
     model: &Model,
@@ -69,8 +68,7 @@ pub fn data(
     data
 }
 
-/// With the coordinate replaced that is constant on a face of a box. To project on a circle would
-/// cost what it cannot save.
+/// Replaces the coordinate that is constant on a face of a box. A projection on a circle would cost more than it saves.
 fn on_face(graph: &mut Graph, body: &Body, face: Face, components: &[Expr]) -> Vec<Expr> {
     match body.box_bounds() {
         Some(_) => {

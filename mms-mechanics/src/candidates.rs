@@ -1,17 +1,17 @@
-//! Candidates: what was derived, as each rewriting writes it, and the choice among them.
+//! Candidates: the derived components as each rewriting writes them, and the choice among them.
 //!
 //! | candidate | is made by |
 //! |---|---|
 //! | `Derived` | nothing: as it was derived |
-//! | `Nested` | `nest`: multivariate Horner form, what is known early innermost |
+//! | `Nested` | `nest`: multivariate Horner form, early values innermost |
 //! | `Absorbed` | `factor`, then `absorb`: common factors out, and early ones into sums |
 //! | `Factored` | `factor`: common factors out |
 //! | `Reduced` | `reduce`: the normal form by the identities of the motion |
-//! | `ReducedThoroughly` | the same with every identity of its circular functions, where there are more |
-//! | `ReducedAtPoints` | the same by the identities of what the components themselves are made of, at points |
+//! | `ReducedThoroughly` | `reduce` with every identity of its circular functions, if there are more |
+//! | `ReducedAtPoints` | `reduce` by the identities of the components' own sub-expressions, at points |
 //!
-//! `choose` costs each by its schedule, keeps those that keep their digits at a small amplitude if there are such, and
-//! takes the cheapest whose bound of the rounding error is small ([`Rounding::first`]).
+//! `choose` computes the cost of each from its schedule, prefers candidates that keep their digits at a small amplitude, and
+//! returns the cheapest whose bound of the rounding error is small ([`Rounding::first`]).
 
 use crate::amplitude::Amplitude;
 use crate::rounding::Rounding;
@@ -24,13 +24,13 @@ use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::{Relations, lateness};
 use mms_symbolic::sorted::SortedMap;
 
-/// How many times the operations of the cheapest candidate at a point another one may take for its digits.
+/// The largest number of operations at a point of an accurate candidate, as a multiple of the cheapest candidate's.
 const DEAREST: usize = 2;
 
-/// The components of whatever has a key.
+/// The components for each key.
 pub(super) type Components<K> = SortedMap<K, Vec<Expr>>;
 
-/// What made a candidate; see the table of the module.
+/// The origin of a candidate; see the table of the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the table of the module has them")]
 pub enum Rewriting {
@@ -43,17 +43,17 @@ pub enum Rewriting {
     ReducedAtPoints,
 }
 
-/// All components that were derived, as one rewriting writes them.
+/// All derived components, as one rewriting writes them.
 #[derive(Clone, Debug)]
 pub struct Candidate<K> {
-    /// What made it.
+    /// The rewriting that made the components.
     pub rewriting: Rewriting,
     /// The components of each key.
     pub components: SortedMap<K, Vec<Expr>>,
 }
 
 impl<K: Ord + Copy> Candidate<K> {
-    /// What a pass makes of all components together, since what they have in common is then rewritten once; `None` where it
+    /// The candidate that a pass makes of all components together, so that common parts are rewritten once; `None` if it
     /// outgrows the graph.
     fn by(
         graph: &mut Graph,
@@ -89,7 +89,7 @@ pub(super) fn unexpanded<K: Ord + Copy>(
     all
 }
 
-/// The normal form by some identities, if there are any.
+/// The normal form by some identities, if there are any; `None` without identities.
 pub(super) fn reduced<K: Ord + Copy>(
     graph: &mut Graph,
     rewriting: Rewriting,
@@ -104,7 +104,7 @@ pub(super) fn reduced<K: Ord + Copy>(
     })
 }
 
-/// Every candidate, where the motion has these identities.
+/// Every candidate, given the identities of the motion.
 pub fn candidates<K: Ord + Copy>(
     graph: &mut Graph,
     derived: &SortedMap<K, Vec<Expr>>,
@@ -119,12 +119,12 @@ pub fn candidates<K: Ord + Copy>(
     all
 }
 
-/// How accurate a candidate shall be.
+/// The required accuracy of a candidate.
 #[derive(Clone, Copy)]
 pub(super) struct Accuracy<'a> {
-    /// The parameter with which the motion vanishes, if digits shall be kept where it is small.
+    /// The parameter with which the motion vanishes, if digits must be kept at small values of it.
     pub amplitude: Option<&'a Amplitude>,
-    /// Where bounds of the rounding error are compared; nowhere, if only the cost counts.
+    /// The places where bounds of the rounding error are compared; none if only the cost counts.
     pub rounding: &'a Rounding,
 }
 
@@ -134,13 +134,13 @@ impl Accuracy<'_> {
         self.amplitude.is_none_or(|amplitude| amplitude.keeps(graph, components))
     }
 
-    /// Whether `after` is about as accurate as `before`, of the same values.
+    /// Whether `after` is about as accurate as `before`, which has the same values.
     pub fn allows(self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
         self.is_kept(graph, after) && self.rounding.allows(graph, before, after)
     }
 }
 
-/// Of each key the candidate that is chosen; where the budget is spent, what was derived.
+/// The chosen candidate for each key; if the budget is spent, the derived components.
 pub(super) fn choose_all<K: Ord + Copy>(
     graph: &Graph,
     derived: &Components<K>,
@@ -158,7 +158,7 @@ pub(super) fn choose_all<K: Ord + Copy>(
     derived.iter().map(chosen).collect()
 }
 
-/// The cheapest of several ways to write the same that is accurate; of equals, the first.
+/// The cheapest accurate one of several forms of the same values; of equals, the first.
 fn choose<'a>(
     graph: &Graph,
     mut ways: Vec<&'a [Expr]>,

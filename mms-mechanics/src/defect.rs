@@ -1,10 +1,9 @@
-//! Deliberate mistakes in the derivation (fault injection), of the kind that people make by hand.
+//! Deliberate mistakes in the derivation (fault injection), such as people make by hand.
 //!
-//! With the feature `defects`, [`select`] makes the process make one of them: what is compiled from then on has a
-//! wrong b. Two of them are of the kind that one W cannot have: b is derived for other moduli than those of the
-//! solver's stress. See `mms verify --defects`. Without the feature none of it is there. The macro's compiler,
-//! which Cargo builds apart, has none: what was compiled into the gallery is right, and a mistake of the compiler
-//! acts on fields that are derived anew and interpreted.
+//! With the feature `defects`, [`select`] makes the process make one of them: every later compilation has a wrong b. Two of the
+//! mistakes are impossible with one W: b is derived for other moduli than the solver's stress. See `mms verify --defects`.
+//! Without the feature none of this code exists. The macro's compiler, which Cargo builds separately, has no mistakes: the
+//! compiled gallery is right, and a mistake of the compiler acts on fields that are derived anew and interpreted.
 
 mms_math::defects! {
     ForceSign, "force_sign", "b = a + Div P/rho0: the sign of the published bar";

@@ -1,4 +1,4 @@
-//! From a resolved field to every quantity.
+//! Derives every quantity of a resolved field.
 
 use crate::amplitude::{Amplitude, mended};
 use crate::invariant::{Kind, SUPPLIED_VOLUME};
@@ -14,8 +14,7 @@ use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::settle::settle;
 use mms_symbolic::sorted::SortedMap;
 
-/// Functions of a displacement gradient H that the caller supplies: the material of the field as a
-/// solver needs it.
+/// Functions of a displacement gradient H that the caller supplies: the material of the field for a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Response {
     /// Reference density rho0(X).
@@ -26,9 +25,9 @@ pub enum Response {
     StrainEnergy,
     /// P(H) = dW/dF.
     FirstPiolaKirchhoff,
-    /// P F^T at H, which is tau but for the small strain: there it is what the updated formulation takes the divergence of.
+    /// P F^T at H. It is tau, except at small strain, where the updated formulation takes its divergence.
     KirchhoffStress,
-    /// dP_iJ/dF_kL at H, the last index fastest. Derived where it is asked for, by [`tangent`].
+    /// dP_iJ/dF_kL at H, the last index fastest. Derived on request, by [`tangent`].
     Tangent,
 }
 
@@ -41,7 +40,7 @@ pub struct Derivation {
     pub responses: SortedMap<Response, Vec<Expr>>,
 }
 
-/// What was being derived when the graph reached its bound.
+/// The part that was being derived when the graph reached its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooLarge(pub &'static str);
 
@@ -77,9 +76,8 @@ pub fn derive(
     Ok(Derivation { quantities, responses })
 }
 
-/// The quantities that vanish with the displacement or the strain, such that nothing cancels in them
-/// but what the numbers given make cancel: rotations and functions less their value at 0 are taken
-/// apart in exact numbers. `None` where there is nothing to take apart.
+/// Derives the quantities that vanish with the displacement or the strain, such that only the given numbers can cancel in them:
+/// rotations, and functions less their value at 0, are separated in exact numbers. `None` if there is nothing to separate.
 pub fn derive_settled(
     graph: &mut Graph,
     model: &Model,
@@ -114,7 +112,7 @@ pub fn derive_settled(
     Ok(Some(quantities))
 }
 
-/// Leaves vectors the components that the field has: the one along the hoop is 0 without a swirl.
+/// Truncates vectors to the components that the field has: without a swirl the hoop component is 0.
 fn hold_directions(model: &Model, quantities: &mut SortedMap<Quantity, Vec<Expr>>) {
     for (quantity, components) in quantities.iter_mut() {
         components.truncate(model.space.components(quantity.shape()));
@@ -153,7 +151,7 @@ fn kinematic_quantities(
     ])
 }
 
-/// C, B and E = (C - I)/2. E is made of H, so that small strains do not cancel.
+/// C, B and E = (C - I)/2. E is computed from H, so that small strains do not cancel.
 fn strain_quantities(graph: &mut Graph, strain: &Strain) -> SortedMap<Quantity, Vec<Expr>> {
     let identity = Tensor::identity(graph, strain.gradient.dimension());
     let right = identity.add(graph, &strain.right);
@@ -167,17 +165,17 @@ fn strain_quantities(graph: &mut Graph, strain: &Strain) -> SortedMap<Quantity, 
     ])
 }
 
-/// The present configuration, to which stresses and densities are carried by F and J.
+/// The present configuration: F and J, which carry stresses and densities to it.
 ///
-/// The small strain tells it from the reference configuration no more than its W does: F is I and J is 1 here, so that there
-/// is one stress. What the updated formulation takes the divergence of is [`Response::KirchhoffStress`], P F^T.
+/// The small strain does not distinguish it from the reference configuration: F is I and J is 1 here, so that there is one
+/// stress. The updated formulation takes the divergence of [`Response::KirchhoffStress`], P F^T.
 pub(super) struct Present {
     /// F.
     pub deformation: Tensor,
     /// 1/J.
     pub per_volume: Expr,
-    /// Whether tau is P F^T, and not made of B - I, which needs no inverse: a rotation cancels in C - I, while B - I turns
-    /// with it and grows.
+    /// Whether tau is computed as P F^T, and not from B - I, which needs no inverse: a rotation cancels in C - I, while B - I
+    /// turns with it and grows.
     by_first: bool,
 }
 
@@ -196,7 +194,7 @@ impl Present {
     }
 }
 
-/// W, P, P^T, sigma = tau/J, tau and P N, with the components of N that are `facing` somewhere: none is along the hoop.
+/// W, P, P^T, sigma = tau/J, tau and P N, with the components of N that are `facing` somewhere: no normal has a hoop component.
 fn stress_quantities(
     graph: &mut Graph,
     law: &Law,
@@ -266,7 +264,7 @@ fn balance_quantities(
 
 /// The strain of a displacement gradient that the caller supplies.
 fn supplied(graph: &mut Graph, model: &Model) -> Strain {
-    // A leaf of its own, which only bounds put in place of what H makes of it.
+    // J - 1 as a leaf of its own; only bounds replace the expression in H by it.
     graph.symbol(SUPPLIED_VOLUME);
     let dimension = model.displacement.len();
     let gradient =

@@ -8,7 +8,7 @@
 use crate::tensor::{Tensor, dot};
 use mms_symbolic::expr::{Expr, Graph};
 
-/// What Div P is made of.
+/// The terms of Div P.
 pub(super) struct Terms {
     /// F.
     pub deformation: Tensor,
@@ -18,7 +18,7 @@ pub(super) struct Terms {
     pub inverse: Tensor,
     /// alpha, beta and gamma.
     pub coefficients: [Expr; 3],
-    /// Their gradients through the strain.
+    /// The gradients of the coefficients through the strain.
     pub slopes: [Vec<Expr>; 3],
     /// Lap u.
     pub laplacian: Vec<Expr>,
@@ -28,7 +28,7 @@ pub(super) struct Terms {
     pub log_volume: Vec<Expr>,
     /// dP_iJ/dX_J at fixed H.
     pub graded: Vec<Expr>,
-    /// The part of fibres, if there are some: two products for each component.
+    /// The part of fibres, if any: two products for each component.
     pub fibres: Option<Vec<[(Expr, Expr); 2]>>,
 }
 

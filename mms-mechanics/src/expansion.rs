@@ -1,5 +1,5 @@
-//! W about F = I, with a remainder that is exact: what cancels at small strains does so in exact numbers, and what
-//! is left is as small as W itself.
+//! W about F = I, with a remainder that is exact: terms that cancel at small strains do so in exact numbers, and the remainder
+//! is as small as W itself.
 //!
 //! With A = C - I, i1 = tr A, q the sum of the principal minors of A of two rows, and j = J - 1,
 //!
@@ -7,11 +7,10 @@
 //! i1 = 2 j + k      i2 = 4 j + 2 k + q
 //! ```
 //!
-//! where k and q are of second order in the strain. k comes from H as |H|^2 - 2 q(H) - 2 det H, or, where a
-//! rotation is to cancel, from A as (i1 j - 2 (q + det A))/(2 + j): both hold at small strains and at large
-//! changes of volume. Each part of W is a value at F = I, slopes by j and i4, and a rest of second order; sums,
-//! products, powers and logarithms keep that form. Since W and P vanish at F = I, the values and the slopes of all
-//! W add up to 0.
+//! where k and q are of second order in the strain. k is computed from H as |H|^2 - 2 q(H) - 2 det H, or, if a rotation has to
+//! cancel, from A as (i1 j - 2 (q + det A))/(2 + j): both are exact at small strains and at large changes of volume. Each part
+//! of W is a value at F = I, slopes by j and i4, and a rest of second order; sums, products, powers and logarithms keep that
+//! form. Since W and P vanish at F = I, the values and the slopes of all W add up to 0.
 
 use crate::invariant::{EXCESS, FIBRE, FIRST, MINORS, SECOND, VOLUME};
 use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, Symbol};
@@ -19,7 +18,7 @@ use mms_symbolic::pass::expand::expand;
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::sorted::SortedMap;
 
-/// Greater powers, and roots of a higher order, are not expanded.
+/// The limit of powers, and of the order of roots, that are expanded.
 const MAX_POWER: i32 = 12;
 
 /// value + departure, and departure = slopes (j, i4) + rest.
@@ -31,7 +30,7 @@ struct Part {
     departure: Expr,
 }
 
-/// W in a form of second order in the strain; as it is where it has functions that are not expanded.
+/// W in a form of second order in the strain; unchanged if it has functions that are not expanded.
 pub(super) fn of_second_order(graph: &mut Graph, energy: Expr) -> Expr {
     let Some(part) = parts(graph, energy) else { return energy };
     let known: Vec<Symbol> = graph.symbols(energy).into_iter().collect();
@@ -48,7 +47,7 @@ fn parts(graph: &mut Graph, energy: Expr) -> Option<Part> {
     let mut parts = SortedMap::<Expr, Part>::new();
     for expr in graph.reachable(&[energy]) {
         let part = match graph.node(expr).clone() {
-            // Of coordinates alone, which moduli may depend on.
+            // Expressions of coordinates alone, on which moduli may depend.
             Node::Number(_) | Node::Pi | Node::Offset(_) | Node::Small(..) => constant(graph, expr),
             Node::Symbol(symbol) => leaf(graph, expr, symbol),
             Node::Sum(constant, terms) => sum(graph, constant, &terms, &parts),
@@ -107,7 +106,7 @@ fn sum(
     whole(graph, Part { value, slopes, rest, departure })
 }
 
-/// Where the slopes vanish, what departs is the rest, which does so without cancellation.
+/// Expands the slopes; if they vanish, the departure is the rest, without cancellation.
 fn whole(graph: &mut Graph, part: Part) -> Part {
     let known: Vec<Symbol> = part.slopes.iter().flat_map(|slope| graph.symbols(*slope)).collect();
     let slopes = expand(graph, &part.slopes, &known);
@@ -116,7 +115,7 @@ fn whole(graph: &mut Graph, part: Part) -> Part {
     Part { slopes, departure: if is_flat { part.rest } else { part.departure }, ..part }
 }
 
-/// a b = a0 b0 + (a0 b' + a' b0) + a' b', with a' and b' what departs.
+/// a b = a0 b0 + (a0 b' + a' b0) + a' b', where a' and b' are the departures.
 fn times(graph: &mut Graph, a: &Part, b: &Part) -> Part {
     let mut mixed = |x: Expr, y: Expr, more: Option<Expr>| {
         let (left, right) = (graph.mul(a.value, y), graph.mul(b.value, x));
@@ -138,7 +137,7 @@ fn times(graph: &mut Graph, a: &Part, b: &Part) -> Part {
     whole(graph, Part { value, slopes, rest, departure })
 }
 
-/// A power of an expression: its value v to that power, times that of c = 1 + departure/v.
+/// A power of an expression: with its value v and c = 1 + departure/v, it is v to that power times c to that power.
 fn power(graph: &mut Graph, base: Expr, part: &Part, exponent: &Rational) -> Option<Part> {
     if graph.is_zero(part.departure) {
         let value = graph.power(base, exponent.clone());
@@ -168,7 +167,7 @@ fn repeated(graph: &mut Graph, part: &Part, count: i32) -> Part {
     (1..count).fold(*part, |product, _| times(graph, &product, part))
 }
 
-/// A part over its value.
+/// A part divided by its value.
 fn relative(graph: &mut Graph, part: &Part) -> Part {
     let mut over = |expr: Expr| graph.div(expr, part.value);
     let (slopes, rest, departure) =
@@ -210,8 +209,7 @@ fn reciprocal(graph: &mut Graph, part: &Part) -> Part {
     Part { value: part.value, slopes, rest, departure }
 }
 
-/// ln(v (1 + a)) = ln v + a - (a - ln(1 + a)); of other functions only what is constant, or an
-/// exponential of second order.
+/// ln(v (1 + a)) = ln v + a - (a - ln(1 + a)); other functions only if they are constant, or an exponential of second order.
 fn call(graph: &mut Graph, expr: Expr, function: Function, arguments: &[Part]) -> Option<Part> {
     if arguments.iter().all(|argument| graph.is_zero(argument.departure)) {
         return Some(constant(graph, expr));

@@ -11,16 +11,16 @@ use mms_symbolic::expr::Rational;
 use crate::region::fixed_coordinate;
 pub use crate::region::{Block, Region};
 
-/// What rounding makes of a bound, relative to the larger one.
+/// The rounding error of a bound, relative to the larger bound.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A body in numbers.
 pub type Extent<T> = Region<T>;
 
 impl<T: Number> Extent<T> {
-    /// The point at these fractions of the way from one end to the other: of each edge of a box; of the angle theta, of
-    /// the radius and of the third coordinate of what is round. In a polygon the first one chooses among triangles, each
-    /// as often as it is large. Where there is no body, they are X.
+    /// The point at these fractions: along each edge of a box; along theta, the radius and the third coordinate of a round
+    /// body. In a polygon the first fraction chooses a triangle, in proportion to its area. Without a body, the fractions are
+    /// X.
     pub fn point(&self, fractions: &[T]) -> Vec<T> {
         match self {
             Extent::Block(block) => block.point(fractions),
@@ -35,7 +35,7 @@ impl<T: Number> Block<T> {
         let dimension = self.bounds.len();
         let fraction = |axis: usize| match self.system {
             System::Cartesian => axis,
-            // The angle comes first.
+            // The first fraction is the angle.
             System::Polar | System::Spherical => [1, 0, 2][axis],
         };
         let at = std::array::from_fn(|axis| match self.bounds.get(axis) {
@@ -67,7 +67,7 @@ fn in_polygon<T: Number>(vertices: &[[T; 2]], first: &T, second: &T) -> Vec<T> {
     }
     let (triangle, before, part) = chosen;
     let [a, b, c] = triangle.map(|corner| &vertices[corner]);
-    // The distance from the first corner grows like a square root, so that equal parts are as large.
+    // The distance from the first corner grows like a square root, so that equal parts have equal area.
     let s = (first.clone() - T::from_f64(before)) / T::from_f64(part);
     let s = if near(s.clone()) > 0.0 { s.sqrt() } else { T::from_f64(0.0) };
     let coordinate = |k: usize| {
@@ -82,7 +82,7 @@ fn near<T: Number>(value: T) -> f64 {
 }
 
 impl Extent<f64> {
-    /// Whether a point is in the body or on its boundary, or within rounding of it. Without a body, every point is.
+    /// Whether a point is in the body, on its boundary, or within rounding of it. Without a body every point is.
     pub fn contains(&self, point: &[f64]) -> bool {
         match self {
             Extent::Block(block) => block.contains(point),
@@ -98,7 +98,7 @@ impl Extent<f64> {
         }
     }
 
-    /// The length, area or volume of the body; 0 where there is none.
+    /// The length, area or volume of the body; 0 without a body.
     pub fn measure(&self) -> f64 {
         match self {
             Extent::Block(block) => {
@@ -128,7 +128,7 @@ impl Extent<f64> {
         }
     }
 
-    /// The longest edge of a box, and of the box around a polygon; the outer diameter of what is round, or its length.
+    /// The longest edge of a box, and of the box around a polygon; the outer diameter or the length of a round body.
     pub fn size(&self) -> f64 {
         let longest = |edges: &mut dyn Iterator<Item = f64>| edges.fold(0.0, f64::max);
         match self {
@@ -147,7 +147,7 @@ impl Extent<f64> {
         }
     }
 
-    /// How far a point is from the body, in the unit of lengths; 0 within it.
+    /// The distance of a point from the body, in the unit of lengths; 0 inside it.
     pub fn distance(&self, point: &[f64]) -> f64 {
         match self {
             Extent::Block(block) => block.distance(point),
@@ -163,8 +163,7 @@ impl Extent<f64> {
         }
     }
 
-    /// How far a point of the body is from a face of it, in the unit of lengths; infinitely far from one that the body does
-    /// not have.
+    /// The distance of a point of the body from a face, in the unit of lengths; infinite if the body does not have the face.
     pub fn distance_to(&self, face: Face, point: &[f64]) -> f64 {
         match (self, face) {
             (Extent::Block(block), _) => block.distance_to(face, point),
@@ -182,7 +181,7 @@ impl Block<f64> {
         self.bounds.iter().enumerate().all(|(axis, [from, to])| match axis == 1 {
             true if self.system != System::Cartesian => {
                 let turns = (at[1] - from).rem_euclid(TAU);
-                // A little before the first angle is nearly a turn behind it.
+                // An angle just before the first one is nearly a turn after it.
                 let angle = if TAU - turns <= ROUNDING * TAU { 0.0 } else { turns };
                 is_between(0.0, to - from, angle)
             }
@@ -204,7 +203,7 @@ impl Block<f64> {
             }
             (System::Spherical, [x, y, z]) => {
                 let [theta, phi] = [self.bounds[1], self.bounds[2]];
-                // In the half plane of an angle theta, a sector about the origin.
+                // In the half plane of an angle theta, the body is a sector about the origin.
                 let within = |across: f64| to_sector(radii, phi, [*z, across]);
                 if (y.atan2(*x) - theta[0]).rem_euclid(TAU) <= theta[1] - theta[0] {
                     return within(x.hypot(*y));
@@ -246,7 +245,7 @@ fn padded(point: &[f64]) -> [f64; 3] {
     std::array::from_fn(|axis| point.get(axis).copied().unwrap_or(0.0))
 }
 
-/// How far a point of the plane is from a sector of a ring.
+/// The distance of a point of the plane from a sector of a ring.
 fn to_sector([inner, outer]: [f64; 2], [first, last]: [f64; 2], [x, y]: [f64; 2]) -> f64 {
     if (y.atan2(x) - first).rem_euclid(TAU) <= last - first {
         return beyond(x.hypot(y), inner, outer);
@@ -259,7 +258,7 @@ fn to_sector([inner, outer]: [f64; 2], [first, last]: [f64; 2], [x, y]: [f64; 2]
     to_edge(first).min(to_edge(last))
 }
 
-/// How far a point is from the ray at an angle.
+/// The distance of a point from the ray at an angle.
 fn to_ray(angle: f64, [x, y]: [f64; 2]) -> f64 {
     let (sine, cosine) = angle.sin_cos();
     let along = (x * cosine + y * sine).max(0.0);
@@ -280,13 +279,13 @@ pub(crate) fn between<T: Number>(from: &T, to: &T, fraction: &T) -> T {
     from.clone() + (to.clone() - from.clone()) * fraction.clone()
 }
 
-/// The point of that index, from 1 on, of the Halton sequence (Halton, Numer. Math. 2, 1960) in
-/// the unit cube of four dimensions.
+/// The point at this index, from 1 on, of the Halton sequence (Halton, Numer. Math. 2, 1960) in the unit cube of four
+/// dimensions.
 pub fn halton<T: Number>(index: usize) -> [T; 4] {
     [2, 3, 5, 7].map(|base| T::from_rational(&radical_inverse(index, base)))
 }
 
-/// The point of that index, from 1 on, of the Halton sequence in the unit cube of any dimension.
+/// The point at this index, from 1 on, of the Halton sequence in the unit cube of any dimension.
 pub fn spread(index: usize, dimension: usize) -> Vec<Rational> {
     let mut primes: Vec<usize> = Vec::with_capacity(dimension);
     for n in 2.. {
@@ -326,7 +325,7 @@ mod tests {
         Extent::Polygon(vec![[0.0, -1.0], [2.0, -1.0], [2.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     }
 
-    /// Against the nearest of many points of the body.
+    /// Compares with the nearest of many points of the body.
     #[test]
     fn distances_are_those_to_the_nearest_point() {
         let bodies = [
@@ -401,7 +400,7 @@ mod tests {
         let body = angle();
         let points: Vec<Vec<f64>> = (1..=4000).map(|k| body.point(&halton::<f64>(k))).collect();
         assert!(points.iter().all(|point| body.contains(point)));
-        // Below 0 lie 2 of 2.5.
+        // The area below 0 is 2 of 2.5.
         let below = points.iter().filter(|point| point[1] < 0.0).count();
         assert!((below as f64 / 4000.0 - 0.8).abs() < 0.01, "{below}");
     }

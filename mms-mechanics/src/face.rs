@@ -1,4 +1,4 @@
-//! The named faces of a body: where they lie, and which way they look.
+//! The named faces of a body: their places and their normals.
 
 use mms_math::coordinates::{Arithmetic, System};
 
@@ -18,7 +18,7 @@ pub const ANGLE: Symbol = Symbol::Coordinate(1);
 /// The angle phi, among the coordinates of [`places`] in a sphere.
 pub const POLAR_ANGLE: Symbol = Symbol::Coordinate(2);
 
-/// The arithmetic of formulas, in which positions and directions are made.
+/// The arithmetic on formulas, for positions and directions.
 pub struct Formulas<'a>(pub &'a mut Graph);
 
 impl Arithmetic for Formulas<'_> {
@@ -105,7 +105,7 @@ fn outward(graph: &mut Graph, system: System, dimension: usize) -> Vec<Expr> {
     coordinates[..count].iter().map(|coordinate| graph.mul(*coordinate, inverse)).collect()
 }
 
-/// R = sqrt(X^2 + Y^2), or with Z^2.
+/// R = sqrt(X^2 + Y^2), or sqrt(X^2 + Y^2 + Z^2).
 fn radius(graph: &mut Graph, count: usize) -> Expr {
     let coordinates = coordinates(graph);
     let squares = coordinates[..count].iter();
@@ -114,9 +114,8 @@ fn radius(graph: &mut Graph, count: usize) -> Expr {
     graph.power(square, HALF)
 }
 
-/// The formulas of X, Y and Z in the coordinates in which the body is a block. A box replaces nothing. Another body
-/// has the coordinates of its system in the places of X, Y and Z. On an edge of a polygon the fraction of the way along
-/// it gives X and Y, and takes the place of X.
+/// The formulas of X, Y and Z in the coordinates in which the body is a block. A box replaces nothing. Another body replaces X,
+/// Y and Z by the coordinates of its system. On an edge of a polygon the fraction along the edge gives X and Y, and replaces X.
 pub fn places(graph: &mut Graph, body: &Body, face: Option<Face>) -> SortedMap<Symbol, Expr> {
     let symbols = coordinates(graph);
     let place = match (body, face) {
@@ -151,7 +150,7 @@ pub fn ranges(graph: &mut Graph, body: &Body, face: Option<Face>) -> Vec<(Symbol
         (Region::Polygon(_), Some(_)) => {
             vec![(Symbol::Coordinate(0), [0, 1].map(|end| graph.number(end)))]
         }
-        // Between what its vertices say, all of them together.
+        // The bounds are the extremes of all vertices.
         (Region::Polygon(vertices), None) => {
             (0..2).map(|axis| (Symbol::Coordinate(axis), [vertices[0][axis]; 2])).collect()
         }
@@ -169,8 +168,8 @@ pub fn constant(body: &Body, face: Face) -> SortedMap<Symbol, Expr> {
     SortedMap::from([(Symbol::Coordinate(axis), *bound)])
 }
 
-/// The point of a face that a point X of the body stands for, as a function of X: the nearest one on a flat face of a box and
-/// on the line of an edge; on others the one with the same other coordinates.
+/// The point of a face that corresponds to a point X of the body, as a function of X: the nearest one on a flat face of a box
+/// and on the line of an edge; on other faces the one with the same other coordinates.
 pub fn projection(graph: &mut Graph, body: &Body, face: Face) -> SortedMap<Symbol, Expr> {
     let symbols = coordinates(graph);
     let point: Vec<Expr> = match (body, face) {
@@ -212,14 +211,14 @@ pub fn projection(graph: &mut Graph, body: &Body, face: Face) -> SortedMap<Symbo
     (0..point.len()).map(Symbol::Coordinate).zip(point).collect()
 }
 
-/// The first vertex of an edge, and the way from it to the second.
+/// The first vertex of an edge, and the vector from it to the second.
 fn edge(graph: &mut Graph, vertices: &[[Expr; 2]], first: usize) -> (Vec<Expr>, Vec<Expr>) {
     let (from, to) = (vertices[first], vertices[(first + 1) % vertices.len()]);
     let along = (0..2).map(|axis| graph.sub(to[axis], from[axis])).collect();
     (from.to_vec(), along)
 }
 
-/// The way along an edge, turned to the right, or to the left of a polygon whose area is negative.
+/// The vector along an edge, turned to the right, or to the left if the area of the polygon is negative.
 fn edge_normal(graph: &mut Graph, vertices: &[[Expr; 2]], first: usize) -> Vec<Expr> {
     let (_, along) = edge(graph, vertices, first);
     let squares: Vec<_> = along.iter().map(|it| (graph.power(*it, 2), Rational::ONE)).collect();
@@ -240,8 +239,8 @@ fn edge_normal(graph: &mut Graph, vertices: &[[Expr; 2]], first: usize) -> Vec<E
     vec![graph.mul(along[1], scale), graph.mul(back, scale)]
 }
 
-/// The faces that a body has with these values of its parameters: none where a radius is 0, a whole turn is round or
-/// an angle is that of the axis. `declared` are those of its shape.
+/// The faces that a body has with these values of its parameters: there is no face at a radius of 0, at the ends of a whole
+/// turn, or at an angle along the axis. `declared` are the faces of its shape.
 pub fn present(
     graph: &mut Graph,
     body: &Body,

@@ -1,28 +1,28 @@
 //! Stress and its divergence from a strain-energy density W(I1, I2, J, I4).
 //!
-//! With C = F^T F, the 3-D invariants I1 = tr C, I2 = ((tr C)^2 - tr C^2)/2, J = det F, and the squared stretch I4
-//! = a0.C a0 of fibres in the unit reference direction a0,
+//! With C = F^T F, the 3-D invariants I1 = tr C, I2 = ((tr C)^2 - tr C^2)/2, J = det F, and the squared stretch I4 = a0.C a0 of
+//! fibres in the unit reference direction a0,
 //!
 //! ```text
 //! P = dW/dF = alpha F + beta F C + gamma F^-T + delta (F a0) x a0,
 //! alpha = 2 (W_1 + I1 W_2),  beta = -2 W_2,  gamma = J W_J,  delta = 2 W_4
 //! ```
 //!
-//! (Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6; Holzapfel, Nonlinear
-//! Solid Mechanics, 2000, section 6.7). W is held as a function of i1 = I1 - 3, i2 = I2 - 3, j = J - 1 and
-//! i4 = I4 - 1, which are formed from H without cancellation, and of X, where a material parameter depends on it. P is
-//! rearranged in powers of the strain, with s0 = alpha + beta + gamma, s1 = alpha + 2 beta, s2 = beta:
+//! (Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6; Holzapfel, Nonlinear Solid
+//! Mechanics, 2000, section 6.7). W is stored as a function of i1 = I1 - 3, i2 = I2 - 3, j = J - 1 and i4 = I4 - 1, which are
+//! computed from H without cancellation, and of X, if a material parameter depends on it. P is rearranged in powers of the
+//! strain, with s0 = alpha + beta + gamma, s1 = alpha + 2 beta, s2 = beta:
 //!
 //! ```text
 //! P   = F^-T (s0 I + s1 (C - I) + s2 (C - I)^2)
 //! tau = s0 I + s1 (B - I) + s2 (B - I)^2
 //! ```
 //!
-//! s0 and s1 are multiplied out in the invariants: terms of the size of the modulus that cancel at F = I do so in
-//! exact numbers, however W is typed.
+//! s0 and s1 are multiplied out in the invariants: terms of the size of the modulus that cancel at F = I do so in exact
+//! numbers, for every way of typing W.
 //!
-//! The divergence is not the derivative of these components: that would make expressions grow with the material.
-//! It is tensor algebra, linear in the second derivatives u_i,JK:
+//! The divergence is not computed as the derivative of these components, whose expressions would grow with the material, but by
+//! tensor algebra, linear in the second derivatives u_i,JK:
 //!
 //! ```text
 //! (Div P)_i = alpha Lap u_i + F_iJ alpha,J + beta (F C)_iJ,J + (F C)_iJ beta,J + (gamma,J - gamma g_J) F^-1_Ji
@@ -30,9 +30,9 @@
 //! g_J = F^-1_Kk u_k,KJ = (ln J),J          f = F a0
 //! ```
 //!
-//! alpha,J and its like follow from the derivatives by i1, i2, j, i4 and from explicit dependence on X. So b needs
-//! no second derivative of W by F, and u is differentiated twice at most. a0 has three components; those along
-//! dimensions that a field lacks stretch nothing.
+//! alpha,J and similar gradients follow from the derivatives by i1, i2, j, i4 and from explicit dependence on X. So b needs no
+//! second derivative of W by F, and u is differentiated twice at most. a0 has three components; the components along dimensions
+//! that a field lacks have no effect on stretches.
 
 use crate::divergence::Terms;
 use crate::invariant::{FIBRE, FIRST, SECOND, VOLUME};
@@ -49,7 +49,7 @@ use mms_symbolic::pass::settle::settle;
 /// The coefficients of the stress, as functions of the invariants.
 #[derive(Clone, Debug)]
 pub(super) struct Finite {
-    /// What W is a function of.
+    /// The variables of W.
     symbols: &'static [Symbol],
     /// The coefficient of F.
     alpha: Expr,
@@ -57,9 +57,9 @@ pub(super) struct Finite {
     beta: Expr,
     /// The coefficient of F^-T.
     gamma: Expr,
-    /// The coefficient of (F a0) x a0, where there are fibres.
+    /// The coefficient of (F a0) x a0, if there are fibres.
     delta: Option<Expr>,
-    /// The coefficients of I, C - I and (C - I)^2 in F^T P, fibres apart.
+    /// The coefficients of I, C - I and (C - I)^2 in F^T P, without fibres.
     strain_form: [Expr; 3],
 }
 
@@ -81,7 +81,7 @@ impl Finite {
         // F^T P = alpha C + beta C^2 + gamma I, rearranged in powers of C - I.
         let constant = total(graph, &[alpha, beta, gamma]);
         let linear = graph.sum([(alpha, Rational::ONE), (beta, Rational::from(2))]);
-        // What cancels at F = I must do so here, for W need not be written such that it does.
+        // Terms that cancel at F = I must do so here, for W may be written such that they do not.
         let [constant, linear] = expand(graph, &[constant, linear], symbols)[..] else {
             unreachable!("as many roots as were given")
         };
@@ -125,7 +125,7 @@ impl Finite {
         stress
     }
 
-    /// Adds delta (F a0) x v, where there are fibres.
+    /// Adds delta (F a0) x v, if there are fibres.
     fn with_fibres(
         &self,
         graph: &mut Graph,
@@ -139,8 +139,8 @@ impl Finite {
         stress.add(graph, &pull)
     }
 
-    /// Div P from its terms: see [`crate::divergence`]. alpha,J and its like are through the strain, and what is graded
-    /// through X; g_J = F^-1_Kk u_k,KJ.
+    /// Div P from its terms: see [`crate::divergence`]. The gradients alpha,J etc. are taken through the strain, the graded
+    /// part through X; g_J = F^-1_Kk u_k,KJ.
     pub fn divergence(&self, graph: &mut Graph, motion: &Motion) -> Vec<Expr> {
         let dimension = motion.displacement.len();
         let strain = &motion.strain;
@@ -170,8 +170,8 @@ impl Finite {
         misread::divergence(graph, terms, strain.jacobian).sum(graph)
     }
 
-    /// dP_iJ/dX_J at fixed H, of moduli that depend on X: as P itself it is small where the strain is,
-    /// while the gradients of alpha, beta and gamma are not.
+    /// dP_iJ/dX_J at fixed H, for moduli that depend on X: like P itself it is small at small strains, while the gradients of
+    /// alpha, beta and gamma are not.
     fn graded_divergence(&self, graph: &mut Graph, strain: &Strain) -> Vec<Expr> {
         let dimension = strain.gradient.dimension();
         let slopes = self.strain_form.map(|root| explicit_gradient(graph, strain, root));
@@ -189,7 +189,7 @@ impl Finite {
         strain.inverse.transpose().apply(graph, &pulled)
     }
 
-    /// The fibres' part of (Div P)_i as two products, with f = F a0:
+    /// The part of fibres of (Div P)_i as two products, with f = F a0:
     ///
     /// ```text
     /// (delta f_i a0_J),J = f_i (a0_J delta,J + delta a0_J,J)

@@ -1,7 +1,6 @@
-//! The invariants that a strain-energy density is a function of.
+//! The invariants of strain-energy densities.
 //!
-//! Each is held as its departure from the undeformed state, which is formed from H without
-//! cancellation.
+//! Each is stored as its departure from the undeformed state, which is computed from H without cancellation.
 
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 
@@ -18,22 +17,22 @@ pub const SMALL_TRACE: Symbol = Symbol::Invariant(4);
 /// eps:eps.
 pub const SMALL_SQUARE: Symbol = Symbol::Invariant(5);
 
-/// k = i1 - 2 j, of second order in the strain. Densities do not know it.
+/// k = i1 - 2 j, of second order in the strain. Densities cannot use it.
 pub const EXCESS: Symbol = Symbol::Invariant(6);
-/// q, the sum of the principal minors of C - I of two rows. Densities do not know it.
+/// q, the sum of the principal minors of C - I of two rows. Densities cannot use it.
 pub const MINORS: Symbol = Symbol::Invariant(7);
 
-/// j as whoever bounds a stress supplies it, beside H: he knows J better than H tells it. Densities do not know it.
+/// j as supplied beside H by code that bounds a stress, whose bounds of J are better than H gives. Densities cannot use it.
 pub const SUPPLIED_VOLUME: Symbol = Symbol::Invariant(8);
 
-/// An invariant as densities know it.
+/// An invariant that densities can use.
 #[derive(Clone, Copy, Debug)]
 pub struct Invariant {
-    /// Its name in a density.
+    /// The name of the invariant in a density.
     pub name: &'static str,
-    /// Its departure from the undeformed state.
+    /// The departure from the undeformed state.
     pub symbol: Symbol,
-    /// Its value in the undeformed state.
+    /// The value in the undeformed state.
     pub at_identity: i32,
 }
 
@@ -55,20 +54,20 @@ impl Invariant {
     }
 }
 
-/// Which invariants the density of a material is a function of.
+/// The invariants that the density of a material is a function of.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// I1, I2, I3 and J.
     Isotropic,
-    /// The same and I4 = a0.C a0, of fibres in the unit reference direction a0. The components along
-    /// the dimensions that the field has; C - I is 0 in the others.
+    /// I1, I2, I3, J and I4 = a0.C a0, of fibres in the unit reference direction a0. The vector has the components along the
+    /// dimensions of the field; C - I is 0 in the others.
     Fibrous(Vec<Expr>),
     /// eps_trace and eps_squared.
     SmallStrain,
 }
 
 impl Kind {
-    /// The departures that a density of this kind is a function of.
+    /// The departures that are the variables of a density of this kind.
     pub fn symbols(&self) -> &'static [Symbol] {
         match self {
             Kind::Isotropic => &[FIRST, SECOND, VOLUME],

@@ -1,9 +1,8 @@
-//! Kinematics: what follows from a displacement, or from its gradient alone.
+//! Kinematics: everything that follows from a displacement, or from its gradient alone.
 //!
-//! Where tr H is 0 whatever the parameters are, but not as it is written (sin 2X in one component, 2 sin X cos X
-//! in the other), a component of the diagonal is written as minus the others, for a large bulk modulus would
-//! multiply what rounding leaves. What is 0 so is seen by its values (`place.rs`). Then I : F,J is left out of the
-//! gradients of the invariants as well.
+//! If tr H is 0 for all parameters, but not as it is written (sin 2X in one component, 2 sin X cos X in the other), one
+//! component of the diagonal is written as minus the others: a large bulk modulus would multiply the rounding error. Values
+//! decide whether it is 0 (`place.rs`). Then I : F,J is omitted from the gradients of the invariants as well.
 
 use crate::amplitude::{Amplitude, mended};
 use crate::axisymmetric;
@@ -20,7 +19,7 @@ use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::settle::settle;
 use mms_symbolic::sorted::SortedMap;
 
-/// What follows from a displacement gradient H = du/dX at one point.
+/// The strain that follows from a displacement gradient H = du/dX at one point.
 #[derive(Clone, Debug)]
 pub struct Strain {
     /// H.
@@ -35,25 +34,25 @@ pub struct Strain {
     pub right: Tensor,
     /// B - I = H + H^T + H H^T.
     pub left: Tensor,
-    /// What the density is a function of, by symbol.
+    /// The variables of the density, by symbol.
     pub invariants: SortedMap<Symbol, Expr>,
-    /// The fibres, where the density is a function of I4.
+    /// The fibres, if the density is a function of I4.
     pub fibre: Option<Fibre>,
 }
 
-/// What a strain is computed from.
+/// The input from which a strain is computed.
 #[derive(Clone, Copy, Debug)]
 pub enum Route<'a> {
-    /// H: what is small with H is computed without cancellation.
+    /// H: expressions that are small with H are computed without cancellation.
     Gradient,
     /// F: in fewer operations, and with errors of the size of eps.
     Deformation,
-    /// H, with all that cancels at small strains taken apart: see [`Strain::settled`].
+    /// H, with all terms that cancel at small strains separated: see [`Strain::settled`].
     Settled(Option<&'a Amplitude>),
 }
 
-/// The relations of half the angles that a displacement turns by, in whose sine H is small: those
-/// whose cosine less 1 stands in it.
+/// The relations of half the rotation angles of a displacement, in whose sine H is small: the angles whose cosine less 1 occurs
+/// in it.
 pub(super) fn half_angles(
     graph: &mut Graph,
     displacement: &[Expr],
@@ -63,7 +62,7 @@ pub(super) fn half_angles(
     Relations::of_half_angles(graph, displacement, &settled)
 }
 
-/// What a strain is made of.
+/// The tensors of a strain.
 struct Tensors {
     gradient: Tensor,
     deformation: Tensor,
@@ -76,13 +75,13 @@ struct Tensors {
 pub struct Fibre {
     /// a0, a unit vector in space.
     pub reference: Vec<Expr>,
-    /// F a0, as long as the fibre is stretched.
+    /// F a0, whose length is the stretch of the fibre.
     pub present: Vec<Expr>,
 }
 
 impl Strain {
-    /// From the displacement gradient, every part reduced modulo `relations`; the invariants are
-    /// those of a density of that kind.
+    /// Computes the strain from the displacement gradient, every part reduced modulo `relations`, with the invariants of this
+    /// kind of density.
     pub fn new(graph: &mut Graph, gradient: Tensor, kind: &Kind, relations: &Relations) -> Self {
         let identity = Tensor::identity(graph, gradient.dimension());
         let gradient = gradient.reduce(graph, relations);
@@ -103,8 +102,8 @@ impl Strain {
         Self::of(graph, tensors, [volume, excess], kind, [relations; 2])
     }
 
-    /// The same for a strain that may be tiny beside rotation: whatever cancels does so in exact
-    /// numbers. The first relations are those of the angles, the second those of half the angles.
+    /// Computes a strain that may be tiny beside the rotation: all terms that cancel do so in exact numbers. The first
+    /// relations are for the angles, the second for half the angles.
     pub fn settled(
         graph: &mut Graph,
         gradient: Tensor,
@@ -113,7 +112,7 @@ impl Strain {
         amplitude: Option<&Amplitude>,
     ) -> Self {
         let identity = Tensor::identity(graph, gradient.dimension());
-        // F and its inverse are of the size of 1.
+        // F and its inverse are of size 1.
         let plain = gradient.reduce(graph, whole);
         let deformation = identity.add(graph, &plain);
         let mend = |graph: &mut Graph, plain: &Tensor| {
@@ -133,7 +132,7 @@ impl Strain {
         let volume = reduce(graph, &[plain], relations);
         let volume = settle(graph, &volume);
         let volume = mended(graph, amplitude, &[plain], &volume)[0];
-        // Rotations cancel in C - I and in j, but not in what is made of H.
+        // Rotations cancel in C - I and in j, but not in expressions of H.
         let excess = match relations.is_empty() {
             true => excess_of_gradient(graph, &gradient),
             false => excess_of_strain(graph, &right, volume),
@@ -142,8 +141,8 @@ impl Strain {
         Self::of(graph, tensors, [volume, excess], kind, [&Relations::default(), whole])
     }
 
-    /// The same from F = I + H, with J its determinant and C - I = F^T F - I: fewer operations, and
-    /// errors of the size of eps, however small the strain is.
+    /// Computes the strain from F = I + H, with J its determinant and C - I = F^T F - I: fewer operations, and errors of the
+    /// size of eps for any strain.
     pub fn direct(graph: &mut Graph, gradient: Tensor, kind: &Kind, relations: &Relations) -> Self {
         let identity = Tensor::identity(graph, gradient.dimension());
         let gradient = gradient.reduce(graph, relations);
@@ -199,7 +198,7 @@ impl Strain {
         Strain { gradient, deformation, jacobian, inverse, right, left, invariants, fibre }
     }
 
-    /// (adj F - I)/J where tr H = 0: what F^-1 is to be contracted with tensors without a trace, of the size of H.
+    /// (adj F - I)/J if tr H = 0: it replaces F^-1 in contractions with traceless tensors, and is of the size of H.
     fn inverse_beside_identity(&self, graph: &mut Graph) -> Tensor {
         let minors = self.gradient.adjugate(graph);
         let rest = match self.gradient.dimension() {
@@ -243,8 +242,8 @@ fn small_invariants(graph: &mut Graph, gradient: &Tensor) -> [Expr; 2] {
     [gradient.trace(graph), strain.contract(graph, &strain)]
 }
 
-/// I1 - 3 = tr (C - I), or |H|^2 where tr H = 0, and I2 - 3 = 2 i1 + q, from C - I and the sum q of its principal
-/// minors of two rows.
+/// I1 - 3 = tr (C - I), or |H|^2 if tr H = 0, and I2 - 3 = 2 i1 + q, from C - I and the sum q of its principal minors of two
+/// rows.
 fn first_invariants(graph: &mut Graph, gradient: &Tensor, right: &Tensor) -> [Expr; 2] {
     let trace = gradient.trace(graph);
     let first = match graph.is_zero(trace) {
@@ -255,8 +254,8 @@ fn first_invariants(graph: &mut Graph, gradient: &Tensor, right: &Tensor) -> [Ex
     [first, graph.sum([(first, Rational::from(2)), (minors, Rational::ONE)])]
 }
 
-/// i1 - 2 j = |H|^2 - 2 q(H) - 2 det H, from H: no cancellation at small strains nor at large
-/// ones, but a rotation does not cancel either.
+/// i1 - 2 j = |H|^2 - 2 q(H) - 2 det H, from H: nothing cancels at small or large strains, but a rotation does not cancel
+/// either.
 fn excess_of_gradient(graph: &mut Graph, gradient: &Tensor) -> Expr {
     let square = gradient.contract(graph, gradient);
     let [second, third] = [2, 3].map(|rows| gradient.principal_minors(graph, rows));
@@ -279,7 +278,7 @@ fn excess_of_strain(graph: &mut Graph, right: &Tensor, volume: Expr) -> Expr {
     graph.div(numerator, denominator)
 }
 
-/// What follows from a displacement u(X, t).
+/// The motion that follows from a displacement u(X, t).
 #[derive(Clone, Debug)]
 pub struct Motion {
     /// u.
@@ -288,25 +287,25 @@ pub struct Motion {
     pub velocity: Vec<Expr>,
     /// a = dv/dt at fixed X.
     pub acceleration: Vec<Expr>,
-    /// H and what follows from it.
+    /// H and its strain.
     pub strain: Strain,
     /// d2u_i / dX_J dX_K as one matrix per i.
     pub second_gradient: Vec<Tensor>,
     /// (ln J),J = F^-1_Kk u_k,KJ.
     pub log_volume_gradient: Vec<Expr>,
-    /// The gradients of what the density is a function of, by symbol.
+    /// The gradients of the variables of the density, by symbol.
     pub invariant_gradients: SortedMap<Symbol, Vec<Expr>>,
-    /// a0_K,J, where there are fibres.
+    /// a0_K,J, if there are fibres.
     pub fibre_gradient: Option<Tensor>,
-    /// The number of reference coordinates: along further directions scalars have no slope.
+    /// The number of reference coordinates: scalars have no slope along further directions.
     coordinates: usize,
 }
 
 impl Motion {
-    /// From the displacement, simplified by `relations` between its parts.
+    /// Computes the motion from the displacement, simplified by `relations` between its parts.
     ///
-    /// Where there are any, the invariants have become short, and their gradients are the
-    /// derivatives of that; else they are tensor algebra, which shares the second gradient of u.
+    /// With relations the invariants are short, and their gradients are computed as derivatives; without them the gradients are
+    /// computed by tensor algebra, which shares the second gradient of u.
     pub fn new(graph: &mut Graph, model: &Model, relations: &Relations, route: Route<'_>) -> Self {
         let kind = &model.kind;
         let displacement = factor(graph, &model.displacement);
@@ -382,7 +381,7 @@ impl Motion {
         self.log_volume_gradient = volume.iter().map(|slope| graph.div(*slope, jacobian)).collect();
     }
 
-    /// I1,J = 2 F : F,J;  I2,J = 2 (I1 F - F C) : F,J;  J,J = J F^-T : F,J. Where tr H = 0, I : F,J is left out.
+    /// I1,J = 2 F : F,J; I2,J = 2 (I1 F - F C) : F,J; J,J = J F^-T : F,J. If tr H = 0, I : F,J is omitted.
     fn contract_invariants(&mut self, graph: &mut Graph) {
         let strain = &self.strain;
         let identity = Tensor::identity(graph, self.displacement.len());
@@ -450,8 +449,8 @@ impl Motion {
         self.second_gradient.iter().map(|second| second.trace(graph)).collect()
     }
 
-    /// A_mK d2u_m / dX_K dX_J for every J: half the gradient of what A is the derivative of, which is 0 around the hoop of
-    /// an axisymmetric field.
+    /// A_mK d2u_m / dX_K dX_J for every J: half the gradient of a scalar whose derivative is A. It is 0 around the hoop of an
+    /// axisymmetric field.
     pub fn contract_second_gradient(&self, graph: &mut Graph, with: &Tensor) -> Vec<Expr> {
         let dimension = self.displacement.len();
         let mut slopes: Vec<Expr> = (0..self.coordinates)
@@ -468,8 +467,8 @@ impl Motion {
     }
 }
 
-/// H, such that its trace is 0 as it is written where it is 0 whatever the parameters are. It is multiplied by moduli
-/// that may be large.
+/// Rewrites H such that its trace is 0 as written if it is 0 for all parameters: the trace is multiplied by moduli that may be
+/// large.
 pub(super) fn traceless(graph: &mut Graph, model: &Model, gradient: Tensor) -> Tensor {
     let dimension = gradient.dimension();
     let diagonal: Vec<Expr> = (0..dimension).map(|axis| gradient.at(axis, axis)).collect();
@@ -488,7 +487,7 @@ pub(super) fn traceless(graph: &mut Graph, model: &Model, gradient: Tensor) -> T
     })
 }
 
-/// The settled tensor, with forms that keep their digits for components that lose them: see [`Amplitude::mend`].
+/// A tensor whose components keep their digits: a lossy component is replaced, see [`Amplitude::mend`].
 fn mended_tensor(
     graph: &mut Graph,
     plain: &Tensor,

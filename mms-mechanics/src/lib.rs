@@ -1,23 +1,22 @@
-//! Continuum mechanics on the graph: from u(X, t) and W to every quantity.
+//! Continuum mechanics on the graph: derives every quantity from u(X, t) and W.
 //!
-//! Kinematics are differentiated symbolically. Stress and its divergence go through the tensor algebra of
-//! hyperelasticity, so that expressions grow with the field and not with the material. Everything is written in
-//! the displacement gradient H = F - I, because strains formed from F lose eps/strain:
+//! Kinematics are differentiated symbolically. Stress and its divergence are computed by the tensor algebra of hyperelasticity,
+//! so that expressions grow with the field and not with the material. Everything is written in the displacement gradient H =
+//! F - I, because strains formed from F lose eps/strain:
 //!
 //! ```text
 //! C - I = H + H^T + H^T H          i1 = tr (C - I)          i2 = 2 i1 + (i1^2 - tr (C - I)^2)/2
 //! B - I = H + H^T + H H^T          j  = the sum of the principal minors of H
 //! ```
 //!
-//! A density has one of three kinds (`invariant`): a function of I1, I2, I3 = J^2 and J; of these and I4; or of
-//! the small strain. Only what its kind needs is derived.
+//! A density has one of three kinds (`invariant`): a function of I1, I2, I3 = J^2 and J; of these and I4; or of the small
+//! strain. Only the quantities that its kind needs are derived.
 //!
-//! The solver needs the material apart from the field. The same `Law` is therefore evaluated a second time at a
-//! gradient H that the caller supplies: W(H), P(H), tau(H), with rho0(X) and the fastest wave speed at F = I,
-//! sqrt(dP_11/dF_11 / rho0); with fibres that is the greater of two, along them and across. These are the
-//! `Response`s. The tangent dP/dF is a program of its own (`Compiled::tangent`), made only where it is asked for.
-//! One W gives both the forcing and the solver's stress: they cannot disagree, and neither can vouch for the
-//! other. That is what the independent routes of the tests are for.
+//! The solver needs the material without the field. The same `Law` is therefore evaluated a second time at a gradient H that
+//! the caller supplies: W(H), P(H), tau(H), with rho0(X) and the fastest wave speed at F = I, sqrt(dP_11/dF_11 / rho0); with
+//! fibres it is the greater of two speeds, along them and across. These are the `Response`s. The tangent dP/dF is a separate
+//! program (`Compiled::tangent`), made only on request. The forcing and the solver's stress follow from one W: they cannot
+//! disagree, and neither verifies the other. Independent routes in the tests do.
 
 pub mod amplitude;
 pub mod axisymmetric;

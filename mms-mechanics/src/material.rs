@@ -1,8 +1,7 @@
 //! Hyperelasticity: everything about stress follows from a strain-energy density W.
 //!
-//! What the two kinds of strain have in common stands here; `finite.rs` has the algebra of F, and
-//! `small_strain.rs` that of eps = (H + H^T)/2. The dimensions that a field lacks contribute a
-//! stretch of one.
+//! This module has the parts common to both kinds of strain; `finite.rs` has the algebra of F, and `small_strain.rs` the
+//! algebra of eps = (H + H^T)/2. A dimension that a field lacks has the stretch 1.
 
 use crate::expansion;
 use crate::finite::{self, Finite};
@@ -49,12 +48,12 @@ impl Law {
         Law { energy, second_order, stress }
     }
 
-    /// W at a strain, from what is of second order in it.
+    /// W at a strain, from its form of second order.
     pub fn energy(&self, graph: &mut Graph, strain: &Strain) -> Expr {
         at(graph, strain, &[self.second_order])[0]
     }
 
-    /// W at a strain as it was typed, with errors of the size of eps.
+    /// W at a strain as typed, with errors of the size of eps.
     pub fn typed_energy(&self, graph: &mut Graph, strain: &Strain) -> Expr {
         at(graph, strain, &[self.energy])[0]
     }
@@ -86,12 +85,11 @@ impl Law {
         }
     }
 
-    /// rho0 times the square of the speed of the fastest wave at F = I: n.Q(n) n of the acoustic
-    /// tensor Q, for a longitudinal wave along n.
+    /// rho0 times the square of the speed of the fastest wave at F = I: n.Q(n) n of the acoustic tensor Q, for a longitudinal
+    /// wave along n.
     ///
-    /// In an isotropic solid no wave is faster. With fibres it is the greater of two, along the
-    /// fibres and across them. It is assumed that W is stiffest in one of these directions, and
-    /// against stretch rather than shear.
+    /// In an isotropic solid no wave is faster. With fibres it is the greater of two, along the fibres and across them. It is
+    /// assumed that W is stiffest in one of these directions, and stiffer in stretch than in shear.
     pub fn fastest_modulus(&self, graph: &mut Graph, kind: &Kind) -> Expr {
         let Kind::Fibrous(_) = kind else { return self.longitudinal_modulus(graph, kind) };
         let [along, across] = [1, 0].map(|component| {
@@ -174,7 +172,7 @@ pub(super) struct Gradient {
 }
 
 impl Gradient {
-    /// From the derivative and its own, `slope(i, J, k, L)`.
+    /// Makes a gradient from the derivative and its own derivative, `slope(i, J, k, L)`.
     pub fn new(
         graph: &mut Graph,
         value: Tensor,
@@ -221,7 +219,7 @@ pub(super) fn gradient(
         .collect()
 }
 
-/// The gradient of a function of the invariants through these alone.
+/// The gradient of a function of the invariants through the invariants alone.
 pub(super) fn chained_gradient(
     graph: &mut Graph,
     motion: &Motion,

@@ -1,11 +1,10 @@
-//! Fault injection: what a defect derives in place of the right expression. Without the feature `defects` each
-//! function returns the right one.
+//! Fault injection: the wrong expressions of a defect. Without the feature `defects` each function returns the right one.
 
 use crate::defect::{Defect, on};
 use crate::divergence::Terms;
 use mms_symbolic::expr::{Expr, Graph, HALF};
 
-/// What Div P is made of.
+/// The terms of Div P.
 pub(super) fn divergence(graph: &mut Graph, mut terms: Terms, jacobian: Expr) -> Terms {
     let zero = |graph: &mut Graph, slots: &mut [Expr]| slots.fill(graph.number(0));
     if on(Defect::SecondInvariant) {
@@ -38,7 +37,7 @@ pub(super) fn dilatation(graph: &mut Graph, right: Vec<Expr>) -> Vec<Expr> {
     if on(Defect::SmallDilatation) { vec![graph.number(0); right.len()] } else { right }
 }
 
-/// The velocity of a body that is turned, of which the Coriolis term has twice.
+/// The velocity of a rotated body, which the Coriolis term has twice; the defect halves it.
 pub(super) fn turned_velocity(graph: &mut Graph, right: &[Expr]) -> Vec<Expr> {
     if !on(Defect::Coriolis) {
         return right.to_vec();
@@ -72,7 +71,7 @@ pub(super) fn body_force(
     right
 }
 
-/// The model of the motion and its b, where they are derived for other moduli than those of the solver's stress.
+/// The model for the motion and its b, if they are derived with other moduli than the solver's stress.
 #[cfg(feature = "defects")]
 pub fn moduli(
     graph: &mut Graph,

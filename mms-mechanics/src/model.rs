@@ -1,4 +1,4 @@
-//! A field file with its names resolved: expressions instead of text.
+//! A field file with resolved names: expressions instead of text.
 
 mod domain;
 pub mod energy;
@@ -31,15 +31,15 @@ pub use written::{Part, Written};
 /// A parameter of a field.
 #[derive(Clone, Debug)]
 pub struct Parameter {
-    /// Its name.
+    /// The name of the parameter.
     pub name: String,
-    /// Its default value, in terms of the parameters before it.
+    /// The default value, in terms of the parameters before this one.
     pub default: Expr,
-    /// The least and the greatest value it may take, in terms of the parameters before it.
+    /// The least and the greatest allowed value, in terms of the parameters before this one.
     pub range: Option<[Expr; 2]>,
-    /// Its unit, where the file states one.
+    /// The unit, if the file states one.
     pub unit: Option<String>,
-    /// What it is.
+    /// The description.
     pub doc: Option<Foreign>,
 }
 
@@ -47,7 +47,7 @@ pub struct Parameter {
 pub type Body = Region<Expr>;
 
 impl Body {
-    /// The coordinates between whose bounds the body is a block: X itself, or radius and angles.
+    /// The coordinates of a reference position in which the body is a block: X itself, or radius and angles.
     pub fn coordinates(&self, reference: &[f64]) -> Vec<f64> {
         let Region::Block(block) = self else { return reference.to_vec() };
         let padded = std::array::from_fn(|axis| reference.get(axis).copied().unwrap_or(0.0));
@@ -55,56 +55,56 @@ impl Body {
     }
 }
 
-/// The body and the time window that a field's claims are about, in terms of the parameters.
+/// The body and the time window of a field's claims, in terms of the parameters.
 #[derive(Clone, Debug)]
 pub struct Domain {
     /// The reference body.
     pub body: Body,
-    /// The first and last time; 0 and 1 of a static field, in which nothing depends on t.
+    /// The first and last time; 0 and 1 for a static field, in which nothing depends on t.
     pub time: [Expr; 2],
-    /// Whether the field is static: the file gives no time.
+    /// Whether the field is static: its file has no time window.
     pub is_static: bool,
 }
 
 /// A closed form that a quantity must agree with.
 #[derive(Clone, Debug)]
 pub struct Check {
-    /// What it is a closed form of.
+    /// The quantity that the closed form is for.
     pub quantity: Quantity,
-    /// Its components.
+    /// The components.
     pub equals: Vec<Expr>,
-    /// Where it was published.
+    /// The publication.
     pub source: Option<Foreign>,
-    /// Where it stands in the file.
+    /// The place in the file.
     pub span: Span,
 }
 
-/// A field whose formulas are expressions.
+/// A field with expressions for its formulas.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// The parameters, in the order of the file.
     pub parameters: Vec<Parameter>,
-    /// The names a reader knows: parameters and definitions.
+    /// The names of symbols for readers: parameters and definitions.
     pub names: Names,
-    /// The coordinates, and how many components vectors and tensors have.
+    /// The coordinates, and the numbers of components of vectors and tensors.
     pub space: Space,
-    /// R of an axisymmetric field: what is divided by it to have strains around the axis.
+    /// R of an axisymmetric field: the divisor in strains around the axis.
     pub radius: Option<Expr>,
-    /// u, without the rigid motion. That of an axisymmetric field has three components, and its rigid motion in it.
+    /// u, without the rigid motion. For an axisymmetric field it has three components, and includes the rigid motion.
     pub displacement: Vec<Expr>,
-    /// rho0; 1 if the file gives none.
+    /// rho0; 1 if the file has none.
     pub density: Expr,
-    /// Whether the file gives rho0.
+    /// Whether the file has rho0.
     pub has_density: bool,
     /// The parameters of the material, in the field's terms and in the order of the file.
     pub arguments: Vec<Expr>,
     /// W, as a function of the material's invariants.
     pub energy: Expr,
-    /// Which invariants W is a function of, and the direction of the fibres.
+    /// The invariants that W is a function of, and the direction of the fibres.
     pub kind: Kind,
-    /// a0 in space, where W is a function of I4.
+    /// a0 in space, if W is a function of I4.
     pub fibre: Option<Vec<Expr>>,
-    /// Poisson's ratio, where the field gives it in place of the material's own moduli.
+    /// Poisson's ratio, if the field states it instead of the material's own moduli.
     pub poisson: Option<Expr>,
     /// The reference body and the time window.
     pub domain: Domain,
@@ -120,7 +120,7 @@ pub struct Model {
     pub extremes: Vec<SortedMap<usize, Expr>>,
     /// The rigid motion on top of u.
     pub rigid: Option<RigidMotion>,
-    /// The formulas as they are written.
+    /// The formulas as written in the file.
     pub written: Written,
 }
 
@@ -302,7 +302,7 @@ impl<'a> Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Names for printing, with those of the coordinates alone.
+    /// Names for printing that name the coordinates only.
     fn names(&self) -> Names {
         Names { coordinates: self.space.axes(), ..Names::default() }
     }
@@ -320,7 +320,7 @@ impl Reader<'_> {
         Some(value)
     }
 
-    /// Resolves all, so that every one reports its mistakes.
+    /// Resolves all formulas, so that each one reports its mistakes.
     fn formulas(&mut self, formulas: &[Formula]) -> Option<Vec<Expr>> {
         let values: Vec<_> = formulas.iter().map(|formula| self.formula(formula)).collect();
         values.into_iter().collect()
@@ -398,7 +398,7 @@ impl Reader<'_> {
             let value = self.formula(&definition.value);
             self.definition_of(&definition.name.value);
             self.scope.define(&definition.name.value, value);
-            // A definition that is only another name for a leaf or a number names nothing new.
+            // A definition that is only another name for a leaf or a number adds no name.
             if let Some(value) =
                 value.filter(|value| self.graph.node(*value).children().next().is_some())
             {
@@ -443,7 +443,7 @@ impl Reader<'_> {
         extremes.map(|extreme| extreme.set.iter().filter_map(&mut setting).collect()).collect()
     }
 
-    /// The value that is set of a parameter: it follows from those above, as a default does.
+    /// The value that an extreme sets for a parameter: like a default, it may use the parameters above.
     fn setting(&mut self, index: usize, name: &Spanned<String>, value: &Formula) -> Option<Expr> {
         let set = self.constant(value)?;
         let is_above = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(at) if *at < index);
@@ -467,7 +467,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reports a graph that was full before any formula was to blame for it.
+    /// Reports a full graph if no formula was reported for it.
     fn within_bound(&mut self, field: &FieldSpec, reported: usize) {
         if !self.graph.is_exhausted() || self.diagnostics.len() > reported {
             return;
@@ -496,12 +496,12 @@ impl Reader<'_> {
     }
 }
 
-/// Values that are set, as expressions.
+/// Converts set values to expressions.
 pub fn as_set(graph: &mut Graph, set: &SortedMap<usize, Rational>) -> SortedMap<usize, Expr> {
     set.iter().map(|(index, value)| (*index, graph.number(value.clone()))).collect()
 }
 
-/// The parameters' values as constants, some of them set by the caller in terms of those before.
+/// The parameters' values as constants, some of them set by the caller in terms of earlier ones.
 pub fn parameter_values(
     graph: &mut Graph,
     model: &Model,

@@ -1,11 +1,11 @@
-//! Derives fields about a place far from the origin in coordinates less that place.
+//! Derives fields about a place far from the origin in coordinates relative to that place.
 //!
-//! Of a body a million times as far from the origin as it is large, X has six digits less to tell its points
-//! apart, and no formula must lose them once more: k (X - s) - w t is one sum in the graph, k X - k s - w t, and k
-//! s - w t would be rounded first; what multiplies out squares has X^2 and s^2 apart. So parameters that a field
-//! has nothing of but coordinates less them, and the corner of a box that is far from the origin, are taken from
-//! the coordinates before anything is derived. X - s becomes a value of its own, [`Node::Offset`]: to every
-//! pass it is a leaf as exact as X is, with the slope 1, and in the program a difference.
+//! If a body is a million times as far from the origin as it is large, X has six digits less to distinguish its points, and no
+//! formula may lose more. k (X - s) - w t is one sum in the graph, k X - k s - w t, and k s - w t would be rounded first; a
+//! multiplied-out square has X^2 and s^2 in separate terms. So some numbers are subtracted from the coordinates before anything
+//! is derived: a parameter that only occurs subtracted from coordinates, and the corner of a box that is far from the origin.
+//! X - s becomes a value of its own, [`Node::Offset`]: to every pass it is a leaf as exact as X is, with the slope 1, and in
+//! the program a difference.
 
 use crate::model::Model;
 use crate::place::{defaults, value_with};
@@ -13,11 +13,11 @@ use mms_symbolic::expr::{Expr, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::substitute::{coordinates, substitute};
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// How many times larger than the body a coordinate is where it is far from the origin.
+/// The ratio of a coordinate to the size of the body from which the body counts as far from the origin.
 const FAR: f64 = 4.0;
 
-/// Puts the coordinates less the place that the field is about in place of the coordinates, where there is such a place:
-/// parameters that are nothing but subtracted from coordinates, or a corner of a box that is far from there.
+/// Replaces the coordinates by coordinates relative to the place of the field, if it has one: parameters that only occur
+/// subtracted from coordinates, or a corner of a box that is far from the origin.
 pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
     let mut places = said(graph, model);
     places.extend(far_corners(graph, model, &places));
@@ -30,7 +30,7 @@ pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
     }
 }
 
-/// The places that parameters say, by axes.
+/// The places that parameters define, by axes.
 fn said(graph: &mut Graph, model: &Model) -> SortedMap<usize, Expr> {
     let axes: Vec<usize> = (0..model.space.coordinates()).collect();
     let mut places = SortedMap::<usize, Expr>::new();
@@ -46,8 +46,8 @@ fn said(graph: &mut Graph, model: &Model) -> SortedMap<usize, Expr> {
     places
 }
 
-/// Numbers near the lower bounds of a box, where these are far from the places: multiples of a power of two that is about
-/// as large as the box. Every precision has them, and takes them from a coordinate without an error.
+/// Numbers near the lower bounds of a box, if these are far from the known places: multiples of a power of two that is about as
+/// large as the box. Every precision represents them, and subtracts them from a coordinate without an error.
 fn far_corners(
     graph: &mut Graph,
     model: &Model,
@@ -67,7 +67,7 @@ fn far_corners(
     (0..bounds.len()).filter_map(far).collect()
 }
 
-/// The parameters that a coordinate has beside it in a sum.
+/// The parameters that occur in a sum with a coordinate.
 fn subtracted(graph: &mut Graph, model: &Model) -> SortedSet<Expr> {
     let is = |expr: Expr, wanted: fn(&Symbol) -> bool| match graph.node(expr) {
         Node::Symbol(symbol) => wanted(symbol),
@@ -84,7 +84,7 @@ fn subtracted(graph: &mut Graph, model: &Model) -> SortedSet<Expr> {
     found
 }
 
-/// Whether the fields have nothing of a parameter but coordinates less it.
+/// Whether the fields contain a parameter only in differences from coordinates.
 fn is_about(graph: &mut Graph, model: &Model, axes: &[usize], parameter: Expr) -> bool {
     graph.aside(|graph| {
         let places = axes.iter().map(|axis| (*axis, parameter));

@@ -1,4 +1,4 @@
-//! What programs of fields compute.
+//! The outputs of programs of fields.
 
 use crate::boundary::Datum;
 use mms_math::coordinates::System;
@@ -11,7 +11,7 @@ use mms_spec::quantity::Quantity;
 /// The program of a field.
 pub type Program = mms_program::Program<Output>;
 
-/// What a program computes.
+/// An output of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Output {
     /// A quantity of the field at a point and a time.
@@ -20,17 +20,17 @@ pub enum Output {
     Response(Response),
     /// A part of the domain.
     Bound(Bound),
-    /// The default value of the parameter of that index.
+    /// The default value of the parameter at this index.
     Parameter(usize),
-    /// The closed form of the check of that index.
+    /// The closed form of the check at this index.
     Expected(usize),
-    /// What is given on a face.
+    /// A datum on a face.
     Face(Face, Datum),
 }
 
 impl Output {
-    /// Whether it is a quantity: those are what compiled code computes over many points, in a loop for what X gives and
-    /// another for t, where that pays.
+    /// Whether the output is a quantity. Compiled code computes quantities over many points, in one loop for the part of X and
+    /// another for the part of t, if that pays.
     pub fn is_quantity(self) -> bool {
         matches!(self, Output::Quantity(_))
     }
@@ -43,9 +43,9 @@ pub enum Bound {
     Lower,
     /// The greatest coordinates of a box.
     Upper,
-    /// The inner radius of what is round.
+    /// The inner radius of a round body.
     Inner,
-    /// The outer radius of what is round.
+    /// The outer radius of a round body.
     Outer,
     /// The first and last angle about the axis Z.
     Theta,
@@ -55,14 +55,14 @@ pub enum Bound {
     Phi,
     /// The vertices of a polygon, one after another.
     Vertices,
-    /// As many zeros as space has dimensions, of a field without a body.
+    /// Zeros, one for each dimension, of a field without a body.
     Space,
     /// The first and last time.
     Time,
 }
 
 impl Bound {
-    /// All of them.
+    /// All bounds.
     pub const ALL: [Bound; 10] = [
         Bound::Lower,
         Bound::Upper,
@@ -76,7 +76,7 @@ impl Bound {
         Bound::Time,
     ];
 
-    /// The name of it in emitted code.
+    /// The name of the bound in emitted code.
     pub fn name(self) -> &'static str {
         match self {
             Bound::Lower => "lower",
@@ -92,7 +92,7 @@ impl Bound {
         }
     }
 
-    /// The sentence that describes it.
+    /// The sentence that describes the bound.
     pub fn doc(self) -> &'static str {
         match self {
             Bound::Lower => "The body's least reference coordinates, m.",
@@ -109,7 +109,7 @@ impl Bound {
     }
 }
 
-/// The parts of a body, each with its numbers; of none, as many zeros as space has dimensions.
+/// The parts of a body, each with its numbers; without a body, one zero for each dimension.
 pub fn parts<V: Clone>(body: &Region<V>, zero: V) -> Vec<(Bound, Vec<V>)> {
     let end = |bounds: &[[V; 2]], end: usize| bounds.iter().map(|it| it[end].clone()).collect();
     match body {
@@ -129,7 +129,7 @@ pub fn parts<V: Clone>(body: &Region<V>, zero: V) -> Vec<(Bound, Vec<V>)> {
     }
 }
 
-/// The body of which these are the parts.
+/// Makes the body that has these parts.
 pub fn body<V: Clone>(part: impl Fn(Bound) -> Option<Vec<V>>) -> Region<V> {
     let pairs = |values: Vec<V>| {
         let pairs = values.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]);

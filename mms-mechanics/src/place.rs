@@ -1,5 +1,5 @@
-//! Evaluates expressions at a few places of the body, in double-double: which are 0 there, and which are 0
-//! whatever the parameters are.
+//! Evaluates expressions at a few places of the body, in double-double, and finds which are 0 there, and which are 0 for all
+//! parameters.
 
 use mms_math::coordinates::System;
 use mms_math::polygon;
@@ -10,14 +10,14 @@ use crate::model::Model;
 use mms_program::interpret::{Number as _, binary, unary};
 use mms_symbolic::expr::{ByExpr, Expr, Graph, Node, Rational, Symbol};
 
-/// At how many places, anywhere, an identity is looked at, and how many of them must have a value.
+/// The number of places, anywhere, where an identity is tested, and how many of them must have a value.
 const ANYWHERE: usize = 24;
 const ENOUGH: usize = 6;
 
-/// What it takes to evaluate a node.
+/// The steps of evaluating a node.
 pub(super) const STEPS_OF_VALUE: u64 = 20;
 
-/// A sum is 0 where it is less than that of its terms, of 31 digits.
+/// The size relative to its largest term below which a sum of 31 digits counts as 0.
 const CANCELLED: f64 = 1e-24;
 
 /// Values of the parameters, of X and of t.
@@ -28,7 +28,7 @@ pub(super) struct Spot {
     pub time: Double,
 }
 
-/// Whether expressions are 0 together, whatever the parameters, X and t are, and not one by one.
+/// Whether the sum of expressions is 0 for all parameters, X and t, but not each one.
 pub(super) fn cancel(graph: &mut Graph, model: &Model, terms: &[Expr]) -> bool {
     let sum = graph.sum(terms.iter().map(|term| (*term, Rational::ONE)));
     let places = anywhere(graph, model, &defaults(graph, model), None);
@@ -45,7 +45,7 @@ pub(super) fn vanishes(values: &[Double]) -> bool {
     finite.peek().is_some() && finite.all(|value| value.to_f64() == 0.0)
 }
 
-/// Whether values are 0 at so many places that they are 0 for any signs of the parameters and of X.
+/// Whether values are 0 at enough places to be 0 for any signs of the parameters and of X.
 pub(super) fn is_identity(values: &[Double]) -> bool {
     let finite = values.iter().filter(|value| value.to_f64().is_finite()).count();
     finite >= ENOUGH && vanishes(values)
@@ -61,24 +61,24 @@ pub(super) fn defaults(graph: &Graph, model: &Model) -> Vec<Double> {
     place.parameters
 }
 
-/// What the body and the time window are bounded by.
+/// The bounds of the body and of the time window.
 pub(super) fn bounds(model: &Model) -> Vec<Expr> {
     [&model.domain.body.values()[..], &model.domain.time].concat()
 }
 
-/// As many places of the body as asked for.
+/// `count` places of the body.
 pub(super) fn places(
     graph: &Graph,
     model: &Model,
     parameters: &[Double],
     count: usize,
 ) -> Vec<Spot> {
-    // The first points of the sequence have simple fractions, where X may be Y.
+    // The first points of the sequence have simple fractions, where X may equal Y.
     let fractions: Vec<[Double; 4]> = (101..101 + count).map(halton).collect();
     places_at(graph, model, parameters, &fractions)
 }
 
-/// The corners of the body, its middle and those of its edges and faces, at the first time and halfway.
+/// The corners of the body, its middle and the middles of edges and faces, at the first time and halfway.
 pub(super) fn edges(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Spot> {
     let dimension = model.space.coordinates();
     let ends = [0.0, 0.5, 1.0].map(Double::from_f64);
@@ -118,7 +118,7 @@ pub(super) fn size(default: &Double) -> Double {
     if default.to_f64() == 0.0 { Double::from_f64(1.0) } else { *default }
 }
 
-/// Places with parameters, X and t of their usual size and of any sign, but for a parameter that is 0.
+/// Places with parameters, X and t of their usual size and of any sign; the parameter `nothing`, if any, is 0.
 pub(super) fn anywhere(
     graph: &Graph,
     model: &Model,
@@ -144,7 +144,7 @@ pub(super) fn anywhere(
     (101..101 + ANYWHERE).map(place).collect()
 }
 
-/// How large the three components of X and t are in the body and in the time window.
+/// The sizes of the three components of X and of t in the body and in the time window.
 fn extent(graph: &Graph, model: &Model, parameters: &[Double]) -> [Double; 4] {
     let nowhere = nowhere(parameters);
     let largest = |bounds: &[Expr]| {
@@ -168,13 +168,13 @@ fn extent(graph: &Graph, model: &Model, parameters: &[Double]) -> [Double; 4] {
     [along(0), along(1), along(2), largest(&model.domain.time)]
 }
 
-/// The triangles of a polygon, by the positions of their vertices, where the parameters have their defaults; none of another
+/// The triangles of a polygon, by the positions of their vertices, with the parameters at their defaults; none for another
 /// body.
 pub fn triangles(graph: &Graph, model: &Model) -> Vec<[usize; 3]> {
     vertices(graph, model).map_or_else(Vec::new, |vertices| polygon::triangles(&vertices))
 }
 
-/// The largest of them.
+/// The largest triangle of the polygon.
 pub fn largest_triangle(graph: &Graph, model: &Model) -> [usize; 3] {
     let vertices = vertices(graph, model).unwrap_or_default();
     let area = |it: &[usize; 3]| polygon::area(&it.map(|corner| vertices[corner])).abs();
@@ -189,12 +189,12 @@ fn vertices(graph: &Graph, model: &Model) -> Option<Vec<[f64; 2]>> {
     Some(vertices.iter().map(|vertex| vertex.map(number)).collect())
 }
 
-/// The value of what does not depend on X and t, with these parameters.
+/// The value of an expression without X and t, with these parameters.
 pub(super) fn value_with(graph: &Graph, expr: Expr, parameters: &[Double]) -> Double {
     value(graph, expr, &nowhere(parameters))
 }
 
-/// Values of the parameters, for what does not depend on X and t.
+/// Values of the parameters, for expressions without X and t.
 fn nowhere(parameters: &[Double]) -> Spot {
     Spot { parameters: parameters.to_vec(), coordinates: Vec::new(), time: Double::from_f64(0.0) }
 }
@@ -203,11 +203,11 @@ fn value(graph: &Graph, expr: Expr, place: &Spot) -> Double {
     evaluate(graph, &[expr], std::slice::from_ref(place))[expr][0]
 }
 
-/// Values at some places of everything that some expressions are made of.
+/// Values at some places of all sub-expressions of some expressions.
 pub(super) struct Values {
-    /// What they are made of, operands before users.
+    /// The sub-expressions, operands before users.
     pub reached: Vec<Expr>,
-    /// Of each, the values at all places.
+    /// The values of each sub-expression at all places.
     values: ByExpr<Vec<Double>>,
 }
 
@@ -219,7 +219,7 @@ impl std::ops::Index<Expr> for Values {
     }
 }
 
-/// The values of everything that `roots` are made of; what cancels is 0.
+/// Evaluates all sub-expressions of `roots`; a sum that cancels is 0.
 pub(super) fn evaluate(graph: &Graph, roots: &[Expr], places: &[Spot]) -> Values {
     let mut values = ByExpr::<Vec<Double>>::of(roots);
     let reached = graph.reachable(roots);
@@ -232,7 +232,7 @@ pub(super) fn evaluate(graph: &Graph, roots: &[Expr], places: &[Spot]) -> Values
     Values { reached, values }
 }
 
-/// The value of a node, where `of` has those of its operands.
+/// The value of a node, where `of` returns the values of its operands.
 pub(super) fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &Spot) -> Double {
     let zero = Double::from_f64(0.0);
     let without = |value: Double, scale: f64| {
@@ -244,7 +244,7 @@ pub(super) fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &Spot) -> Doub
         Node::Symbol(Symbol::Parameter(index)) => place.parameters[*index],
         Node::Symbol(Symbol::Time) => place.time,
         Node::Symbol(Symbol::Coordinate(axis)) => place.coordinates[*axis],
-        // A normal, or what is not in a motion.
+        // A normal, or a symbol that no motion contains.
         Node::Symbol(_) => Double::from_f64(0.6),
         Node::Sum(constant, terms) => {
             let constant = Double::from_rational(constant);

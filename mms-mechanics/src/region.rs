@@ -1,4 +1,4 @@
-//! Reference bodies, in formulas or in numbers: one description, which positions, faces and bounds follow from.
+//! Reference bodies, in formulas or in numbers: one description, from which positions, faces and bounds follow.
 
 use mms_math::coordinates::System;
 
@@ -11,7 +11,7 @@ pub enum Region<V> {
     Block(Block<V>),
     /// A polygon in the plane, by its vertices.
     Polygon(Vec<[V; 2]>),
-    /// No body, in a space of that dimension.
+    /// No body, in a space of this dimension.
     Nothing(usize),
 }
 
@@ -20,7 +20,7 @@ pub enum Region<V> {
 pub struct Block<V> {
     /// The coordinates.
     pub system: System,
-    /// Their least and greatest values, one pair per dimension.
+    /// The least and greatest values of the coordinates, one pair per dimension.
     pub bounds: Vec<[V; 2]>,
 }
 
@@ -31,7 +31,7 @@ impl<V: Clone> Region<V> {
         Region::Block(Block { system: System::Cartesian, bounds })
     }
 
-    /// The dimension of its space.
+    /// The dimension of the space.
     pub fn dimension(&self) -> usize {
         match self {
             Region::Block(block) => block.bounds.len(),
@@ -40,7 +40,7 @@ impl<V: Clone> Region<V> {
         }
     }
 
-    /// The bounds of a box with edges along the axes.
+    /// The bounds of a box with edges along the axes; `None` for other bodies.
     pub fn box_bounds(&self) -> Option<&[[V; 2]]> {
         match self {
             Region::Block(Block { system: System::Cartesian, bounds }) => Some(bounds),
@@ -48,7 +48,7 @@ impl<V: Clone> Region<V> {
         }
     }
 
-    /// The numbers that say where it is, in a fixed order.
+    /// The numbers that define the body, in a fixed order.
     pub fn values(&self) -> Vec<V> {
         match self {
             Region::Block(block) => block.bounds.iter().flatten().cloned().collect(),
@@ -98,7 +98,7 @@ pub fn fixed_coordinate(face: Face) -> (usize, bool) {
         Face::RadialMax => (0, true),
         Face::AxialMin => (1, false),
         Face::AxialMax => (1, true),
-        // An edge is no bound of a coordinate of space; along it one varies.
+        // An edge is no bound of a coordinate; the coordinate along it varies.
         Face::Edge(..) => (1, false),
     }
 }

@@ -1,7 +1,7 @@
 //! Quantities on request: S, pressure, von Mises stress and the small strain.
 //!
-//! Pressure and von Mises stress are of three dimensions. So the stress is that of H with the rows and columns that a field lacks, which are 0:
-//! plane strain, or uniaxial strain, as W has it. A rigid motion on top changes none of the stresses:
+//! Pressure and von Mises stress are of three dimensions. So the stress is computed for H padded with zeros for the dimensions
+//! that a field lacks: plane strain, or uniaxial strain, by W itself. A rigid motion on top changes none of the stresses:
 //!
 //! ```text
 //! S = F^-1 P     p = -tr(sigma)/3     von Mises = sqrt(3/2 s:s),  s = sigma + p I
@@ -89,8 +89,8 @@ fn pressure(graph: &mut Graph, stress: &Tensor) -> Expr {
     graph.scale(trace, Rational::from_parts((-1).into(), 3u8.into()))
 }
 
-/// From differences of the normal stresses, in which the pressure cancels: s:s = ((s1 - s2)^2 + (s2 - s3)^2 + (s3 - s1)^2)/3 and
-/// the squares of the shear stresses.
+/// Computes the von Mises stress from differences of the normal stresses, in which the pressure cancels: s:s = ((s1 - s2)^2 +
+/// (s2 - s3)^2 + (s3 - s1)^2)/3 and the squares of the shear stresses.
 fn von_mises(graph: &mut Graph, stress: &Tensor) -> Expr {
     let three_halves = Rational::from_parts(3.into(), 2u8.into());
     let mut terms = Vec::new();

@@ -1,4 +1,4 @@
-//! From a parsed formula and the names in scope to an expression.
+//! Resolves a parsed formula, with the names in scope, to an expression.
 
 mod sign;
 
@@ -10,24 +10,24 @@ use mms_spec::syntax::{Ast, Kind, Operator};
 use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// Functions that people try, and why a field cannot have them.
+/// Functions that people try, and that a field cannot have.
 const NON_SMOOTH: &[&str] =
     &["abs", "sign", "sgn", "min", "max", "floor", "ceil", "round", "mod", "step", "heaviside"];
 
-/// An operation that may not have a value or a derivative everywhere, as it is written.
+/// An operation, as written, that may lack a value or a derivative somewhere.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// Where it stands.
+    /// The place in the file.
     pub span: Span,
-    /// What it makes, by itself: a power or a call; of a quotient what it divides by, for to record a step is to make no
-    /// node. Canonical form may cancel it in what uses it.
+    /// The value of the operation itself: a power or a call; for a quotient the divisor, since recording a step must not make a
+    /// node. Canonical form may cancel it in expressions that use it.
     pub value: Expr,
-    /// Whether that is a divisor.
+    /// Whether the value is a divisor.
     pub is_divisor: bool,
 }
 
 impl Step {
-    /// What the step makes.
+    /// The value of the step.
     pub fn made(&self, graph: &mut Graph) -> Expr {
         if self.is_divisor { graph.power(self.value, -1) } else { self.value }
     }
@@ -37,7 +37,7 @@ impl Step {
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
     names: SortedMap<String, Expr>,
-    /// Names whose definitions stand further down, with those definitions.
+    /// Names that are defined further down, with those definitions.
     later: SortedMap<String, Span>,
     /// Names whose definitions failed or were refused: using them is a consequence, not a mistake.
     failed: SortedSet<String>,
@@ -45,14 +45,14 @@ pub struct Scope {
     unavailable: SortedMap<String, String>,
     /// Symbols known to be positive.
     positive: SortedSet<Symbol>,
-    /// A part of the file could not be read: a name may be defined there.
+    /// Whether a part of the file could not be read: a name may be defined there.
     incomplete: bool,
-    /// The help for an unknown name: the further names that formulas of this kind know.
+    /// The help for an unknown name: the further names that formulas of this kind may use.
     hint: Option<&'static str>,
 }
 
 impl Scope {
-    /// Makes a name known from here on; `None` marks a definition that failed.
+    /// Defines a name for the formulas after it; `None` marks a definition that failed.
     pub fn define(&mut self, name: &str, value: Option<Expr>) {
         self.later.remove(name);
         match value {
@@ -65,7 +65,7 @@ impl Scope {
         }
     }
 
-    /// The value of a name that is known.
+    /// The value of a defined name.
     pub fn known(&self, name: &str) -> Option<Expr> {
         self.names.get(name).copied()
     }
@@ -75,7 +75,7 @@ impl Scope {
         self.names.contains_key(name) || self.failed.contains(name) || self.later.contains_key(name)
     }
 
-    /// Makes names of the language that a file would define mean nothing.
+    /// Marks names of the language that a file would define as failed.
     pub fn refuse(&mut self, names: &[String]) {
         self.failed.extend(names.iter().cloned());
     }
@@ -85,7 +85,7 @@ impl Scope {
         self.later.insert(name.value.clone(), name.span);
     }
 
-    /// Says why a name of the language is not available in this scope.
+    /// Records why a name of the language is not available in this scope.
     pub fn withhold(&mut self, name: &str, reason: impl Into<String>) {
         self.unavailable.insert(name.into(), reason.into());
     }
@@ -95,7 +95,7 @@ impl Scope {
         self.incomplete = true;
     }
 
-    /// Says what else formulas of this kind know, for messages about unknown names.
+    /// Sets the help for unknown names: the further names that formulas of this kind may use.
     pub fn hint(&mut self, hint: &'static str) {
         self.hint = Some(hint);
     }
@@ -115,7 +115,7 @@ impl Scope {
         self.resolve_in_steps(graph, ast, diagnostics, &mut Vec::new())
     }
 
-    /// The same, with the powers, quotients and calls of it.
+    /// Resolves a formula, and returns its powers, quotients and calls as steps.
     pub fn resolve_in_steps(
         &self,
         graph: &mut Graph,
@@ -135,7 +135,7 @@ impl Scope {
         }
         let root = values.pop().flatten().map(|root| root.finish(graph));
         if graph.is_exhausted() {
-            // What was reported of a void graph means nothing, and so would a second report.
+            // Reports about a full graph are meaningless, and a second report would be, too.
             diagnostics.truncate(reported);
             diagnostics.extend(ast.nodes.last().map(|formula| {
                 let diagnostic = Diagnostic::error(formula.span, "the formula is too large");
@@ -187,7 +187,7 @@ struct Resolver<'a> {
 }
 
 impl Resolver<'_> {
-    /// Every node is the operand of one other, so that its value can be taken.
+    /// Resolves a node. Each node is the operand of one other, so its value can be moved.
     fn node(
         &mut self,
         kind: &Kind,
@@ -251,7 +251,7 @@ impl Resolver<'_> {
         }
         let diagnostic =
             Diagnostic::error(span, format!("unknown name `{name}`")).label("not defined");
-        // So many are not shown, and to look for what each may mean takes long.
+        // Further messages are not shown, and the search for similar names is slow.
         if self.diagnostics.len() >= MAX_RENDERED {
             return self.report(diagnostic);
         }
@@ -323,7 +323,7 @@ impl Resolver<'_> {
                         .help("write the exponent as a number, or the base as exp(..) of its logarithm"),
                 );
             }
-            // Whether another base is positive over the body is proved with the branches of all functions.
+            // The proofs about branches decide whether another base is positive over the body.
             return Some(self.graph.call(Function::Powf, &[base, exponent]));
         };
         match self.graph.as_number(base) {
@@ -421,7 +421,7 @@ impl Resolver<'_> {
     }
 }
 
-/// How many arguments a function of the language takes. `hypot` is a square root in the graph.
+/// The number of arguments of a function of the language. `hypot` is a square root in the graph.
 fn arity(name: &str) -> Option<usize> {
     if name == "hypot" {
         return Some(2);
@@ -431,7 +431,7 @@ fn arity(name: &str) -> Option<usize> {
 }
 
 fn forward_reference(name: &str, span: Span, definition: Span) -> Diagnostic {
-    // The definition that a formula belongs to is still announced while it is resolved.
+    // While a formula is resolved, its own definition is still announced.
     let own = span.source == definition.source && definition.end <= span.start;
     let message = if own {
         format!("`{name}` is defined by itself")

@@ -1,4 +1,4 @@
-//! The material at F = I, in space whatever the dimension of the field is, with each given field in its state of rest.
+//! The material at F = I, in three dimensions for every field, with each given field in its state of rest.
 
 use crate::invariant::Kind;
 use crate::kinematics::Strain;
@@ -22,8 +22,8 @@ pub fn at_rest(graph: &mut Graph, model: &Model) -> [Vec<Expr>; 2] {
     [stress.components().to_vec(), tangent]
 }
 
-/// The places, among the given fields of the material, of those that set a spherical stress at F = I, as a pressure does: W is
-/// a function of them whose slope there is a multiple of I.
+/// The indices, among the given fields of the material, of the fields that set a spherical stress at F = I, as a pressure does:
+/// the slope of W by such a field is a multiple of I there.
 pub fn pressures(
     graph: &mut Graph,
     field: &FieldSpec,
@@ -55,11 +55,11 @@ pub fn is_spherical(graph: &Graph, components: &[Expr]) -> bool {
     })
 }
 
-/// The moduli at F = I with their names: dP/dF is positive definite for strains where all of them are positive, and only there.
+/// The moduli at F = I with their names: dP/dF is positive definite for strains if and only if all of them are positive.
 ///
 /// Without fibres these are mu and 3 lambda + 2 mu. With fibres they are in the basis whose first axis is the fibres', so that
-/// the direction of these does not matter: two moduli of shear, and what is left of two others once a stretch along the fibres,
-/// and one all around them, have been told apart.
+/// the direction of the fibres does not matter: two shear moduli, the modulus of stretches all around the fibres, and Young's
+/// modulus along them.
 pub fn moduli(graph: &mut Graph, model: &Model) -> Vec<(&'static str, Expr)> {
     let kind = match &model.kind {
         Kind::Fibrous(_) => Kind::Fibrous([1, 0, 0].map(|entry| graph.number(entry)).to_vec()),

@@ -5,11 +5,11 @@
 //! b* = Q b + Q'' x + 2 Q' v + d''
 //! ```
 //!
-//! (Truesdell & Noll, The Non-Linear Field Theories of Mechanics, 1965, sections 17 and 19.) The motion is put on
-//! top of a derivation that is already simplified. So a twin carries the stress of its field, in which no rotation
-//! has to cancel, and costs the field plus the turning. Q - I is made of sine and cosine of half the angle, so
-//! that small angles keep their digits. That holds for materials that are frame-indifferent. The others are
-//! refused a rotation: those whose W is written in the small strain, and those whose file claims no more.
+//! (Truesdell & Noll, The Non-Linear Field Theories of Mechanics, 1965, sections 17 and 19.) The motion is added to a
+//! derivation that is already simplified. So a twin has the rotated stress of its field, in which no rotation has to cancel,
+//! and costs the field plus the rotation. Q - I is computed from sine and cosine of half the angle, so that small angles keep
+//! their digits. The formulas hold for frame-indifferent materials. Other materials are refused a rotation: those whose W is
+//! written in the small strain, and those whose file does not claim indifference.
 
 use crate::derivation::{Derivation, Response};
 use crate::kinematics::total;
@@ -21,7 +21,7 @@ use mms_symbolic::expr::{Expr, Function, Graph, HALF, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 
 impl Rotation {
-    /// The square of the length of the axis, in space.
+    /// The squared length of the axis, in space; `None` in the plane.
     pub fn axis_squared(&self, graph: &mut Graph) -> Option<Expr> {
         match self {
             Rotation::Plane { .. } => None,
@@ -29,9 +29,8 @@ impl Rotation {
         }
     }
 
-    /// Q - I = 2 s (c K + s K^2), with s and c the sine and cosine of half the angle and K the
-    /// rotation by a quarter turn, less what stays at rest (Rodrigues 1840). At small angles nothing
-    /// cancels.
+    /// Q - I = 2 s (c K + s K^2), with s and c the sine and cosine of half the angle and K the rotation by a quarter turn less
+    /// the projection on the axis (Rodrigues 1840). At small angles nothing cancels.
     pub fn excess(&self, graph: &mut Graph) -> Tensor {
         let quarter = self.quarter_turn(graph);
         let (Rotation::Plane { angle } | Rotation::Space { angle, .. }) = self;
@@ -44,8 +43,7 @@ impl Rotation {
         linear.add(graph, &square).scale(graph, twice)
     }
 
-    /// K, the rotation by a quarter turn less what stays at rest: the cross product with the unit axis
-    /// in space.
+    /// K, the rotation by a quarter turn less the projection on the axis: in space, the cross product with the unit axis.
     pub fn quarter_turn(&self, graph: &mut Graph) -> Tensor {
         let zero = graph.number(0);
         let Rotation::Space { axis, .. } = self else {
@@ -87,8 +85,7 @@ impl RigidMotion {
         sum(graph, [&turned, &swung, &self.translation])
     }
 
-    /// Every quantity of the twin, from those of the field. What the material answers to a
-    /// displacement gradient stays as it is.
+    /// Every quantity of the twin, from the quantities of the field. The responses to a displacement gradient stay as they are.
     pub fn compose(&self, graph: &mut Graph, inner: &Derivation) -> Derivation {
         let twin = Twin::new(graph, self, inner);
         let quantities = inner
@@ -100,7 +97,7 @@ impl RigidMotion {
     }
 }
 
-/// A field, and what moves it.
+/// A field, and the motion on top of it.
 struct Twin<'a> {
     inner: &'a Derivation,
     /// Q - I.
@@ -155,7 +152,7 @@ impl<'a> Twin<'a> {
             | Quantity::Pressure
             | Quantity::VonMises
             | Quantity::SmallStrain
-            // The names of a balance are about the motion of the twin.
+            // The names of a balance mean the motion of the twin.
             | Quantity::Own(_) => inner.clone(),
             Quantity::DivP | Quantity::DivSigma | Quantity::Traction => {
                 self.rotation.apply(graph, inner)

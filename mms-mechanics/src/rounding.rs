@@ -1,5 +1,5 @@
-//! A first-order bound of the rounding error of expressions as they are written, at places of the body, after
-//! Wilkinson (Rounding Errors in Algebraic Processes, 1963).
+//! A first-order bound of the rounding error of expressions as written, at places of the body, after Wilkinson (Rounding Errors
+//! in Algebraic Processes, 1963).
 
 use mms_math::{Double, Scalar as _};
 
@@ -8,19 +8,20 @@ use crate::place::{STEPS_OF_VALUE, Spot, Values, at, defaults, evaluate, places}
 use mms_program::interpret::Number as _;
 use mms_symbolic::expr::{ByExpr, Expr, Graph, Node};
 
-/// The part of an operand's error by which an operation is tried with another value of it.
+/// The part of an operand's error by which the operand is changed to find its effect.
 const PART: f64 = 1e-12;
 
-/// By how much an error may grow where it is to be about the same.
+/// The growth of an error that still counts as about the same.
 const ABOUT: f64 = 1.5;
 
-/// Bounds up to this, in units of one rounding of the largest value, are as good as any.
+/// The bound, in units of one rounding of the largest value, up to which all forms count as equally good.
 const FEW: f64 = 64.0;
 
-/// How many times the least bound is too much where none is that small: a dearer way shall gain a digit at least.
+/// The ratio to the least bound from which a form is rejected if no bound is that small: a more expensive form must gain a
+/// digit at least.
 const MUCH: f64 = 16.0;
 
-/// At how many places errors are looked at.
+/// The number of places where errors are bounded.
 const PLACES: usize = 4;
 
 /// The places at which rounding errors are bounded.
@@ -30,22 +31,23 @@ pub struct Rounding {
 }
 
 impl Rounding {
-    /// Takes some places of the body, with the parameters at their defaults.
+    /// Chooses some places of the body, with the parameters at their defaults.
     pub fn new(graph: &Graph, model: &Model) -> Self {
         Rounding { places: places(graph, model, &defaults(graph, model), PLACES) }
     }
 
-    /// Whether `after`, of the same values as `before`, is about as exact.
+    /// Whether `after`, which has the same values as `before`, is about as exact.
     pub fn allows(&self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
         self.bound(graph, after) <= ABOUT * self.bound(graph, before)
     }
 
-    /// Whether the bound is so small that no other way need be looked for.
+    /// Whether the bound is so small that no other form is needed.
     pub fn is_small(&self, graph: &Graph, roots: &[Expr]) -> bool {
         self.bound(graph, roots) <= FEW
     }
 
-    /// The first of several ways to write the same with a small bound, or else with one that is not much above the least.
+    /// The first of several forms of the same values with a small bound, or else the first whose bound is not much above the
+    /// least.
     pub fn first<'a>(&self, graph: &Graph, ways: &[&'a [Expr]]) -> Option<&'a [Expr]> {
         let mut bounded = Vec::new();
         for way in ways {
@@ -60,8 +62,7 @@ impl Rounding {
         good.map(|(way, _)| way)
     }
 
-    /// The largest error of any component at any place, in units of one rounding of the largest value; 0 where nothing is
-    /// known.
+    /// The largest error of any component at any place, in units of one rounding of the largest value; 0 if nothing is known.
     fn bound(&self, graph: &Graph, roots: &[Expr]) -> f64 {
         let values = evaluate(graph, roots, &self.places);
         let (mut error, mut value) = (0.0, 0.0);
@@ -80,7 +81,7 @@ impl Rounding {
         if error == 0.0 { 0.0 } else { error / value }
     }
 
-    /// The error of everything at a place, where one rounding of 1 is an error of 1.
+    /// The errors of all sub-expressions at a place, in roundings of 1.
     fn errors(
         &self,
         graph: &Graph,
@@ -98,7 +99,7 @@ impl Rounding {
             let value = values[expr][index];
             let error = match graph.stage(expr).needs_point() {
                 true => error(node, value, of, &errors, place),
-                // That has more digits until it is done.
+                // This value has more digits until it is stored.
                 false => value.to_f64().abs(),
             };
             errors.set(expr, error);
@@ -107,7 +108,7 @@ impl Rounding {
     }
 }
 
-/// What operands pass on of their errors, and what is rounded anew.
+/// The error that operands pass on, plus a new rounding error.
 fn error(
     node: &Node,
     value: Double,
@@ -115,7 +116,7 @@ fn error(
     errors: &ByExpr<f64>,
     place: &Spot,
 ) -> f64 {
-    // Of anything but a sum every operand is changed, and the node evaluated with it.
+    // For every node except a sum, each operand is changed, and the node is evaluated again.
     let changed = |child: Expr| {
         let change = Double::from_f64(PART * errors[child]);
         let changed = |other| if other == child { of(child) + change } else { of(other) };
@@ -146,7 +147,7 @@ mod tests {
     use super::*;
     use mms_symbolic::expr::{Rational, Symbol};
 
-    /// At X = 1/2 and t = 1/3.
+    /// Bounds at X = 1/2 and t = 1/3.
     fn rounding() -> Rounding {
         let [coordinate, time] = [0.5, 1.0 / 3.0].map(Double::from_f64);
         Rounding { places: vec![Spot { parameters: vec![], coordinates: vec![coordinate], time }] }
@@ -170,7 +171,7 @@ mod tests {
         assert_eq!(near, plain);
         assert!(!rounding.allows(&graph, &[plain], &[far]));
         assert!(rounding.allows(&graph, &[far], &[plain]));
-        // Each of t and x^2 is rounded, and their product twice at most.
+        // t and x^2 are rounded once each, and their product at most twice.
         let [of_plain, of_far, of_farther] =
             [plain, far, farther].map(|root| rounding.bound(&graph, &[root]));
         assert!((2.0..8.0).contains(&of_plain), "{of_plain}");

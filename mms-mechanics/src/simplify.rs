@@ -1,46 +1,43 @@
-//! Simplification: of several candidates for a quantity, all of the same exact value, choose the cheapest to
-//! compute among those that are accurate. No candidate is best for all quantities.
+//! Simplification: chooses, among several candidates for a quantity with the same exact value, the cheapest to compute of those
+//! that are accurate. No candidate is best for all quantities.
 //!
 //! # Candidates
 //!
-//! The derivation is made once without relations and, if the displacement has some, once more with the motion
-//! reduced by them, so that det F = 1 of a rotation is 1 from the start. `candidates` makes of every quantity each form
-//! that the passes give, by name, and chooses; all are scheduled. A pass that outgrows the graph is undone.
+//! The derivation is made once without relations and, if the displacement has some, once more with the motion reduced by them,
+//! so that det F = 1 of a rotation is 1 from the start. `candidates` makes each form of every quantity that the passes give, by
+//! name, and chooses; all are scheduled. A pass that outgrows the graph is undone.
 //!
 //! # Cost
 //!
-//! Operations that depend on X count first, then all. Div P and b, which a solver asks for at every step, are also
-//! written with what X determines apart from what t does (`separate`). That candidate is taken where it leaves
-//! less to be done at each time, an operation that needs t counted twice, and at most a sixteenth more from a
-//! position. Of these two quantities it is also asked what they cost where a product that is added takes no step
-//! of its own, as in loops over points on processors with fused multiply-add: then one number can serve in place
-//! of two that differ by a constant (`shift`), and constants are added up (`gather`), where that is fewer steps
-//! and no more of those that need t. But for Div P and b, no chosen program costs more than the plain one; these
-//! may take at most a sixteenth more operations at a point, and some more that are done once.
+//! Operations that depend on X count first, then all. Div P and b, which a solver computes in every step, are also written with
+//! the part that X determines separate from the part that t determines (`separate`). That candidate is chosen if it leaves less
+//! to compute at each time, an operation that needs t counted twice, and at most a sixteenth more from a position. For these
+//! two quantities a second cost counts additions of products as free, as in loops over points on processors with fused
+//! multiply-add: one number may then replace two that differ by a constant (`shift`), and constants are added up (`gather`), if
+//! that takes fewer steps and no more steps that need t. Except for Div P and b, no chosen program costs more than the plain
+//! one; these two may take at most a sixteenth more operations at a point, and some more that are done once.
 //!
 //! # Accuracy
 //!
-//! Which candidates are open is the `Form`. The fast form takes the cheapest of all, and loses eps/e where a
-//! strain e is small, in W eps/e^2. What the solver asks a material is the same in both.
+//! The `Form` determines the open candidates. The fast form chooses the cheapest of all, and loses eps/e at a small strain e,
+//! in W eps/e^2. The responses of the material are the same in both forms.
 //!
-//! In the stable form, the default, every quantity is within 64 eps of its largest magnitude over the declared
-//! body and time window, at any amplitude down to 1e-12 of the size (`tests/stable/`). Quantities that vanish with
-//! the strain (u, H, E, W, stress) are made of H after cancellation rewriting (`settle`), and of C - I and J - 1
-//! that are reduced in half of the angles that the field turns by: cos a = 1 - 2 h^2 with h = sin(a/2), so that a
-//! normal form is a polynomial in what is small with the angle, and a rotation of order one leaves nothing. All
-//! others are of the size of 1, of X or of a second derivative; errors of eps do them no harm, and they may be
-//! made of F = I + H, with ln J of a product. Where moduli depend on X, so does a part of Div P that is as small
-//! as the stress is: then Div P and b too are made of the rewritten H.
+//! In the stable form, the default, every quantity is within 64 eps of its largest magnitude over the declared body and time
+//! window, at any amplitude down to 1e-12 of the size (`tests/stable/`). Quantities that vanish with the strain (u, H, E, W,
+//! stress) are computed from H after cancellation rewriting (`settle`), and from C - I and J - 1 that are reduced in half of
+//! the angles that the field turns by: cos a = 1 - 2 h^2 with h = sin(a/2), so that a normal form is a polynomial in terms that
+//! are small with the angle, and a rotation of order one cancels. All other quantities are of the size of 1, of X or of a
+//! second derivative; errors of eps do not matter there, and they may be computed from F = I + H, with ln J of a product. If
+//! moduli depend on X, a part of Div P is as small as the stress: then Div P and b too are computed from the rewritten H.
 //!
-//! A first-order bound of the rounding error (`mechanics/rounding.rs`), at places of the body, holds candidates to
-//! digits. The separated and shifted forms of Div P and b are taken only if that bound grows by half at most. In
-//! the stable form it is asked for every quantity: a candidate beyond 64 roundings of the largest value, and 16
-//! times the least bound, gives place to another one of at most twice the operations at a point. So rewritten
-//! forms, which may lose digits at large strains that H itself keeps, give place there to what is 16 times as
-//! exact. `mechanics/amplitude.rs` says which candidates keep their digits at a small amplitude; these go before
-//! cheap ones.
+//! A first-order bound of the rounding error (`mechanics/rounding.rs`), at places of the body, decides whether a candidate is
+//! accurate. The separated and shifted forms of Div P and b are chosen only if that bound grows by at most half. In the stable
+//! form every quantity has a bound: a candidate beyond 64 roundings of the largest value, and beyond 16 times the least bound,
+//! is replaced by another one with at most twice the operations at a point. So rewritten forms, which may lose digits at large
+//! strains that H itself keeps, are replaced there by forms that are 16 times as exact. `mechanics/amplitude.rs` finds the
+//! candidates that keep their digits at a small amplitude; these precede cheap ones.
 //!
-//! `tests/operations.rs` holds operation counts to bounds.
+//! `tests/operations.rs` bounds the operation counts.
 
 use crate::amplitude::Amplitude;
 use crate::candidates::{
@@ -62,7 +59,8 @@ use mms_symbolic::pass::separate::separate;
 use mms_symbolic::pass::shift::shift;
 use mms_symbolic::sorted::SortedMap;
 
-/// What a solver asks for at every step, and may keep of points as far as X determines it; and what that is made of.
+/// The quantities that a solver computes in every step, whose X part may be stored for points; and the quantities that they are
+/// made of.
 const FORCES: [Quantity; 5] = [
     Quantity::DivP,
     Quantity::DivSigma,
@@ -74,8 +72,7 @@ const FORCES: [Quantity; 5] = [
 /// The components of quantities.
 type Quantities = Components<Quantity>;
 
-/// Simplifies those quantities of a derivation without relations that are wanted, and its
-/// responses; other quantities stay as they are.
+/// Simplifies the wanted quantities of a derivation without relations, and its responses; other quantities stay as they are.
 pub fn simplify(
     graph: &mut Graph,
     model: &Model,
@@ -86,7 +83,7 @@ pub fn simplify(
     let relations = Relations::find(graph, &model.displacement);
     let of_strain = |quantity| wanted(quantity) && vanishes_with_the_strain(quantity);
     let others = |quantity| wanted(quantity) && !vanishes_with_the_strain(quantity);
-    // Relations that are used early keep the motion short, and all that follows from it.
+    // Early relations keep the motion short, and everything that follows from it.
     let unrelated = Relations::default();
     let used = if relations.is_empty() { vec![&unrelated] } else { vec![&unrelated, &relations] };
     let mut by_gradient = vec![plain.quantities.clone()];
@@ -135,7 +132,8 @@ pub fn simplify(
     Derivation { quantities, responses }
 }
 
-/// What a motion comes to by one route, with each of these relations; what would outgrow the graph is left out.
+/// Derives the quantities of a motion by one route, with each of these relations; derivations that outgrow the graph are
+/// omitted.
 fn derived(
     graph: &mut Graph,
     model: &Model,
@@ -149,7 +147,7 @@ fn derived(
     used.iter().filter_map(with).collect()
 }
 
-/// Of each derivation these quantities alone.
+/// The wanted quantities of each derivation.
 fn only(derived: &[Quantities], wanted: impl Fn(Quantity) -> bool) -> Vec<Quantities> {
     let mut derived = derived.to_vec();
     for quantities in &mut derived {
@@ -158,7 +156,7 @@ fn only(derived: &[Quantities], wanted: impl Fn(Quantity) -> bool) -> Vec<Quanti
     derived
 }
 
-/// The chosen one of all candidates of some derivations of the same.
+/// The chosen components among all candidates of several derivations of the same quantities.
 fn cheapest<K: Ord + Copy>(
     graph: &mut Graph,
     derived: &[Components<K>],
@@ -169,7 +167,7 @@ fn cheapest<K: Ord + Copy>(
     cheapest_of(graph, derived, all, accuracy)
 }
 
-/// The same of other candidates.
+/// The chosen components among the candidates that `candidates` makes.
 fn cheapest_of<K: Ord + Copy>(
     graph: &mut Graph,
     derived: &[Components<K>],
@@ -196,8 +194,8 @@ fn rewritten(
     let amplitude = accuracy.amplitude;
     let settled = graph.attempt(|graph| derive_settled(graph, model, relations, amplitude));
     let settled = only(&[settled?.ok()??], wanted);
-    // To multiply out what was rewritten would undo it, modulo the relations of whole angles alone
-    // it does not: they do not occur in what is small.
+    // Multiplying out would undo the rewriting. Reducing modulo the relations of whole angles does not: these do not occur in
+    // small terms.
     let candidates = |graph: &mut Graph, derived: &_| {
         let mut all = unexpanded(graph, derived);
         all.extend(reduced(graph, Rewriting::Reduced, derived, relations));
@@ -206,8 +204,8 @@ fn rewritten(
     Some(cheapest_of(graph, &settled, candidates, accuracy))
 }
 
-/// Those of the rewritten quantities that are about as exact as the usual ones, or exact enough. They come first,
-/// for strains may become small with other parameters than an amplitude; but large ones they may make worse.
+/// The rewritten quantities that are about as exact as the usual ones, or exact enough. They have precedence, for strains may
+/// become small with other parameters than an amplitude; but at large strains they may be less exact.
 fn preferred(
     graph: &Graph,
     mut rewritten: Quantities,
@@ -223,7 +221,7 @@ fn preferred(
     rewritten
 }
 
-/// Gives other quantities, where they lose digits at small amplitudes, a form that keeps more.
+/// Replaces other quantities that lose digits at small amplitudes by forms that keep more.
 fn repair(
     graph: &mut Graph,
     model: &Model,
@@ -245,7 +243,7 @@ fn repair(
         let rewritten = cheapest_of(graph, &derived, unexpanded, accuracy);
         quantities.extend(preferred(graph, rewritten, &lost, accuracy));
     }
-    // Where what is of first order cancels, none of these keeps its digits.
+    // If all terms of first order cancel, none of these forms keeps its digits.
     let mut of_second_order = Quantities::new();
     for (quantity, components) in only(std::slice::from_ref(quantities), &others).swap_remove(0) {
         let bent = |graph: &mut Graph| amplitude?.of_second_order(graph, &components);
@@ -266,9 +264,8 @@ fn is_graded(graph: &Graph, model: &Model) -> bool {
         .any(|symbol| matches!(symbol, Symbol::Coordinate(_)))
 }
 
-/// Whether a quantity vanishes with the strain or the displacement, so that an error of the size of
-/// eps is too much for it. The others are of the size of 1, of X or of a derivative of second order,
-/// whatever the strain.
+/// Whether a quantity vanishes with the strain or the displacement, so that an error of the size of eps is too large for it.
+/// The others are of the size of 1, of X or of a second derivative at any strain.
 fn vanishes_with_the_strain(quantity: Quantity) -> bool {
     match quantity {
         Quantity::Displacement
@@ -301,8 +298,7 @@ fn vanishes_with_the_strain(quantity: Quantity) -> bool {
     }
 }
 
-/// The rigid twins of a derivation without relations and of its simplified form, the second one no
-/// dearer than the first.
+/// The rigid twins of a derivation without relations and of its simplified form; the second one costs no more than the first.
 pub fn twins(
     graph: &mut Graph,
     rigid: &RigidMotion,
@@ -315,7 +311,7 @@ pub fn twins(
     (plain, Derivation { quantities, responses: simplified.responses })
 }
 
-/// Components with what X determines apart from what t does, where that is worth it and as exact.
+/// Components with the parts of X and of t separated, if that pays and is as exact.
 fn parted(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> Vec<Expr> {
     let is_better = |graph: &Graph, parted: &[Expr]| {
         let is_worth_it = cost(graph, &components).is_worth(cost(graph, parted));
@@ -327,8 +323,8 @@ fn parted(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> V
     }
 }
 
-/// Components with one number in place of two that differ by a constant, and constants added up, where products that are
-/// added cost nothing and it is worth it and as exact.
+/// Components with one number instead of two that differ by a constant, and with constants added up, if that pays where
+/// additions of products are free, and is as exact.
 fn fused(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> Vec<Expr> {
     let shifted = graph.attempt(|graph| shift(graph, &components));
     let shifted = shifted.filter(|shifted| *shifted != components);

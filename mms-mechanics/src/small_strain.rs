@@ -4,9 +4,9 @@
 //! P = dW/dF = p I + s eps,   p = W_t,  s = 2 W_s
 //! ```
 //!
-//! with W_t the derivative by tr eps and W_s that by eps:eps. Such a density may not use the other invariants too.
-//! W is taken as it is at any H, though it stands for an elastic solid at small ones only: it changes under
-//! rotations. There is one stress, P = P^T = S = tau = sigma, and rho = rho0 (`derivation::Present`).
+//! with W_t the derivative by tr eps and W_s the derivative by eps:eps. Such a density may not use the other invariants too. W
+//! is evaluated as written at any H, though it describes an elastic solid at small H only: it changes under rotations. There is
+//! one stress, P = P^T = S = tau = sigma, and rho = rho0 (`derivation::Present`).
 
 use crate::invariant::{Kind, SMALL_SQUARE, SMALL_TRACE};
 use crate::kinematics::{Motion, Strain};
@@ -69,8 +69,7 @@ impl SmallStrain {
     }
 }
 
-/// The derivatives by F: those of tr eps are I and 0, those of eps:eps are 2 eps and
-/// d_ik d_JL + d_iL d_Jk.
+/// The derivatives of the invariants by F: for tr eps I and 0, for eps:eps 2 eps and d_ik d_JL + d_iL d_Jk.
 pub(super) fn gradients(graph: &mut Graph, strain: &Strain) -> Vec<(Symbol, Gradient)> {
     let identity = Tensor::identity(graph, strain.gradient.dimension());
     let trace = Gradient::new(graph, identity.clone(), |graph, _| graph.number(0));

@@ -53,13 +53,12 @@ impl Tensor {
         Self::from_fn(self.dimension, |row, column| self.at(column, row))
     }
 
-    /// The same matrix, its components reduced modulo `relations`.
+    /// Reduces the components modulo `relations`.
     pub fn reduce(&self, graph: &mut Graph, relations: &Relations) -> Self {
         Self::from_components(self.dimension, reduce(graph, &self.components, relations))
     }
 
-    /// The same matrix, reduced modulo the relations of half the angles, and what cancels where
-    /// arguments are small settled.
+    /// Reduces the components modulo the relations of half the angles, and rewrites sums that cancel at small arguments.
     pub fn settle(&self, graph: &mut Graph, relations: &Relations) -> Self {
         let halved = relations.halve(graph, &self.components);
         let reduced = reduce(graph, &halved, relations);
@@ -108,7 +107,7 @@ impl Tensor {
         dot(graph, pairs)
     }
 
-    /// The sum of the principal minors of so many rows.
+    /// The sum of the principal minors of `rows` rows.
     pub fn principal_minors(&self, graph: &mut Graph, rows: u32) -> Expr {
         let subsets = (1..1usize << self.dimension).filter(|subset| subset.count_ones() == rows);
         let minors: Vec<_> = subsets
@@ -138,7 +137,7 @@ impl Tensor {
         self.minor(graph, &all, &all)
     }
 
-    /// The adjugate: A^-1 = adj A / det A.
+    /// The inverse: A^-1 = adj A / det A.
     pub fn inverse(&self, graph: &mut Graph) -> Self {
         let determinant = self.determinant(graph);
         let per_determinant = graph.power(determinant, -1);
@@ -171,7 +170,7 @@ impl Tensor {
     }
 }
 
-/// The derivatives of components, with common factors out.
+/// The derivatives of components, with common factors taken out.
 pub(super) fn derivative(graph: &mut Graph, components: &[Expr], symbol: Symbol) -> Vec<Expr> {
     let derivatives = differentiate(graph, components, symbol);
     factor(graph, &derivatives)

@@ -1,8 +1,8 @@
-//! The dimension check against arithmetic: a formula has the dimension that the check says if and
-//! only if its value follows every change of the base units.
+//! The dimension check compared with arithmetic: a formula has the dimension that the check finds if and only if its value
+//! follows every change of the base units.
 //!
-//! The route is independent: the symbols are multiplied by what a change of units does to them,
-//! and the formula is evaluated in 77 digits, before and after.
+//! The way is independent: the symbols are multiplied by the effect of a change of units, and the formula is evaluated in 77
+//! digits, before and after.
 
 use mms_math::Scalar as _;
 use mms_mechanics::Output;
@@ -38,8 +38,8 @@ fn symbols() -> Vec<(&'static str, [i8; 3], Precise)> {
     pairs.enumerate().map(|(index, (name, of))| (name, of, value(index))).collect()
 }
 
-/// Formulas, most of which have a dimension; what is subtracted is never nearly equal. Those with
-/// leave to lose what they are made of may do so, as in 0*a or a^0.
+/// Formulas, most of which have a dimension; the two sides of a difference are never nearly equal. With `losing`, operands may
+/// drop out, as in 0*a or a^0.
 fn formulas(losing: bool) -> impl Strategy<Value = String> {
     let symbol = prop::sample::select(symbols().iter().map(|it| it.0).collect::<Vec<_>>());
     let number = prop::sample::select(vec!["2", "0.3", "pi", "7e-1"]);
@@ -80,8 +80,8 @@ fn parsed(text: &str) -> Ast {
     parse(&formula, &mut diagnostics).unwrap_or_else(|| panic!("{text}: {diagnostics:?}"))
 }
 
-/// What the check says: a dimension, 0, which fits any, or that the units forbid it. `None` for
-/// what neither the check nor the compiler takes, such as a division by 0.
+/// The result of the check: a dimension, 0 (which fits any), or an error of units. `None` if neither the check nor the compiler
+/// accepts the formula, such as a division by 0.
 fn claim(ast: &Ast) -> Option<Result<Option<Dimension>, usize>> {
     let mut names = Formulas::default();
     names.define("pi", Some(Measure::of(Dimension::NONE)));
@@ -95,8 +95,7 @@ fn claim(ast: &Ast) -> Option<Result<Option<Dimension>, usize>> {
     }
 }
 
-/// Evaluates a formula with base units of mass, length and time that are smaller by these factors.
-/// `None` where it has no value.
+/// Evaluates a formula with base units of mass, length and time that are smaller by these factors. `None` if it has no value.
 fn evaluate(ast: &Ast, factors: &[Precise; 3]) -> Option<Precise> {
     let mut graph = Graph::default();
     let mut scope = Scope::default();
@@ -118,7 +117,7 @@ fn evaluate(ast: &Ast, factors: &[Precise; 3]) -> Option<Precise> {
     value.is_defined().then_some(value)
 }
 
-/// By how much a value of these exponents grows.
+/// The factor by which a value with these exponents grows.
 fn scale(factors: &[Precise; 3], exponents: &[Rational]) -> Precise {
     let one = Precise::from_f64(1.0);
     factors.iter().zip(exponents).fold(one, |product, (factor, exponent)| {
@@ -130,7 +129,7 @@ fn factors(mass: f64, length: f64, time: f64) -> [Precise; 3] {
     [mass, length, time].map(Precise::from_f64)
 }
 
-/// Whether two values agree to 40 digits; all but 10 or so of 77 are right.
+/// Whether two values agree to 40 digits; about 67 of the 77 are right.
 fn agree(a: &Precise, b: &Precise) -> bool {
     let size = a.clone().magnitude() + b.clone().magnitude();
     let difference = (a.clone() - b.clone()).magnitude();
@@ -140,7 +139,7 @@ fn agree(a: &Precise, b: &Precise) -> bool {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(sampled_count(256, 3) as u32))]
 
-    /// Whatever stands in a unit: it is read or refused, at once.
+    /// Any text of a unit is read or refused at once.
     #[test]
     fn no_text_is_too_much_for_a_unit(text in "([a-zA-Z0-9*/^() .-]|kg|mm|MPa|\\^\\(1/2\\)|\\PC){0,60}") {
         let unit = Unit::known(&text);
@@ -166,7 +165,7 @@ proptest! {
     }
 }
 
-/// What is 0 fits any unit, but its power of 0 is the number 1.
+/// An expression that is 0 fits any unit, but its power of 0 is the number 1.
 #[test]
 fn zero_to_the_power_of_zero_is_a_number() {
     let dimension = |text: &str| claim(&parsed(text)).and_then(Result::ok).flatten();
@@ -174,8 +173,8 @@ fn zero_to_the_power_of_zero_is_a_number() {
     assert_eq!(dimension("hypot(0/x, 0/x)^2"), None);
 }
 
-/// Whether a value follows changes of each base unit by some power: growing one unit by 2 and
-/// then by 2 again must do the same twice.
+/// Whether a value follows changes of each base unit by some power: growing one unit by 2 twice must have the same effect both
+/// times.
 fn follows_any_power(ast: &Ast) -> Option<bool> {
     let value = |factors: [f64; 3]| {
         let [mass, length, time] = factors;

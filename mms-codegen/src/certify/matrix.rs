@@ -177,8 +177,8 @@ pub(super) fn diagonal(mut matrix: Vec<f64>) -> Vec<f64> {
 /// An upper bound of sqrt(tr (C^-1 A C^-1 A)) for symmetric C and A within these bounds, if no eigenvalue of C is less than
 /// `floor` > 0.
 ///
-/// Let r be the largest distance of the eigenvalues of C from those of its midpoint M, and m the least eigenvalue of M. Then C
-/// >= (1 - r/m) M in the order of forms, so that the value is at most (|M^-1/2 B M^-1/2| + |A - B|/m)/(1 - r/m) with the
+/// With the midpoint M of C, let r be the largest change from an eigenvalue of M to one of C, and m the least eigenvalue of M.
+/// Then C >= (1 - r/m) M in the order of forms, so that the value is at most (|M^-1/2 B M^-1/2| + |A - B|/m)/(1 - r/m) with the
 /// midpoint B of A; and at most |A|/floor.
 pub fn largest_relative_rate(form: &[Interval], rate: &[Interval], floor: f64) -> f64 {
     let order = form.len().isqrt();

@@ -171,7 +171,9 @@ impl Emitter<'_> {
         let inputs = count(dimension + normals);
         let with_normals = takes_normal.then(|| quote!(normals,));
         let Columns { axes: own_axes, values } = &own.columns;
-        let column = |value| dimension + all.binary_search(value).expect("every value that is read is stored");
+        let column = |value| {
+            dimension + all.binary_search(value).expect("every value that is read is stored")
+        };
         let indices = own_axes.iter().copied().chain(values.iter().map(column));
         let indices = indices.map(count);
         let from_position = if is_worth_two(self.program, self.values(Output::Quantity(quantity))) {

@@ -1,4 +1,4 @@
-//! The body, the time window and the rigid motion of a field, which hold for all points alike.
+//! The body, the time window and the rigid motion of a field: formulas without X.
 
 use super::{Body, Domain, Reader, RigidMotion, Rotation, is_parameter};
 use crate::region::{Block, Region};
@@ -13,7 +13,7 @@ impl Reader<'_> {
         domain: &mms_spec::DomainSpec,
         dimension: usize,
     ) -> Option<Domain> {
-        // Everything is resolved before anything may be missing: each formula reports its mistakes.
+        // Every formula is resolved before anything is found missing, so that each reports its mistakes.
         let [first, last] = match &domain.time {
             Some(time) => time.each_ref().map(|time| self.constant(time)),
             None => [0, 1].map(|time| Some(self.graph.number(time))),
@@ -69,7 +69,7 @@ impl Reader<'_> {
         values.into_iter().collect()
     }
 
-    /// A formula of the domain, which only parameters may enter.
+    /// Resolves a formula of the domain, which may use parameters only.
     pub(super) fn constant(&mut self, formula: &Formula) -> Option<Expr> {
         let help = self.fixed();
         self.limited(formula, "the domain must be fixed", help, is_parameter)
@@ -85,7 +85,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A formula that only some symbols may enter.
+    /// Resolves a formula that may use some symbols only.
     fn limited(
         &mut self,
         formula: &Formula,
@@ -135,7 +135,7 @@ impl Reader<'_> {
         Some(RigidMotion { rotation, translation: translation? })
     }
 
-    /// The three components of an axisymmetric displacement, with its rigid motion, which must be along the axis.
+    /// The three components of an axisymmetric displacement, including its rigid motion, which must be along the axis.
     pub(super) fn around_the_axis(
         &mut self,
         field: &FieldSpec,

@@ -14,17 +14,17 @@ use mms_spec::{FieldSpec, MaterialSpec, Space};
 use mms_symbolic::expr::print::Names;
 use mms_symbolic::expr::{Expr, HALF, Rational};
 
-/// What Poisson's ratio must be.
+/// The condition on Poisson's ratio.
 pub const POISSON: &str = "Poisson's ratio must lie between -1 and 1/2";
-/// What to write in place of 1/2.
+/// The advice for a ratio of 1/2.
 pub const INCOMPRESSIBLE: &str = "a solid that is nearly incompressible has a ratio such as 0.4999";
 
-/// The given fields that a density is read with.
+/// The given fields with which a density is read.
 #[derive(Clone, Copy)]
 pub(super) enum Givens<'a> {
-    /// These values, in the order of the material's file.
+    /// Given values, in the order of the material's file.
     Values(&'a [Option<Expr>]),
-    /// Their values in the state of rest.
+    /// The values of the given fields in the state of rest.
     Rest,
 }
 
@@ -199,8 +199,8 @@ impl Reader<'_> {
         direction
     }
 
-    /// Which invariants the density uses. Reports those that do not go together, and fibres without
-    /// a direction.
+    /// The kind of invariants that the density uses. Reports invariants that exclude each other, and fibres without a
+    /// direction.
     pub(super) fn kind(
         &mut self,
         field: &FieldSpec,
@@ -250,8 +250,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Poisson's ratio, where the moduli of the material are made of it. A number that they cannot be
-    /// made of is reported, and no argument any more.
+    /// Poisson's ratio, if the moduli of the material are made of it. A number that makes no moduli is reported, and removed
+    /// from the arguments.
     pub(super) fn poisson(
         &mut self,
         field: &FieldSpec,

@@ -15,7 +15,7 @@ use mms_symbolic::sorted::SortedMap;
 /// The quantities that a field file defines.
 pub type OwnQuantities = SortedMap<Own, Vec<Expr>>;
 
-/// The names that formulas of balances know beside those of the file, for the help of a message.
+/// The names that formulas of balances may use beside the names of the file, for the help of a message.
 const LANGUAGE: &str = "a balance also knows u_x, v_x, H11, F11, Finv11, C11, Cinv11 and their like, J, and derivatives \
                         such as T_X and T_t of what [let] and [given] define";
 
@@ -23,15 +23,15 @@ const LANGUAGE: &str = "a balance also knows u_x, v_x, H11, F11, Finv11, C11, Ci
 const LANGUAGE_OF_R: &str = "a balance also knows u_r, v_r, H11, F11, Finv11, C11, Cinv11 and their like in the order R, Z, \
                              theta, J, and derivatives such as T_R and T_t of what [let] and [given] define";
 
-/// The motion that the names of a balance are about.
+/// The motion whose parts the names of a balance mean.
 struct Moved {
-    /// u, the rigid motion included.
+    /// u, including the rigid motion.
     displacement: Vec<Expr>,
-    /// H of that, in three dimensions.
+    /// H of this displacement, in three dimensions.
     gradient: Tensor,
     /// C in three dimensions, which a rotation does not change.
     right: Tensor,
-    /// J, likewise.
+    /// J, which a rotation does not change.
     jacobian: Expr,
 }
 
@@ -75,7 +75,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The given fields of the file's own: each may use the names above it.
+    /// Reads the file's own given fields: each may use the names above it.
     pub(super) fn own_givens(&mut self, field: &FieldSpec) {
         for given in &field.givens {
             let value = self.formula(&given.value);
@@ -187,7 +187,7 @@ impl Reader<'_> {
         parts
     }
 
-    /// source = d(storage)/dt + Div(flux), the flux and its normal component; none of what failed.
+    /// source = d(storage)/dt + Div(flux), the flux and its normal component; omits parts that failed.
     fn flow(
         &mut self,
         storage: Option<Option<Expr>>,
@@ -237,7 +237,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The value of u_x, v_x, H11, F11, Finv11, C11, Cinv11 and their like, and of J.
+    /// The value of a name such as u_x, v_x, H11, F11, Finv11, C11 or Cinv11, or of J.
     fn built_in(&mut self, field: &FieldSpec, name: &str, moved: &Moved) -> Option<Expr> {
         if name == "J" {
             return Some(moved.jacobian);
@@ -271,7 +271,7 @@ impl Reader<'_> {
         Tensor::identity(self.graph, 3).add(self.graph, &moved.gradient)
     }
 
-    /// Defines a name such as T_X or T_t: the derivative of what `[let]` or `[given]` defines; or says why there is none.
+    /// Defines a name such as T_X or T_t as the derivative of a name of `[let]` or `[given]`, or reports why it does not exist.
     fn define_derivative(
         &mut self,
         field: &FieldSpec,
@@ -304,7 +304,7 @@ impl Reader<'_> {
     }
 }
 
-/// A tensor of three dimensions: with 1 on the diagonal where `of_identity` says that it lacks I, and 0 elsewhere.
+/// Pads a tensor to three dimensions with zeros, and adds I if `of_identity`.
 fn padded(reader: &mut Reader<'_>, tensor: &Tensor, of_identity: bool) -> Tensor {
     let (zero, dimension) = (reader.graph.number(0), tensor.dimension());
     let padded = Tensor::from_fn(3, |row, column| match row.max(column) < dimension {

@@ -5,12 +5,12 @@ use mms_symbolic::expr::Expr;
 /// A rotation by an angle.
 #[derive(Clone, Debug)]
 pub enum Rotation {
-    /// In the plane.
+    /// A rotation in the plane.
     Plane {
         /// The angle.
         angle: Expr,
     },
-    /// In space, about an axis of any length but 0.
+    /// A rotation in space, about an axis of any length except 0.
     Space {
         /// The components of the axis.
         axis: [Expr; 3],

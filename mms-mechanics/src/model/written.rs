@@ -1,6 +1,7 @@
-//! The formulas of a field as they are written: what canonical form made of each, and each step of it.
+//! The formulas of a field as written: the canonical form of each, and each of its steps.
 //!
-//! Canonical form cancels, and derivatives know of no cut. What a file says is therefore kept beside what is made of it.
+//! Canonical form cancels terms, and derivatives do not show cuts. So the formulas of a file are stored beside their canonical
+//! form.
 
 use super::Reader;
 use crate::resolve::Step;
@@ -9,7 +10,7 @@ use mms_spec::syntax::{Ast, Kind};
 use mms_symbolic::expr::Expr;
 use mms_symbolic::sorted::SortedSet;
 
-/// What all quantities of a field are made of.
+/// The formulas of which all quantities are made.
 #[derive(Clone, Debug, Default)]
 pub struct Written {
     /// u, the density, the arguments of the material, the fibres and the rigid motion.
@@ -18,20 +19,20 @@ pub struct Written {
     pub energy: Part,
 }
 
-/// Some formulas, and the steps of all that they use.
+/// Some formulas, and the steps of all formulas that they use.
 #[derive(Clone, Debug, Default)]
 pub struct Part {
-    /// What they are, and where they stand.
+    /// The formulas, and their places in the file.
     pub formulas: Vec<(Expr, Span)>,
-    /// In order: what a step needs stands before it.
+    /// The steps in order: each one follows the steps that it needs.
     pub steps: Vec<Step>,
 }
 
 /// A formula that was read.
 pub(super) struct Read {
-    /// The name that it defines.
+    /// The name that the formula defines.
     name: Option<String>,
-    /// The names that it uses.
+    /// The names that the formula uses.
     uses: Vec<String>,
     value: Expr,
     span: Span,
@@ -57,7 +58,7 @@ impl Reader<'_> {
         }
     }
 
-    /// All that was read and is used.
+    /// All formulas read so far that are used.
     pub(super) fn written(&mut self) -> Written {
         let [field, energy] = [&mut self.read, &mut self.of_energy].map(std::mem::take);
         Written { field: Part::of(field), energy: Part::of(energy) }

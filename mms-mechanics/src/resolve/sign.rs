@@ -1,10 +1,10 @@
-//! The sign of an expression as far as it can be read off, for defaults of parameters.
+//! The sign of an expression as far as its form shows it, for defaults of parameters.
 
 use super::Scope;
 use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational};
 use mms_symbolic::sorted::SortedMap;
 
-/// What can be read off about the sign of a value where it is defined.
+/// The sign that the form of an expression shows, where its value is defined.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Sign {
     Unknown,
@@ -13,7 +13,7 @@ enum Sign {
 }
 
 impl Scope {
-    /// Whether an expression is seen to be positive wherever it is defined.
+    /// Whether the form of an expression shows that it is positive wherever it is defined.
     pub fn is_positive(&self, graph: &Graph, root: Expr) -> bool {
         let mut signs = SortedMap::new();
         for expr in graph.reachable(&[root]) {
@@ -44,7 +44,7 @@ impl Scope {
             Node::Product(factors) => {
                 let factor = |(base, exponent): &(Expr, Rational)| {
                     let is_even = exponent.is_int() && exponent.numerator() % 2i8 == 0i8;
-                    // A root is of what is not negative, and is so itself.
+                    // The base of a root is not negative, and neither is the root.
                     let is_root = exponent.denominator() % 2u8 == 0u8;
                     match signs[base] {
                         Sign::Positive => Sign::Positive,

@@ -1,4 +1,4 @@
-//! The canonical form: one handle per expression, of the value of what was written.
+//! The canonical form: one handle per expression, with the value of the written expression.
 
 use mms_mechanics::candidates::candidates;
 use mms_program::schedule::cost;
@@ -37,7 +37,7 @@ proptest! {
             let written = evaluate(&recipe, &at, &mut |value| extent.see(value));
             let (canonical, other) = value_and_extent(&graph, root, &at);
             let (Some(scale), Some(_)) = (extent.moderate(), other.moderate()) else { continue };
-            // What was undefined as written may have cancelled: x/x is 1.
+            // An undefined written expression may have become defined by cancellation: x/x is 1.
             if written.is_defined() {
                 prop_assert!(
                     close(&written, &canonical, scale, 40),
@@ -93,7 +93,7 @@ fn a_full_graph_is_told_and_never_answers() {
         let at = place(0.846, -0.4, 0.43);
         let value = values(&graph, &[chosen], &at).remove(0);
         if graph.is_exhausted() {
-            // What is not known passes for no number, least of all for 0.
+            // An unknown value counts as no number, least of all as 0.
             let sum = graph.add(chosen, root);
             assert!(!graph.is_zero(sum) && !values(&graph, &[sum], &at)[0].is_defined());
             return None;

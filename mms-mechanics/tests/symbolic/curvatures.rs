@@ -1,4 +1,4 @@
-//! The rules of what is of second order, against the expressions as they are written, in 77 digits.
+//! The rules for remainders of second order, compared with the expressions as written, in 77 digits.
 
 use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_symbolic::pass::curvature::curvature;
@@ -6,8 +6,8 @@ use mms_symbolic::pass::curvature::curvature;
 use super::evaluation::{place, values};
 use super::recipe::Place;
 
-/// Functions, products, quotients, powers and roots of X + t, of which no part is 0 at t = 0; and a cosine, a hyperbolic
-/// one and a square of t.
+/// Functions, products, quotients, powers and roots of X + t, none of which is 0 at t = 0; and a cosine, a hyperbolic cosine
+/// and a square of t.
 fn written(graph: &mut Graph) -> Vec<Expr> {
     let [x, t] = [Symbol::Coordinate(0), Symbol::Time].map(|symbol| graph.symbol(symbol));
     let sum = graph.add(x, t);

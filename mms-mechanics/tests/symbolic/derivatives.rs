@@ -1,5 +1,4 @@
-//! Derivatives against dual numbers, which never see an expression, and against finite differences
-//! of order 6 in 77 digits.
+//! Derivatives compared with dual numbers, which use no expressions, and with finite differences of order 6 in 77 digits.
 
 use mms_math::Scalar as _;
 use mms_program::dual::Dual;
@@ -14,7 +13,7 @@ use crate::sampled::sampled_count;
 use super::evaluation::{close, place, places, power_of_ten, ratio, value_and_extent, values};
 use super::recipe::{Place, X, any_recipe, built, evaluate};
 
-/// The same place, X being the variable of a derivative.
+/// The place with X as the variable of a derivative.
 fn varied(at: &Place<Precise>) -> Place<Dual<Precise>> {
     let [x, y] = at.coordinates.clone();
     Place {
@@ -23,8 +22,8 @@ fn varied(at: &Place<Precise>) -> Place<Dual<Precise>> {
     }
 }
 
-/// The central difference of order 6 in X (Fornberg, Mathematics of Computation 51, 1988, table 1):
-/// it errs by step^6/140 times the seventh derivative.
+/// The central difference of order 6 in X (Fornberg, Mathematics of Computation 51, 1988, table 1): its error is step^6/140
+/// times the seventh derivative.
 fn difference(at: &Place<Precise>, f: impl Fn(&Place<Precise>) -> Precise) -> Precise {
     let step = power_of_ten(10);
     let shifted = |steps: i32| {
@@ -47,7 +46,7 @@ proptest! {
         for at in places() {
             let (derived, extent) = value_and_extent(&graph, slope, &at);
             let Some(scale) = extent.moderate() else { continue };
-            // Through the recipe, which has no graph in it, and through the program.
+            // Evaluates by the recipe, which involves no graph, and by the program.
             let dual = varied(&at);
             let by_recipe = evaluate(&recipe, &dual, &mut |_| ()).slope;
             let by_program = values(&graph, &[root], &dual).remove(0).slope;
@@ -72,8 +71,7 @@ proptest! {
             let (_, of_root) = value_and_extent(&graph, root, &at);
             let (Some(scale), Some(_)) = (extent.moderate(), of_root.moderate()) else { continue };
             let found = difference(&at, |at| values(&graph, &[root], at).remove(0));
-            // With step 1e-10 the difference errs by 1e-60 of the seventh derivative, and by 1e-67
-            // of the value.
+            // With step 1e-10 the error of the difference is 1e-60 of the seventh derivative, and 1e-67 of the value.
             if found.is_defined() && derived.is_defined() {
                 prop_assert!(
                     close(&derived, &found, scale, 20),
@@ -99,7 +97,7 @@ fn every_function(graph: &mut Graph) -> Vec<Expr> {
             roots.extend(arguments.iter().map(|arguments| graph.call(*function, arguments)));
         }
     }
-    // It is an atom of coordinates alone.
+    // An offset is an atom of coordinates alone.
     let offset = graph.offset(x, third);
     roots.extend([graph.power(offset, 3), graph.call(Function::Sin, &[offset])]);
     for (numerator, denominator) in [(1, 2), (-3, 2), (5, 3), (-1, 7)] {

@@ -1,4 +1,4 @@
-//! The rules of differences, against the expressions as they are written, in 77 digits.
+//! The rules of differences, compared with the expressions as written, in 77 digits.
 
 use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_symbolic::pass::difference::difference;
@@ -61,7 +61,7 @@ fn nothing_cancels_in_the_rest() {
     let mut graph = Graph::default();
     let written = written(&mut graph);
     let parts = difference(&mut graph, &written, Symbol::Time);
-    // The last power, of what may be 0 at some X, stays a difference.
+    // The last power has a base that may be 0 at some X, and stays a difference.
     for (index, parts) in parts.into_iter().enumerate().take(written.len() - 1) {
         let rest = parts.expect("a value at 0").rest;
         let exact = values(&graph, &[rest], &place(0.3, 0.5, 1e-12))[0].to_f64();
@@ -72,7 +72,7 @@ fn nothing_cancels_in_the_rest() {
     }
 }
 
-/// ln cosh t = t^2/2 - t^4/12 + .., ln cos t = -t^2/2 - t^4/12 - ..: functions that are 0, of what is not.
+/// ln cosh t = t^2/2 - t^4/12 + .., ln cos t = -t^2/2 - t^4/12 - ..: functions that are 0 at arguments other than 0.
 #[test]
 fn nothing_cancels_where_functions_are_0_elsewhere_than_at_0() {
     let mut graph = Graph::default();

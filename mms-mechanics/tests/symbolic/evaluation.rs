@@ -1,4 +1,4 @@
-//! Values of expressions in any scalar, and when two of them are the same.
+//! Values of expressions in any scalar, and the test whether two of them are the same.
 
 use mms_math::Scalar as _;
 use mms_mechanics::{Output, Program};
@@ -28,7 +28,7 @@ pub fn run<T: Number>(program: &Program, at: &Place<T>) -> Vec<T> {
     interpreter.output(Output::Expected(0))
 }
 
-/// Operands stand before their users, and are known no later.
+/// Asserts that operands precede their users, and are known no later.
 fn assert_is_ordered(program: &Program) {
     for (index, instr) in program.instrs.iter().enumerate() {
         for operand in instr.op.operands() {
@@ -60,7 +60,7 @@ pub fn close(a: &Precise, b: &Precise, scale: f64, digits: u32) -> bool {
     difference.at_most(&(Precise::from_f64(scale) * power_of_ten(digits)))
 }
 
-/// How large the numbers of a computation became: what its rounding errors are relative to.
+/// The largest number of a computation, to which its rounding errors are relative.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent(f64);
 
@@ -71,7 +71,7 @@ impl Extent {
 
     pub fn see(&mut self, value: &Precise) {
         let magnitude = value.to_f64().abs();
-        // A rounded zero such as sin(pi): what it is divided or rooted into means nothing.
+        // A rounded zero such as sin(pi): quotients and roots of it are meaningless.
         let rounded = magnitude > 0.0 && magnitude < 1e-50;
         if rounded {
             self.0 = f64::INFINITY;
@@ -80,13 +80,13 @@ impl Extent {
         }
     }
 
-    /// The scale, if a comparison to 40 digits means something at it.
+    /// The scale, if a comparison to 40 digits is meaningful at it.
     pub fn moderate(self) -> Option<f64> {
         (self.0 < 1e15).then_some(self.0 * self.0)
     }
 }
 
-/// The value of an expression, and how large those of its parts are.
+/// The value of an expression, and the largest value of its parts.
 pub fn value_and_extent(graph: &Graph, root: Expr, at: &Place<Precise>) -> (Precise, Extent) {
     let parts: Vec<Expr> = graph.reachable(&[root]).into_iter().collect();
     let mut extent = Extent::new();
@@ -108,8 +108,8 @@ pub fn places() -> Vec<Place<Precise>> {
     .into()
 }
 
-/// Two expressions are one function: they are defined at the same places and equal there, to 40 of
-/// 77 digits, and no box separates their intervals. This is what a pass has to keep.
+/// Asserts that two expressions are one function: they are defined at the same places and equal there, to 40 of 77 digits, and
+/// no box separates their intervals. Every pass must preserve this.
 pub fn same_value(graph: &Graph, before: Expr, after: Expr) -> Result<(), TestCaseError> {
     for at in places() {
         let (a, extent) = value_and_extent(graph, before, &at);
@@ -134,8 +134,8 @@ pub fn same_value(graph: &Graph, before: Expr, after: Expr) -> Result<(), TestCa
     Ok(())
 }
 
-/// Whether a value lies within the bounds that were computed for it. A value has itself an error of
-/// about 1e-70 of the numbers it was made of, which the nearest doubles do not show.
+/// Whether a value lies within the bounds that were computed for it. The value itself has an error of about 1e-70 of the
+/// numbers that it was computed from, which the nearest doubles do not show.
 pub fn holds(bounds: Interval, value: &Precise) -> bool {
     !value.is_defined() || {
         let value = value.to_f64();

@@ -13,7 +13,7 @@ use crate::sampled::sampled_count;
 use super::evaluation::{place, values};
 use super::recipe::{Place, any_recipe, built, evaluate};
 
-/// A box by its centre and half widths, from a point to the whole of space.
+/// A box by its centre and half widths, from a point to all of space.
 fn boxes() -> impl Strategy<Value = [(f64, f64); 3]> {
     let width = prop_oneof![Just(0.0), 1e-12..1e-3, 1e-3..1.0, 1.0..100.0, 1e3..1e300];
     let side = (prop_oneof![-4.0..4.0, -1e3..1e3], width);
@@ -59,7 +59,7 @@ proptest! {
             let at = place(at[0], at[1], at[2]);
             let mut lost = false;
             let written = evaluate(&recipe, &at, &mut |value: &Precise| {
-                // What is nearly 0 by cancellation has no digits left to compare.
+                // A value that is nearly 0 by cancellation has no digits left to compare.
                 let magnitude = value.to_f64().abs();
                 lost |= value.is_defined() && !(1e-10..1e10).contains(&magnitude);
             });
@@ -100,8 +100,8 @@ proptest! {
         let bounds = evaluate(&recipe, &around(&sides, 1.0), &mut |bounds: &Interval| {
             let far = bounds.lower().abs().max(bounds.upper().abs());
             largest = largest.max(far);
-            // Near 0 what a division or a root makes of the rounding errors has no bound, nor what an arc sine does
-            // near its ends.
+            // Near 0 the effect of rounding errors on a division or a root has no bound, and neither has their effect on an arc
+            // sine near its ends.
             let near = bounds.lower().abs().min(bounds.upper().abs());
             let ends = [0.0, FRAC_PI_2, PI];
             if bounds.contains(0.0) || ends.iter().any(|end| (near - end).abs() < 1e-3) {
@@ -109,7 +109,7 @@ proptest! {
             }
             widest = widest.max(bounds.width());
         });
-        // Some 80 operations on moderate numbers, few of which stretch the errors that come in.
+        // About 80 operations on moderate numbers, few of which amplify the incoming errors.
         prop_assert!(!bounds.is_defined() || largest > 10.0 || widest < 1e-9, "{bounds:?}");
     }
 }

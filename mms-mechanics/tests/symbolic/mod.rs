@@ -1,6 +1,5 @@
-//! Properties of the symbolic core over random expressions, each by a second route: plain
-//! arithmetic on the recipe of the expression, finite differences in 77 digits, dual numbers,
-//! interval arithmetic.
+//! Properties of the symbolic core over random expressions, each compared with a second way: plain arithmetic on the recipe of
+//! the expression, finite differences in 77 digits, dual numbers, interval arithmetic.
 
 mod canonical;
 mod curvatures;

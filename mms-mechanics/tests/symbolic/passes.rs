@@ -1,4 +1,4 @@
-//! What passes keep: the value of every expression. A new pass is one more line here.
+//! Every pass preserves the value of every expression. A new pass is one more line here.
 
 use mms_mechanics::Output;
 use mms_mechanics::candidates::candidates;
@@ -21,7 +21,7 @@ use super::evaluation::{close, places, run, same_value, value_and_extent, values
 use super::read::read;
 use super::recipe::{any_recipe, built, recipe};
 
-/// Whatever is taken out of a division by zero, it stays one.
+/// A division by zero stays one if factors are taken out of it.
 #[test]
 fn nothing_is_taken_out_of_divisions_by_zero() {
     let mut graph = Graph::default();
@@ -33,7 +33,7 @@ fn nothing_is_taken_out_of_divisions_by_zero() {
     assert_eq!(factor(&mut graph, &[root, sum]), [root, sum]);
 }
 
-/// A sum of powers of one expression that is a square becomes one, whatever stands around it.
+/// A sum of powers of one expression that is a square becomes one, with any terms around it.
 #[test]
 fn squares_are_written_as_such() -> Result<(), TestCaseError> {
     for (sum, square) in [
@@ -108,7 +108,7 @@ proptest! {
     }
 }
 
-/// The relation of one root may leave no square for that of another to replace.
+/// The relation of one root may leave no square for the relation of another to replace.
 #[test]
 fn roots_that_share_their_squares_are_reduced() -> Result<(), TestCaseError> {
     for [first, second] in [

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 /// The symbol of a recipe that tests differentiate by.
 pub const X: Symbol = Symbol::Coordinate(0);
 
-/// How to make an expression in X, Y and t.
+/// A recipe for an expression in X, Y and t.
 #[derive(Clone, Debug)]
 pub enum Recipe {
     Number(i32, u8),
@@ -33,7 +33,7 @@ const EVERYWHERE: &[Function] = &[
 ];
 
 fn functions(arity: usize) -> Vec<Function> {
-    // Turns are taken off for sines and cosines alone.
+    // Turns are taken off for sines and cosines only.
     let is_one = |function: &Function| function.arity() == arity && !function.takes_turns_off();
     Function::ALL.iter().copied().filter(is_one).collect()
 }
@@ -46,7 +46,7 @@ pub fn recipe() -> impl Strategy<Value = Recipe> {
     })
 }
 
-/// Recipes of every function, of which many have a value in a part of space only.
+/// Recipes of every function, many of which have a value in a part of space only.
 pub fn any_recipe() -> impl Strategy<Value = Recipe> {
     let (single, pair) = (prop::sample::select(functions(1)), prop::sample::select(functions(2)));
     growing(move |inner| {
@@ -78,7 +78,7 @@ fn growing(
     })
 }
 
-/// The expression of a recipe; `None` where it divides by what is exactly 0.
+/// The expression of a recipe; `None` if it divides by an exact 0.
 pub fn build(graph: &mut Graph, recipe: &Recipe) -> Option<Expr> {
     Some(match recipe {
         Recipe::Number(numerator, denominator) => {
@@ -114,13 +114,13 @@ pub fn build(graph: &mut Graph, recipe: &Recipe) -> Option<Expr> {
     })
 }
 
-/// The expression of a recipe, for properties that hold where there is one.
+/// The expression of a recipe, for properties of recipes that have one.
 pub fn built(graph: &mut Graph, recipe: &Recipe) -> Result<Expr, TestCaseError> {
     build(graph, recipe).ok_or_else(|| TestCaseError::reject("divides by 0"))
 }
 
-/// The same recipe as someone else might write it: every sum and product with its operands in the
-/// other order, and grouped the other way.
+/// The recipe as another person might write it: the operands of every sum and product in the other order, and grouped the other
+/// way.
 pub fn rewritten(recipe: &Recipe) -> Recipe {
     let rewritten = |recipe: &Recipe| Box::new(rewritten(recipe));
     match recipe {
@@ -156,8 +156,8 @@ pub struct Place<T> {
     pub time: T,
 }
 
-/// The value of a recipe, by plain arithmetic on its own tree: no graph is involved. Every value
-/// on the way is shown to `see`.
+/// The value of a recipe, by plain arithmetic on its own tree: no graph is involved. Every intermediate value is passed to
+/// `see`.
 pub fn evaluate<T: Number>(recipe: &Recipe, at: &Place<T>, see: &mut impl FnMut(&T)) -> T {
     let value = match recipe {
         Recipe::Number(numerator, denominator) => T::ratio(*numerator, i32::from(*denominator)),

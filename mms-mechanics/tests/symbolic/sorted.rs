@@ -1,4 +1,4 @@
-//! Sorted maps and sets do what those of the standard library do.
+//! Sorted maps and sets behave like the maps and sets of the standard library.
 
 use std::collections::{BTreeMap, BTreeSet};
 
