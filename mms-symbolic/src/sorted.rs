@@ -1,7 +1,7 @@
 //! Maps and sets as sorted vectors.
 //!
-//! They have the order of `BTreeMap` and `BTreeSet`, and each pair of types costs the compiler a tenth of what these do.
-//! Here keys come in order, or are few: a key that comes late for its order moves all that follow it.
+//! They have the order of `BTreeMap` and `BTreeSet`, and take a tenth of their compile time for each pair of types. In this
+//! workspace keys are inserted in order, or are few: a key that is inserted out of order moves all later entries.
 
 use std::borrow::Borrow;
 use std::fmt::{self, Debug, Formatter};
@@ -20,12 +20,12 @@ impl<K, V> SortedMap<K, V> {
         SortedMap { entries: Vec::new() }
     }
 
-    /// How many entries there are.
+    /// The number of entries.
     pub fn len(&self) -> usize {
         self.entries.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no entries.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
@@ -65,14 +65,14 @@ impl<K, V> SortedMap<K, V> {
         self.entries.pop()
     }
 
-    /// Keeps those entries alone of which this is true.
+    /// Keeps only the entries for which `is_kept` returns true.
     pub fn retain(&mut self, mut is_kept: impl FnMut(&K, &mut V) -> bool) {
         self.entries.retain_mut(|(key, value)| is_kept(key, value));
     }
 }
 
 impl<K: Ord, V> SortedMap<K, V> {
-    /// Where a key is, or where it would be.
+    /// The position of a key, or the position where it would be inserted.
     fn find<Q: Ord + ?Sized>(&self, key: &Q) -> Result<usize, usize>
     where
         K: Borrow<Q>,
@@ -107,7 +107,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         self.find(key).is_ok()
     }
 
-    /// Sets the value of a key, and returns what it was.
+    /// Sets the value of a key, and returns the old value.
     pub fn insert(&mut self, key: K, value: V) -> Option<V> {
         match self.find(&key) {
             Ok(at) => Some(replace(&mut self.entries[at].1, value)),
@@ -224,12 +224,12 @@ impl<T> SortedSet<T> {
         SortedSet { elements: Vec::new() }
     }
 
-    /// How many elements there are.
+    /// The number of elements.
     pub fn len(&self) -> usize {
         self.elements.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no elements.
     pub fn is_empty(&self) -> bool {
         self.elements.is_empty()
     }
@@ -239,14 +239,14 @@ impl<T> SortedSet<T> {
         self.elements.iter()
     }
 
-    /// Keeps those elements alone of which this is true.
+    /// Keeps only the elements for which `is_kept` returns true.
     pub fn retain(&mut self, is_kept: impl FnMut(&T) -> bool) {
         self.elements.retain(is_kept);
     }
 }
 
 impl<T: Ord> SortedSet<T> {
-    /// Where an element is, or where it would be.
+    /// The position of an element, or the position where it would be inserted.
     fn find<Q: Ord + ?Sized>(&self, element: &Q) -> Result<usize, usize>
     where
         T: Borrow<Q>,
@@ -257,7 +257,7 @@ impl<T: Ord> SortedSet<T> {
         }
     }
 
-    /// Whether it has an element.
+    /// Whether the set contains an element.
     pub fn contains<Q: Ord + ?Sized>(&self, element: &Q) -> bool
     where
         T: Borrow<Q>,
@@ -265,7 +265,7 @@ impl<T: Ord> SortedSet<T> {
         self.find(element).is_ok()
     }
 
-    /// Adds an element; says whether it is new.
+    /// Adds an element; returns whether it is new.
     pub fn insert(&mut self, element: T) -> bool {
         let place = self.find(&element);
         if let Err(at) = place {
@@ -274,7 +274,7 @@ impl<T: Ord> SortedSet<T> {
         place.is_err()
     }
 
-    /// Removes an element; says whether it was there.
+    /// Removes an element; returns whether it was present.
     pub fn remove<Q: Ord + ?Sized>(&mut self, element: &Q) -> bool
     where
         T: Borrow<Q>,
@@ -282,7 +282,7 @@ impl<T: Ord> SortedSet<T> {
         self.find(element).map(|at| self.elements.remove(at)).is_ok()
     }
 
-    /// Whether no element is in both.
+    /// Whether the sets have no common element.
     pub fn is_disjoint(&self, other: &SortedSet<T>) -> bool {
         !self.iter().any(|element| other.contains(element))
     }

@@ -1,39 +1,38 @@
 //! A budget of steps for the work that a text may cause.
 //!
-//! Work is counted in steps of about ten nanoseconds, and never in seconds, so that the same text ends at the same
-//! place on every machine. A graph has one budget. Who makes nodes, counts pairs to share, or runs a program
-//! within it is charged for what that takes; `program/effort.rs` says what an operation takes in intervals and in
-//! 77 digits. In a proof, what there is no budget left for is not a number, so it proves nothing and refutes
-//! nothing. Comparisons in 77 digits are then made at fewer points, or at none, which is no pass. So `mms check`
-//! ends within ten seconds of processor time, whatever the text is, and says what it left out. The fields of the
-//! gallery take a tenth of each budget or less, except for some of the rates.
+//! Work is counted in steps of about ten nanoseconds, and never in seconds, so that the same text ends at the same place on
+//! every machine. A graph has one budget. Making nodes, counting pairs to share, and running a program all draw on it;
+//! `program/effort.rs` has the steps of an operation in intervals and in 77 digits. In a proof, a value for which no budget is
+//! left is not a number, so it proves nothing and refutes nothing. Comparisons in 77 digits are then made at fewer points, or
+//! at none, which does not count as a pass. So `mms check` ends within ten seconds of processor time for any text, and lists
+//! the parts that it left out. The fields of the gallery use a tenth of each budget or less, except for some of the rates.
 //!
-//! A `Stop` that another thread has asked to stop leaves every budget empty. A compilation then ends with one
-//! diagnostic that says so, a proof with less proved. Who holds a compiled field after that compiles it anew.
+//! A `Stop` from another thread empties every budget. A compilation then ends with one diagnostic that says so, a proof with
+//! less proved. A field compiled before the stop has to be compiled anew.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// Asks a compilation, a proof or a comparison to stop, from another thread.
+/// Stops a compilation, a proof or a comparison from another thread.
 ///
-/// Whoever waits keeps a copy and gives another one to the compilation's options. What has not ended by then ends soon: a
-/// compilation with one diagnostic that says so, proofs with less proved.
+/// The waiting thread keeps a copy, and another copy is part of the compilation's options. After the request, running work ends
+/// soon: a compilation with one diagnostic that says so, proofs with less proved.
 #[derive(Clone, Debug, Default)]
 pub struct Stop(Arc<AtomicBool>);
 
 impl Stop {
-    /// Asks for the stop; that cannot be taken back.
+    /// Requests the stop; this cannot be undone.
     pub fn ask(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether a stop has been asked for.
+    /// Whether a stop has been requested.
     pub fn is_asked(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// What is compiled does not depend on who may stop it.
+/// A compilation does not depend on its handle for stopping, so all handles are equal.
 impl PartialEq for Stop {
     fn eq(&self, _: &Self) -> bool {
         true
@@ -42,9 +41,9 @@ impl PartialEq for Stop {
 
 impl Eq for Stop {}
 
-/// What is left of a budget. A step is some ten nanoseconds' work: an operation on intervals takes a few.
+/// The remaining steps of a budget. A step is about ten nanoseconds of work: an operation on intervals takes a few.
 ///
-/// Handles of one budget draw on the same steps; what is cloned with a graph has its own.
+/// Handles of one budget draw on the same steps; a clone with its graph has a budget of its own.
 #[derive(Debug, Default)]
 pub struct Work {
     left: Arc<AtomicU64>,
@@ -52,7 +51,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// A budget without a bound, until one is set.
+    /// A budget without a limit, until one is set.
     pub fn new(stop: Stop) -> Self {
         Work { left: Arc::new(AtomicU64::new(u64::MAX)), stop }
     }
@@ -62,24 +61,24 @@ impl Work {
         Work { left: Arc::clone(&self.left), stop: self.stop.clone() }
     }
 
-    /// Sets how many steps are left.
+    /// Sets the number of remaining steps.
     pub fn allow(&self, steps: u64) {
         self.left.store(steps, Ordering::Relaxed);
     }
 
-    /// How many steps are left.
+    /// The number of remaining steps.
     pub fn left(&self) -> u64 {
         if self.stop.is_asked() { 0 } else { self.left.load(Ordering::Relaxed) }
     }
 
-    /// Takes so many steps, or all that are left.
+    /// Spends these steps, or all that remain.
     pub fn spend(&self, steps: u64) {
-        // A budget is spent by one thread: nothing is lost between the two.
+        // A budget is spent by one thread: nothing is lost between load and store.
         let left = self.left.load(Ordering::Relaxed);
         self.left.store(left.saturating_sub(steps), Ordering::Relaxed);
     }
 
-    /// Runs `work` with so many steps of its own, which are not taken from what is left.
+    /// Runs `work` with `steps` steps of its own, which do not reduce the budget.
     pub fn aside<R>(&self, steps: u64, work: impl FnOnce() -> R) -> R {
         let left = self.left.load(Ordering::Relaxed);
         self.allow(steps);
@@ -88,12 +87,12 @@ impl Work {
         made
     }
 
-    /// Whether nothing is left.
+    /// Whether no steps remain.
     pub fn is_over(&self) -> bool {
         self.left() == 0
     }
 
-    /// The handle by which somebody may ask for a stop.
+    /// The handle for requesting a stop.
     pub fn stop(&self) -> &Stop {
         &self.stop
     }

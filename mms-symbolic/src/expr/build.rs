@@ -1,8 +1,8 @@
 //! Canonical construction: the only way to make a node.
 //!
-//! The constructors fold what is exact, and expand no product. Each rule is sound wherever its left-hand side is
-//! defined, none rounds, and none adds operations. Rules that would need to know more, such as exp(ln x) = x, are
-//! left out: they would make a domain larger.
+//! The constructors fold exact values, and expand no product. Each rule is sound wherever its left-hand side is defined, none
+//! rounds, and none adds operations. Rules that need more knowledge, such as exp(ln x) = x, are omitted: they would enlarge a
+//! domain.
 //!
 //! | rule | where |
 //! |---|---|
@@ -14,7 +14,7 @@
 //! | sqrt x = x^(1/2) | always |
 //! | f(0) is a number, ln 1 = 0, sin and cos at multiples of pi/2 | the value is rational |
 //! | ln(1 + x) = ln_1p(x) | always |
-//! | sin(-x) = -sin x, cos(-x) = cos x | always; the sign is that of the leading coefficient |
+//! | sin(-x) = -sin x, cos(-x) = cos x | always; the sign comes from the leading coefficient |
 
 use dashu_int::ops::{BitTest as _, Gcd as _};
 use dashu_int::{IBig, UBig};
@@ -22,13 +22,13 @@ use dashu_int::{IBig, UBig};
 use super::{Expr, Function, Graph, HALF, Node, Rational, Small, Symbol, is_negative, magnitude};
 use crate::sorted::SortedMap;
 
-/// Powers of numbers are folded up to about this many bits; beyond, the power stays symbolic.
+/// Powers of numbers are folded up to about this many bits; longer ones stay symbolic.
 const FOLDED_BITS: usize = 1 << 14;
 
-/// What it takes to collect a term.
+/// The steps of collecting a term.
 const STEPS_OF_TERM: u64 = 10;
 
-/// The longest number that a node may hold: beyond it the graph is exhausted.
+/// The longest number of a node, in bits: beyond it the graph is exhausted.
 const MAX_BITS: usize = 1 << 17;
 
 impl Graph {
@@ -117,7 +117,7 @@ impl Graph {
         }
         let mut collector = Collector::default();
         collector.open.extend(factors);
-        // A lone sum stays as it is written; as a factor among others it is normalised.
+        // A lone sum stays as written; as one of several factors it is normalised.
         if let [(expr, exponent)] = collector.open.as_slice()
             && exponent.is_one()
         {
@@ -125,7 +125,7 @@ impl Graph {
         }
         let (coefficient, factors) = collector.collect(self);
         if let Some(division) = factors.iter().find(|(base, _)| self.is_zero(*base)) {
-            // A division by zero stays one, whatever it is multiplied by.
+            // A division by zero stays one, times any factors.
             return self.intern(Node::Product(vec![division.clone()]));
         }
         let product = match factors.as_slice() {
@@ -136,7 +136,7 @@ impl Graph {
         self.scale(product, coefficient)
     }
 
-    /// An elementary function, folded where its value is known exactly.
+    /// An elementary function, folded if its value is known exactly.
     pub fn call(&mut self, function: Function, arguments: &[Expr]) -> Expr {
         let [argument, ..] = *arguments else { unreachable!("every function has an argument") };
         if let Some(folded) = self.fold_call(function, argument) {
@@ -145,7 +145,7 @@ impl Graph {
         self.intern(Node::Call(function, arguments.to_vec()))
     }
 
-    /// A coordinate less a place; of anything but a coordinate it is a difference like others.
+    /// A coordinate less a place; an ordinary difference if the first operand is no coordinate.
     pub fn offset(&mut self, coordinate: Expr, place: Expr) -> Expr {
         let is_coordinate = matches!(self.node(coordinate), Node::Symbol(Symbol::Coordinate(_)));
         match is_coordinate && !self.is_zero(place) {
@@ -154,7 +154,7 @@ impl Graph {
         }
     }
 
-    /// An angle with what is proved of it.
+    /// An angle with the proved bound of its magnitude.
     pub fn small(&mut self, small: Small, angle: Expr) -> Expr {
         self.intern(Node::Small(small, angle))
     }
@@ -181,7 +181,7 @@ impl Graph {
                 let rest = self.sum(terms);
                 Some(self.call(Function::Ln1p, &[rest]))
             }
-            // ln(1 + (x - 1)) is ln x, which has no other digits and saves a subtraction.
+            // ln(1 + (x - 1)) is ln x, which is as exact and saves a subtraction.
             Function::Ln1p => {
                 let Node::Sum(constant, terms) = self.node(argument) else { return None };
                 if *constant != Rational::NEG_ONE {
@@ -236,9 +236,9 @@ impl Graph {
         is_negative(leading)
     }
 
-    /// The number `c` and the sum `s` with `expr = c s`, where `s` is the same for all multiples of
-    /// `expr`: the first coefficient of `s` is positive, and as many as possible are 1 or -1. Where
-    /// several multiples do equally well, `s` has coprime integers.
+    /// The number `c` and the sum `s` with `expr = c s`, where all multiples of `expr` have the same `s`: its first coefficient
+    /// is positive, and as many coefficients as possible are 1 or -1. If several multiples have equally many, `s` has coprime
+    /// integers.
     pub fn split_content(&mut self, expr: Expr) -> (Rational, Expr) {
         let Node::Sum(constant, terms) = self.node(expr) else {
             return (Rational::ONE, expr);
@@ -283,7 +283,7 @@ fn times(a: &Rational, b: &Rational) -> Rational {
     }
 }
 
-/// Terms or factors in order, each once with all its numbers added up, but for what comes to 0.
+/// Sorts terms or factors, adds up the numbers of equal ones, and drops zeros.
 fn collected(mut open: Vec<(Expr, Rational)>) -> Vec<(Expr, Rational)> {
     if !open.is_sorted_by(|(a, _), (b, _)| a < b) {
         open.sort_by_key(|(expr, _)| *expr);
@@ -314,7 +314,7 @@ impl Collector {
                 self.take(graph, base, exponent);
             }
             self.factors = collected(self.factors);
-            // Exponents that met may have become integers: x^(1/2) x^(1/2) opens x.
+            // Exponents that were added may have become integers: x^(1/2) x^(1/2) opens x.
             let is_openable =
                 |(base, exponent): &mut (Expr, Rational)| opens(graph, *base, exponent);
             self.open.extend(self.factors.extract_if(.., is_openable));
@@ -381,7 +381,7 @@ impl Collector {
     }
 }
 
-/// Whether a base under that exponent is not one canonical factor.
+/// Whether a base with this exponent is more than one canonical factor.
 fn opens(graph: &Graph, base: Expr, exponent: &Rational) -> bool {
     if !exponent.is_int() {
         return false;
@@ -397,7 +397,7 @@ fn opens(graph: &Graph, base: Expr, exponent: &Rational) -> bool {
     }
 }
 
-/// What it takes to add or multiply a number of so many words, the common divisor of two included.
+/// The steps of adding or multiplying a number of this length, including the common divisor of two such numbers.
 pub fn steps_of_length(number: &Rational) -> u64 {
     let bits = number.numerator().bit_len() + number.denominator().bit_len();
     let words = (bits / 64) as u64;
@@ -421,7 +421,7 @@ fn gcd(a: &Rational, b: &Rational) -> Rational {
     Rational::from_parts(numerator.into(), denominator)
 }
 
-/// `number ^ exponent` where it is rational and not too long.
+/// `number ^ exponent` if it is rational and not too long.
 fn number_power(number: &Rational, exponent: &Rational) -> Option<Rational> {
     if number.is_one() || exponent.is_one() {
         return Some(number.clone());
@@ -449,7 +449,7 @@ fn number_power(number: &Rational, exponent: &Rational) -> Option<Rational> {
     })
 }
 
-/// The root of an integer, where it is an integer. Only the first root of a negative number is.
+/// The root of an integer, if it is an integer. A negative number only has a first root.
 fn exact_root(value: IBig, root: usize) -> Option<IBig> {
     if root == 1 {
         return Some(value);

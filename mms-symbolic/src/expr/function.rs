@@ -1,8 +1,8 @@
 //! The elementary functions: a small closed set.
 
-/// Gives a macro the list of functions: those of one argument, then those of two, each as its variant, its name, its value
-/// at 0 where that is a whole number, and a sentence. The name is also that of its method in the scalar trait, so that
-/// whoever evaluates has no list of his own.
+/// Passes the list of functions to a macro: first the functions of one argument, then those with two. Each has its variant, its
+/// name, its value at 0 if that is a whole number, and a sentence. The name is also the name of its method in the scalar trait,
+/// so that evaluators need no list of their own.
 #[macro_export]
 macro_rules! for_functions {
     ($then:ident) => {
@@ -20,7 +20,7 @@ macro_rules! for_functions {
                 SinPi sin_pi [Some(0)] "sin(pi x).",
                 CosPi cos_pi [Some(1)] "cos(pi x).",
                 WithinTurns within_turns [Some(0)] "An angle less whole turns, where it is more than a few.",
-                WithinTurnsPi within_turns_pi [Some(0)] "The same of an angle in half turns.",
+                WithinTurnsPi within_turns_pi [Some(0)] "An angle in half turns less whole turns, where it is more than a few.",
                 Tan tan [Some(0)] "The tangent.",
                 Sinh sinh [Some(0)] "The hyperbolic sine.",
                 Cosh cosh [Some(1)] "The hyperbolic cosine.",
@@ -53,7 +53,7 @@ macro_rules! declare {
             /// Every function.
             pub const ALL: &[Function] = &[$(Function::$one,)* $(Function::$two,)*];
 
-            /// Its name, as the scalar trait spells it.
+            /// The name, as the scalar trait spells it.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Function::$one => stringify!($one_name),)*
@@ -61,7 +61,7 @@ macro_rules! declare {
                 }
             }
 
-            /// How many arguments it takes.
+            /// The number of arguments.
             pub fn arity(self) -> usize {
                 match self {
                     $(Function::$one => 1,)*
@@ -69,7 +69,7 @@ macro_rules! declare {
                 }
             }
 
-            /// Its value where its first argument is 0, if that is a whole number whatever the others are.
+            /// The value at a first argument of 0, if that is the same whole number for all other arguments.
             pub(super) fn at_zero(self) -> Option<i32> {
                 match self {
                     $(Function::$one => $one_at_zero,)*
@@ -83,17 +83,17 @@ macro_rules! declare {
 for_functions!(declare);
 
 impl Function {
-    /// Whether it is its argument but for whole turns.
+    /// Whether the function subtracts whole turns from its argument.
     pub fn takes_turns_off(self) -> bool {
         matches!(self, Function::WithinTurns | Function::WithinTurnsPi)
     }
 }
 
-/// What is proved of the magnitude of an angle, so that its sine and cosine take less: how small it is.
+/// The proved bound of the magnitude of an angle, which makes its sine and cosine cheaper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Small {
     /// At most 1, or a little more: a few terms are enough.
     WithinOne,
-    /// Less than a quarter turn: no turns are to be taken off.
+    /// Less than a quarter turn: no turns need be subtracted.
     NearZero,
 }

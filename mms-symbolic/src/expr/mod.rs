@@ -1,9 +1,8 @@
 //! The expression graph: exact, hash-consed, canonical.
 //!
-//! An arena holds the nodes. A structure exists once, and its handle [`Expr`] is a number. Operands are made
-//! before their users and nodes never change, so handles order topologically, and every pass is a loop over
-//! handles rather than a recursion. The hash index is only looked up, never iterated. A graph that is full answers
-//! nothing: what was computed in it is refused.
+//! An arena holds the nodes. A structure exists once, and its handle [`Expr`] is a number. Operands are made before their users
+//! and nodes never change, so handles order topologically, and every pass is a loop over handles rather than a recursion. The
+//! hash index is only used for look-ups, never iterated. Results of a full graph are meaningless, and its users refuse them.
 //!
 //! | node | canonical form |
 //! |---|---|
@@ -13,12 +12,12 @@
 //! | `Product` | bases with non-zero exact exponents, in order of handles; nested products are opened, numbers folded where the power is rational |
 //! | `Call` | an elementary function |
 //! | `Offset` | a coordinate less a place, in a step of its own: as exact as the coordinate is |
-//! | `Small` | an angle with what is proved of its magnitude; equal to the angle, and only there to be scheduled |
+//! | `Small` | an angle with the proved bound of its magnitude; equal to the angle, and used by the scheduler only |
 //!
-//! Sums and products have any number of operands, so that equal expressions written in different order are one
-//! node. Subtraction is a coefficient, division an exponent, a square root the exponent 1/2. As a factor beside
-//! others, a sum is normalised: a rational number goes to the coefficient, so that its first coefficient is
-//! positive and as many as possible are 1 or -1. So 2 a - 2 b and b - a share a node.
+//! Sums and products have any number of operands, so that equal expressions written in different order are one node.
+//! Subtraction is a coefficient, division an exponent, a square root the exponent 1/2. As one of several factors, a sum is
+//! normalised: a rational number goes to the coefficient, so that its first coefficient is positive and as many as possible are
+//! 1 or -1. So 2 a - 2 b and b - a share a node.
 
 mod build;
 mod function;
@@ -49,10 +48,10 @@ impl Expr {
     }
 }
 
-/// What an expression depends on.
+/// A leaf on which expressions depend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Symbol {
-    /// The parameter of that position in the field file.
+    /// The parameter at this position in the field file.
     Parameter(usize),
     /// The time t.
     Time,
@@ -62,9 +61,9 @@ pub enum Symbol {
     Normal(usize),
     /// The component H_iJ of a displacement gradient that the caller supplies.
     Gradient(usize, usize),
-    /// A strain invariant less its value at F = I; only inside a material's density, and where a stress is bounded.
+    /// A strain invariant less its value at F = I; used only inside a material's density, and for bounds of a stress.
     Invariant(usize),
-    /// What whoever works with a graph has a name for; no field has it, and no program.
+    /// A name for the private use of code that works with a graph; no field and no program has it.
     Local(usize),
 }
 
@@ -104,7 +103,7 @@ pub fn is_unit(number: &Rational) -> bool {
     number.is_one() || *number == Rational::NEG_ONE
 }
 
-/// Whether a number is below 0; a comparison would multiply.
+/// Whether a number is below 0; does not multiply, as a comparison would.
 pub fn is_negative(number: &Rational) -> bool {
     number.sign() == Sign::Negative
 }
@@ -141,43 +140,42 @@ impl Node {
     }
 }
 
-/// How large a graph may become: nodes and operands together. A rotating 3-D field needs some
-/// thousands.
+/// The largest size of a graph by default: nodes and operands together. A rotating 3-D field needs a few thousand.
 pub const DEFAULT_MAX_NODES: usize = 200_000;
 
-/// The steps of work that it takes to make a node or to find it, and more for each operand.
+/// The steps of making or finding a node, and further steps for each operand.
 pub const STEPS_OF_NODE: u64 = 20;
 const STEPS_OF_OPERAND: u64 = 10;
 
 /// An arena of hash-consed nodes, of bounded size.
 ///
-/// Beyond the bound every operation returns at once what has no value, and [`Graph::is_exhausted`] tells; what was
-/// computed is then void. So no text makes a compilation long or large.
+/// Beyond the limit every operation returns at once an expression without a value, [`Graph::is_exhausted`] returns true, and
+/// all results are meaningless. So no text makes a compilation long or large.
 #[derive(Clone, Debug)]
 pub struct Graph {
     nodes: Vec<Node>,
-    /// When the value of each node is known.
+    /// The time when the value of each node is known.
     stages: Vec<Stage>,
     /// The nodes by their hashes. Only ever looked up, never iterated: hash order cannot be observed.
     index: HashTable<Expr>,
-    /// What sums were split into by [`Graph::split_content`], as far as that was asked.
+    /// The results of [`Graph::split_content`] so far.
     contents: FxHashMap<Expr, (Rational, Expr)>,
     /// Nodes and operands so far.
     size: usize,
     limit: usize,
     exhausted: bool,
-    /// Nodes that were made before the graph was exhausted.
+    /// The number of nodes when the graph became exhausted.
     made: usize,
-    /// What may still be done.
+    /// The remaining budget.
     work: Work,
 }
 
-/// What a node is found by.
+/// The hash by which a node is found.
 fn hash(node: &Node) -> u64 {
     FxBuildHasher.hash_one(node)
 }
 
-/// How much a graph held at some time.
+/// The content of a graph at some time.
 struct Mark {
     nodes: usize,
     size: usize,
@@ -209,38 +207,38 @@ impl Graph {
         graph
     }
 
-    /// Whether the graph has outgrown its bound; then none of its expressions has a meaning.
+    /// Whether the graph has outgrown its limit; then none of its expressions has a meaning.
     pub fn is_exhausted(&self) -> bool {
         self.exhausted
     }
 
-    /// The bound on nodes and operands.
+    /// The limit of nodes and operands.
     pub fn limit(&self) -> usize {
         self.limit
     }
 
-    /// Changes the bound on nodes and operands.
+    /// Changes the limit of nodes and operands.
     pub fn set_limit(&mut self, limit: usize) {
         self.limit = limit;
     }
 
-    /// The budget of work that is left; when it is over, no node can be made.
+    /// The remaining budget of work; when it is spent, no node can be made.
     pub fn work(&self) -> &Work {
         &self.work
     }
 
-    /// Gives the graph a budget of work that ends when somebody asks for it.
+    /// Sets a budget of work that ends on request.
     pub fn stopped_by(mut self, stop: &Stop) -> Self {
         self.work = Work::new(stop.clone());
         self
     }
 
-    /// Nodes and operands so far.
+    /// The number of nodes and operands so far.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// Help for a message about a full graph: what filled it, and what a user can do.
+    /// The help for a message about a full graph: the cause, and the remedy.
     pub fn exhaustion(&self) -> Vec<String> {
         if self.work.is_over() {
             return vec![
@@ -264,12 +262,12 @@ impl Graph {
         ]
     }
 
-    /// Leaves room for as many nodes again, and the usual number: for a few more in a graph that was within its bound.
+    /// Doubles the room, and adds the default limit: for a few more nodes in a graph that was within its limit.
     pub fn make_room(&mut self) {
         self.limit += self.size + DEFAULT_MAX_NODES;
     }
 
-    /// Runs `make`. Where that reaches the bound, the graph is as it was before, and the result is `None`.
+    /// Runs `make`. If it reaches the limit, restores the graph, and returns `None`.
     pub fn attempt<R>(&mut self, make: impl FnOnce(&mut Self) -> R) -> Option<R> {
         let before = self.mark();
         if self.work.is_over() && !before.exhausted {
@@ -283,7 +281,7 @@ impl Graph {
         None
     }
 
-    /// Runs `work`. Where that reaches the bound, the graph is as it was before, and the result itself has to say so.
+    /// Runs `work`. If it reaches the limit, restores the graph; the result itself has to show that.
     pub fn unless_full<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
         let before = self.mark();
         let found = work(self);
@@ -307,7 +305,7 @@ impl Graph {
         Mark { nodes: self.nodes.len(), size: self.size, exhausted: self.exhausted }
     }
 
-    /// Forgets what was made since.
+    /// Removes all nodes made since the mark.
     fn back_to(&mut self, Mark { nodes, size, exhausted }: Mark) {
         for (place, node) in self.nodes.iter().enumerate().skip(nodes) {
             if let Ok(entry) = self.index.find_entry(hash(node), |expr| expr.index() == place) {
@@ -320,7 +318,7 @@ impl Graph {
         (self.size, self.exhausted) = (size, exhausted);
     }
 
-    /// The handle of a canonical node that was made already.
+    /// The handle of a canonical node, if it exists.
     pub fn find(&self, node: &Node) -> Option<Expr> {
         self.find_hashed(node, hash(node))
     }
@@ -329,8 +327,8 @@ impl Graph {
         self.index.find(hash, |expr| self.node(*expr) == node).copied()
     }
 
-    /// What stands for everything in an exhausted graph: ln(-1), which has no value in any arithmetic. So whoever
-    /// evaluates it learns nothing, and takes nothing for 0.
+    /// The expression that replaces every other one in an exhausted graph: ln(-1), which has no value in any arithmetic. So an
+    /// evaluation of it is undefined, and never 0.
     fn exhaust(&mut self) -> Expr {
         if !self.exhausted {
             (self.exhausted, self.made) = (true, self.nodes.len());
@@ -344,22 +342,22 @@ impl Graph {
         &self.nodes[expr.index()]
     }
 
-    /// When the value of an expression is known.
+    /// The time when the value of an expression is known.
     pub fn stage(&self, expr: Expr) -> Stage {
         self.stages[expr.index()]
     }
 
-    /// How many nodes were made so far.
+    /// The number of nodes so far.
     pub fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Whether nothing was made yet.
+    /// Whether the graph has no nodes.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// The one handle of a node that is canonical already.
+    /// The one handle of a canonical node; the node is made if it does not exist.
     fn intern(&mut self, node: Node) -> Expr {
         self.work.spend(STEPS_OF_NODE + STEPS_OF_OPERAND * node.children().count() as u64);
         if self.work.is_over() {
@@ -370,7 +368,7 @@ impl Graph {
             return expr;
         }
         self.size += 1 + node.children().count();
-        // Handles are 32 bits wide; two are left for what stands for everything.
+        // Handles are 32 bits wide; two of them are reserved for the nodes of ln(-1).
         let is_full = self.size > self.limit.min(u32::MAX as usize - 2);
         if is_full && !self.nodes.is_empty() {
             return self.exhaust();
@@ -378,13 +376,13 @@ impl Graph {
         self.enter_new(node, own_hash)
     }
 
-    /// The handle of a node, which is made if there is none, whatever the bound.
+    /// The handle of a node, which is made if it does not exist, even beyond the limit.
     fn enter(&mut self, node: Node) -> Expr {
         let own_hash = hash(&node);
         self.find_hashed(&node, own_hash).unwrap_or_else(|| self.enter_new(node, own_hash))
     }
 
-    /// The handle of a node that was not there.
+    /// Makes a node that did not exist.
     fn enter_new(&mut self, node: Node, own_hash: u64) -> Expr {
         let expr = Expr(self.nodes.len() as u32);
         let own = match node {
@@ -398,7 +396,7 @@ impl Graph {
         expr
     }
 
-    /// The number, where the expression is one.
+    /// The number, if the expression is one.
     pub fn as_number(&self, expr: Expr) -> Option<&Rational> {
         match self.node(expr) {
             Node::Number(number) => Some(number),
@@ -411,14 +409,14 @@ impl Graph {
         self.as_number(expr).is_some_and(Rational::is_zero)
     }
 
-    /// Everything that `roots` depend on, themselves included, operands before users.
+    /// All expressions that `roots` depend on, including the roots, operands before users.
     pub fn reachable(&self, roots: &[Expr]) -> Vec<Expr> {
         let reached = reachable(roots, Expr::index, |expr| self.node(expr).children());
         self.work.spend(STEPS_OF_NODE * reached.len() as u64);
         reached
     }
 
-    /// How many of the expressions that are `among`, and of the roots, read an expression.
+    /// For each expression, the number of its readers among the roots and the expressions that satisfy `among`.
     pub fn readers(&self, roots: &[Expr], among: impl Fn(Expr) -> bool) -> SortedMap<Expr, usize> {
         let mut readers = SortedMap::new();
         let reachable = self.reachable(roots);
@@ -440,8 +438,8 @@ impl Graph {
     }
 }
 
-/// Everything that `roots` are made of, themselves included, in order, where these are the `operands` of each and `place`
-/// is its position, which none of its operands is behind.
+/// All items that `roots` are made of, including the roots, in order. `operands` returns the operands of an item, and `place`
+/// its position, which is greater than the positions of its operands.
 pub fn reachable<N, O>(roots: &[N], place: impl Fn(N) -> usize, operands: impl Fn(N) -> O) -> Vec<N>
 where
     N: Copy + Ord,
@@ -463,13 +461,13 @@ where
 /// A table of values for some expressions.
 #[derive(Clone, Debug)]
 pub struct ByExpr<T> {
-    /// One more than the place of what there is; 0 for nothing.
+    /// One more than the index of the value; 0 if there is none.
     places: Vec<u32>,
     values: Vec<T>,
 }
 
 impl<T> ByExpr<T> {
-    /// An empty table for everything that `roots` are made of.
+    /// An empty table for all sub-expressions of `roots`.
     pub fn of(roots: &[Expr]) -> Self {
         let size = roots.iter().map(|root| root.index() + 1).max().unwrap_or(0);
         ByExpr { places: vec![0; size], values: Vec::new() }

@@ -3,7 +3,7 @@
 use super::{Expr, Function, Graph, HALF, Node, Rational, Symbol, magnitude};
 use crate::sorted::SortedMap;
 
-/// How tightly a printed text binds.
+/// The precedence of a printed text.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
     Sum,
@@ -18,14 +18,14 @@ type Powers<B> = Vec<(B, Rational)>;
 /// The names of Cartesian reference coordinates.
 pub const AXES: [&str; 3] = ["X", "Y", "Z"];
 
-/// The names under which a reader knows leaves and sub-expressions.
+/// The names of leaves and sub-expressions for readers.
 #[derive(Clone, Debug)]
 pub struct Names {
     /// The reference coordinates.
     pub coordinates: &'static [&'static str],
     /// The parameters, in the order of the field file.
     pub parameters: Vec<String>,
-    /// Sub-expressions with names of their own; a named one is printed as its name.
+    /// Sub-expressions with names of their own; they are printed as their names.
     pub expressions: SortedMap<Expr, String>,
 }
 
@@ -54,8 +54,7 @@ impl Names {
 }
 
 impl Graph {
-    /// The text of `root`; parsed again it is the same expression. Where `root` itself is named,
-    /// its definition is printed.
+    /// The text of `root`; parsing it returns the same expression. If `root` itself has a name, its definition is printed.
     pub fn print(&self, root: Expr, names: &Names) -> String {
         let mut printed = SortedMap::<Expr, (String, Binding)>::new();
         for expr in self.reachable(&[root]) {
@@ -126,7 +125,7 @@ impl Graph {
     ) -> (Powers<String>, Powers<Expr>) {
         let mut factors: SortedMap<Expr, Rational> = factors.iter().cloned().collect();
         let mut known = Vec::new();
-        // Later definitions are made of earlier ones, and say more.
+        // Later definitions are made of earlier ones, and are more expressive.
         let earlier = names.expressions.iter().rev().skip_while(|(named, _)| **named >= product);
         for (named, name) in earlier {
             let Node::Product(parts) = self.node(*named) else { continue };
@@ -146,7 +145,7 @@ impl Graph {
     }
 }
 
-/// Whether a power can be split into a part and a power of the same sign, or nothing.
+/// Whether a power can be split into a part and a remainder of the same sign, or 0.
 fn holds(power: Option<&Rational>, part: &Rational) -> bool {
     power.is_some_and(|power| {
         let same_sign = (*power > Rational::ZERO) == (*part > Rational::ZERO);

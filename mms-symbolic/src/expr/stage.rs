@@ -1,8 +1,8 @@
-//! Binding times: when a value is known.
+//! Binding times: the times when values are known.
 
 use super::Symbol;
 
-/// When a value is known: which of {parameters, t, X} it needs.
+/// The time when a value is known: the inputs, among {parameters, t, X}, that it needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Parameters only: once.
@@ -11,7 +11,7 @@ pub enum Stage {
     Time,
     /// Parameters and X: once per point, and then for all times.
     Point,
-    /// X and t, or what a caller supplies at a point: every evaluation.
+    /// X and t, or an input that a caller supplies at a point: every evaluation.
     PointTime,
 }
 
@@ -27,7 +27,7 @@ impl Stage {
         }
     }
 
-    /// Whether X is needed, or what a caller supplies at a point.
+    /// Whether X is needed, or an input that a caller supplies at a point.
     pub fn needs_point(self) -> bool {
         matches!(self, Stage::Point | Stage::PointTime)
     }

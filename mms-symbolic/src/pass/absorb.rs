@@ -1,16 +1,15 @@
-//! Distributes constant factors: multiplies what parameters determine into sums whose terms have such factors
-//! already.
+//! Distributes constant factors: multiplies values that parameters determine into sums whose terms have such factors already.
 //!
-//! With a, b and c of parameters, a (b + c s) becomes a b + (a c) s, whose products are formed once and not at
-//! every point. What t determines is left where it is: it tells components apart, which then share less.
+//! If a, b and c depend on parameters only, a (b + c s) becomes a b + (a c) s, whose products are computed once and not at
+//! every point. Factors that t determines stay outside: they differ between components, which would then share less.
 
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational, Stage};
 
-/// How often it is tried: a factor that went into a sum may go on into the sums of its terms.
+/// The number of rounds: a factor that went into a sum may go on into the sums of its terms.
 const DEPTH: usize = 4;
 
-/// `roots` with factors that are known early taken into the sums they multiply.
+/// Multiplies the factors in `roots` that are known early into the sums beside them.
 pub fn absorb(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     let mut roots = roots.to_vec();
     for _ in 0..DEPTH {
@@ -22,10 +21,10 @@ pub fn absorb(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     roots
 }
 
-/// A product, its early factors in the first of its sums that can take them at no cost.
+/// A product whose early factors are multiplied into the first of its sums where that costs nothing.
 fn absorbed(graph: &mut Graph, factors: Vec<(Expr, Rational)>) -> Expr {
     let product = graph.product(factors);
-    // Sums put a number in front of a product that they normalise.
+    // A normalised sum puts a number in front of the product.
     let (coefficient, bare) = match graph.node(product).clone() {
         Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
             (terms[0].1.clone(), terms[0].0)
@@ -48,8 +47,8 @@ fn absorbed(graph: &mut Graph, factors: Vec<(Expr, Rational)>) -> Expr {
     graph.scale(product, coefficient)
 }
 
-/// Whether a sum that is known late has at most one term that would need a multiplication more,
-/// beside an early one, or none at all.
+/// Whether an early factor costs nothing in a sum that is known late: at most one term would need another multiplication if the
+/// sum has an early term, else none.
 fn takes(graph: &Graph, sum: Expr) -> bool {
     let Node::Sum(constant, terms) = graph.node(sum) else { return false };
     let has_early_factor = |term: Expr| match graph.node(term) {

@@ -1,7 +1,7 @@
-//! The second-order remainder of an expression: f less its linear part in a symbol e, such that nothing cancels.
-//! Of f = f0 + e f1 + f2 it is f2.
+//! The second-order remainder of an expression: f less its linear part in a symbol e, such that nothing cancels. For f = f0 + e
+//! f1 + f2 the remainder is f2.
 //!
-//! The calculus is that of [`difference`](super::difference), one order further. With r = f - f0:
+//! The calculus extends [`difference`](super::difference) by one order. With r = f - f0:
 //!
 //! ```text
 //! f g       f0 g2 + e f1 (g - g0) + f2 g            ln      f2/f0 - ln_1p_rest(r/f0)
@@ -9,28 +9,27 @@
 //! y = f^(1/n)   (f2 - h^2 s)/(n y0^(n-1)),  h = y - y0,  s = sum of (j + 1) y0^j y^(n-2-j)
 //! ```
 //!
-//! for exp_m1 r - r is h - ln_1p h with h = exp_m1 r, and y^n = y0^n + n y0^(n-1) h + h^2 s. Of a cosine, or a
-//! hyperbolic one, at 0 it is -2 sin(r/2)^2, or 2 sinh(r/2)^2.
+//! for exp_m1 r - r is h - ln_1p h with h = exp_m1 r, and y^n = y0^n + n y0^(n-1) h + h^2 s. The remainder of a cosine at 0 is
+//! -2 sin(r/2)^2, and 2 sinh(r/2)^2 for a hyperbolic cosine.
 //!
-//! It is needed where Div P or b are of second order in the amplitude, Div P of a harmonic motion as b of a wave
-//! at the material's own speed: half of a small amplitude makes a quarter of them, and all that is of first order
-//! would cancel in rounded numbers. The linear part is left out where it is 0 for any parameters; where it is so
-//! at their defaults alone, it is kept beside the rest, factored, so that what cancels in it does so in the
-//! parameters, which have twice the digits.
+//! The remainder is needed if Div P or b is of second order in the amplitude, such as Div P of a harmonic motion, or b of a
+//! wave at the material's own speed: half of a small amplitude reduces it to a quarter, and terms of first order would cancel
+//! in rounded numbers. The linear part is omitted if it is 0 for all parameters. If it is 0 at their defaults only, it is added
+//! to the rest in factored form, so that its terms cancel in the parameters, which have twice the digits.
 
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Symbol};
 use crate::sorted::SortedMap;
 
-/// The longest sum for a root; the greatest exponent.
+/// The largest order of a root, and the greatest exponent, that are split.
 const MAX_ROOT: u32 = 12;
 const MAX_POWER: u32 = 64;
 
 /// An expression to second order in the symbol: its limit, its slope times the symbol, and the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
-    /// f0, its value where the symbol is 0.
+    /// f0, the value of the expression at a symbol of 0.
     pub limit: Expr,
-    /// f1, its derivative there.
+    /// f1, the derivative there.
     pub slope: Expr,
     /// f2, the rest.
     pub rest: Expr,
@@ -56,11 +55,11 @@ pub fn curvature(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Optio
 struct Term {
     limit: Expr,
     slope: Expr,
-    /// Less the limit.
+    /// The expression less its limit.
     first: Expr,
-    /// Less the linear part.
+    /// The expression less its linear part.
     second: Expr,
-    /// All of it: in parts, where the limit is 0.
+    /// The whole expression: as the sum of its parts if the limit is 0.
     whole: Expr,
 }
 
@@ -130,7 +129,7 @@ impl Split {
         tidy(graph, Term { limit, slope, first, second, whole })
     }
 
-    /// By way of the root that the denominator names, of products, and of the reciprocal.
+    /// Splits a power by the root of its denominator, products, and the reciprocal.
     fn power(&self, graph: &mut Graph, base: Term, exponent: &Rational) -> Option<Term> {
         if graph.is_zero(base.first) {
             let zero = graph.number(0);
@@ -159,7 +158,7 @@ fn root(graph: &mut Graph, of: Term, degree: u32) -> Option<Term> {
     }
     let exponent = Rational::from_parts(1.into(), degree.into());
     let [limit, whole] = [of.limit, of.whole].map(|it| graph.power(it, exponent.clone()));
-    // y^n - y0^n = (y - y0) sum, and of that again.
+    // y^n - y0^n = (y - y0) sum, and the same for the sum.
     let [mut sum, mut again] = [Vec::new(), Vec::new()];
     for j in 0..degree {
         let powers = |graph: &mut Graph, of_whole: u32| {
@@ -225,7 +224,7 @@ fn products<const N: usize>(graph: &mut Graph, pairs: [[Expr; 2]; N]) -> Expr {
     graph.sum(terms)
 }
 
-/// What is 0 is left out of what it is a part of.
+/// Omits parts that are 0 from the sums that contain them.
 fn tidy(graph: &Graph, mut term: Term) -> Term {
     if graph.is_zero(term.slope) {
         term.first = term.second;
@@ -265,7 +264,7 @@ fn logarithm(graph: &mut Graph, of: Term, expr: Expr) -> Option<Term> {
     Some(tidy(graph, Term { limit, slope, first, second, whole: expr }))
 }
 
-/// A function that is 1 at 0, and as much more as the square of another at half of the argument.
+/// A function of value 1 at 0 whose remainder is `factor` times the square of another function at half the argument.
 fn at_crest(graph: &mut Graph, [half, own]: [Function; 2], factor: i32, of: Term) -> Term {
     let middle = graph.scale(of.first, HALF);
     let root = graph.call(half, &[middle]);

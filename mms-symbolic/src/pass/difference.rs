@@ -1,8 +1,8 @@
-//! The zeroth-order remainder of an expression: f - f0, with f0 its value where a symbol is 0, such that nothing
-//! cancels. sin(c + q) - sin c becomes 2 cos(c + q/2) sin(q/2).
+//! The zeroth-order remainder of an expression: f - f0, with f0 its value at a symbol of 0, such that nothing cancels. sin(c +
+//! q) - sin c becomes 2 cos(c + q/2) sin(q/2).
 //!
-//! The calculus of finite differences is exact at any size of the difference. With f - f0 for the remainder of an
-//! operand, each operation has a rule:
+//! The calculus of finite differences is exact at any size of the difference. With f - f0 for the remainder of an operand, each
+//! operation has a rule:
 //!
 //! ```text
 //! f g       (f - f0) g + f0 (g - g0)               exp     exp f0 exp_m1(f - f0)
@@ -13,27 +13,26 @@
 //! atan      atan2(f - f0, 1 + f f0)                tanh    tanh(f - f0) (1 - tanh f tanh f0)
 //! ```
 //!
-//! asin f - asin f0 is the angle whose sine is f c0 - f0 c and whose cosine is c c0 + f f0, with c^2 = 1 - f^2;
-//! acos is pi/2 less that. (Boole, A Treatise on the Calculus of Finite Differences, 1860, has the rules of
-//! products and functions.)
+//! asin f - asin f0 is the angle whose sine is f c0 - f0 c and whose cosine is c c0 + f f0, with c^2 = 1 - f^2; acos is pi/2
+//! less asin. (Boole, A Treatise on the Calculus of Finite Differences, 1860, has the rules of products and functions.)
 
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Stage, Symbol};
 use crate::sorted::SortedMap;
 
-/// The longest sum for a root; the greatest exponent.
+/// The largest order of a root, and the greatest exponent, that are split.
 const MAX_ROOT: u32 = 12;
 const MAX_POWER: u32 = 64;
 
-/// An expression as the sum of its limit, where the symbol is 0, and of the rest.
+/// An expression as the sum of its limit, at a symbol of 0, and of the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
-    /// Its value where the symbol is 0.
+    /// The value at a symbol of 0.
     pub limit: Expr,
     /// The rest, which vanishes with the symbol.
     pub rest: Expr,
 }
 
-/// Splits each root; `None` for one that has no value where `symbol` is 0.
+/// Splits each root; `None` for a root that has no value at a `symbol` of 0.
 pub fn difference(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Option<Parts>> {
     let mut split = Split { symbol, known: SortedMap::new() };
     for expr in graph.reachable(roots) {
@@ -45,12 +44,12 @@ pub fn difference(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Opti
     roots.iter().map(parts).collect()
 }
 
-/// The parts of an expression, and both of them together.
+/// The parts of an expression, and their sum.
 #[derive(Clone, Copy)]
 struct Term {
     limit: Expr,
     rest: Expr,
-    /// The rest where that is all, else as it was written.
+    /// The rest if the limit is 0, else the expression as written.
     whole: Expr,
 }
 
@@ -59,7 +58,7 @@ impl Term {
         Term { limit, rest, whole: if graph.is_zero(limit) { rest } else { whole } }
     }
 
-    /// What does not depend on the symbol.
+    /// The parts of an expression that does not depend on the symbol.
     fn fixed(graph: &mut Graph, whole: Expr) -> Term {
         Term { limit: whole, rest: graph.number(0), whole }
     }
@@ -112,7 +111,7 @@ impl Split {
                 let limit = graph.offset(coordinate?.limit, place?.limit);
                 Some(Term { limit, rest: graph.sub(expr, limit), whole: expr })
             }
-            // It is made where all differences have been taken.
+            // The node is only made after all differences.
             Node::Small(..) => None,
             Node::Call(function, arguments) => {
                 let arguments: Option<Vec<Term>> =
@@ -123,7 +122,7 @@ impl Split {
     }
 }
 
-/// f g - f0 g0 = (f - f0) g + f0 (g - g0). A factor that vanishes makes all of it vanish.
+/// f g - f0 g0 = (f - f0) g + f0 (g - g0). A vanishing factor makes the product vanish.
 fn product(graph: &mut Graph, whole: Expr, factors: &[Term]) -> Term {
     let multiply = |graph: &mut Graph, factors: &[Expr]| {
         graph.product(factors.iter().map(|factor| (*factor, Rational::ONE)))
@@ -146,7 +145,7 @@ fn product(graph: &mut Graph, whole: Expr, factors: &[Term]) -> Term {
     Term::of(graph, whole, limit, rest)
 }
 
-/// A power, by way of the root that its denominator names.
+/// A power, by the root of its denominator.
 fn power(graph: &mut Graph, base: Term, exponent: Rational) -> Option<Term> {
     if exponent.is_one() {
         return Some(base);
@@ -184,8 +183,7 @@ fn power(graph: &mut Graph, base: Term, exponent: Rational) -> Option<Term> {
     Some(Term { limit, rest, whole })
 }
 
-/// f^r - f0^r of an exponent of many digits: f0^r exp_m1(r ln(f/f0)) where f0 cannot be 0 at some X
-/// alone.
+/// f^r - f0^r for an exponent of many digits: f0^r exp_m1(r ln(f/f0)), if f0 cannot be 0 at single X.
 fn long_power(graph: &mut Graph, base: Term, exponent: Rational, whole: Expr) -> Expr {
     let limit = graph.power(base.limit, exponent.clone());
     if exponent.is_int() || graph.stage(base.limit) != Stage::Parameter {
@@ -216,13 +214,13 @@ fn powers(graph: &mut Graph, [a, b]: [Expr; 2], count: u32) -> Expr {
     graph.add(more, last)
 }
 
-/// A function of operands that move.
+/// A function of operands that depend on the symbol.
 fn call(graph: &mut Graph, whole: Expr, function: Function, arguments: &[Term]) -> Option<Term> {
     let limits: Vec<Expr> = arguments.iter().map(|argument| argument.limit).collect();
     let wholes: Vec<Expr> = arguments.iter().map(|argument| argument.whole).collect();
     let limit = graph.call(function, &limits);
     let Term { limit: at, rest, whole: of } = arguments[0];
-    // What it is 0 at elsewhere, as ln at 1, has lost digits of the rest.
+    // A function that is 0 at another argument, as ln at 1, has lost digits of the rest.
     if graph.is_zero(at) && graph.is_zero(limit) {
         let rest = graph.call(function, &wholes);
         return Some(Term { limit, rest, whole: rest });
@@ -289,8 +287,8 @@ fn call(graph: &mut Graph, whole: Expr, function: Function, arguments: &[Term]) 
             let factor = graph.call(Function::ExpM1, &[exponent]);
             graph.mul(limit, factor)
         }
-        // Two angles of a point may be a turn apart. The others stand in no field; of one that is new it is right,
-        // with the digits that the difference leaves.
+        // Two angles of a point may differ by a turn. The other functions occur in no field; for a new function a plain
+        // difference is right, with the digits that remain.
         _ => graph.sub(whole, limit),
     };
     Some(Term { limit, rest, whole })

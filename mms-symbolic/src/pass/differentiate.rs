@@ -1,8 +1,7 @@
 //! Symbolic differentiation: one rule per operation.
 //!
-//! What depends on X through one expression k alone, such as a function of a radius, is
-//! differentiated by k first: dn/dX = (dn/dk) (dk/dX). So the derivative by k stays in one piece,
-//! and is the same in all directions.
+//! An expression that depends on X through one expression k only, such as a function of a radius, is differentiated by k first:
+//! dn/dX = (dn/dk) (dk/dX). So the derivative by k stays in one piece, and is the same in all directions.
 
 use super::factor::factored_sum;
 use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
@@ -32,18 +31,19 @@ pub fn differentiate(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<E
         .collect()
 }
 
-/// The kernel of every expression that moves with the symbol, and the derivative by it.
+/// The kernel of every expression that depends on the symbol, and the derivative by the kernel.
 ///
-/// The kernel of an expression is the last one on all ways from the symbol to it: its immediate
-/// dominator (Lengauer & Tarjan, 1979). The kernel of a kernel stands before it, down to the symbol.
+/// The kernel of an expression is the last expression common to all paths from the symbol to it: its immediate dominator
+/// (Lengauer & Tarjan, 1979). Every kernel has a kernel in turn, down to the symbol.
 struct Slopes {
     root: Option<Expr>,
-    /// By the position of the expression. Ways to a kernel are long, and each step is a look-up.
+    /// The kernel and the derivative, by the position of the expression. Paths to a kernel are long, and each step is a
+    /// look-up.
     of: Vec<Option<(Expr, Expr)>>,
 }
 
 impl Slopes {
-    /// Room for everything that `roots` are made of.
+    /// An empty table for all sub-expressions of `roots`.
     fn up_to(roots: &[Expr]) -> Self {
         let last = roots.iter().max().map_or(0, |last| last.index() + 1);
         Slopes { root: None, of: vec![None; last] }
@@ -53,17 +53,17 @@ impl Slopes {
         self.root == Some(expr) || self.of[expr.index()].is_some()
     }
 
-    /// The kernel of an expression that moves, and the derivative by it.
+    /// The kernel of an expression that depends on the symbol, and the derivative by it.
     fn step(&self, expr: Expr) -> (Expr, Expr) {
         self.of[expr.index()].expect("only the symbol has no kernel")
     }
 
-    /// What all operands that move have passed through last; `None` if none moves.
+    /// The last common kernel of all operands that depend on the symbol; `None` if none does.
     fn kernel(&self, node: &Node) -> Option<Expr> {
         let moving = node.children().filter(|child| self.moves(*child));
         moving.reduce(|a, b| {
             let (mut a, mut b) = (a, b);
-            // Kernels have smaller handles than what they are kernels of.
+            // A kernel has a smaller handle than its expression.
             while a != b {
                 let later = if a > b { &mut a } else { &mut b };
                 *later = self.step(*later).0;
@@ -97,7 +97,7 @@ impl Slopes {
             // d(prod b^e) = sum e b^(e-1) db (the other factors).
             Node::Product(factors) => {
                 for (index, (base, exponent)) in factors.iter().enumerate() {
-                    // What a full graph answers is void, and each term takes as long as the product.
+                    // Results of a full graph are meaningless, and each term takes as long as the product.
                     if self.moves(*base) && !graph.is_exhausted() {
                         let mut term = factors.clone();
                         term[index].1 -= Rational::ONE;
@@ -130,7 +130,7 @@ impl Slopes {
     }
 }
 
-/// The partial derivative of `value = function(arguments)` by the argument of that index.
+/// The partial derivative of `value = function(arguments)` by the argument at this index.
 fn partial(
     graph: &mut Graph,
     value: Expr,
@@ -185,7 +185,7 @@ fn partial(
             graph.power(denominator, -1)
         }
         Function::Atan2 => {
-            // atan2(y, x): by y it is x/(x^2 + y^2), by x it is -y/(x^2 + y^2).
+            // The derivative of atan2(y, x) is x/(x^2 + y^2) by y, and -y/(x^2 + y^2) by x.
             let (y, x) = (arguments[0], arguments[1]);
             let squares = [graph.power(x, 2), graph.power(y, 2)];
             let radius = graph.add(squares[0], squares[1]);
@@ -194,7 +194,7 @@ fn partial(
             graph.scale(quotient, sign)
         }
         Function::Powf => {
-            // b^e: by b it is e b^e / b, by e it is b^e ln b.
+            // The derivative of b^e is e b^e / b by b, and b^e ln b by e.
             let (base, exponent) = (arguments[0], arguments[1]);
             if index == 0 {
                 let slope = graph.div(value, base);

@@ -1,18 +1,17 @@
-//! Multiplies out: a (x + y) = a x + a y, so that what cancels in exact numbers is gone before it is
-//! rounded.
+//! Multiplies out: a (x + y) = a x + a y, so that terms cancel in exact numbers before they are rounded.
 
 use crate::expr::{Expr, Graph, Node, Rational, Symbol};
 
-/// A sum of more terms stays as it is.
+/// The largest number of terms; a longer sum stays as it is.
 const MAX_TERMS: usize = 200;
 
-/// The roots with their products multiplied out, as far as a factor is a sum that depends on one of
-/// `symbols`. What is inside functions and roots, or divided by, stays as it is.
+/// Multiplies out the products in roots, if a factor is a sum that depends on one of `symbols`. Expressions inside functions,
+/// roots and divisors stay as they are.
 pub fn expand(graph: &mut Graph, roots: &[Expr], symbols: &[Symbol]) -> Vec<Expr> {
     roots.iter().map(|root| expanded(graph, *root, symbols).unwrap_or(*root)).collect()
 }
 
-/// `None` where there would be too many terms.
+/// Multiplies out one root; `None` if there would be too many terms.
 fn expanded(graph: &mut Graph, root: Expr, symbols: &[Symbol]) -> Option<Expr> {
     let mut open = vec![(root, Rational::ONE)];
     let mut terms = Vec::new();
@@ -38,8 +37,8 @@ fn expanded(graph: &mut Graph, root: Expr, symbols: &[Symbol]) -> Option<Expr> {
     Some(graph.sum(terms))
 }
 
-/// The position of a factor that is a sum to a whole positive power: the last one, since it may be
-/// made of the others, whose powers then meet.
+/// The position of a factor that is a sum to a whole positive power: the last one, since it may be made of the others, so that
+/// their powers are collected.
 fn sum_among(graph: &Graph, factors: &[(Expr, Rational)], symbols: &[Symbol]) -> Option<usize> {
     factors.iter().rposition(|(base, exponent)| {
         let is_sum = matches!(graph.node(*base), Node::Sum(..));
@@ -48,7 +47,7 @@ fn sum_among(graph: &Graph, factors: &[(Expr, Rational)], symbols: &[Symbol]) ->
     })
 }
 
-/// The terms of a product, by one power of that factor.
+/// The terms of a product after one power of that factor is multiplied out.
 fn split(
     graph: &mut Graph,
     mut factors: Vec<(Expr, Rational)>,

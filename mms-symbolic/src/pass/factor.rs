@@ -1,8 +1,8 @@
-//! Taking out what every term of a sum has in common: a x + a y = a (x + y).
+//! Takes out common factors of all terms of a sum: a x + a y = a (x + y).
 //!
-//! The rule saves multiplications, unless it takes apart a product that is needed elsewhere as it
-//! is; `simplify`, in mechanics, keeps its result only where that is no dearer. It also brings the terms
-//! that are left together, so that (1 + j) (m/(1 + j) + l/(1 + j)) becomes m + l.
+//! The rule saves multiplications, unless it splits a product that is needed elsewhere as a whole; `simplify`, in mechanics,
+//! only uses its result if it costs no more. It also merges the remaining terms, so that (1 + j) (m/(1 + j) + l/(1 + j))
+//! becomes m + l.
 
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational, is_negative};
@@ -11,8 +11,8 @@ use crate::sorted::SortedMap;
 /// Bases with their exponents.
 type Powers = Vec<(Expr, Rational)>;
 
-/// How often factors are taken out of one sum. Each time after the first, a sum that was a factor has
-/// opened; sums that nest deeper than this keep the rest of what they share.
+/// The largest number of factors that are taken out of one sum in turn. Each one after the first was a sum inside the last;
+/// sums that nest deeper keep their remaining common factors.
 const DEPTH: usize = 64;
 
 /// `roots` with common factors taken out of every sum below them.
@@ -26,7 +26,7 @@ pub fn factor(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
 fn factor_sum(graph: &mut Graph, expr: Expr) -> Expr {
     let mut outer = Vec::new();
     let mut inner = expr;
-    // Terms that were apart may meet inside and have factors in common again.
+    // Separate terms may merge inside, and have common factors again.
     for _ in 0..DEPTH {
         let Some((common, rest)) = take_common(graph, inner) else { break };
         outer.extend(common);
@@ -68,7 +68,7 @@ fn take_common(graph: &mut Graph, expr: Expr) -> Option<(Powers, Expr)> {
     take_common_of(graph, terms).ok()
 }
 
-/// The powers that all of `terms` have, and their sum without them, or the terms as they are.
+/// The powers that all of `terms` have, and their sum without them, or the unchanged terms.
 fn take_common_of(
     graph: &mut Graph,
     terms: Vec<(Expr, Rational)>,
@@ -101,7 +101,7 @@ fn take_common_of(
     Ok((common.into_iter().collect(), rest))
 }
 
-/// The powers that can be taken out of a term: not those of 0, which nothing divides away.
+/// The powers that can be taken out of a term; none of 0, which cannot be divided away.
 fn powers(graph: &Graph, term: Expr) -> SortedMap<Expr, Rational> {
     match graph.node(term) {
         Node::Product(factors) => {
@@ -111,7 +111,7 @@ fn powers(graph: &Graph, term: Expr) -> SortedMap<Expr, Rational> {
     }
 }
 
-/// The part of two powers of one base that both have. Powers of opposite sign share nothing.
+/// The common part of two powers of one base. Powers of opposite sign have none.
 fn shared(a: &Rational, b: &Rational) -> Option<Rational> {
     let same_sign = is_negative(a) == is_negative(b);
     same_sign.then(|| a.min(b).clone())

@@ -1,15 +1,14 @@
-//! Reassociates constants: with a and b of parameters or of t and a number c, a + b (c + x) becomes (a + b c) + b
-//! x, which leaves one addition less to every point.
+//! Reassociates constants: if a and b depend on parameters or t, and c is a number, a + b (c + x) becomes (a + b c) + b x,
+//! which saves one addition at every point.
 //!
-//! It does so where nothing else reads c + x. A parameter c stays with x: it may be as large as x, and set to
-//! anything.
+//! The rule applies if nothing else reads c + x. A parameter c stays with x: it may be as large as x, and be set to any number.
 
 use super::Operands;
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
 use crate::sorted::SortedMap;
 
-/// `roots` with the constants of inner sums added to those of outer ones.
+/// Adds the constants of inner sums in `roots` to the outer sums.
 pub fn gather(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     let mut gathered = roots.to_vec();
     loop {
@@ -21,7 +20,7 @@ pub fn gather(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     }
 }
 
-/// Every constant one sum further out: the sums that it came from have other readers then.
+/// Moves every constant one sum outwards: after that their sums have other readers.
 fn outwards(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     let readers = graph.readers(roots, |_| true);
     rebuild(graph, roots, |graph, node| match node {
@@ -35,7 +34,7 @@ fn outwards(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     })
 }
 
-/// A term, or, if it is made of early factors and of one sum with a constant, the two that it becomes.
+/// A term; or the two terms that replace it, if it consists of early factors and one sum with a constant.
 fn opened(
     graph: &mut Graph,
     readers: &SortedMap<Expr, usize>,
@@ -58,7 +57,7 @@ fn opened(
     vec![(term, coefficient)]
 }
 
-/// Whether no X is needed.
+/// Whether an expression needs no X.
 fn is_early(graph: &Graph, expr: Expr) -> bool {
     !graph.stage(expr).needs_point()
 }
@@ -80,7 +79,7 @@ mod tests {
         let products = [(b, x), (b, two)].map(|(a, b)| (graph.mul(a, b), Rational::ONE));
         let expected = graph.sum(products.into_iter().chain([(a, Rational::ONE)]));
         assert_eq!(gather(&mut graph, &[root]), [expected]);
-        // What is read elsewhere, or asked for, is made anyway; without a constant, an addition would only move.
+        // A sum that is read elsewhere, or is a root, is computed anyway: moving its constant would only move an addition.
         let square = graph.mul(inner, inner);
         assert_eq!(gather(&mut graph, &[root, square]), [root, square]);
         assert_eq!(gather(&mut graph, &[root, inner]), [root, inner]);

@@ -1,11 +1,11 @@
-//! Writes sines and cosines of multiples of pi as functions of the multiple (sinpi, cospi): sin(pi x) takes whole
-//! turns off x without error, and saves a product, where the sine of a rounded pi x would err by eps times the
-//! angle. So t after many periods is as good as t in the first.
+//! Writes sines and cosines of multiples of pi as functions of the multiple (sinpi, cospi): sin(pi x) subtracts whole turns
+//! from x without error, and saves a product, while the sine of a rounded pi x would have an error of eps times the angle. So t
+//! after many periods is as exact as t in the first.
 
 use super::substitute::rebuild;
 use crate::expr::{Expr, Function, Graph, Node, Rational};
 
-/// `roots` with the sines and cosines of multiples of pi as functions of the multiple.
+/// Writes the sines and cosines of multiples of pi in `roots` as functions of the multiple.
 pub fn half_turns(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     rebuild(graph, roots, |graph, node| {
         let turned = match &node {
@@ -20,7 +20,7 @@ pub fn half_turns(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     })
 }
 
-/// The quotient of an angle and pi, where every term of the angle has it as a factor.
+/// The quotient of an angle and pi, if every term of the angle has the factor pi.
 fn by_pi(graph: &mut Graph, angle: Expr) -> Option<Expr> {
     match graph.node(angle).clone() {
         Node::Pi => Some(graph.number(1)),

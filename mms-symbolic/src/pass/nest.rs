@@ -1,15 +1,15 @@
-//! Nesting, the multivariate Horner scheme: a x + a y + b = a (x + y) + b. The factor that most terms have is
-//! taken out first. A sum that is a square is written as one.
+//! Nesting, the multivariate Horner scheme: a x + a y + b = a (x + y) + b. The most frequent factor of the terms is taken out
+//! first. A sum that is a square is written as a square.
 
 use super::polynomial::{Monomial, Polynomial, product};
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
 use crate::sorted::SortedMap;
 
-/// Longer sums are left as they are: the work can grow with the square of their length.
+/// The largest number of terms; longer sums stay as they are, since the work can grow with the square of their length.
 const MAX_TERMS: usize = 2000;
 
-/// `roots` with every sum below them nested. Factors of a lower rank are taken out first.
+/// Nests every sum in `roots`. Factors of a lower rank are taken out first.
 pub fn nest(graph: &mut Graph, roots: &[Expr], rank: &dyn Fn(&Graph, Expr) -> u8) -> Vec<Expr> {
     rebuild(graph, roots, |graph, node| {
         let made = graph.remake(node);
@@ -35,7 +35,7 @@ pub(super) fn flat_view(graph: &mut Graph, expr: Expr) -> Option<Polynomial> {
                 .collect::<Option<Monomial>>()?,
             _ => vec![(term, 1)],
         };
-        // Roots of bases have handles in another order than the bases.
+        // The handles of roots may be in another order than the handles of their bases.
         let mut monomial = monomial;
         monomial.sort();
         view.add(monomial, coefficient);
@@ -81,18 +81,18 @@ pub(super) fn nested(
 
 /// A sum that is being nested.
 struct Level {
-    /// The factors that all of it shares.
+    /// The common factors of all terms.
     common: Monomial,
     /// The terms that are not nested yet.
     rest: Polynomial,
-    /// In how many of them each factor stands.
+    /// The number of these terms that have each factor.
     counts: Counts,
-    /// What is nested already.
+    /// The parts that are nested already.
     parts: Vec<(Expr, Rational)>,
 }
 
 impl Level {
-    /// What all terms share is taken out at once, so that every further factor parts the terms.
+    /// Starts a level: common factors of all terms are taken out at once, so that every further factor is in some terms only.
     fn new(graph: &mut Graph, polynomial: Polynomial, rank: &dyn Fn(&Graph, Expr) -> u8) -> Self {
         let (common, mut rest) = take_common(polynomial);
         let mut parts = Vec::new();
@@ -106,7 +106,7 @@ impl Level {
         Level { common, rest, counts, parts }
     }
 
-    /// Takes out the terms with the factor that most of them have, if two have it.
+    /// Takes out the terms with the most frequent factor, if at least two terms have it.
     fn take_most_frequent(
         &mut self,
         graph: &Graph,
@@ -131,7 +131,7 @@ impl Level {
     }
 }
 
-/// In how many terms each factor stands, above and below the line.
+/// The number of terms that have each factor, as a multiplier and as a divisor.
 #[derive(Default)]
 struct Counts(SortedMap<(Expr, i32), i32>);
 
@@ -142,7 +142,7 @@ impl Counts {
         }
     }
 
-    /// The factor, and the sign of its exponent, of most terms; at least of two.
+    /// The most frequent factor, and the sign of its exponent; at least two terms have it.
     fn most_frequent(
         &self,
         graph: &Graph,
@@ -178,7 +178,7 @@ pub(super) fn take_common(polynomial: Polynomial) -> (Monomial, Polynomial) {
     (common, Polynomial { terms })
 }
 
-/// The magnitude of the exponent of `atom` where it has that sign, or 0.
+/// The magnitude of the exponent of `atom` if it has this sign, else 0.
 fn power_in(monomial: &Monomial, atom: Expr, sign: i32) -> i32 {
     let found = monomial.iter().find(|(base, _)| *base == atom);
     found.map_or(0, |(_, exponent)| (exponent * sign).max(0))

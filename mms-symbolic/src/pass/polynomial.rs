@@ -6,18 +6,18 @@ use crate::sorted::{SortedMap, SortedSet};
 /// Factors with non-zero integer exponents, negative ones included, in order of handles.
 pub(super) type Monomial = Vec<(Expr, i32)>;
 
-/// The greatest exponent; beyond it a power is not multiplied out.
+/// The greatest exponent; a greater power is not multiplied out.
 const MAX_EXPONENT: u32 = 1 << 20;
 
-/// How many terms a polynomial may have.
+/// The largest number of terms of a polynomial.
 const MAX_TERMS: usize = 200;
 
-/// How many terms a polynomial may have of which another one is looked for to be the square.
+/// The largest number of terms of a polynomial whose square is sought.
 const MAX_ROOT: usize = 8;
 
 /// A sum of monomials with non-zero coefficients.
 ///
-/// Operations return `None` where the result would have more than [`MAX_TERMS`] terms.
+/// Operations return `None` if the result would have more than [`MAX_TERMS`] terms.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Polynomial {
     pub(super) terms: SortedMap<Monomial, Rational>,
@@ -29,7 +29,7 @@ impl Polynomial {
         Self::monomial(Monomial::new(), number)
     }
 
-    /// A power of an expression, which is not looked into.
+    /// A power of an expression, which is treated as an atom.
     pub(super) fn power_of(atom: Expr, exponent: i32) -> Self {
         let monomial = if exponent == 0 { Monomial::new() } else { vec![(atom, exponent)] };
         Self::monomial(monomial, Rational::ONE)
@@ -56,14 +56,14 @@ impl Polynomial {
         }
     }
 
-    /// The only term, if there is one and no other.
+    /// The only term, if there is exactly one.
     pub(super) fn single(&self) -> Option<(&Monomial, &Rational)> {
         if self.terms.len() == 1 { self.terms.iter().next() } else { None }
     }
 
     /// c and q with c q^2 = self and fewer terms in q; found in short polynomials of one expression.
     pub(super) fn as_square(&self) -> Option<(Rational, Polynomial)> {
-        // The square of n terms has no more than n (n + 1)/2.
+        // The square of n terms has at most n (n + 1)/2 terms.
         if self.terms.len() > MAX_ROOT * (MAX_ROOT + 1) / 2 {
             return None;
         }
@@ -80,7 +80,7 @@ impl Polynomial {
         let mut root = Polynomial::power_of(atom, degree / 2);
         while root.terms.len() < self.terms.len() && root.terms.len() <= MAX_ROOT {
             let rest = self.clone().plus(&root.times(&root)?, &-factor.clone())?;
-            // The next term of the root, times that with x^(degree/2) twice, leads what is left.
+            // Twice the next term of the root times x^(degree/2) is the leading term of the remainder.
             let Some((exponent, c)) = leading(&rest) else { return Some((factor, root)) };
             let next = Polynomial::power_of(atom, exponent - degree / 2);
             root = root.plus(&next, &(c / (&factor * Rational::from(2))))?;
@@ -88,7 +88,7 @@ impl Polynomial {
         None
     }
 
-    /// Every expression that it has a power of.
+    /// Every expression of which the polynomial has a power.
     pub(super) fn atoms(&self) -> SortedSet<Expr> {
         self.terms.keys().flatten().map(|(atom, _)| *atom).collect()
     }
@@ -115,7 +115,7 @@ impl Polynomial {
         (product.terms.len() <= MAX_TERMS).then_some(product)
     }
 
-    /// A power by repeated squaring; `reduce` is applied to what becomes longer.
+    /// A power by repeated squaring; `reduce` is applied to every longer product.
     pub(super) fn power(
         &self,
         exponent: u32,

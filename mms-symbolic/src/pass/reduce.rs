@@ -1,7 +1,7 @@
-//! Reduction to normal form: expressions multiplied out modulo the relations, so that what cancels is gone.
+//! Reduction to normal form: expressions are multiplied out modulo the relations, so that terms cancel.
 //!
-//! Sums without anything that a relation knows, and functions of one root alone, stay in one piece; what would
-//! have more than 200 terms does too. Reduction is therefore bounded, and need not pay.
+//! Three kinds of sums stay in one piece: without any atom of a relation, functions of one root alone, and sums of more than
+//! 200 terms. Reduction is therefore bounded, and may not pay.
 
 use super::nest::{integral_power, nested, take_common};
 use super::polynomial::Polynomial;
@@ -10,8 +10,7 @@ use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
 use crate::sorted::SortedMap;
 
-/// `roots` in normal form modulo `relations`, nested. What would become too large is kept in one
-/// piece.
+/// Computes the normal form of `roots` modulo `relations`, nested. Expressions that would become too large stay in one piece.
 pub fn reduce(graph: &mut Graph, roots: &[Expr], relations: &Relations) -> Vec<Expr> {
     if relations.is_empty() {
         return roots.to_vec();
@@ -22,7 +21,7 @@ pub fn reduce(graph: &mut Graph, roots: &[Expr], relations: &Relations) -> Vec<E
         reducer.forms.insert(expr, form);
     }
     let reduced: Vec<Expr> = roots.iter().map(|root| reducer.rebuilt(graph, *root)).collect();
-    // Sines and cosines were kept as relations know them, with angles as they were.
+    // Sines and cosines were kept as in the relations, with their angles unchanged.
     let angles: SortedMap<Expr, Expr> = relations
         .angles(graph)
         .filter(|angle| reducer.forms.contains_key(angle))
@@ -47,7 +46,7 @@ struct Reducer<'a> {
 }
 
 impl Reducer<'_> {
-    /// The normal form of a node whose operands have theirs.
+    /// The normal form of a node whose operands are in normal form.
     fn form(&mut self, graph: &mut Graph, expr: Expr) -> Polynomial {
         if self.relations.concerns(expr) {
             return Polynomial::power_of(expr, 1);
@@ -69,8 +68,7 @@ impl Reducer<'_> {
         }
     }
 
-    /// A sum, multiplied out where that is of use; else what its terms share, times the rest in
-    /// one piece.
+    /// A sum, multiplied out if that is useful; else the common factors of its terms times the rest in one piece.
     fn sum(
         &mut self,
         graph: &mut Graph,
@@ -129,10 +127,10 @@ impl Reducer<'_> {
         self.atom(graph, rebuilt, exponent)
     }
 
-    /// A power whose base is not looked into.
+    /// A power whose base is treated as an atom.
     fn atom(&self, graph: &mut Graph, base: Expr, exponent: &Rational) -> Option<Polynomial> {
         let power = graph.power(base, exponent.clone());
-        // A sum is the same factor whatever number it is multiplied by.
+        // A sum is the same factor for every number that multiplies it.
         let (content, primitive) = graph.split_content(power);
         let factors = match graph.node(primitive).clone() {
             Node::Number(number) => return Some(Polynomial::constant(content * number)),

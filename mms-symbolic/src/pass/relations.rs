@@ -1,10 +1,10 @@
-//! Polynomial identities between subexpressions: s^2 + c^2 = 1 for the sine and cosine of an angle, sinh^2 =
-//! cosh^2 - 1, and R^2 = X^2 + Y^2 for a root of a sum of squares, as `sqrt` or `hypot` in the file.
+//! Polynomial identities between subexpressions: s^2 + c^2 = 1 for the sine and cosine of an angle, sinh^2 = cosh^2 - 1, and
+//! R^2 = X^2 + Y^2 for a root of a sum of squares, as `sqrt` or `hypot` in the file.
 //!
-//! Each relation replaces the square of one expression, no two the same one. The leading terms are thus coprime,
-//! the relations are a Groebner basis as they stand, and replacing until nothing can be replaced gives one normal
-//! form (Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, 2015, section 2.9). It ends: what replaces a
-//! square has neither that square nor one that an earlier relation replaces.
+//! Each relation replaces the square of another expression. The leading terms are thus coprime, the relations are a Groebner
+//! basis already, and replacing until nothing can be replaced gives one normal form (Cox, Little & O'Shea, Ideals, Varieties,
+//! and Algorithms, 2015, section 2.9). The replacement ends, since the replacement of a square contains neither that square nor
+//! one that an earlier relation replaces.
 
 use super::polynomial::{Monomial, Polynomial};
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Stage};
@@ -17,13 +17,13 @@ fn half_of(graph: &mut Graph, angle: Expr) -> Expr {
 /// The relations of a set of expressions.
 #[derive(Clone, Debug, Default)]
 pub struct Relations {
-    /// What the square of an expression equals.
+    /// The polynomial that the square of an expression equals.
     squares: SortedMap<Expr, Polynomial>,
-    /// The root of what stands under one.
+    /// The root of each radicand.
     roots: SortedMap<Expr, Expr>,
     /// Sines and cosines, hyperbolic ones included.
     circular: SortedSet<Expr>,
-    /// What stands squared under a root.
+    /// The expressions whose squares are in a radicand.
     squared: SortedSet<Expr>,
     /// Whether functions of a single root are multiplied out as well.
     thorough: bool,
@@ -32,7 +32,7 @@ pub struct Relations {
     steep: bool,
 }
 
-/// How late an expression is known, latest first: 0 if it needs X, 1 if it needs t, else 2.
+/// The rank of an expression by the time when it is known, latest first: 0 if it needs X, 1 if it needs t, else 2.
 pub fn lateness(graph: &Graph, expr: Expr) -> u8 {
     match graph.stage(expr) {
         Stage::Point | Stage::PointTime => 0,
@@ -42,10 +42,10 @@ pub fn lateness(graph: &Graph, expr: Expr) -> u8 {
 }
 
 impl Relations {
-    /// The relations between what `expressions` are made of.
+    /// Finds the relations between the sub-expressions of `expressions`.
     ///
-    /// Of a displacement: one that rotates has sine and cosine of an angle. One that oscillates
-    /// has both only with its derivatives, which nothing would cancel.
+    /// Sine and cosine of one angle both occur in a displacement that rotates. A displacement that oscillates has both only
+    /// together with its derivatives, where nothing would cancel.
     pub fn find(graph: &mut Graph, expressions: &[Expr]) -> Self {
         let mut relations = Relations::default();
         let reachable = graph.reachable(expressions);
@@ -76,11 +76,10 @@ impl Relations {
         relations
     }
 
-    /// The relations between sine and cosine of half the angles that `expressions` have sine and
-    /// cosine of: cos^2 = 1 - sin^2, so that normal forms are polynomials in what is small with the
-    /// angle. Roots are as in [`Relations::find`].
+    /// The relations between sine and cosine of half the angles whose sine and cosine occur in `expressions`: cos^2 = 1 -
+    /// sin^2, so that normal forms are polynomials in terms that are small with the angle. Roots are as in [`Relations::find`].
     ///
-    /// Only angles count of which half stands in `used`. See [`Relations::halve`].
+    /// Only angles whose half occurs in `used` count. See [`Relations::halve`].
     pub fn of_half_angles(graph: &mut Graph, expressions: &[Expr], used: &[Expr]) -> Self {
         let used = graph.reachable(used);
         let mut relations = Self::find(graph, expressions);
@@ -111,13 +110,13 @@ impl Relations {
         relations
     }
 
-    /// Expressions in half the angles of these relations: sin a = 2 sin(a/2) cos(a/2) and
-    /// cos a = 1 - 2 sin^2(a/2), hyperbolic ones likewise.
+    /// Writes expressions in half the angles of these relations: sin a = 2 sin(a/2) cos(a/2) and cos a = 1 - 2 sin^2(a/2), and
+    /// similar formulas for hyperbolic functions.
     pub fn halve(&self, graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
         if self.circular.is_empty() {
             return roots.to_vec();
         }
-        // What stands in an angle stays, for angles are known as they are.
+        // Expressions inside an angle stay, since relations contain angles as they are.
         let mut halved = SortedMap::<Expr, Expr>::new();
         for expr in graph.reachable(roots) {
             let made = match graph.node(expr).clone() {
@@ -135,7 +134,7 @@ impl Relations {
         roots.iter().map(|root| halved[root]).collect()
     }
 
-    /// A sine or cosine in half its angle, where these relations know that.
+    /// A sine or cosine in half its angle, if these relations contain the half angle.
     fn half(&self, graph: &mut Graph, node: Node) -> Expr {
         let Node::Call(function, angle) = &node else { return graph.remake(node) };
         let (sine, cosine, sign) = match function {
@@ -158,17 +157,17 @@ impl Relations {
         graph.sum([(one, Rational::ONE), (square, Rational::from(sign))])
     }
 
-    /// Whether any of them is between a sine and a cosine.
+    /// Whether any relation is between a sine and a cosine.
     pub fn has_angles(&self) -> bool {
         !self.circular.is_empty()
     }
 
-    /// Whether there are none.
+    /// Whether there are no relations.
     pub fn is_empty(&self) -> bool {
         self.squares.is_empty()
     }
 
-    /// f^2 = a + b g^2, where there is such a g.
+    /// Adds f^2 = a + b g^2, if g exists.
     fn add_pair(
         &mut self,
         graph: &Graph,
@@ -177,7 +176,7 @@ impl Relations {
         [constant, coefficient]: [i32; 2],
     ) {
         let Some(partner) = partner else { return };
-        // An angle that only parameters enter is a number to whoever evaluates.
+        // An angle of parameters only is a number in every evaluation.
         if graph.stage(expr) == Stage::Parameter {
             return;
         }
@@ -191,7 +190,7 @@ impl Relations {
         self.circular.extend([expr, partner]);
     }
 
-    /// r^2 = p for a root r of a sum p that has the square of something: that square is replaced.
+    /// Adds r^2 = p for a root r of a sum p that contains the square of an expression: that square is replaced.
     fn add_root(&mut self, graph: &mut Graph, radicand: Expr) {
         let Node::Sum(constant, terms) = graph.node(radicand).clone() else { return };
         if self.roots.contains_key(&radicand) {
@@ -212,7 +211,7 @@ impl Relations {
             });
             (!elsewhere).then_some((index, base))
         });
-        // A term that is no square is left opaque.
+        // A radicand with a term that is no square stays opaque.
         let (Some((index, base)), true) = (leading, squares.iter().all(Option::is_some)) else {
             return;
         };
@@ -229,8 +228,8 @@ impl Relations {
         }
         let square = |expr: Expr| Polynomial::power_of(expr, 2);
         let coefficient = &terms[index].1;
-        // Two roots may share all their squares, as sqrt(X^2 + Y^2) and sqrt(X^2 + Y^2 + 1) do: then no square is left
-        // for the second one to replace but its own, by the first one's.
+        // Two roots may have all their squares in common, as sqrt(X^2 + Y^2) and sqrt(X^2 + Y^2 + 1) do: then the second
+        // relation replaces the square of its own root, in terms of the first root.
         let (leading, equal) = if others.atoms().contains(&base) {
             (root, others.plus(&square(base), coefficient))
         } else {
@@ -244,7 +243,7 @@ impl Relations {
         self.squared.extend(squares.into_iter().flatten());
     }
 
-    /// The root of a sum, where a relation knows it.
+    /// The root of a sum, if a relation contains it.
     pub(super) fn root_of(&self, radicand: Expr) -> Option<Expr> {
         self.roots.get(&radicand).copied()
     }
@@ -254,13 +253,13 @@ impl Relations {
         self.circular.iter().flat_map(|function| graph.node(*function).children())
     }
 
-    /// Whether an expression occurs in a relation: then it is not taken apart.
+    /// Whether an expression occurs in a relation: then it is treated as an atom.
     pub(super) fn concerns(&self, expr: Expr) -> bool {
         self.circular.contains(&expr) || self.is_radical(expr)
     }
 
-    /// Whether a sum of these factors is worth multiplying out. One of a single radius, or without
-    /// anything that a relation knows, only grows.
+    /// Whether a sum of these factors is worth multiplying out. A sum of a single radius, or without any atom of a relation,
+    /// would only grow.
     pub(super) fn opens(&self, graph: &Graph, atoms: &SortedSet<Expr>) -> bool {
         if atoms.iter().any(|atom| self.circular.contains(atom)) {
             return true;
@@ -270,8 +269,8 @@ impl Relations {
             && (self.thorough || atoms.iter().filter(at_point).count() > 1)
     }
 
-    /// In which order factors are taken out of sums: sines and cosines at a point, coordinates
-    /// under roots, others by how late they are known.
+    /// The order in which factors are taken out of sums: sines and cosines at a point, coordinates under roots, and others by
+    /// the time when they are known.
     pub(super) fn rank(&self, graph: &Graph, atom: Expr) -> u8 {
         match lateness(graph, atom) {
             0 if self.circular.contains(&atom) => 0,
@@ -280,14 +279,14 @@ impl Relations {
         }
     }
 
-    /// The same relations, multiplying out functions of a single root too, if there are roots: what
-    /// is short grows, but all that can cancel does.
+    /// The relations with functions of a single root multiplied out too, if there are roots: short expressions grow, but all
+    /// terms that can cancel do.
     pub fn thorough(&self) -> Option<Self> {
         (!self.roots.is_empty() && !self.steep)
             .then(|| Relations { thorough: true, ..self.clone() })
     }
 
-    /// Only the relations between what depends on X.
+    /// The relations between expressions that depend on X.
     pub fn at_points(&self, graph: &Graph) -> Self {
         let mut relations = self.clone();
         relations.squares.retain(|leading, _| lateness(graph, *leading) == 0);
@@ -296,7 +295,7 @@ impl Relations {
     }
 
     fn is_steep(&self, graph: &Graph, reachable: &[Expr]) -> bool {
-        // How often powers of sums stand in one another, up to each expression.
+        // The nesting depth of powers of sums, for each expression.
         let mut depths = SortedMap::<Expr, usize>::new();
         for expr in reachable {
             let of = |child: Expr| depths.get(&child).copied().unwrap_or(0);
@@ -322,7 +321,7 @@ impl Relations {
         self.squared.contains(&expr) || self.roots.values().any(|root| *root == expr)
     }
 
-    /// The polynomial without the squares that relations replace.
+    /// The polynomial with all squares replaced by the relations.
     pub(super) fn normal_form(&self, polynomial: Polynomial) -> Option<Polynomial> {
         let mut normal = Polynomial::default();
         let mut open = polynomial;

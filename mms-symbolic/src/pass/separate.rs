@@ -1,14 +1,14 @@
-//! Splits expressions by binding time: separates what X determines from what t does. X (a + t (Y + t Z)) becomes a
-//! X + t (X Y) + t^2 (X Z), so a caller that keeps what X determines has less to do at every time.
+//! Splits expressions by binding time: separates the part that X determines from the part that t does. X (a + t (Y + t Z))
+//! becomes a X + t (X Y) + t^2 (X Z), so a caller that stores the part of X computes less at every time.
 //!
-//! A factor goes into the only sum of a product that needs both, where nothing else reads that sum. Sums of one
-//! kind stay as they are written, and two sums are never multiplied out: what cancels in one goes on to do so.
+//! A factor is multiplied into the only sum of a product that needs both, if nothing else reads that sum. Sums of one kind stay
+//! as written, and two sums are never multiplied out: terms that cancel in one still do.
 
 use super::Operands;
 use crate::expr::{Expr, Graph, Node, Rational, Stage};
 use crate::sorted::SortedMap;
 
-/// `roots` with every sum that needs both X and t in parts, of what X determines and of what t does.
+/// Splits every sum in `roots` that needs both X and t into parts of X and parts of t.
 pub fn separate(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     let readers = graph.readers(roots, |expr| graph.stage(expr) == Stage::PointTime);
     let mut parts = Parts { readers, ..Parts::default() };
@@ -26,16 +26,16 @@ type Sum = SortedMap<Expr, Expr>;
 
 #[derive(Default)]
 struct Parts {
-    /// How many of the expressions that need X and t, and of the roots, read an expression.
+    /// The number of readers of each expression, among the roots and the expressions that need X and t.
     readers: SortedMap<Expr, usize>,
-    /// What needs X and t.
+    /// The sums of the expressions that need X and t.
     sums: SortedMap<Expr, Sum>,
-    /// The same as expressions, where that was asked.
+    /// The whole expressions of these sums, made on request.
     wholes: SortedMap<Expr, Expr>,
 }
 
 impl Parts {
-    /// The sum that an expression is, where those of its operands are known.
+    /// The sum of an expression, given the sums of its operands.
     fn of(&mut self, graph: &mut Graph, expr: Expr) -> Sum {
         match graph.node(expr).clone() {
             Node::Sum(constant, terms) => self.sum(graph, constant, terms),
@@ -53,7 +53,7 @@ impl Parts {
         let one = graph.number(1);
         let mut without = graph.sum(without.into_iter().chain([(one, constant)]));
         let mut of_time = graph.sum(of_time);
-        // What parameters determine goes with what t does, where that is anything.
+        // The part of parameters is added to the part of t, if there is one.
         if graph.stage(without) == Stage::Parameter && !graph.is_zero(of_time) {
             of_time = graph.add(of_time, without);
             without = graph.number(0);
@@ -89,7 +89,7 @@ impl Parts {
         sum
     }
 
-    /// The sum that an operand is: one term, where others read it too.
+    /// The sum of an operand; a single term if other expressions read it too.
     fn opened(&mut self, graph: &mut Graph, expr: Expr) -> Sum {
         match self.sums.get(&expr) {
             Some(sum) if sum.len() == 1 || self.readers[&expr] == 1 => sum.clone(),
@@ -100,7 +100,7 @@ impl Parts {
         }
     }
 
-    /// The expression of the parts of another one.
+    /// The expression that is put together from the parts of another one.
     fn whole(&mut self, graph: &mut Graph, expr: Expr) -> Expr {
         if let Some(whole) = self.wholes.get(&expr) {
             return *whole;
@@ -114,7 +114,7 @@ impl Parts {
     }
 }
 
-/// Those that need no t, those that need no X, and those that need both.
+/// The operands that need no t, those without X, and those with both.
 fn by_stage(graph: &Graph, operands: Operands) -> [Operands; 3] {
     let mut by_stage = [const { Operands::new() }; 3];
     for operand in operands {
@@ -167,7 +167,7 @@ mod tests {
         let parts = parts.map(|factors| (graph.product(factors), one.clone()));
         let expected = graph.sum(parts);
         assert_eq!(separate(&mut graph, &[outer]), [expected]);
-        // Where something else needs the inner sum, it is one.
+        // If another expression needs the inner sum, it stays a sum.
         let apart = separate(&mut graph, &[outer, inner]);
         let first = graph.mul(a, x);
         let second = graph.product([t, x, inner].map(|factor| (factor, one.clone())));

@@ -1,16 +1,15 @@
-//! Cancellation rewriting: replaces sums that cancel where arguments are small by forms that do not. k cos a - k
-//! becomes -2 k sin(a/2)^2, and (1 + e)^2 - 1 becomes 2 e + e^2.
+//! Cancellation rewriting: replaces sums that cancel at small arguments by forms that do not. k cos a - k becomes -2 k
+//! sin(a/2)^2, and (1 + e)^2 - 1 becomes 2 e + e^2.
 //!
-//! A sum is a polynomial in atoms. Some atoms are a number and what vanishes with their argument:
+//! A sum is a polynomial in atoms. Some atoms are the sum of a number and a part that vanishes with their argument:
 //!
 //! ```text
 //! cos a = 1 - 2 sin^2(a/2)      exp a = 1 + exp_m1 a     sqrt(c + q) = sqrt c + q/(sqrt c + sqrt(c + q))
 //! cosh a = 1 + 2 sinh^2(a/2)    (1 + q)^p = 1 + exp_m1(p ln_1p q)     1/(c + q) = 1/c - q/(c (c + q))
 //! ```
 //!
-//! (Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic, 1991, section 1.4, and
-//! Kahan, Branch Cuts, 1987, have their like.) Those rewritings are made after which terms cancel in exact
-//! numbers, and no others.
+//! (Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic, 1991, section 1.4, and Kahan, Branch
+//! Cuts, 1987, have similar formulas.) A rewriting is applied only if terms then cancel in exact numbers.
 
 use super::nest::{flat_view, integral_power, nested};
 use super::polynomial::Polynomial;
@@ -19,13 +18,13 @@ use super::substitute::rebuild;
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational};
 use crate::sorted::{SortedMap, SortedSet};
 
-/// How deep sums in sums are opened.
+/// The largest depth of sums within sums that are opened.
 const DEPTH: usize = 6;
 
-/// How often a sum is settled, each time by other atoms.
+/// The largest number of rounds for one sum, each with other atoms.
 const ROUNDS: usize = 6;
 
-/// `roots` with every sum below them rewritten where it cancels.
+/// Rewrites every sum in `roots` that cancels.
 pub fn settle(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     rebuild(graph, roots, |graph, node| {
         let made = graph.remake(node);
@@ -48,16 +47,16 @@ fn settled(graph: &mut Graph, expr: Expr) -> Expr {
 /// An atom as a factor, and whether it divides.
 type Factor = (Expr, bool);
 
-/// What an atom stands for.
+/// The parts of an atom.
 #[derive(Clone)]
 enum Parts {
-    /// A number and what vanishes with an argument.
+    /// A number plus a part that vanishes with the argument.
     Limit(Polynomial),
     /// The terms of a sum.
     Terms(Polynomial),
 }
 
-/// What atoms are made of, as far as that was asked.
+/// The parts of atoms, as far as they were needed.
 #[derive(Default)]
 struct Splits(SortedMap<Factor, Option<Parts>>);
 
@@ -89,8 +88,7 @@ impl Splits {
         Some(best)
     }
 
-    /// The atoms that can be split, in the polynomial and in what its sums are made of; sums of
-    /// which no function is a part only where `plain` is set.
+    /// The atoms that can be split, in the polynomial and in its sums; sums without any function only if `plain` is set.
     fn reachable(
         &mut self,
         graph: &mut Graph,
@@ -135,8 +133,7 @@ impl Splits {
         parts
     }
 
-    /// The polynomial with those atoms split, and whether terms cancelled. `None` where it has too
-    /// many.
+    /// The polynomial with those atoms split, and whether terms cancelled. `None` if it has too many.
     fn split(
         &mut self,
         graph: &mut Graph,
@@ -151,12 +148,12 @@ impl Splits {
                 Parts::Terms(terms) => sums.push((*place, terms)),
             }
         }
-        // Sums in sums have smaller handles.
+        // Inner sums have smaller handles.
         for (place, terms) in sums {
             let terms = put_in(&terms, &opened, &mut cancelled)?;
             opened.insert(place, terms);
         }
-        // Only what cancels in the sum itself counts.
+        // Only cancellation in the sum itself counts.
         cancelled = false;
         let split = put_in(view, &opened, &mut cancelled)?;
         Some((split, cancelled))
@@ -187,7 +184,7 @@ fn put_in(
     Some(total)
 }
 
-/// A number, and a factor times what vanishes.
+/// The polynomial of a number plus a factor times a vanishing part.
 fn polynomial(graph: &mut Graph, (at, factor, small): Split) -> Polynomial {
     let factors = match graph.node(small).clone() {
         Node::Product(factors) => factors,
@@ -205,7 +202,7 @@ fn polynomial(graph: &mut Graph, (at, factor, small): Split) -> Polynomial {
 /// A number, and a factor times an expression that vanishes with the argument.
 type Split = (Rational, Rational, Expr);
 
-/// What an atom is where its argument is small.
+/// The parts of an atom at small arguments.
 fn limit(graph: &mut Graph, atom: Expr) -> Option<Split> {
     let one = Rational::ONE;
     match graph.node(atom).clone() {
@@ -269,7 +266,7 @@ fn divided(graph: &mut Graph, atom: Expr) -> Option<Split> {
     Some((reciprocal.clone(), -reciprocal, graph.div(rest, atom)))
 }
 
-/// A sum as a number other than 0 and the rest.
+/// Splits a sum into a number other than 0 and the rest.
 fn shifted(graph: &mut Graph, sum: Expr) -> Option<(Rational, Expr)> {
     let Node::Sum(constant, terms) = graph.node(sum).clone() else { return None };
     if constant.is_zero() {
@@ -291,7 +288,7 @@ fn power_less_one(graph: &mut Graph, rest: Expr, power: Expr) -> Expr {
     graph.call(Function::ExpM1, &[exponent])
 }
 
-/// Whether a function or a root is part of a sum, beside those in arguments.
+/// Whether a sum contains a function or a root outside the arguments of functions.
 fn has_function(graph: &Graph, sum: Expr) -> bool {
     let mut seen = SortedSet::new();
     let mut open = vec![sum];

@@ -1,8 +1,8 @@
-//! Reuses a subexpression that differs by a constant from another one: where x^2 - 1/16 occurs as a factor or as
-//! an operand, a x^2 + b in other sums becomes a (x^2 - 1/16) + (a/16 + b). The product x^2 then has one reader
-//! and is fused with it; the constant that is added elsewhere needs no X.
+//! Reuses a subexpression that differs by a constant from another one: if x^2 - 1/16 occurs as a factor or as an operand, a
+//! x^2 + b in other sums becomes a (x^2 - 1/16) + (a/16 + b). The product x^2 then has one reader and is fused with it; the
+//! constant that is added elsewhere needs no X.
 //!
-//! Beside a constant that is large x^2 loses its digits. Who takes the result asks `mechanics::rounding` before.
+//! If the constant is large, x^2 loses its digits. Callers test the result with `mechanics::rounding`.
 
 use super::Operands;
 use super::substitute::rebuild;
@@ -13,15 +13,15 @@ use crate::sorted::{SortedMap, SortedSet};
 struct Shifted {
     sum: Expr,
     factors: Operands,
-    /// What the product is multiplied by.
+    /// The factor of the product.
     coefficient: Rational,
     constant: Rational,
 }
 
-/// Such sums, by the first factor of their product.
+/// Sums of a product and a constant, by the first factor of the product.
 type ByFactor = SortedMap<Expr, Vec<Shifted>>;
 
-/// `roots` with products written by sums that differ from them by constants, wherever those occur.
+/// Writes products in `roots` in terms of sums that differ from them by constants, if such sums occur.
 pub fn shift(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     let found = graph.reachable(roots).into_iter().filter_map(|sum| as_shifted(graph, sum));
     let (mut sums, mut by_factor) = (SortedSet::new(), ByFactor::new());
@@ -42,7 +42,7 @@ pub fn shift(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     })
 }
 
-/// A sum as one of a constant and a product that needs X and not t.
+/// Splits a sum into a constant and a product that needs X and not t.
 fn as_shifted(graph: &Graph, sum: Expr) -> Option<Shifted> {
     let Node::Sum(constant, terms) = graph.node(sum) else { return None };
     let [(product, coefficient)] = terms.as_slice() else { return None };
@@ -54,7 +54,7 @@ fn as_shifted(graph: &Graph, sum: Expr) -> Option<Shifted> {
     Some(Shifted { sum, factors, coefficient, constant: constant.clone() })
 }
 
-/// A term, or the two that it becomes, if nothing else in it needs X.
+/// A term; or the two terms that replace it, if nothing else in it needs X.
 fn in_terms_of(
     graph: &mut Graph,
     by_factor: &ByFactor,
@@ -92,7 +92,7 @@ mod tests {
         let [one, two] = [1, 2].map(|number| graph.number(number));
         let square = graph.mul(x, x);
         let sum = graph.add(square, two);
-        // y (x^2 + 2) + a x^2 + y x^2: what y multiplies stays.
+        // y (x^2 + 2) + a x^2 + y x^2: the factor of y stays.
         let [first, second, third] =
             [(y, sum), (a, square), (y, square)].map(|(a, b)| graph.mul(a, b));
         let terms = |second: Vec<(Expr, Rational)>| {

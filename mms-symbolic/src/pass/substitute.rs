@@ -18,7 +18,7 @@ pub fn substitute(
     })
 }
 
-/// For [`substitute`]: what is made of each of these coordinates and of the place that stands beside its axis.
+/// The values for [`substitute`] that `made` computes from each of these coordinates and the place for its axis.
 pub fn coordinates(
     graph: &mut Graph,
     places: impl IntoIterator<Item = (usize, Expr)>,
@@ -32,7 +32,7 @@ pub fn coordinates(
     places.into_iter().map(made).collect()
 }
 
-/// `roots` with whole sub-expressions replaced, wherever they stand as operands.
+/// Replaces whole sub-expressions of `roots` if they occur as operands.
 pub fn replace(graph: &mut Graph, roots: &[Expr], values: &SortedMap<Expr, Expr>) -> Vec<Expr> {
     let mut replaced = ByExpr::of(roots);
     for expr in graph.reachable(roots) {

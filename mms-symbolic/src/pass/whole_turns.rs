@@ -1,17 +1,16 @@
-//! Takes whole turns off the part of an angle that is known before X is.
+//! Subtracts whole turns from the part of an angle that is known before X is.
 //!
-//! In sin(k X - c t) the rounding of c t would err by eps times c t. So that becomes sin(k X - r), where r is c t
-//! less whole turns, taken off with the digits of the stage Time. An angle of four turns or fewer is left as it
-//! is, and with it the bits of what is evaluated there (`Scalar::within_turns` of `mms-math`); in radians, so is one
-//! beyond 2^50.
+//! In sin(k X - c t) the rounding of c t would cause an error of eps times c t. So the sine becomes sin(k X - r), where r is c
+//! t less whole turns, subtracted with the digits of the stage Time. An angle of four turns or fewer stays as it is, and its
+//! evaluation keeps all bits (`Scalar::within_turns` of `mms-math`); in radians, an angle beyond 2^50 stays, too.
 
 use super::substitute::rebuild;
 use crate::expr::{Expr, Function, Graph, Node, Rational, Stage};
 
-/// How many products and sums within each other are multiplied out.
+/// The largest number of products and sums within each other that are multiplied out.
 const NESTED: usize = 8;
 
-/// `roots` with whole turns off those parts of the angles of sines and cosines that need t and no X.
+/// Subtracts whole turns from the parts of the angles of sines and cosines in `roots` that need t and no X.
 pub fn whole_turns(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     rebuild(graph, roots, |graph, node| {
         let reduced = match &node {
@@ -25,9 +24,10 @@ pub fn whole_turns(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     })
 }
 
-/// The angle of a sine or a cosine with whole turns off a part of it, if there is such a part beside one that needs X.
+/// The angle of a sine or a cosine with whole turns subtracted from a part of it, if there is such a part beside one that needs
+/// X.
 fn reduced(graph: &mut Graph, function: Function, angle: Expr) -> Option<Expr> {
-    // What is proved of the angle is so without its turns too.
+    // A bound that is proved for the angle is valid without its turns, too.
     if let Node::Small(small, angle) = *graph.node(angle) {
         let reduced = reduced(graph, function, angle)?;
         return Some(graph.small(small, reduced));
@@ -41,14 +41,15 @@ fn reduced(graph: &mut Graph, function: Function, angle: Expr) -> Option<Expr> {
         return None;
     }
     let [late, early] = parts(graph, angle, NESTED)?;
-    // The part that is subtracted as a whole stays so.
+    // A part that is subtracted as a whole stays subtracted.
     let sign = if graph.leads_with_minus(early) { -1 } else { 1 };
     let early = graph.scale(early, sign);
     let early = graph.call(within, &[early]);
     Some(graph.sum([(late, Rational::ONE), (early, sign.into())]))
 }
 
-/// What of an angle needs X, and what needs t and no X, if it is the sum of both, perhaps times what needs no X.
+/// The part of an angle that needs X, and the part that needs t and no X, if the angle is their sum, possibly times a factor
+/// without X.
 fn parts(graph: &mut Graph, angle: Expr, nested: usize) -> Option<[Expr; 2]> {
     let nested = nested.checked_sub(1)?;
     match graph.node(angle).clone() {
