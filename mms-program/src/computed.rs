@@ -1,11 +1,10 @@
-//! Values as a precision computes them: bounds of the exact value over a box, and of how far a computed value is
-//! from it.
+//! Values as a precision computes them: bounds of the exact value over a box, and of the distance of a computed value from it.
 //!
-//! Each operation passes on the errors of its operands, by the mean-value theorem over what they may be computed
-//! as, and adds its own: some units of the last digit, and the least number where digits fade (Higham, Accuracy
-//! and Stability of Numerical Algorithms, 2002, chapter 2). What overflows, leaves a domain or is beyond what a
-//! function is made for has no value, and neither has what is made of it. The exact value keeps its own bounds, so
-//! that what is known of it, such as J > 0, can be put in.
+//! Each operation passes on the errors of its operands, by the mean-value theorem over the possible computed operands, and adds
+//! its own: some units of the last digit, and the least number near underflow (Higham, Accuracy and Stability of Numerical
+//! Algorithms, 2002, chapter 2). A value that overflows, leaves a domain or is beyond the range of a function does not exist,
+//! and neither does any value computed from it. The exact value keeps its own bounds, so that they can be made sharper by
+//! knowledge such as J > 0.
 
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -16,19 +15,19 @@ use crate::interpret::Number;
 use crate::interval::Interval;
 use mms_symbolic::expr::{Function, Rational};
 
-/// A format of numbers, as far as its errors go.
+/// A number format, described by its errors.
 pub trait Format: Copy + core::fmt::Debug + 'static {
-    /// What the stages of parameters and of t compute in.
+    /// The format of the stages of parameters and of t.
     type Wide: Format;
-    /// The largest error of one operation, relative to its result; of the wider ones, one that holds.
+    /// The largest error of one operation, relative to its result; an upper bound for the wider formats.
     const UNIT: f64;
-    /// The largest error of one operation whose result is so small that digits fade.
+    /// The largest error of one operation whose result is near underflow.
     const LEAST: f64;
-    /// Results up to here are numbers, and have all their digits.
+    /// The largest result that is a number with all digits.
     const LARGEST: f64;
     /// The largest angle whose sine is computed.
     const LARGEST_ANGLE: f64;
-    /// The nearest number.
+    /// The nearest number of the format.
     fn nearest(value: f64) -> f64;
 }
 
@@ -40,7 +39,7 @@ pub struct Single;
 #[derive(Clone, Copy, Debug)]
 pub struct Double;
 
-/// The sum of two `f64`: [`mms_math::Double`], and the like of it in emitted code.
+/// The sum of two `f64`: [`mms_math::Double`], and its counterpart in emitted code.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair;
 
@@ -69,7 +68,7 @@ impl Format for Double {
 impl Format for Pair {
     type Wide = Pair;
     const UNIT: f64 = 1.0 / (1_u128 << 104) as f64;
-    // Below 2^-960 low parts fade, and above 2^1020 they may be dropped.
+    // Low parts underflow below 2^-960, and may be dropped above 2^1020.
     const LEAST: f64 = 1e-300;
     const LARGEST: f64 = 1e307;
     const LARGEST_ANGLE: f64 = (1_u64 << 50) as f64;
@@ -78,23 +77,23 @@ impl Format for Pair {
     }
 }
 
-/// Of an elementary function, in units of a rounding: twice as much as any declares.
+/// The error of an elementary function, in units of a rounding: twice the largest declared one.
 const OF_FUNCTIONS: f64 = 8.0;
 
-/// Bounds are computed themselves, by less than a thousand roundings each.
+/// The allowance for rounding in the bounds themselves: less than a thousand roundings each.
 const SLACK: f64 = 1.0 + 1e-12;
 
-/// Bounds of a value, and of the error of what is computed for it.
+/// Bounds of a value, and of the error of its computed value.
 #[derive(Clone, Copy, Debug)]
 pub struct Computed<F> {
     exact: Interval,
-    /// Infinite where there may be no value.
+    /// The bound of the error; infinite if the value may not exist.
     error: f64,
     format: PhantomData<F>,
 }
 
 impl<F: Format> Computed<F> {
-    /// The numbers of the format that are nearest to those of an interval, or between such.
+    /// The nearest numbers of the format for the numbers of an interval, or numbers between them.
     pub fn input(exact: Interval) -> Self {
         if !exact.is_defined() {
             return Self::of(exact, f64::INFINITY);
@@ -104,7 +103,7 @@ impl<F: Format> Computed<F> {
         Self::of(hull, if hull.farthest() <= F::LARGEST { 0.0 } else { f64::INFINITY })
     }
 
-    /// A value that is exact but for its rounding.
+    /// A value whose only error is one rounding.
     pub fn rounded(exact: Interval) -> Self {
         let is_number =
             exact.lower() == exact.upper() && F::nearest(exact.lower()) == exact.lower();
@@ -115,17 +114,17 @@ impl<F: Format> Computed<F> {
         Computed { exact, error, format: PhantomData }
     }
 
-    /// Whether a value is computed everywhere, and it is a finite number.
+    /// Whether the value is computed everywhere, and is a finite number.
     pub fn is_finite(&self) -> bool {
         self.exact.is_defined() && self.error < f64::INFINITY
     }
 
-    /// How far a computed value may be from the exact one.
+    /// The bound of the distance of a computed value from the exact one.
     pub fn error(&self) -> f64 {
         self.error
     }
 
-    /// Bounds of what is computed.
+    /// Bounds of the computed value.
     pub fn reach(&self) -> Interval {
         if !self.is_finite() {
             return Interval::UNDEFINED;
@@ -133,13 +132,13 @@ impl<F: Format> Computed<F> {
         self.exact + Interval::new(-self.error, self.error)
     }
 
-    /// The same where bounds of the exact value are known.
+    /// Intersects the bounds of the exact value with known ones.
     pub fn meet(self, known: Interval) -> Self {
         let met = self.exact.meet(known);
         if met.is_defined() { Self::of(met, self.error) } else { self }
     }
 
-    /// With the rounding of the operation that makes it, in units.
+    /// Adds the rounding error of the operation that makes the value, in units.
     fn after(self, units: f64) -> Self {
         let largest = (self.exact.farthest() + self.error) * SLACK;
         let own = units * (largest * F::UNIT + F::LEAST);
@@ -148,33 +147,33 @@ impl<F: Format> Computed<F> {
         Self::of(self.exact, error)
     }
 
-    /// f(self), which changes by at most `slope` times as much as its argument does.
+    /// f(self), which changes by at most `slope` times the change of its argument.
     fn map(self, exact: Interval, slope: f64) -> Self {
         self.moved(exact, slope * self.error)
     }
 
-    /// f(self), which changes by at most `by` where its argument is off.
+    /// f(self), which changes by at most `by` under the error of its argument.
     fn moved(self, exact: Interval, by: f64) -> Self {
         // 0 times an infinite slope is 0: an argument without an error gives a value without one.
         let by = if self.error == 0.0 { 0.0 } else { by * SLACK };
         Self::of(exact, if by.is_nan() { f64::INFINITY } else { by }).after(OF_FUNCTIONS)
     }
 
-    /// An angle less whole turns, if it is more than a few: exact is what is left when as many are taken off as are taken
-    /// off what is computed, which may be one more or less where that is between two.
+    /// An angle less whole turns, if it is more than a few. The exact value is defined with as many turns subtracted as the
+    /// computed value has; that number may be off by one for an angle between two turns.
     fn within(self, few: f64, largest: f64) -> Self {
         let farthest = self.reach().farthest();
         if !self.is_finite() || farthest <= few {
             return self;
         }
         let few = (few + self.error) * SLACK;
-        // What is too large stays as it is.
+        // An angle that is too large stays as it is.
         let all = if farthest > largest { self.exact } else { Interval::from_f64(0.0) };
         let exact = Interval::new(all.lower().min(-few), all.upper().max(few));
         Self::of(exact, self.error).after(OF_FUNCTIONS)
     }
 
-    /// A function of angles up to the largest, whose values are within 1.
+    /// A function of angles up to the largest one, with values within 1.
     fn wave(self, exact: Interval, slope: f64, largest: f64) -> Self {
         if self.reach().farthest() > largest {
             return Self::of(exact, f64::INFINITY);
@@ -223,7 +222,7 @@ impl<F: Format> Mul for Computed<F> {
     }
 }
 
-/// a b, where 0 times what is infinite is infinite: an operand without a value makes none.
+/// a b, where 0 times infinity is infinite: an operand without a value makes a product without one.
 fn product(a: f64, b: f64) -> f64 {
     if a.is_infinite() || b.is_infinite() { f64::INFINITY } else { a * b * SLACK }
 }
@@ -247,7 +246,7 @@ impl<F: Format> Number for Computed<F> {
     }
 
     fn steps(&self, function: Option<Function>) -> u64 {
-        // The exact value, and what is computed for it.
+        // One evaluation for the exact value, and one for the computed value.
         2 * self.exact.steps(function)
     }
 
@@ -350,7 +349,7 @@ impl<F: Format> Scalar for Computed<F> {
     }
 
     fn sin_pi(self) -> Self {
-        // Half turns are reduced exactly, however many there are.
+        // Any number of half turns is reduced exactly.
         self.wave((self.exact * Interval::pi()).sin(), 4.0, f64::INFINITY)
     }
 
@@ -407,7 +406,7 @@ impl<F: Format> Scalar for Computed<F> {
         let is_cut = |y: Interval, x: Interval| y.contains(0.0) && x.lower() <= 0.0;
         let by = match (is_cut(self.exact, x.exact), is_cut(height, width)) {
             (true, _) => turn,
-            // What is on one side of the cut may be computed on the other.
+            // A value on one side of the cut may be computed on the other.
             (false, true) => f64::INFINITY,
             (false, false) => ((self.error + x.error) / radius).min(turn),
         };

@@ -1,5 +1,5 @@
-//! Dual numbers: a value and its derivative in one direction, by the chain rule of each operation
-//! as it is evaluated. A route to derivatives that involves no expression.
+//! Dual numbers: a value and its derivative in one direction, by the chain rule of each operation as it is evaluated. They
+//! compute derivatives without expressions.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -14,7 +14,7 @@ use mms_symbolic::expr::{Function, Rational};
 pub struct Dual<T> {
     /// The value.
     pub value: T,
-    /// Its derivative.
+    /// The derivative of the value.
     pub slope: T,
 }
 
@@ -24,7 +24,7 @@ impl<T: Scalar> Dual<T> {
         Dual { value, slope: T::from_f64(0.0) }
     }
 
-    /// The variable that derivatives are taken by.
+    /// The variable of differentiation.
     pub fn variable(value: T) -> Self {
         Dual { value, slope: T::from_f64(1.0) }
     }
@@ -35,8 +35,8 @@ impl<T: Scalar> Dual<T> {
     }
 }
 
-/// What numbers with derivatives have of [`Scalar`] by `constant` and `chain` alone: constants, which do not change, and
-/// functions of one argument.
+/// The methods of [`Scalar`] for numbers with derivatives that only need `constant` and `chain`: constants, which do not
+/// change, and functions of one argument.
 macro_rules! lifted {
     () => {
         fn from_parts(high: f64, low: f64) -> Self {
@@ -117,7 +117,7 @@ impl<T: Number> Number for Dual<T> {
     }
 
     fn steps(&self, function: Option<Function>) -> u64 {
-        // The value and the slope.
+        // One evaluation for the value, and one for the slope.
         2 * self.value.steps(function)
     }
 

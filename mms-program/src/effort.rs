@@ -1,35 +1,35 @@
-//! What an operation takes in intervals and in many digits, in the steps of [`mms_symbolic::work`].
+//! The cost of an operation in intervals and in many digits, in the steps of [`mms_symbolic::work`].
 
 use mms_symbolic::expr::{Function, Rational, steps_of_length};
 
-/// An operation on intervals, and a function at both bounds: by sums of doubles, in arbitrary precision, and one that is
-/// made of several of these.
+/// The steps of an operation on intervals, and of a function at both bounds: by sums of doubles, and in arbitrary precision,
+/// where some functions take several times as much.
 const OF_INTERVALS: u64 = 4;
 const QUICK: u64 = 150;
 const SLOW: u64 = 15_000;
 const SLOWER: u64 = 40_000;
 
-/// Angles beyond this are reduced in arbitrary precision, with so much more for each of their bits.
+/// The largest angle that is reduced quickly, and the further steps per bit of an angle that is reduced in arbitrary precision.
 const LARGEST_QUICK_ANGLE: f64 = 1e5;
 const FOR_EACH_BIT: f64 = 80.0;
 
-/// An operation in 256 bits, and a function: a short series, and a long one or several.
+/// The steps of an operation in 256 bits, and of a function: by a short series, and by a long one or several.
 const OF_DIGITS: u64 = 40;
 const SHORT: u64 = 6_000;
 const LONG: u64 = 12_000;
 
-/// A number that is rounded.
+/// The steps of rounding a number.
 const ROUNDED: u64 = 20;
 
-/// Whether the magnitude of each bound is 0 or infinite, where functions are known, or between these, where sums of doubles tell
-/// them.
+/// Whether the magnitude of each bound is 0 or infinite, where values are known, or within this range, where sums of doubles
+/// decide.
 fn is_within(bounds: [f64; 2], least: f64, greatest: f64) -> bool {
     let is_told =
         |size: f64| size == 0.0 || size.is_infinite() || (least..greatest).contains(&size);
     bounds.into_iter().all(|bound| is_told(bound.abs()))
 }
 
-/// What an operation on intervals takes, or a function of one between these bounds.
+/// The steps of an operation on intervals, or of a function of an interval with these bounds.
 pub fn of_interval(function: Option<Function>, [lower, upper]: [f64; 2]) -> u64 {
     let Some(function) = function else { return OF_INTERVALS };
     let farthest = lower.abs().max(upper.abs());
@@ -40,7 +40,7 @@ pub fn of_interval(function: Option<Function>, [lower, upper]: [f64; 2]) -> u64 
         {
             SLOW + (FOR_EACH_BIT * farthest.log2().min(1024.0)) as u64
         }
-        // Near 0 the value is too near to the argument for the fast way to tell them apart.
+        // Near 0 the value is too close to the argument for the fast way to separate them.
         Function::Sin | Function::SinPi if lower != 0.0 && lower.abs().min(upper.abs()) < 1e-8 => {
             SLOW
         }
@@ -67,14 +67,14 @@ pub fn of_interval(function: Option<Function>, [lower, upper]: [f64; 2]) -> u64 
     }
 }
 
-/// What an operation takes in so many bits, or a function of a number of this exponent of two.
+/// The steps of an operation in this many bits, or of a function of a number with this binary exponent.
 pub fn of_digits(function: Option<Function>, bits: usize, exponent: isize) -> u64 {
     let words = (bits / 256) as u64;
     let Some(function) = function else { return OF_DIGITS * words };
     let of_few = match function {
         Function::WithinTurns | Function::WithinTurnsPi => OF_DIGITS,
         Function::Sqrt | Function::Cbrt => 4 * OF_DIGITS,
-        // A large angle is reduced in as many more digits.
+        // A large angle is reduced with as many more digits.
         Function::Sin | Function::SinPi | Function::Cos | Function::CosPi | Function::Tan => {
             SHORT + SHORT * exponent.clamp(0, 1 << 12) as u64 / 256
         }
@@ -84,7 +84,7 @@ pub fn of_digits(function: Option<Function>, bits: usize, exponent: isize) -> u6
     of_few * words * words
 }
 
-/// What it takes to round a number.
+/// The steps of rounding a number.
 pub fn of_constant(number: &Rational) -> u64 {
     ROUNDED + steps_of_length(number)
 }

@@ -1,5 +1,5 @@
-//! Dual numbers of several directions that share one value. They have the bounds of a [`Dual`] for each direction,
-//! at the price of the value and what the directions add to it.
+//! Dual numbers of several directions that share one value. They have the bounds of a [`Dual`] for each direction, at the cost
+//! of one value and the slopes.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -10,15 +10,15 @@ use crate::interpret::Number;
 use crate::interval::Interval;
 use mms_symbolic::expr::{Function, Rational};
 
-/// How many directions there are at most: the entries of a gradient.
+/// The largest number of directions: the entries of a gradient.
 const DIRECTIONS: usize = 9;
 
-/// All of them.
+/// The bits of all directions.
 const ALL: u16 = (1 << DIRECTIONS) - 1;
 
 /// Bounds, or bounds with a slope.
 pub trait Bounds: Number<Wide = Self> + Copy {
-    /// Whether it is 0 and nothing else.
+    /// Whether the number is exactly 0.
     fn is_zero(self) -> bool;
 }
 
@@ -40,7 +40,7 @@ pub struct Fan<T> {
     /// The value.
     pub value: T,
     slopes: [T; DIRECTIONS],
-    /// The directions whose slope may be something else than 0, one bit for each.
+    /// The directions whose slope may differ from 0, one bit for each.
     moved: u16,
 }
 
@@ -50,7 +50,7 @@ impl<T: Bounds> Fan<T> {
         Fan { value, slopes: [T::from_f64(0.0); DIRECTIONS], moved: 0 }
     }
 
-    /// A variable that changes in one direction, as much as that does.
+    /// A variable that changes in one direction, with slope 1.
     pub fn variable(value: T, direction: usize) -> Self {
         let mut variable = Fan::constant(value);
         variable.slopes[direction] = T::from_f64(1.0);
@@ -65,7 +65,7 @@ impl<T: Bounds> Fan<T> {
 
     /// f(self), given f and f' at the value.
     fn chain(self, value: T, derivative: T) -> Self {
-        // Where the derivative is not known, 0 times it is not 0.
+        // If the derivative is unknown, 0 times it is not 0.
         let is_clean = (derivative * T::from_f64(0.0)).is_zero();
         let mut slopes = self.slopes;
         let moved = if is_clean { self.moved } else { ALL };
@@ -75,11 +75,11 @@ impl<T: Bounds> Fan<T> {
         Fan { value, slopes, moved }
     }
 
-    /// f(self, other), given the value, and the slope where one operand moves or both do.
+    /// f(self, other), given the value, and the slope if one operand changes or both do.
     fn join(self, other: Self, value: T, slope: impl Fn(Option<T>, Option<T>) -> T) -> Self {
         let zero = T::from_f64(0.0);
         let [of_first, of_second] = [slope(Some(zero), None), slope(None, Some(zero))];
-        // Where a factor is not known, 0 times it is not 0.
+        // If a factor is unknown, 0 times it is not 0.
         let (mut first, mut second) = (self.moved, other.moved);
         if !of_first.is_zero() || !of_second.is_zero() {
             (first, second) = (ALL, ALL);
@@ -168,7 +168,7 @@ impl<T: Bounds> Number for Fan<T> {
     }
 
     fn steps(&self, function: Option<Function>) -> u64 {
-        // Of each direction, whose number whoever evaluates knows.
+        // For one direction; the caller knows their number.
         2 * self.value.steps(function)
     }
 

@@ -1,8 +1,8 @@
-//! Which products are fused with the sum that they are added to: one instruction on processors that multiply and
-//! add in one step.
+//! Decides which products are fused with the sum that they are added to: one instruction on processors that multiply and add in
+//! one step.
 //!
-//! A fused product is `mul_add`: a product and a sum in `f64`, to the interpreter's bits, and one instruction
-//! where a loop over points is compiled for a processor that has it.
+//! A fused product is `mul_add`: a product and a sum in `f64`, with the interpreter's bits, and one instruction if a loop over
+//! points is compiled for a processor that has it.
 
 use crate::program::{Instr, Op, Value};
 use mms_symbolic::expr::Stage;
@@ -20,22 +20,22 @@ pub struct Fused {
     pub minus_term: bool,
 }
 
-/// What is computed in one step, by position in a program.
+/// The fused operations, by position in a program.
 pub struct Fusion {
-    /// The sums that take a product up.
+    /// The sums that absorb a product.
     pub fused: Vec<Option<Fused>>,
-    /// The products that every reader takes up: they need not be computed by themselves.
+    /// The products that every reader absorbs: they need not be computed separately.
     pub absorbed: Vec<bool>,
 }
 
 impl Fusion {
-    /// No sum takes a product up.
+    /// No sum absorbs a product.
     pub fn none(instrs: &[Instr]) -> Self {
         Fusion { fused: vec![None; instrs.len()], absorbed: vec![false; instrs.len()] }
     }
 
-    /// Of the sums that a function computes, those with a product that it computes too. Where both
-    /// operands are products, the one with fewer readers is taken up.
+    /// Fuses each sum that a function computes with a product that it computes too. If both operands are products, the one with
+    /// fewer readers is absorbed.
     pub fn new(instrs: &[Instr], roots: &[Value], needed: &[bool], own: &[Stage]) -> Self {
         let mut fusion = Fusion::none(instrs);
         let mut readers = vec![0_usize; instrs.len()];

@@ -7,40 +7,40 @@ use crate::program::{Instr, Key, Op, Program, Value, range};
 use mms_symbolic::expr::{Function, Rational, Small, Stage, Symbol};
 use mms_symbolic::work::Work;
 
-/// A scalar that takes exact constants.
+/// A scalar that can be made from exact constants.
 pub trait Number: Scalar {
     /// The value nearest to `number`.
     ///
-    /// The quotient of two integers that the type holds exactly is rounded once, in every
-    /// precision; other numbers go through two `f64`. Emitted code does the same.
+    /// The quotient of two integers that the type represents exactly is rounded once, in every precision; other numbers go
+    /// through two `f64`. Emitted code does the same.
     fn from_rational(number: &Rational) -> Self {
         nearest(number)
     }
 
-    /// The same with more digits.
+    /// The value nearest to `number`, with more digits.
     fn wide_from_rational(number: &Rational) -> Self::Wide {
         nearest(number)
     }
 
-    /// `self * self`; narrower than the product where the type knows that both are one number.
+    /// `self * self`; narrower than the product if the type uses that both are one number.
     fn square(self) -> Self {
         self.clone() * self
     }
 
-    /// The same with more digits.
+    /// The square of a number with more digits.
     fn wide_square(wide: Self::Wide) -> Self::Wide {
         wide.clone() * wide
     }
 
-    /// The numbers of double precision that it lies between, but for a rounding of the type's own.
+    /// The numbers of double precision around this one, up to a rounding of the type's own.
     fn bounds(&self) -> [f64; 2];
 
-    /// A number that may be either; of a type that has one number at a time, this one.
+    /// A number that may be either one; a type of single numbers returns this one.
     fn or(self, _other: Self) -> Self {
         self
     }
 
-    /// What an operation takes, or a function of this number: see [`mms_symbolic::work`].
+    /// The steps of an operation, or of a function of this number: see [`mms_symbolic::work`].
     fn steps(&self, _function: Option<Function>) -> u64 {
         1
     }
@@ -75,7 +75,7 @@ impl Number for Double {
     }
 }
 
-/// Numerator and denominator, where both are exact even in `f32`.
+/// Numerator and denominator, if both are exact even in `f32`.
 pub fn small_ratio(number: &Rational) -> Option<(i32, i32)> {
     const EXACT: u32 = 1 << 24;
     let numerator = i32::try_from(number.numerator()).ok()?;
@@ -84,26 +84,26 @@ pub fn small_ratio(number: &Rational) -> Option<(i32, i32)> {
     (is_exact(numerator) && is_exact(denominator)).then_some((numerator, denominator))
 }
 
-/// The nearest `f64`, and the nearest to what is left.
+/// The nearest `f64`, and the nearest to the remainder.
 pub fn parts(number: &Rational) -> (f64, f64) {
     let high = number.to_f64().value();
     let low = Rational::try_from(high).map_or(0.0, |near| (number - near).to_f64().value());
     (high, low)
 }
 
-/// What a point supplies, beside the time.
+/// The inputs of a point, except the time.
 #[derive(Clone, Copy, Debug)]
 pub struct Point<'a, T> {
-    /// X, `dimension` components; empty where no output depends on it.
+    /// X, `dimension` components; empty if no output depends on it.
     pub coordinates: &'a [T],
-    /// N, `dimension` components; empty where no traction is asked for.
+    /// N, `dimension` components; empty if no traction is computed.
     pub normal: &'a [T],
-    /// H, row-major; empty where no response is asked for.
+    /// H, row-major; empty if no response is computed.
     pub gradient: &'a [T],
 }
 
 impl<'a, T> Point<'a, T> {
-    /// A reference position, and nothing else.
+    /// A point with a reference position only.
     pub fn at(coordinates: &'a [T]) -> Self {
         Point { coordinates, normal: &[], gradient: &[] }
     }
@@ -122,12 +122,12 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         Self::prepared(program, parameters, None, 1)
     }
 
-    /// Like [`Interpreter::new`], within a budget of work: when it is over, no value is a number.
+    /// Prepares like [`Interpreter::new`], within a budget of work: once it is spent, no value is a number.
     pub fn within(work: &'a Work, program: &'a Program<K>, parameters: &[T]) -> Self {
         Self::prepared(program, parameters, Some(work), 1)
     }
 
-    /// Like [`Interpreter::within`], for a scalar of which one operation is charged as so many.
+    /// Prepares like [`Interpreter::within`], for a scalar whose operations are charged `times` times.
     pub fn as_many(work: &'a Work, program: &'a Program<K>, parameters: &[T], times: u64) -> Self {
         Self::prepared(program, parameters, Some(work), times)
     }
@@ -141,7 +141,7 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         Interpreter { program, run: Run::new(&program.instrs, parameters, work, times) }
     }
 
-    /// Charges every operation from now on as so many.
+    /// Charges every further operation `times` times.
     pub fn charge(&mut self, times: u64) {
         self.run.times = times;
     }
@@ -164,7 +164,7 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         self.run.at_point(plan, point);
     }
 
-    /// Like [`Interpreter::set_point`], for a program with other leaves: the caller has the value of each.
+    /// Runs a plan like [`Interpreter::set_point`], for a program with other leaves: the caller has the value of each.
     pub fn set_leaves(&mut self, plan: &[bool], leaf: &dyn Fn(Symbol) -> T) {
         self.run.at_leaves(plan, leaf);
     }
@@ -175,16 +175,16 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
     }
 }
 
-/// An interpreter that knows no keys of outputs: it is compiled once for each scalar, whatever they are.
+/// An interpreter without keys of outputs: it is compiled once for each scalar, for all key types.
 #[derive(Clone, Debug)]
 struct Run<'a, T: Number> {
     instrs: &'a [Instr],
     values: Vec<T>,
-    /// The stages Parameter and Time, which are rounded when they are done.
+    /// The values of the stages Parameter and Time, which are rounded at the end of the stage.
     once: Vec<T::Wide>,
-    /// What it may take, if that is bounded: beyond, values are not numbers.
+    /// The budget, if there is one: once it is spent, values are not numbers.
     work: Option<&'a Work>,
-    /// How many times what an operation takes is charged.
+    /// How many times the steps of an operation are charged.
     times: u64,
 }
 
@@ -200,7 +200,7 @@ impl<'a, T: Number> Run<'a, T> {
         run
     }
 
-    /// Runs a stage that is computed with more digits and then rounded.
+    /// Runs a stage with more digits, and then rounds it.
     fn once(&mut self, stage: Stage, input: &dyn Fn(Symbol) -> T) {
         for index in range(self.instrs, stage) {
             if self.is_over(index) {
@@ -241,7 +241,7 @@ impl<'a, T: Number> Run<'a, T> {
         values.iter().map(|value| self.values[value.index()].clone()).collect()
     }
 
-    /// Whether the budget has nothing left for an instruction; else it is charged.
+    /// Charges an instruction to the budget; returns true if the budget is spent.
     fn is_over(&self, index: usize) -> bool {
         let Some(work) = self.work else { return false };
         if work.is_over() {
@@ -288,7 +288,7 @@ macro_rules! evaluate {
         one { $($one:ident $one_method:ident $one_at_zero:tt $one_doc:literal,)* }
         two { $($two:ident $two_method:ident $two_at_zero:tt $two_doc:literal,)* }
     ) => {
-        /// A function of one argument, of which something may be proved.
+        /// A function of one argument, with an optional proved bound of it.
         pub fn unary<T: Scalar>(function: Function, small: Option<Small>, x: T) -> T {
             match (function, small) {
                 (Function::Sin, Some(Small::NearZero)) => x.sin_near_zero(),

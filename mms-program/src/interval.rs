@@ -1,10 +1,9 @@
-//! Interval arithmetic: a scalar that stands for every number between two bounds, so that one
-//! evaluation bounds a program over a whole box.
+//! Interval arithmetic: a scalar that represents every number between two bounds, so that one evaluation bounds a program over
+//! a whole box.
 //!
-//! Every operation rounds outward: whatever point of the box an expression is evaluated at, its
-//! exact value lies within the result. Sums, products and quotients are rounded by the sign of
-//! their exact rounding error, so that an exact result stays one; elementary functions take
-//! directed rounding in arbitrary precision at their bounds (`functions.rs`).
+//! Every operation rounds outward: for any point of the box, the exact value of an expression lies within the result. Sums,
+//! products and quotients are rounded by the sign of their exact rounding error, so that an exact result stays exact;
+//! elementary functions use directed rounding in arbitrary precision at their bounds (`functions.rs`).
 
 mod functions;
 mod quick;
@@ -18,13 +17,11 @@ use mms_symbolic::expr::{Function, Rational};
 /// Below this magnitude the rounding error of a product may itself be rounded: 2^-960.
 const NEARLY_SUBNORMAL: f64 = 1e-289;
 
-/// The numbers between two bounds, and whether a value is defined at every point of the box that
-/// it was computed over.
+/// The numbers between two bounds, and whether a value is defined at every point of the box that it was computed over.
 ///
-/// A bound may be infinite, and is then not attained. Where an operation leaves its domain at some
-/// point of the box (a division by an interval with 0, the logarithm of one that reaches 0), the
-/// result is not defined, and so is everything computed from it; its bounds still hold at every
-/// point where the value exists.
+/// A bound may be infinite, and is then not attained. If an operation leaves its domain at some point of the box (a division by
+/// an interval with 0, the logarithm of one that reaches 0), the result is not defined, and neither is any value computed from
+/// it; its bounds are still valid at every point where the value exists.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     lower: f64,
@@ -33,7 +30,7 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// The whole line, and no promise of a value anywhere.
+    /// The whole line, without a guarantee of a value anywhere.
     pub const UNDEFINED: Interval =
         Interval { lower: f64::NEG_INFINITY, upper: f64::INFINITY, defined: false };
 
@@ -42,12 +39,12 @@ impl Interval {
         if lower <= upper { Interval { lower, upper, defined: true } } else { Interval::UNDEFINED }
     }
 
-    /// The bound from below; minus infinity where there is none.
+    /// The lower bound; minus infinity if there is none.
     pub fn lower(self) -> f64 {
         self.lower
     }
 
-    /// The bound from above; infinity where there is none.
+    /// The upper bound; infinity if there is none.
     pub fn upper(self) -> f64 {
         self.upper
     }
@@ -67,10 +64,10 @@ impl Interval {
         self.lower <= other.lower && other.upper <= self.upper
     }
 
-    /// The numbers within the bounds of both, which enclose the same value.
+    /// The numbers within the bounds of both, for two enclosures of one value.
     pub fn meet(self, other: Interval) -> Self {
         let (lower, upper) = (self.lower.max(other.lower), self.upper.min(other.upper));
-        // Two enclosures of one value that do not meet enclose no value at all.
+        // Two disjoint enclosures of one value enclose no value at all.
         Interval::new(lower, upper).only_if(self.defined || other.defined)
     }
 
@@ -89,7 +86,7 @@ impl Interval {
         self.upper - self.lower
     }
 
-    /// The same bounds, defined only where `condition` holds too.
+    /// Keeps the bounds, defined only if `condition` is true too.
     fn only_if(mut self, condition: bool) -> Self {
         self.defined &= condition;
         self
@@ -123,7 +120,7 @@ impl Mul for Interval {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self, other);
-        // Which bounds make the least and the greatest product.
+        // The bounds that make the least and the greatest product.
         let ([least, least_by], [greatest, greatest_by]) = if a.lower >= 0.0 {
             let least = if b.lower >= 0.0 { a.lower } else { a.upper };
             let greatest = if b.upper >= 0.0 { a.upper } else { a.lower };
@@ -146,7 +143,7 @@ impl Mul for Interval {
 }
 
 impl Interval {
-    /// The product of two that both have 0 inside.
+    /// The product of two intervals that both have 0 inside.
     fn mixed_product(self, other: Self) -> Self {
         let lower = f64::min(
             product_below(self.lower, other.upper),
@@ -166,7 +163,7 @@ impl Div for Interval {
         if other.contains(0.0) {
             return Interval::UNDEFINED;
         }
-        // Of which bounds quotients are the least and the greatest: what is divided by has one sign.
+        // The bounds that make the least and the greatest quotient: the divisor has one sign.
         let is_positive = other.lower > 0.0;
         let (least, greatest) =
             if is_positive { (self.lower, self.upper) } else { (self.upper, self.lower) };
@@ -237,15 +234,13 @@ fn sum_below(a: f64, b: f64) -> f64 {
     if sum.is_infinite() {
         return unbounded_below(sum, a.is_finite() && b.is_finite());
     }
-    // The rounding error of a sum is a number itself (Knuth, The Art of Computer Programming 2,
-    // section 4.2.2).
+    // The rounding error of a sum is a floating-point number (Knuth, The Art of Computer Programming 2, section 4.2.2).
     let rest = sum - a;
     let error = (a - (sum - rest)) + (b - rest);
     if error >= 0.0 { sum } else { sum.next_down() }
 }
 
-/// The largest number that is surely at most a b. An infinite bound is not attained, so that 0
-/// times it is 0.
+/// The largest number that is surely at most a b. An infinite bound is not attained, so that 0 times it is 0.
 fn product_below(a: f64, b: f64) -> f64 {
     if a == 0.0 || b == 0.0 {
         return 0.0;
@@ -257,14 +252,14 @@ fn product_below(a: f64, b: f64) -> f64 {
     if product.abs() < NEARLY_SUBNORMAL {
         return stepped_below(product, (a < 0.0) == (b < 0.0));
     }
-    // The rounding error of a product is a number itself, and one fused operation gives it.
+    // The rounding error of a product is a floating-point number, and one fused operation computes it.
     if a.mul_add(b, -product) >= 0.0 { product } else { product.next_down() }
 }
 
 /// The largest number that is surely at most a/b, for b not 0.
 fn quotient_below(a: f64, b: f64) -> f64 {
     if a == 0.0 || b.is_infinite() {
-        // What is infinite is not attained; the other corners hold what lies beyond 0.
+        // An infinite bound is not attained; the other corners cover values on the other side of 0.
         return 0.0;
     }
     let quotient = a / b;
@@ -274,7 +269,7 @@ fn quotient_below(a: f64, b: f64) -> f64 {
     if quotient.abs() < NEARLY_SUBNORMAL || a.abs() < NEARLY_SUBNORMAL {
         return stepped_below(quotient, (a < 0.0) == (b < 0.0));
     }
-    // The remainder a - q b is a number itself, and a/b - q has its sign times that of b.
+    // The remainder a - q b is a floating-point number, and the sign of a/b - q is its sign times the sign of b.
     let remainder = (-quotient).mul_add(b, a);
     let is_below = if b > 0.0 { remainder >= 0.0 } else { remainder <= 0.0 };
     if is_below { quotient } else { quotient.next_down() }
@@ -285,7 +280,7 @@ fn unbounded_below(result: f64, overflowed: bool) -> f64 {
     if result > 0.0 && overflowed { f64::MAX } else { result }
 }
 
-/// One step down, but not below 0 where the exact result is positive.
+/// One step down, but not below 0 if the exact result is positive.
 fn stepped_below(result: f64, is_positive: bool) -> f64 {
     let below = result.next_down();
     if is_positive { below.max(0.0) } else { below }
@@ -295,7 +290,7 @@ fn stepped_below(result: f64, is_positive: bool) -> f64 {
 mod tests {
     use super::*;
 
-    /// The bounds of a function of two operands that is monotone in each of them, from its values at all corners.
+    /// The bounds of a function of two operands that is monotonic in each of them, from its values at all corners.
     fn corners(a: Interval, b: Interval, below: impl Fn(f64, f64) -> f64) -> Interval {
         let corners = [a.lower, a.upper].map(|x| [b.lower, b.upper].map(|y| (x, y)));
         let corners = corners.as_flattened();

@@ -1,27 +1,26 @@
-//! Splits the computation of a quantity at many points into two loops over a block of them, and decides which
-//! numbers of a point are kept in memory. The decision is made once, for compiled code and for programs that are
-//! run in blocks.
+//! Splits the computation of a quantity at many points into two loops over a block of them, and decides which numbers of a
+//! point are stored in memory. The decision is made once, for compiled code and for programs that are run in blocks.
 //!
-//! What needs X alone and what needs t as well are two loops where both have something to do. A number that the
-//! first one hands on, or that is kept of a point, is written once and read every time. So sums and products of
-//! numbers that are there anyway are computed where they are read; and where several can be made of one number,
-//! that is handed on in their place.
+//! The values that need X alone and the values that need t as well have two loops if both have enough to compute. A number that
+//! the first loop passes on, or that is stored for a point, is written once and read every time. So sums and products of
+//! available numbers are computed where they are read; and if several numbers can be computed from one, that one is passed on
+//! instead.
 
 use crate::program::{Key, Op, Program, Value};
 use mms_symbolic::expr::Stage;
 use mms_symbolic::expr::Symbol;
 use mms_symbolic::sorted::SortedSet;
 
-/// How many sums and products a number is worth that one loop over points leaves to the next one.
+/// The number of sums and products that a loop over points leaves to the next one in order to save one number.
 pub const WORTH_IN_CACHE: usize = 1;
 
-/// The same of a number that is kept of a point and comes from memory.
+/// The number of sums and products that are repeated in order to save one number of a point in memory.
 pub const WORTH_IN_MEMORY: usize = 3;
 
-/// What a loop has to do at least, as [`weight`] counts.
+/// The least work of a loop, in units of [`weight`].
 const WORTH_A_LOOP: usize = 20;
 
-/// What a function of a point takes from what was found of the point before.
+/// The values that a function of a point reads from the stage Point.
 #[derive(Clone, Debug)]
 pub struct Columns {
     /// Coordinates, by axis.
@@ -31,12 +30,12 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// How many there are.
+    /// The number of columns.
     pub fn count(&self) -> usize {
         self.axes.len() + self.values.len()
     }
 
-    /// What `roots` need of the stage Point; something, so that a batch has a length.
+    /// The values of the stage Point that `roots` need; at least one, so that a batch has a length.
     pub fn of<K: Key>(program: &Program<K>, roots: &[Value]) -> Self {
         let needed = program.needed_for(roots.iter().copied());
         let mut read = vec![false; program.instrs.len()];
@@ -59,16 +58,16 @@ impl Columns {
     }
 }
 
-/// What a function of a point starts from.
+/// The start of a function of a point.
 pub struct Cut {
-    /// What it reads: coordinates, and values that were found before.
+    /// The columns that it reads: coordinates, and values that were computed before.
     pub columns: Columns,
-    /// What it makes of those, operands first.
+    /// The values that it computes from the columns, operands first.
     pub made: Vec<Value>,
 }
 
 impl Cut {
-    /// What is taken in place of these columns, where a number is `worth` so many operations.
+    /// Replaces columns by fewer ones, where saving a number is `worth` this many operations.
     pub fn new<K: Key>(program: &Program<K>, columns: &Columns, worth: usize) -> Self {
         let mut taken: SortedSet<Value> = columns.values.iter().copied().collect();
         let mut made = SortedSet::new();
@@ -98,7 +97,7 @@ impl Cut {
     }
 }
 
-/// The number of which most of those that are `taken` could be made, if more than one.
+/// The number from which most of the `taken` values can be computed, if more than one can.
 fn best_of_those_behind<K: Key>(
     program: &Program<K>,
     taken: &SortedSet<Value>,
@@ -117,7 +116,7 @@ fn best_of_those_behind<K: Key>(
     best.filter(|(several, _)| *several > 1).map(|(_, other)| other)
 }
 
-/// The sums and products, no more than `most`, that make a value of others that are `there`.
+/// The sums and products, at most `most`, that compute a value from others that are `there`.
 fn steps<K: Key>(
     program: &Program<K>,
     value: Value,
@@ -138,7 +137,7 @@ fn steps<K: Key>(
     Some(steps)
 }
 
-/// What comes before a value, up to so many sums and products.
+/// The values before a value, up to `most` sums and products away.
 fn behind<K: Key>(program: &Program<K>, value: Value, most: usize) -> SortedSet<Value> {
     let op = &program.instr(value).op;
     let mut found = SortedSet::new();
@@ -162,8 +161,8 @@ fn is_cheap(op: &Op) -> bool {
     matches!(op, Op::Add(..) | Op::Subtract(..) | Op::Multiply(..) | Op::Negate(_))
 }
 
-/// Whether the stages that `roots` need are loops of their own: each then has a shorter chain of operations that wait for
-/// each other. That pays where both have something to do.
+/// Whether the stages that `roots` need should be separate loops, each with a shorter chain of dependent operations. That pays
+/// if both have enough to compute.
 pub fn is_worth_two<K: Key>(program: &Program<K>, roots: &[Value]) -> bool {
     let needed = program.needed_for(roots.iter().copied());
     [Stage::Point, Stage::PointTime].into_iter().all(|stage| {
@@ -172,7 +171,7 @@ pub fn is_worth_two<K: Key>(program: &Program<K>, roots: &[Value]) -> bool {
     })
 }
 
-/// How long an operation takes, in sums or products: roughly, and of vectors.
+/// The time of an operation, in sums or products: roughly, and for vectors.
 fn weight(op: &Op) -> usize {
     match op {
         Op::Constant(_) | Op::Pi | Op::Input(_) | Op::Negate(_) => 0,

@@ -1,6 +1,6 @@
-//! Arbitrary precision: the reference against which closed forms and precisions are judged.
+//! Arbitrary precision: the reference for closed forms and precisions.
 //!
-//! Its digits are a parameter: a result is trusted where more of them do not change it.
+//! The number of digits is a parameter: a result is trusted if more digits do not change it.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -13,23 +13,22 @@ use crate::effort;
 use crate::interpret::Number;
 use mms_symbolic::expr::{Function, Rational};
 
-/// A result of a larger exponent of two is treated as not representable, and one of a smaller
-/// exponent than minus this is 0: exponents never leave their own integers.
+/// The limit of binary exponents: a result beyond it is not representable, and a result below its negative is 0. So exponents
+/// never overflow their own integers.
 const LARGEST_EXPONENT: isize = 1 << (isize::BITS - 4);
 
-/// An argument of this exponent of two or less has an exponential within the bounds above.
+/// The largest binary exponent of an argument whose exponential is within these bounds.
 const LARGEST_ARGUMENT: isize = isize::BITS as isize - 5;
 
-/// The exponent of the largest angle: reducing it takes as many digits of pi.
+/// The exponent of the largest angle: its reduction needs as many digits of pi.
 const LARGEST_ANGLE: isize = 1 << 12;
 
 type Float = FBig<HalfEven, 2>;
 
 /// A number of `BITS` significant bits, or undefined.
 ///
-/// What has no finite real value (1/0, ln(-1), exp(1e30)) is undefined, and so is everything
-/// computed from it. Numbers are told from 0 down to 2^-2^60, so that exp(-1e7) is a number as any
-/// other.
+/// A result without a finite real value (1/0, ln(-1), exp(1e30)) is undefined, and so is everything computed from it. Numbers
+/// are distinguished from 0 down to 2^-2^60, so that exp(-1e7) is a number like any other.
 #[derive(Clone, Debug)]
 pub struct Binary<const BITS: usize>(Option<Float>);
 
@@ -44,12 +43,12 @@ impl<const BITS: usize> Binary<BITS> {
         Binary(Some(numerator / denominator))
     }
 
-    /// The nearest `f64`; not a number where undefined.
+    /// The nearest `f64`; NaN if undefined.
     pub fn to_f64(&self) -> f64 {
         self.0.as_ref().map_or(f64::NAN, |value| value.to_f64().value())
     }
 
-    /// Decimal digits in scientific notation; `None` where undefined.
+    /// Decimal digits in scientific notation; `None` if undefined.
     pub fn decimal(&self, digits: usize) -> Option<String> {
         let decimal = self.0.as_ref()?.to_decimal().value();
         Some(format!("{:e}", decimal.with_precision(digits).value()))
@@ -68,7 +67,7 @@ impl<const BITS: usize> Binary<BITS> {
         matches!((&self.0, &other.0), (Some(a), Some(b)) if a <= b)
     }
 
-    /// The same number with more digits, or the nearest with fewer.
+    /// The number with more digits, or the nearest one with fewer.
     pub fn with_bits<const OTHER: usize>(&self) -> Binary<OTHER> {
         Binary(self.0.clone().map(|value| value.with_precision(OTHER).value()))
     }
@@ -89,12 +88,12 @@ impl<const BITS: usize> Binary<BITS> {
     fn bounded(self) -> Self {
         let in_range =
             |value: &Float| value.repr().is_finite() && exponent(value) < LARGEST_EXPONENT;
-        // A real number has one zero: that of negative sign would turn atan2 around.
+        // A real number has one zero: a negative zero would turn atan2 around.
         let told_from_zero = |value: Float| match exponent(&value) > -LARGEST_EXPONENT {
             true if value != Float::ZERO => value,
             _ => Float::ZERO,
         };
-        // Exact results such as exp(0) = 1 come without a precision, which functions need.
+        // Exact results such as exp(0) = 1 have no precision, which functions need.
         let rounded = |value: Float| told_from_zero(value).with_precision(BITS).value();
         Binary(self.0.filter(in_range).map(rounded))
     }
@@ -105,12 +104,12 @@ fn exponent(value: &Float) -> isize {
     value.repr().exponent().saturating_add_unsigned(value.repr().digits())
 }
 
-/// Whether the exponential function and its like stay within bounds.
+/// Whether the exponential function and related ones stay within bounds.
 fn moderate(value: &Float) -> bool {
     exponent(value) <= LARGEST_ARGUMENT
 }
 
-/// Whether the exponential function is not too large, however small it may be.
+/// Whether the exponential function does not become too large; it may be arbitrarily small.
 fn not_too_large(value: &Float) -> bool {
     *value < Float::ZERO || moderate(value)
 }
@@ -120,19 +119,19 @@ fn is_negligible<const BITS: usize>(x: &Float) -> bool {
     exponent(x) < -2 * BITS as isize
 }
 
-/// What is left of a number of half turns when whole turns are taken off, without error.
+/// The remainder of a number of half turns after whole turns are subtracted, without error.
 fn within_a_turn(x: &Float) -> Float {
     let two = Float::from(2);
     x - (x / &two).round() * two
 }
 
-/// The sine of x half turns, exact where it is 0.
+/// The sine of x half turns, exact if it is 0.
 fn sin_pi<const BITS: usize>(x: &Float) -> Float {
     let x = within_a_turn(x);
     if x.clone().round() == x { Float::ZERO } else { (Float::pi(BITS) * x).sin() }
 }
 
-/// The cosine of x half turns, exact where it is 0.
+/// The cosine of x half turns, exact if it is 0.
 fn cos_pi<const BITS: usize>(x: &Float) -> Float {
     let x = within_a_turn(x);
     let quarters = &x + &x;
@@ -140,13 +139,13 @@ fn cos_pi<const BITS: usize>(x: &Float) -> Float {
     if is_odd { Float::ZERO } else { (Float::pi(BITS) * x).cos() }
 }
 
-/// Below this exponent of two x - ln(1 + x) is summed up, above it is subtracted.
+/// The binary exponent below which x - ln(1 + x) is computed as a sum, and above which as a difference.
 const SMALL: isize = -32;
 
 /// x - ln(1 + x) = x^2/2 - x^3/3 + ... for a small x, to all digits.
 fn ln_1p_rest<const BITS: usize>(x: &Float) -> Float {
     let terms = 2..=3 + BITS.div_ceil(SMALL.unsigned_abs());
-    // After Horner, from the last term on.
+    // Evaluated by Horner's scheme, from the last term on.
     let sum = terms.rev().fold(Float::ZERO, |sum, n| {
         let coefficient = Float::ONE.with_precision(BITS).value() / Float::from(n);
         coefficient - x * sum

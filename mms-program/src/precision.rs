@@ -8,9 +8,9 @@ use crate::precise::Binary;
 /// The precision of a computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Precision {
-    /// Single.
+    /// Single precision.
     F32,
-    /// Double.
+    /// Double precision.
     F64,
     /// Twice the digits of double precision.
     Wide,
@@ -20,7 +20,7 @@ impl Precision {
     /// Every precision, the shortest first.
     pub const ALL: [Precision; 3] = [Precision::F32, Precision::F64, Precision::Wide];
 
-    /// Its name on the command line and in JSON.
+    /// The name on the command line and in JSON.
     pub fn name(self) -> &'static str {
         match self {
             Precision::F32 => "f32",
@@ -29,12 +29,12 @@ impl Precision {
         }
     }
 
-    /// The precision of that name.
+    /// The precision with this name.
     pub fn from_name(name: &str) -> Option<Precision> {
         Self::ALL.into_iter().find(|precision| precision.name() == name)
     }
 
-    /// The distance from 1 to the next number; 2^-104 where there are twice the digits.
+    /// The distance from 1 to the next number; 2^-104 for twice the digits.
     pub fn eps(self) -> f64 {
         match self {
             Precision::F32 => f64::from(f32::EPSILON),
@@ -48,7 +48,7 @@ impl Precision {
         match self {
             Precision::F32 => f64::from(f32::MIN_POSITIVE),
             Precision::F64 => f64::MIN_POSITIVE,
-            // Below, products on the way have a low part that is subnormal.
+            // Below this, intermediate products have a subnormal low part.
             Precision::Wide => 2f64.powi(-960),
         }
     }
@@ -70,20 +70,20 @@ impl Precision {
     }
 }
 
-/// A number of one of these precisions.
+/// A number in one of these precisions.
 pub trait Digits: Number + Copy {
-    /// Which one.
+    /// The precision.
     const PRECISION: Precision;
 
     /// The number as an unevaluated sum.
     fn parts(self) -> (f64, f64);
 
-    /// Whether it is a number, and not too large for one.
+    /// Whether the value is a finite number.
     fn is_number(self) -> bool {
         self.parts().0.is_finite()
     }
 
-    /// The same with arbitrary precision.
+    /// The number with arbitrary precision.
     fn precisely<const BITS: usize>(self) -> Binary<BITS> {
         let (high, low) = self.parts();
         Binary::from_f64(high) + Binary::from_f64(low)

@@ -6,7 +6,7 @@ use std::ops::Range;
 use mms_symbolic::expr::{Function, Rational, Small, Stage, Symbol};
 use mms_symbolic::sorted::SortedMap;
 
-/// What names an output of a program. Outputs are scheduled in the order of their keys.
+/// The name of an output of a program. Outputs are scheduled in the order of their keys.
 pub trait Key: Copy + Ord + Debug {}
 
 impl<K: Copy + Ord + Debug> Key for K {}
@@ -25,7 +25,7 @@ impl Value {
 /// An operation on values.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Op {
-    /// An exact number, rounded by whoever evaluates.
+    /// An exact number, rounded by the evaluation.
     Constant(Rational),
     /// pi.
     Pi,
@@ -41,7 +41,7 @@ pub enum Op {
     Divide(Value, Value),
     /// -a
     Negate(Value),
-    /// f(a), and what is proved of a where that lets a quicker form of f do
+    /// f(a), and a proved bound of a that allows a quicker form of f
     Unary(Function, Option<Small>, Value),
     /// f(a, b)
     Binary(Function, Value, Value),
@@ -62,7 +62,7 @@ impl Op {
         pair.into_iter().flatten()
     }
 
-    /// The same operation on other operands.
+    /// Applies the operation to other operands.
     pub fn map(&self, mut rename: impl FnMut(Value) -> Value) -> Op {
         match *self {
             Op::Constant(ref number) => Op::Constant(number.clone()),
@@ -84,7 +84,7 @@ impl Op {
     }
 }
 
-/// The name of a function of one argument, of which something may be proved, as the scalar trait spells it.
+/// The name of a function of one argument, with an optional proved bound of it, as the scalar trait spells it.
 pub fn unary_name(function: Function, small: Option<Small>) -> &'static str {
     match (function, small) {
         (Function::Sin, Some(Small::NearZero)) => "sin_near_zero",
@@ -95,19 +95,19 @@ pub fn unary_name(function: Function, small: Option<Small>) -> &'static str {
     }
 }
 
-/// One operation, and when its result is known.
+/// One operation, and the time when its result is known.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Instr {
     /// The operation.
     pub op: Op,
-    /// When its result is known.
+    /// The time when its result is known.
     pub stage: Stage,
 }
 
 /// Straight-line code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program<K> {
-    /// In order of stage, operands first.
+    /// The instructions in order of stage, operands first.
     pub instrs: Vec<Instr>,
     /// The components of each output, tensors row-major.
     pub outputs: SortedMap<K, Vec<Value>>,
@@ -120,7 +120,7 @@ pub(crate) fn range(instrs: &[Instr], stage: Stage) -> Range<usize> {
     position(&|other| other < stage)..position(&|other| other <= stage)
 }
 
-/// Which instructions some values need, themselves included, by position.
+/// Marks the instructions that some values need, including their own, by position.
 pub(crate) fn needed(instrs: &[Instr], values: &mut dyn Iterator<Item = Value>) -> Vec<bool> {
     let mut needed = vec![false; instrs.len()];
     for value in values {
@@ -152,19 +152,19 @@ impl<K: Key> Program<K> {
         range(&self.instrs, stage)
     }
 
-    /// Which instructions `outputs` need, by position.
+    /// Marks the instructions that `outputs` need, by position.
     pub fn needed(&self, outputs: &[K]) -> Vec<bool> {
         let values = outputs.iter().filter_map(|output| self.outputs.get(output)).flatten();
         self.needed_for(values.copied())
     }
 
-    /// Which instructions `values` need, themselves included, by position.
+    /// Marks the instructions that `values` need, including their own, by position.
     pub fn needed_for(&self, values: impl IntoIterator<Item = Value>) -> Vec<bool> {
         needed(&self.instrs, &mut values.into_iter())
     }
 
-    /// How many operations `outputs` take, stage by stage: + - * / and each function call count
-    /// one; constants, loads and changes of sign none.
+    /// The number of operations of `outputs`, stage by stage: + - * / and each function call count as one; constants, loads and
+    /// changes of sign are free.
     pub fn operations(&self, outputs: &[K]) -> SortedMap<Stage, usize> {
         let mut counts: SortedMap<Stage, usize> = Stage::ALL.map(|stage| (stage, 0)).into();
         for (instr, needed) in self.instrs.iter().zip(self.needed(outputs)) {
@@ -177,7 +177,7 @@ impl<K: Key> Program<K> {
 }
 
 impl<K: Key> Display for Program<K> {
-    /// One instruction a line, then the outputs: the form in which programs are reviewed.
+    /// Prints one instruction a line, then the outputs: the form in which programs are reviewed.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut stage = None;
         for (index, instr) in self.instrs.iter().enumerate() {

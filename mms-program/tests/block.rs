@@ -1,4 +1,4 @@
-//! The interpreter of one point is the judge: random programs, every length, numbers of all kinds.
+//! Compares the block interpreter with the interpreter of one point: random programs, every length, numbers of all kinds.
 
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ type Program = mms_program::Program<Output>;
 
 const DIMENSION: usize = 2;
 
-/// Leaves of all stages, and numbers that are exact and that are not.
+/// Leaves of all stages, and exact and inexact numbers.
 fn leaves() -> Vec<Op> {
     let mut leaves = vec![
         Op::Constant(Rational::from_parts(1.into(), 3_u8.into())),
@@ -44,14 +44,14 @@ fn leaves() -> Vec<Op> {
     leaves
 }
 
-/// A program of these operations: what to do, and with which values before, as fractions. The last values are the
-/// results of two outputs, one of which compiled code may have in two loops.
+/// A program of these operations: what to do, and the operands among earlier values, as fractions. The last values are the
+/// results of two outputs, one of which compiled code may compute in two loops.
 fn program(recipe: &[(u8, u16, u16)]) -> Program {
     let mut ops = leaves();
     for (what, a, b) in recipe {
         let value = |fraction: u16| Value(((usize::from(fraction) * ops.len()) >> 16) as u32);
         let (a, b) = (value(*a), value(*b));
-        // Sums and products are most of what programs do, and what is fused.
+        // Most operations of programs, and the fused ones, are sums and products.
         ops.push(match what % 32 {
             0..8 => Op::Add(a, b),
             8..14 => Op::Subtract(a, b),
@@ -133,7 +133,7 @@ impl<T: Blockwise> Given<T> {
     }
 }
 
-/// Many points, each number of which is one of those of `numbers` in turn.
+/// `count` points with numbers that are taken from `numbers` in turn.
 fn given<T: Blockwise>(count: usize, numbers: &[f64]) -> Vec<Given<T>> {
     let mut numbers = numbers.iter().map(|number| T::from_f64(*number)).cycle();
     let mut next = || numbers.next().expect("a cycle of some numbers");
@@ -192,7 +192,7 @@ fn one_by_one<T: Blockwise>(
     points.iter().map(&mut at).collect()
 }
 
-/// Both to the bit; what is not a number has no bits.
+/// Asserts that both have the same bits; values that are not numbers have none.
 fn agree<T: Blockwise>(found: &[Vec<T>], expected: &[Vec<T>], what: impl std::fmt::Display) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (point, (found, expected)) in found.iter().zip(expected).enumerate() {
@@ -209,7 +209,7 @@ fn prepared<T: Blockwise>(plan: &Arc<Plan>, way: Way) -> Prepared<T> {
     Prepared::new(plan.clone(), way, &PARAMETERS.map(T::from_f64))
 }
 
-/// Holds all ways to run a program to the interpreter, and each other.
+/// Compares all ways to run a program with the interpreter, and with each other.
 fn hold<T: Blockwise>(program: &Program, numbers: &[f64], count: usize) {
     let outputs: Vec<Output> = program.outputs.keys().copied().collect();
     let plan = Arc::new(plan_of(program, &outputs));
@@ -222,7 +222,7 @@ fn hold<T: Blockwise>(program: &Program, numbers: &[f64], count: usize) {
         agree(&run(Way::portable_with(instructions)), &expected, instructions);
         let found = run(Way::fused_with(instructions));
         match &fused {
-            // There are no fused products, or all have them.
+            // Either no products are fused, or all are.
             _ if instructions == Instructions::BASELINE && !cfg!(target_arch = "aarch64") => {
                 agree(&found, &expected, instructions);
             }
@@ -232,8 +232,8 @@ fn hold<T: Blockwise>(program: &Program, numbers: &[f64], count: usize) {
     }
 }
 
-/// Numbers within the domain of most functions, where nothing is lost, and others: beyond what the quick functions
-/// know, subnormal, infinite, none.
+/// Numbers within the domain of most functions, where all digits are kept, and others: outside the range of the quick
+/// functions, subnormal, infinite, NaN.
 const MILD: [f64; 11] = [0.3, 1.25, 0.61, 2.0, 0.875, 1.0, 0.14, 0.5, 1.7, 0.043, 0.99];
 const WILD: [f64; 17] = [
     0.3,
@@ -273,8 +273,7 @@ proptest! {
     }
 }
 
-/// The functions that programs have at points, each with what may be proved of its argument.
-/// The random program with normals and gradients as coordinates, so that it takes positions alone.
+/// The random program with coordinates instead of normals and gradients, so that it only needs positions.
 fn of_positions(mut program: Program) -> Program {
     for instr in &mut program.instrs {
         if let Op::Input(Symbol::Normal(axis) | Symbol::Gradient(axis, _)) = instr.op {
@@ -284,7 +283,7 @@ fn of_positions(mut program: Program) -> Program {
     program
 }
 
-/// Holds what is kept of points to a run from the start, at several times.
+/// Compares runs from stored values of points with runs from the start, at several times.
 fn hold_kept<T: Blockwise>(program: &Program, numbers: &[f64], count: usize) {
     let points: Vec<T> =
         given::<T>(count, numbers).iter().flat_map(|point| point.coordinates).collect();
@@ -327,7 +326,7 @@ fn at_points() -> Vec<(Function, Option<Small>)> {
     all.map(|function| (function, None)).chain(small).collect()
 }
 
-/// A program in which each function is called, sums have products, and results are read later.
+/// A program that calls each function, sums products, and reads results later.
 fn everything() -> Program {
     let functions = at_points().len() as u8;
     let recipe: Vec<_> = (0..2 * u16::from(functions))
@@ -371,7 +370,7 @@ fn every_function_of_wild_numbers_has_the_bits_of_one_point() {
     }
 }
 
-/// The time times 1e13 is an angle of many turns, in either unit.
+/// 1e13 times the time is an angle of many turns, in either unit.
 #[test]
 fn whole_turns_are_taken_off_as_at_one_point() {
     for (within, wave) in
@@ -394,7 +393,7 @@ fn whole_turns_are_taken_off_as_at_one_point() {
     }
 }
 
-/// Each operand of a sum of products with one reader may be the same at all points, and have either sign.
+/// In a sum with a product that has one reader, each operand may be the same at all points, and have either sign.
 #[test]
 fn fused_products_round_once_or_twice_as_they_should() {
     let [x, y] = [0, 1].map(|axis| Op::Input(Symbol::Coordinate(axis)));
@@ -423,7 +422,7 @@ fn fused_products_round_once_or_twice_as_they_should() {
     assert_eq!(kinds, 36);
 }
 
-/// Where products are fused, the result is that of the sum in twice the digits: a product of two numbers is exact there.
+/// If products are fused, the result equals the sum in twice the digits: a product of two numbers is exact there.
 fn hold_to_one_rounding(program: &Program, plan: &Arc<Plan>) {
     let points = given::<f64>(40, &MILD);
     let wide: Vec<_> = given::<Double>(40, &MILD);
@@ -500,7 +499,7 @@ fn threads_share_a_plan_and_its_parameters() {
             let (prepared, rooms, points, expected) = (&prepared, &rooms, &points, &expected);
             scope.spawn(move || {
                 for round in 0..20 {
-                    // Whole blocks, so that the same ones are computed again.
+                    // Whole blocks, so that the same blocks are computed again.
                     let from = f64::BLOCK * ((thread + round) % 8);
                     let found = rooms.lend(|room| in_blocks(prepared, room, 3, &points[from..]));
                     agree(&found, &expected[from..], thread);
@@ -512,7 +511,7 @@ fn threads_share_a_plan_and_its_parameters() {
 
 #[test]
 fn an_output_has_the_bits_that_it_has_alone_beside_others() {
-    // Sums and products alone, for a block in which anything is not a number is computed again.
+    // Only sums and products: a block with a value that is not a number is computed again.
     let recipe: Vec<_> =
         (0..60_u16).map(|k| ((k * 5 % 22) as u8, 0x4000 | k << 8, !(17 * k))).collect();
     let program = program(&recipe);

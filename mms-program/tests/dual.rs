@@ -1,4 +1,4 @@
-//! Dual numbers: slopes that are known.
+//! Dual numbers: known slopes.
 
 use mms_math::Scalar as _;
 use mms_program::dual::Dual;

@@ -1,4 +1,4 @@
-//! Dual numbers of several directions against those of one.
+//! Dual numbers of several directions, compared with dual numbers of one direction.
 
 use mms_math::Scalar as _;
 use mms_program::dual::Dual;
@@ -35,7 +35,7 @@ fn made<T: Number>(x: T, y: T) -> Vec<T> {
     made
 }
 
-/// A direction in which x moves, one in which y does, and one in which nothing does.
+/// Compares a direction in which x changes, one in which y does, and one in which neither does.
 fn assert_same<T: Bounds>(x: T, y: T, is_same: impl Fn(T, T) -> bool) {
     let of_fan = made(Fan::variable(x, 1), Fan::variable(y, 4));
     for (direction, moves) in [(1, [1.0, 0.0]), (4, [0.0, 1.0]), (2, [0.0, 0.0])] {
@@ -49,7 +49,7 @@ fn assert_same<T: Bounds>(x: T, y: T, is_same: impl Fn(T, T) -> bool) {
     }
 }
 
-/// Bounds of boxes where all is defined, where roots and powers end, and where nothing is known.
+/// Bounds of boxes where everything is defined, where roots and powers end, and where nothing is known.
 #[test]
 fn a_fan_has_the_bounds_of_dual_numbers() {
     let boxes = [
@@ -60,7 +60,7 @@ fn a_fan_has_the_bounds_of_dual_numbers() {
         [Interval::from_f64(0.0), Interval::from_f64(0.5)],
     ];
     for [x, y] in boxes {
-        // The sign of 0 tells nothing of a bound.
+        // The sign of 0 is irrelevant for a bound.
         let is_same = |a: Interval, b: Interval| {
             (a.is_defined() == b.is_defined())
                 && (!a.is_defined() || a.lower() == b.lower() && a.upper() == b.upper())

@@ -1,4 +1,4 @@
-//! Intervals: what is exact, by how much others grow, and what overflows or has no value.
+//! Intervals: exact results, the growth of others, and results that overflow or have no value.
 
 use mms_math::Scalar as _;
 use mms_program::interpret::Number as _;
@@ -100,7 +100,7 @@ fn waves_reach_their_extrema() {
     assert!(cos.lower() > 0.87, "{cos:?}");
     assert_eq!(Interval::new(3.0, 3.5).cos().lower(), -1.0);
     assert_eq!(Interval::new(0.0, f64::INFINITY).cos(), Interval::new(-1.0, 1.0));
-    // 1e22 is far from 0, but no more than its double is known.
+    // 1e22 is far from 0, but only its double is known.
     assert!(Interval::new(1e22, 1e22).sin().width() < 1e-15);
 }
 

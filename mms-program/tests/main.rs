@@ -1,4 +1,4 @@
-//! The tests of this crate, as one program, so that what they share is compiled and linked once.
+//! The tests of this crate, as one program, so that shared code is compiled and linked once.
 
 mod block;
 mod double;

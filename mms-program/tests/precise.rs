@@ -1,4 +1,4 @@
-//! Numbers of 77 digits: where they end, and where functions are exact.
+//! Numbers of 77 digits: the ends of their range, and arguments where functions are exact.
 
 use mms_math::Scalar as _;
 use mms_program::precise::{Binary, Precise};
@@ -72,6 +72,6 @@ fn beyond_all_bounds_large_is_undefined_and_small_is_zero() {
     assert!(tiny.is_defined() && tiny.at_most(&zero));
     let huge = (0..70).fold(of(2.0), |huge, _| huge.clone() * huge);
     assert!(!huge.is_defined());
-    // A zero that stands for what is too small may not be divided by.
+    // A zero that replaces a too small number may not be a divisor.
     assert!(!(of(1.0) / tiny).is_defined());
 }

@@ -1,4 +1,4 @@
-//! Schedules, by their operations.
+//! Schedules, compared by their operations.
 
 use mms_program::Op;
 use mms_program::interpret::{Interpreter, Point};
@@ -7,7 +7,7 @@ use mms_symbolic::expr::{Expr, Graph, Stage};
 use mms_symbolic::expr::{Rational, Symbol};
 use mms_symbolic::sorted::SortedMap;
 
-/// 256 X (a X + t Y) and 256 Y (a Y + t X); `bare` of them without a.
+/// 256 X (a X + t Y) and 256 Y (a Y + t X); without a if `bare`.
 fn components(graph: &mut Graph, bare: bool) -> Vec<Expr> {
     let a = graph.symbol(Symbol::Parameter(0));
     let t = graph.symbol(Symbol::Time);
@@ -37,7 +37,7 @@ fn scheduled(bare: bool) -> (usize, Vec<f64>) {
 
 #[test]
 fn numbers_move_into_sums_where_that_costs_nothing_at_a_point() {
-    // Each: two products, a sum and X times it. What else there is depends on no X.
+    // Each component: two products, a sum and X times it. Everything else does not depend on X.
     assert_eq!(scheduled(false), (8, vec![384.0, -36.0]));
     // A term without an early factor leaves 256 at the point.
     assert_eq!(scheduled(true).0, 8);
@@ -88,7 +88,7 @@ fn fewer_steps_are_not_bought_with_more_at_each_time_or_elsewhere() {
     assert!(!before.is_worth(before));
     assert!(!before.is_worth(Steps { late: 11, ..better }));
     let with = |per_point, total| Steps { cost: Cost { per_point, total, late: 16 }, ..better };
-    // A sixteenth more operations, and eight that are done once.
+    // A sixteenth more operations at a point, and eight that are done once.
     assert!(before.is_worth(with(34, 50)));
     assert!(!before.is_worth(with(35, 51)));
     assert!(!before.is_worth(with(34, 51)));

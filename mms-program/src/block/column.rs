@@ -1,4 +1,4 @@
-//! The numbers of a block, and the three precisions that blocks are made of.
+//! The numbers of a block, and the three precisions of blocks.
 
 use std::fmt::Debug;
 use std::ops::Range;
@@ -10,19 +10,20 @@ use super::plan::Plan;
 use super::{Way, steps};
 use crate::interpret::Number;
 
-/// The numbers of a block in `K` pieces of `C`, in whole lines of the cache. A piece of single or double precision is
-/// some registers, so that operations of one wait for no other; and a block ends with the piece that its last point is in.
+/// The numbers of a block in `K` pieces of `C`, in whole lines of the cache. A piece of single or double precision fills
+/// several registers, so that its operations are independent of each other; a block ends with the piece that contains its last
+/// point.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Column<T, const C: usize, const K: usize>(pub(super) [[T; C]; K]);
 
-/// The numbers of a block, whatever it is made of.
+/// The numbers of a block, for any memory layout.
 pub trait Numbers<T>: Clone + Debug + Send + Sync {
-    /// The same number everywhere.
+    /// Makes a block of one number.
     fn of(number: T) -> Self;
     /// The numbers.
     fn numbers(&self) -> &[T];
-    /// The same, to write to.
+    /// The numbers, for writing.
     fn numbers_mut(&mut self) -> &mut [T];
 }
 
@@ -40,24 +41,24 @@ impl<T: Copy + Debug + Send + Sync, const C: usize, const K: usize> Numbers<T> f
     }
 }
 
-/// A number in which programs are run over blocks of points: `f32`, `f64` or [`Double`].
+/// A number type in which programs are run over blocks of points: `f32`, `f64` or [`Double`].
 pub trait Blockwise: Number<Wide: Copy + Send + Sync> + Stand<Self> + Send + Sync {
-    /// How many points a block has: as many as in compiled code, where a block that has a result which is not a number
-    /// is computed again as a whole.
+    /// The number of points of a block: as in compiled code, where a block with a result that is not a number is computed again
+    /// as a whole.
     const BLOCK: usize;
-    /// How many points go through together.
+    /// The number of points that are processed together.
     const TOGETHER: usize;
     /// The numbers of a block.
     type Column: Numbers<Self>;
 
-    /// Whether both are the same to the bit.
+    /// Whether both numbers have the same bits.
     fn is_same(self, other: Self) -> bool;
 
     /// Runs the steps of a plan over the first `pieces` of a block.
     fn run(plan: &Plan, way: Way, scalars: &[Self], columns: &mut [Self::Column], pieces: usize);
 
-    /// Runs some parts of a plan over the first `pieces` of a block; says whether all results are numbers, if they are the last
-    /// parts.
+    /// Runs some parts of a plan over the first `pieces` of a block. If they are the last parts, returns whether all results
+    /// are numbers.
     fn run_parts(
         of: (&Plan, Range<usize>),
         way: Way,
@@ -125,7 +126,7 @@ impl Blockwise for Double {
         steps::carefully(plan, scalars, columns, pieces);
     }
 
-    // Nothing is quick in twice the digits.
+    // There are no quick functions in twice the digits.
     fn run_parts(
         _: (&Plan, Range<usize>),
         _: Way,

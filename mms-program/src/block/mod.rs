@@ -1,14 +1,14 @@
-//! A block interpreter: programs over many points, in which every operation is a loop over a block of them
-//! (structure of arrays).
+//! A block interpreter: runs programs over many points; every operation is a loop over a block of points (structure of arrays).
 //!
-//! A [`Plan`] says what is to be done, and is made once for some outputs; all threads, parameters and precisions
-//! share it. [`Prepared`] has the stage Parameter of one set of parameters. A [`Room`] has the stage Time, as long
-//! as the time stays the same, and the registers, and belongs to one thread at a time. So setting a parameter runs
-//! the stage Parameter, another time the stage Time, and nothing is allocated once a room has been used.
+//! A [`Plan`] lists the steps, and is made once for some outputs; all threads, parameters and precisions share it. [`Prepared`]
+//! has the stage Parameter of one set of parameters. A [`Room`] has the stage Time, as long as the time stays the same, and the
+//! registers, and belongs to one thread at a time. So setting a parameter runs the stage Parameter, another time runs the stage
+//! Time, and nothing is allocated after the first use of a room.
 //!
-//! Results have the bits of compiled loops, or, with products rounded, those of one point and of the reference
-//! interpreter, alike on all processors. Each output has the bits that it has alone. The reference interpreter
-//! takes one operation of one number at a time: tests hold this one to it, and it serves scalars without blocks.
+//! Results have the bits of compiled loops, or, with rounded products, the bits of compiled functions of one point and of the
+//! reference interpreter, the same on all processors. Each output has the same bits as alone. The reference interpreter
+//! computes one operation of one number at a time: tests compare the block interpreter with it, and it serves scalars without
+//! blocks.
 
 mod column;
 mod plan;
@@ -27,7 +27,7 @@ use crate::interpret::apply;
 use mms_symbolic::expr::Symbol;
 use plan::{Operand, Scalar, Source};
 
-/// How blocks are computed: with which instructions, and whether a product that is added is rounded first.
+/// The way of computing blocks: the instructions, and whether a product that is added is rounded first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Way {
     instructions: Instructions,
@@ -35,23 +35,24 @@ pub struct Way {
 }
 
 impl Way {
-    /// The bits of the interpreter of one point, and of the functions of one point in compiled code: products are
+    /// Computes the bits of the interpreter of one point, and of the functions of one point in compiled code: products are
     /// rounded, and the results are the same on all processors.
     pub fn portable() -> Self {
         Way::portable_with(Instructions::best())
     }
 
-    /// The bits of the loops over many points in compiled code: one rounding where the processor has such instructions.
+    /// Computes the bits of the loops over many points in compiled code: with one rounding if the processor has such
+    /// instructions.
     pub fn fused() -> Self {
         Way::fused_with(Instructions::best())
     }
 
-    /// As [`portable`](Way::portable), with these instructions.
+    /// Computes like [`portable`](Way::portable), with these instructions.
     pub fn portable_with(instructions: Instructions) -> Self {
         Way { instructions, fused: false }
     }
 
-    /// As [`fused`](Way::fused), with these instructions.
+    /// Computes like [`fused`](Way::fused), with these instructions.
     pub fn fused_with(instructions: Instructions) -> Self {
         Way { instructions, fused: true }
     }
@@ -66,21 +67,21 @@ impl Way {
 pub struct Prepared<T: Blockwise> {
     plan: Arc<Plan>,
     way: Way,
-    /// The stage Parameter.
+    /// The values of the stage Parameter.
     early: Vec<T::Wide>,
-    /// The numbers that are the same at all points; those of the stage Time are not yet known.
+    /// The numbers that are the same at all points; numbers of the stage Time are not known yet.
     scalars: Vec<T>,
-    /// Tells it from others, and from what it was with other parameters.
+    /// A stamp that differs for every instance, and for every set of parameters.
     stamp: u64,
 }
 
 /// The numbers of one time and of one block.
 #[derive(Clone, Debug)]
 pub struct Room<T: Blockwise> {
-    /// Whose numbers they are.
+    /// The stamp of the prepared plan whose numbers these are.
     stamp: u64,
     time: Option<T>,
-    /// The stages Parameter and Time.
+    /// The values of the stages Parameter and Time.
     once: Vec<T::Wide>,
     scalars: Vec<T>,
     columns: Vec<T::Column>,
@@ -92,14 +93,14 @@ impl<T: Blockwise> Default for Room<T> {
     }
 }
 
-/// What the points of a block supply, to be written.
+/// The inputs of the points of a block, to be written.
 pub struct Inputs<'a, T: Blockwise> {
     symbols: &'a [Symbol],
     columns: &'a mut [T::Column],
     count: usize,
 }
 
-/// What was found at the points of a block.
+/// The results at the points of a block.
 pub struct Outputs<'a, T: Blockwise> {
     plan: &'a Plan,
     scalars: &'a [T],
@@ -112,7 +113,7 @@ pub struct Outputs<'a, T: Blockwise> {
 pub enum Component<'a, T> {
     /// One number for each point.
     Each(&'a [T]),
-    /// The same at all points.
+    /// One number for all points.
     Same(T),
 }
 
@@ -131,9 +132,9 @@ impl<T: Blockwise> Prepared<T> {
         prepared
     }
 
-    /// Runs the stage Parameter once more.
+    /// Runs the stage Parameter again.
     pub fn set(&mut self, parameters: &[T]) {
-        // 0 is nobody's.
+        // 0 is the stamp of no prepared plan.
         static STAMPS: AtomicU64 = AtomicU64::new(1);
         self.stamp = STAMPS.fetch_add(1, Ordering::Relaxed);
         let plan = &self.plan;
@@ -161,8 +162,8 @@ impl<T: Blockwise> Prepared<T> {
         &self.plan
     }
 
-    /// Has `bring` write what the points of each block supply, whose first one has that position, and `take` read what
-    /// was found there, for `count` points.
+    /// Runs the plan at `count` points. For each block, `bring` writes the inputs and `take` reads the results; both get the
+    /// position of its first point.
     pub fn run(
         &self,
         room: &mut Room<T>,
@@ -179,7 +180,7 @@ impl<T: Blockwise> Prepared<T> {
             let pieces = count.div_ceil(T::TOGETHER);
             let inputs = &mut columns[..plan.inputs.len()];
             bring(start, &mut Inputs { symbols: &plan.inputs, columns: inputs, count });
-            // It might be that nothing is defined elsewhere.
+            // The rest of the last piece gets the first point: other numbers might be undefined there.
             for column in inputs {
                 let numbers = &mut column.numbers_mut()[..pieces * T::TOGETHER];
                 let first = numbers[0];
@@ -192,8 +193,8 @@ impl<T: Blockwise> Prepared<T> {
 }
 
 impl<T: Blockwise> Prepared<T> {
-    /// The first output at points whose coordinates X stand one after the other, and so do normals N where it takes them;
-    /// its components too, in `values`, which has room for just those of all points.
+    /// Computes the components of the first output at points whose coordinates X follow each other in `points`, and normals N
+    /// in `normals` if the output needs them. `values` has exactly the length of all components.
     pub fn at_points(
         &self,
         room: &mut Room<T>,
@@ -234,15 +235,15 @@ impl<T: Blockwise> Prepared<T> {
     }
 }
 
-/// The numbers of the first output that X alone determines, kept for later times, one block of points after the other.
+/// The numbers of the first output that X alone determines, stored for later times, one block of points after the other.
 #[derive(Clone, Debug)]
 pub struct Kept<T: Blockwise>(Vec<T::Column>);
 
 impl<T: Blockwise> Prepared<T> {
-    /// Keeps what X determines at points, as [`at_points`](Self::at_points) takes them.
+    /// Stores the numbers that X determines at points, which have the form of [`at_points`](Self::at_points).
     pub fn keep(&self, room: &mut Room<T>, dimension: usize, points: &[T]) -> Kept<T> {
         let plan = &*self.plan;
-        // No step of X alone reads what the time determines.
+        // No step of X alone reads a value of the stage Time.
         room.enter(self, T::from_f64(0.0));
         let Room { scalars, columns, .. } = room;
         let mut kept = Vec::with_capacity(plan.kept.len() * points.len().div_ceil(T::BLOCK));
@@ -254,7 +255,7 @@ impl<T: Blockwise> Prepared<T> {
         Kept(kept)
     }
 
-    /// The components of the first output at points of which something is kept, in `values`: to the bits of
+    /// Computes the components of the first output at points with stored numbers, in `values`: with the same bits as
     /// [`at_points`](Self::at_points).
     pub fn at_kept(
         &self,
@@ -312,7 +313,7 @@ fn signed<T: Blockwise>(scalar: &Scalar, number: T) -> T {
 }
 
 impl<T: Blockwise> Room<T> {
-    /// Makes room for a prepared plan at a time, and runs the stage Time unless that has been done.
+    /// Prepares the memory for a plan and a time, and runs the stage Time unless that has been done.
     fn enter(&mut self, prepared: &Prepared<T>, time: T) {
         let plan = &*prepared.plan;
         if self.stamp != prepared.stamp {
@@ -351,7 +352,7 @@ impl<T: Blockwise> Room<T> {
 }
 
 impl<T: Blockwise> Inputs<'_, T> {
-    /// The numbers of the points, one for each, of everything that they have to supply.
+    /// The inputs that the points have to supply, each with one number per point.
     pub fn columns(&mut self) -> impl Iterator<Item = (Symbol, &mut [T])> {
         let count = self.count;
         let columns = self.columns.iter_mut().map(move |column| &mut column.numbers_mut()[..count]);
@@ -360,12 +361,12 @@ impl<T: Blockwise> Inputs<'_, T> {
 }
 
 impl<'a, T: Blockwise> Outputs<'a, T> {
-    /// How many points there are.
+    /// The number of points.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The components of the output at that position of the plan's.
+    /// The components of the output at this position in the plan.
     pub fn components(&self, output: usize) -> impl Iterator<Item = Component<'a, T>> + use<'a, T> {
         let (columns, scalars, count) = (self.columns, self.scalars, self.count);
         self.plan.components[self.plan.outputs[output].clone()].iter().map(move |place| match place
@@ -379,7 +380,7 @@ impl<'a, T: Blockwise> Outputs<'a, T> {
 }
 
 impl<T: Copy> Component<'_, T> {
-    /// Its value at a point of the block.
+    /// The value at a point of the block.
     pub fn at(&self, point: usize) -> T {
         match self {
             Component::Each(numbers) => numbers[point],
@@ -387,7 +388,7 @@ impl<T: Copy> Component<'_, T> {
         }
     }
 
-    /// Writes it to the points' places: as many as there are.
+    /// Writes the values to `places`, as many as there are.
     pub fn write<'a>(&self, places: impl Iterator<Item = &'a mut T>)
     where
         T: 'a,
@@ -401,7 +402,7 @@ impl<T: Copy> Component<'_, T> {
     }
 }
 
-/// Rooms for threads that come and go.
+/// A pool of working memory for threads that come and go.
 #[derive(Debug)]
 pub struct Rooms<T: Blockwise>(Mutex<Vec<Room<T>>>);
 
@@ -412,7 +413,7 @@ impl<T: Blockwise> Default for Rooms<T> {
 }
 
 impl<T: Blockwise> Rooms<T> {
-    /// Lends a room that nobody else has meanwhile.
+    /// Lends working memory that no other thread uses meanwhile.
     pub fn lend<R>(&self, work: impl FnOnce(&mut Room<T>) -> R) -> R {
         let rooms = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let mut room = rooms().pop().unwrap_or_default();

@@ -1,14 +1,13 @@
-//! From a program to steps over blocks of points.
+//! Lowers a program to steps over blocks of points.
 //!
-//! A step is an operation, the register of its result, and operands that are registers or scalars. A register is a
-//! column of a block, 512 bytes in the first cache, and is used again when its value is read no more: liveness by
-//! a linear scan in the order of the program. What a point supplies keeps its register, as a block may be computed
-//! again. Scalars are what is the same at all points, constants and the stages Parameter and Time, and are
-//! broadcast from one number. So there are steps for a b + c with every mixture of both, and signs of scalars are
-//! turned beforehand.
+//! A step is an operation, the register of its result, and operands that are registers or scalars. A register is a column of a
+//! block, 512 bytes in the first cache, and is reused once its value is no longer read: liveness by a linear scan in the order
+//! of the program. Inputs of points keep their registers, since a block may be computed again. Scalars are the numbers that are
+//! the same at all points, constants and the stages Parameter and Time, and are broadcast from one number. So there are steps
+//! for a b + c with every mixture of both, and signs of scalars are changed in advance.
 //!
-//! Which products are fused, which stages are loops of their own and what is found twice there is decided by what
-//! emission asks too (`fusion`, `loops`): hence the same bits.
+//! `fusion` and `loops` decide which products are fused, which stages are loops of their own, and which values both loops
+//! compute. Emission uses the same decisions: hence the same bits.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -19,10 +18,10 @@ use crate::program::{Instr, Key, Op, Program, Value};
 use mms_symbolic::expr::Stage;
 use mms_symbolic::expr::{Function, Rational, Small, Symbol};
 
-/// What a step does with the columns and scalars at its places a, b and c.
+/// The operation of a step on the columns and scalars at its operands a, b and c.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Kind {
-    /// The scalar a everywhere.
+    /// Fills a column with the scalar a.
     Fill,
     /// a + b
     Add,
@@ -62,14 +61,14 @@ pub(super) enum Kind {
     ScaleSubtract,
     /// a b + c, b and c scalars.
     ScaleAddScalar,
-    /// A function of a, and what is proved of a.
+    /// A function of a, and the proved bound of a.
     Unary(Function, Option<Small>),
     /// A function of a and b.
     Binary(Function),
 }
 
 impl Kind {
-    /// How many operands it has, of a, b and c in this order, and which of them are columns.
+    /// The number of operands, of a, b and c in this order, and which of them are columns.
     fn columns(self) -> &'static [bool] {
         match self {
             Kind::Fill => &[false],
@@ -91,15 +90,15 @@ impl Kind {
         }
     }
 
-    /// Whether it is a function made of many operations: it is compiled apart, since its coefficients would take the
-    /// registers of all others.
+    /// Whether the step is a function made of many operations: it is compiled separately, since its coefficients would occupy
+    /// the registers of all other steps.
     fn is_function(self) -> bool {
         matches!(self, Kind::Unary(..) | Kind::Binary(_))
     }
 }
 
-/// One operation on all points of a block. The places of operands are registers or scalars, as its kind says; that of
-/// the result is a register that none of them is in.
+/// One operation on all points of a block. Operands are registers or scalars, as the kind says; the result is a register that
+/// no operand uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Step {
     pub kind: Kind,
@@ -115,12 +114,12 @@ impl Step {
     }
 }
 
-/// Where a number comes from that is the same at all points.
+/// The origin of a number that is the same at all points.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Source {
     Constant(Rational),
     Pi,
-    /// The result of that instruction of [`Plan::once`].
+    /// The result of this instruction of [`Plan::once`].
     Once(usize),
 }
 
@@ -128,46 +127,46 @@ pub(super) enum Source {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Scalar {
     pub source: Source,
-    /// Whether its negative is meant.
+    /// Whether the negative number is used.
     pub negated: bool,
 }
 
-/// Where a value is.
+/// The place of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Operand {
     Column(u32),
     Scalar(u32),
 }
 
-/// What is done to have some outputs of a program at many points. It holds for all parameters, times and precisions, and
-/// any number of threads share it.
+/// The steps that compute some outputs of a program at many points. A plan is valid for all parameters, times and precisions,
+/// and any number of threads share it.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The stages Parameter and Time.
+    /// The instructions of the stages Parameter and Time.
     pub(super) once: Vec<Instr>,
-    /// How many of those are of the stage Parameter.
+    /// The number of these that belong to the stage Parameter.
     pub(super) early: usize,
     pub(super) scalars: Vec<Scalar>,
-    /// What a point supplies, each in the register of its position.
+    /// The inputs of a point, each in the register of its position.
     pub(super) inputs: Vec<Symbol>,
-    /// The stages Point and PointTime.
+    /// The steps of the stages Point and PointTime.
     pub(super) steps: Vec<Step>,
-    /// The steps in parts: functions one by one, and what is between them.
+    /// The parts of the steps: functions one by one, and the steps between them.
     pub(super) parts: Vec<Range<usize>>,
-    /// How many of the parts need X alone.
+    /// The number of parts that need X alone.
     pub(super) of_points: usize,
-    /// The registers that the other parts read of those, and of what a point supplies.
+    /// The registers of those parts, and of inputs, that the other parts read.
     pub(super) kept: Vec<u32>,
     pub(super) registers: usize,
     /// The components of all outputs.
     pub(super) components: Vec<Operand>,
-    /// Which of them are those of each output.
+    /// The range of components of each output.
     pub(super) outputs: Vec<Range<usize>>,
 }
 
 impl Plan {
-    /// The plan of some outputs, each to the bits that it has alone in compiled code, which computes some of them
-    /// `in_two_loops`: of X, and of t. One that the program lacks has no component.
+    /// Plans some outputs, each with the bits that it has alone in compiled code, which computes some of them `in_two_loops`:
+    /// of X, and of t. An output that the program does not have gets no component.
     pub fn new<K: Key>(
         program: &Program<K>,
         outputs: &[K],
@@ -184,12 +183,12 @@ impl Plan {
         lowering.finish(components, ranges)
     }
 
-    /// What a point has to supply.
+    /// The inputs that a point has to supply.
     pub fn inputs(&self) -> &[Symbol] {
         &self.inputs
     }
 
-    /// How many numbers of a point are kept for later times.
+    /// The number of stored values of a point.
     pub fn kept(&self) -> usize {
         self.kept.len()
     }
@@ -200,7 +199,7 @@ impl Plan {
     }
 }
 
-/// A plan that is being made: every step has a column of its own.
+/// A plan under construction: every step has a column of its own.
 struct Lowering<'a, K> {
     program: &'a Program<K>,
     once: Vec<Instr>,
@@ -208,15 +207,15 @@ struct Lowering<'a, K> {
     renamed: Vec<Option<usize>>,
     scalars: Vec<Scalar>,
     scalar_places: HashMap<Scalar, u32>,
-    /// The columns of what a point supplies.
+    /// The columns of inputs of points.
     inputs: Vec<(Symbol, u32)>,
     steps: Vec<Step>,
-    /// The columns of steps that are there, by kind and operands.
+    /// The columns of existing steps, by kind and operands.
     known: HashMap<(Kind, [u32; 3]), u32>,
     columns: u32,
-    /// How many steps there are before the first that needs the time.
+    /// The number of steps before the first one that needs the time.
     border: Option<usize>,
-    /// Where the values at points are that have been found for an output.
+    /// The places of the values at points that have been lowered for an output.
     found: Vec<Option<Operand>>,
 }
 
@@ -249,7 +248,7 @@ impl<'a, K: Key> Lowering<'a, K> {
         }
     }
 
-    /// Lowers an output, and says where its components are.
+    /// Lowers an output, and returns the places of its components.
     fn output(&mut self, output: K, in_two_loops: bool) -> Vec<Operand> {
         let program = self.program;
         let roots = program.outputs.get(&output).map_or(&[][..], Vec::as_slice);
@@ -278,7 +277,7 @@ impl<'a, K: Key> Lowering<'a, K> {
         self.statements(roots, &[Stage::PointTime]);
     }
 
-    /// What `roots` need of the stages that a loop computes.
+    /// Lowers the statements that `roots` need of the stages that a loop computes.
     fn statements(&mut self, roots: &[Value], own: &[Stage]) {
         let program = self.program;
         let needed = program.needed_for(roots.iter().copied());
@@ -296,7 +295,7 @@ impl<'a, K: Key> Lowering<'a, K> {
         }
     }
 
-    /// Lowers the operation that makes a value; numbers and inputs are there already.
+    /// Lowers the operation of a value; numbers and inputs have places already.
     fn operation(&mut self, value: Value) {
         let (kind, operands) = match &self.program.instr(value).op {
             Op::Constant(_) | Op::Pi | Op::Input(_) => return,
@@ -348,7 +347,7 @@ impl<'a, K: Key> Lowering<'a, K> {
         }
     }
 
-    /// A product and a sum in one. Signs of scalars are turned before, which changes no bit.
+    /// A product and a sum in one step. Signs of scalars are changed in advance, which changes no bit.
     fn fused(&mut self, fused: &Fused) -> Operand {
         let Fused { factors: [a, b], term, minus_product, minus_term } = *fused;
         let places = [a, b].map(|factor| self.place(factor));
@@ -382,7 +381,7 @@ impl<'a, K: Key> Lowering<'a, K> {
         Operand::Column(self.step(kind, operands))
     }
 
-    /// The column of a step; that of one which is there, if it is the same.
+    /// The column of a step; an equal step is reused.
     fn step(&mut self, kind: Kind, operands: [u32; 3]) -> u32 {
         if let Some(known) = self.known.get(&(kind, operands)) {
             return *known;
@@ -398,14 +397,15 @@ impl<'a, K: Key> Lowering<'a, K> {
         self.columns - 1
     }
 
-    /// Where a value is: a number, what a point supplies, or what has been found.
+    /// The place of a value: a number, an input of a point, or a lowered value.
     fn place(&mut self, value: Value) -> Operand {
         let Instr { op, stage } = self.program.instr(value);
         match op {
             Op::Constant(number) => self.scalar(Source::Constant(number.clone())),
             Op::Pi => self.scalar(Source::Pi),
             _ if !stage.needs_point() => {
-                let index = self.renamed[value.index()].expect("what is read is needed");
+                let index =
+                    self.renamed[value.index()].expect("every value that is read is needed");
                 self.scalar(Source::Once(index))
             }
             Op::Input(symbol) => Operand::Column(self.input(*symbol)),
@@ -450,7 +450,7 @@ impl<'a, K: Key> Lowering<'a, K> {
         })
     }
 
-    /// The columns that are there at a border and read after it.
+    /// The columns that exist at a border and are read after it.
     fn kept(&self, border: usize, components: &[Operand]) -> Vec<u32> {
         let (before, after) = self.steps.split_at(border);
         let outputs = components.iter().filter_map(|place| match place {
@@ -465,7 +465,7 @@ impl<'a, K: Key> Lowering<'a, K> {
         there.filter(|column| is_read[*column as usize]).collect()
     }
 
-    /// Gives columns their registers. Those of the inputs are kept, since a block may have to be computed again.
+    /// Assigns registers to columns. The registers of inputs are never reused, since a block may have to be computed again.
     fn finish(mut self, mut components: Vec<Operand>, outputs: Vec<Range<usize>>) -> Plan {
         const KEPT: usize = usize::MAX;
         let border = self.border.unwrap_or(self.steps.len());
@@ -486,7 +486,7 @@ impl<'a, K: Key> Lowering<'a, K> {
         }
         let (mut free, mut count) = (Vec::new(), self.inputs.len() as u32);
         for (index, step) in self.steps.iter_mut().enumerate() {
-            // The result gets its register before those of the operands are free.
+            // The result gets its register before the registers of the operands are free.
             let result = free.pop().unwrap_or_else(|| {
                 count += 1;
                 count - 1
@@ -528,7 +528,7 @@ impl<'a, K: Key> Lowering<'a, K> {
     }
 }
 
-/// Functions one by one, and what is between them, of steps the first of which has that position.
+/// The parts of steps whose first one has this position: functions one by one, and the steps between them.
 fn parts(steps: &[Step], first: usize) -> Vec<Range<usize>> {
     let together = |a: &Step, b: &Step| !a.kind.is_function() && !b.kind.is_function();
     let mut start = first;
@@ -546,7 +546,7 @@ mod tests {
     use mms_symbolic::expr::Stage;
     use mms_symbolic::sorted::SortedMap;
 
-    /// The plan of a program whose last value is what is asked for.
+    /// The plan of a program whose last value is the output.
     fn plan(ops: Vec<Op>) -> Plan {
         let stage = |op: &Op| match op {
             Op::Input(symbol) => Stage::of(*symbol),
@@ -560,7 +560,7 @@ mod tests {
 
     #[test]
     fn registers_are_used_again() {
-        // A long chain of functions has two at a time.
+        // A long chain of functions needs two registers at a time.
         let chain = (0..100).map(|k| Op::Unary(Function::Sin, None, Value(k)));
         let plan = plan([Op::Input(Symbol::Coordinate(0))].into_iter().chain(chain).collect());
         assert_eq!((plan.steps.len(), plan.registers), (100, 3));

@@ -1,10 +1,9 @@
 //! The steps of a plan as loops over a block.
 //!
-//! A step costs one `match` for a block, and then loops without branches over pieces of 16 or 32 numbers, which
-//! are written when they are whole. So the compiler makes vector instructions of each without asking whether
-//! columns overlap, and nothing is `unsafe`. Sums, products, quotients and roots are in one function for each
-//! instruction set, which goes from step to step; every elementary function is compiled apart, since the compiler
-//! loads all coefficients of a function first.
+//! A step costs one `match` for a block, and then loops without branches over pieces of 16 or 32 numbers, which are written as
+//! a whole. So the compiler makes vector instructions of each without tests whether columns overlap, and nothing is `unsafe`.
+//! Sums, products, quotients and roots are in one function for each instruction set, which runs step after step; every
+//! elementary function is compiled separately, since the compiler loads all coefficients of a function first.
 
 use std::ops::Range;
 
@@ -23,12 +22,12 @@ use mms_symbolic::expr::{Function, Small};
 struct Registers<'a, T, const C: usize, const K: usize> {
     scalars: &'a [T],
     columns: &'a mut [Column<T, C, K>],
-    /// How many pieces of a column are wanted.
+    /// The number of pieces of a column to compute.
     pieces: usize,
 }
 
 impl<T: Copy, const C: usize, const K: usize> Registers<'_, T, C, K> {
-    /// The column of a result, and those of operands: other ones, as the plan says.
+    /// The column of a result, and the columns of its operands, which the plan makes distinct.
     #[inline(always)]
     fn of<const N: usize>(
         &mut self,
@@ -80,7 +79,7 @@ impl<T: Copy, const C: usize, const K: usize> Registers<'_, T, C, K> {
         }
     }
 
-    /// Takes a step that is no elementary function.
+    /// Runs a step that is no elementary function.
     #[inline(always)]
     fn step<S: Stand<T>>(&mut self, step: &Step) {
         let [a, b, c] = step.operands;
@@ -175,7 +174,7 @@ fn two<T: Copy, S: Stand<T>, const C: usize>(
     }
 }
 
-/// Steps between functions.
+/// The steps between functions.
 struct Arithmetic<'a, 'b, T, const C: usize, const K: usize> {
     steps: &'a [Step],
     registers: &'a mut Registers<'b, T, C, K>,
@@ -336,7 +335,7 @@ pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
     }
 }
 
-/// Runs all of it with the careful functions of the number itself, which know every argument.
+/// Runs the whole plan with the careful functions of the number type, which accept every argument.
 pub(super) fn carefully<T: Stand<T>, const C: usize, const K: usize>(
     plan: &Plan,
     scalars: &[T],
@@ -357,8 +356,8 @@ pub(super) fn carefully<T: Stand<T>, const C: usize, const K: usize>(
     }
 }
 
-/// Whether all results are numbers, asked of sums as compiled code asks it: it may be denied where infinite ones are
-/// among them. Past the last point there are copies of the first one.
+/// Returns false if any result is not a number. May also return false for infinities, since it tests sums, as compiled code
+/// does. After the last point there are copies of the first one.
 pub(super) fn are_numbers<T: Float, const C: usize, const K: usize>(
     plan: &Plan,
     scalars: &[T],

@@ -9,20 +9,20 @@ use mms_math::Scalar;
 
 use super::{Interval, quick};
 
-/// Precision of what is computed at a bound before it is rounded outward to double.
+/// The precision of values at a bound before they are rounded outward to double.
 const BITS: usize = 64;
 
 type Below = FBig<Down, 2>;
 type Above = FBig<Up, 2>;
 
-/// A function that rises, at one finite number: the nearest numbers around its exact value there.
+/// The nearest numbers around the exact value of a rising function at one finite number.
 macro_rules! around {
     ($x:expr, $function:ident) => {
         (below(exact_below($x).$function()), above(exact_above($x).$function()))
     };
 }
 
-/// The same for a function that can mostly do without arbitrary precision.
+/// The nearest numbers around the exact value of a rising function, without arbitrary precision if possible.
 macro_rules! quickly_around {
     ($x:expr, $function:ident) => {
         quick::$function($x).unwrap_or_else(|| around!($x, $function))
@@ -55,7 +55,7 @@ fn above(value: Above) -> f64 {
     }
 }
 
-/// What a rising function is beyond a range: the numbers around its values there.
+/// The values of a rising function outside a range: the numbers around them.
 struct Tails {
     from: f64,
     left: (f64, f64),
@@ -64,7 +64,7 @@ struct Tails {
 }
 
 impl Tails {
-    /// A function that needs no tails but at infinity.
+    /// Tails of a function that needs none except at infinity.
     fn at_infinity(left: (f64, f64), right: (f64, f64)) -> Self {
         Tails { from: f64::MIN, left, to: f64::MAX, right }
     }
@@ -80,20 +80,18 @@ impl Tails {
     }
 }
 
-/// How many half turns an angle is, less `shift` halves, precisely enough to tell it from an
-/// integer: no double is nearer to a multiple of pi/2 than 2^-62 of it (Muller et al., Handbook of
-/// Floating-Point Arithmetic, section 10.1).
+/// An angle in half turns, less `shift` halves, precisely enough to separate it from an integer: no double is closer to a
+/// multiple of pi/2 than 2^-62 of it (Muller et al., Handbook of Floating-Point Arithmetic, section 10.1).
 fn half_turns(angle: f64, shift: i32) -> FBig<HalfEven, 2> {
     type Float = FBig<HalfEven, 2>;
-    // An angle of up to 2^1024 has so many digits before the point.
+    // An angle of up to 2^1024 has as many digits before the point.
     const DIGITS: usize = 1024 + 128;
     let angle = Float::try_from(angle).unwrap_or(Float::ZERO).with_precision(DIGITS).value();
     let shift = Float::from(shift).with_precision(DIGITS).value();
     angle / Float::pi(DIGITS) - shift / Float::from(2)
 }
 
-/// The positions (n + shift/2) pi within an interval: whether one of even n, and one of odd n, is
-/// among them.
+/// Whether an interval contains a position (n + shift/2) pi with even n, and one with odd n.
 fn positions(interval: Interval, shift: i32) -> (bool, bool) {
     if interval.width() >= 7.0 {
         return (true, true);
@@ -101,7 +99,7 @@ fn positions(interval: Interval, shift: i32) -> (bool, bool) {
     if let (Some([_, first]), Some([last, _])) =
         (quick::quarters(interval.lower), quick::quarters(interval.upper))
     {
-        // (n + shift/2) pi is quarter turn 2 n + shift.
+        // The position (n + shift/2) pi is quarter turn 2 n + shift.
         let shift = i64::from(shift);
         let (first, last) = ((first - shift + 1).div_euclid(2), (last - shift).div_euclid(2));
         return parities(first.rem_euclid(2) == 0, last - first);
@@ -112,8 +110,7 @@ fn positions(interval: Interval, shift: i32) -> (bool, bool) {
     parities(even, i64::try_from(last - first).unwrap_or(i64::MAX))
 }
 
-/// Whether an even and whether an odd number is among `more + 1` numbers from one on that is even
-/// or not.
+/// Whether an even and whether an odd number is among `more + 1` consecutive numbers, whose first one is even or not.
 fn parities(even: bool, more: i64) -> (bool, bool) {
     match more {
         ..0 => (false, false),
@@ -129,7 +126,7 @@ impl Interval {
         Interval::new(lower, upper).only_if(self.defined)
     }
 
-    /// The part within `[from, to]`, defined only if that is all of it; `None` if it is nothing.
+    /// The part within `[from, to]`, defined only if it is the whole interval; `None` if it is empty.
     fn within(self, from: f64, to: f64) -> Option<Self> {
         let part = Interval { lower: self.lower.max(from), upper: self.upper.min(to), ..self };
         (part.lower <= part.upper).then(|| part.only_if(self.lower >= from && self.upper <= to))
@@ -154,7 +151,7 @@ impl Interval {
         Interval::new(lower, upper).only_if(self.defined)
     }
 
-    /// `self^exponent` for a positive base, at the corners: the power is monotone in each operand.
+    /// `self^exponent` for a positive base, from the corners: the power is monotonic in each operand.
     fn positive_power(self, exponent: Interval) -> Self {
         let (mut lower, mut upper) = (f64::INFINITY, f64::NEG_INFINITY);
         for base in self.ends() {
@@ -166,7 +163,7 @@ impl Interval {
         Interval::new(lower, upper).only_if(self.defined && exponent.defined)
     }
 
-    /// Both bounds, or the number that both are.
+    /// Both bounds, or one number if they are equal.
     fn ends(self) -> impl Iterator<Item = f64> + Clone {
         let other = (self.upper > self.lower).then_some(self.upper);
         core::iter::once(self.lower).chain(other)
@@ -185,7 +182,7 @@ fn power_around(base: f64, exponent: f64) -> (f64, f64) {
     if let Some(power) = quick::power(base, exponent) {
         return power;
     }
-    // exp(exponent ln base), every step rounded one way.
+    // exp(exponent ln base), with every step rounded in one direction.
     let logarithm = (exact_below(base).ln(), exact_above(base).ln());
     let (from, to) = if exponent > 0.0 {
         (logarithm.0, logarithm.1)
@@ -267,7 +264,7 @@ impl Scalar for Interval {
     }
 
     fn ln_1p_rest(self) -> Self {
-        // It falls to 0 at 0 and rises from there.
+        // The function falls to 0 at 0 and rises from there.
         let Some(part) = self.within(-1.0, f64::INFINITY) else { return Interval::UNDEFINED };
         let at = |x: f64| {
             let point = Interval::new(x, x);
@@ -320,7 +317,7 @@ impl Scalar for Interval {
 
     fn acos(self) -> Self {
         let Some(part) = self.within(-1.0, 1.0) else { return Interval::UNDEFINED };
-        // It falls: the bounds change places.
+        // The function falls: the bounds are swapped.
         let falling = |x: f64| minus(around!(x, acos));
         -part.rising(&Tails::at_infinity(LARGE, LARGE), falling)
     }
@@ -340,7 +337,7 @@ impl Scalar for Interval {
         } else if self.upper < 0.0 {
             -quarter - (x / self).atan()
         } else {
-            // The box has the origin in it, or the cut on the negative x axis.
+            // The box contains the origin, or the cut on the negative x axis.
             let whole = Interval::new(-half_turn.upper, half_turn.upper);
             return whole.only_if(defined && x.upper < 0.0);
         };
@@ -355,10 +352,10 @@ impl Scalar for Interval {
         if exponent.lower <= 0.0 {
             return Interval { lower: 0.0, ..Interval::UNDEFINED };
         }
-        // 0 to a positive power is 0; the rest is bounded by the largest base.
+        // 0 to a positive power is 0; the largest base bounds the rest.
         let largest = Interval { lower: part.upper, ..part };
         let upper = if part.upper > 0.0 { largest.positive_power(exponent).upper } else { 0.0 };
-        // A power rises with a base: nothing between 0 and the largest exceeds it.
+        // A power rises with its base: no value between 0 and the largest base exceeds it.
         Interval::new(0.0, upper).only_if(part.defined && exponent.defined)
     }
 }

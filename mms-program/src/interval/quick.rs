@@ -1,26 +1,26 @@
-//! Elementary functions at one number in the sum of two doubles, with a bound of the error: a
-//! hundred times faster than arbitrary precision, which is left with what they cannot decide.
+//! Elementary functions at one number in the sum of two doubles, with a bound of the error: a hundred times faster than
+//! arbitrary precision, which handles the undecided arguments.
 //!
-//! The arithmetic is that of Joldes, Muller & Popescu (Tight and rigorous error bounds for basic
-//! building blocks of double-word arithmetic, 2017): each operation errs by less than 2^-102 of its
-//! result. What is declared below is some hundred times what all of them, and the series that are
-//! cut off, make together.
+//! The arithmetic follows Joldes, Muller & Popescu (Tight and rigorous error bounds for basic building blocks of double-word
+//! arithmetic, 2017): the error of each operation is less than 2^-102 of its result. The declared errors are about a hundred
+//! times the sum of all these and of the truncated series.
 
-/// The declared errors: of an exponential, a power and a root relative to it, of the others in
-/// absolute terms.
+/// The declared errors: relative for an exponential, a power and a root, absolute for the others.
 const ERROR: f64 = 1.0 / (1u128 << 88) as f64;
 
-/// Larger angles are reduced elsewhere.
+/// The largest angle that is reduced here.
 const LARGEST_ANGLE: f64 = 1e5;
 
-/// An exponential of less is far from the least and the greatest numbers, and so is its opposite's.
+/// The largest exponent here: e to it and to its negative are far from the greatest and the least numbers.
 const LARGEST_EXPONENT: f64 = 600.0;
 
-/// What an angle less its quarter turns errs by beside its own part of `ERROR`, where nearly all of it cancels: the digits of
-/// pi/2 that are cut off, times 2^16 quarter turns, and the roundings of what is left of an angle after its first 53 digits.
+/// The error of an angle less its quarter turns, in addition to its own part of `ERROR`, if nearly all of it cancels: the
+/// truncated digits of pi/2, times 2^16 quarter turns, and the roundings of the remainder of an angle after its first 53
+/// digits.
 const ERROR_OF_ANGLE: f64 = 1.0 / (1u128 << 125) as f64;
 
-/// The cosine of a smaller angle, and not of 0, lies between 1 and the number before it; so does its sine, beside the angle.
+/// The angle below which the cosine, except at 0, lies between 1 and the number before it; and likewise the sine beside the
+/// angle.
 const FLAT: f64 = 1.0 / (1u128 << 28) as f64;
 
 /// ln 2 and pi/2 as sums of doubles that do not overlap.
@@ -28,7 +28,7 @@ const LN_2: [f64; 2] = [core::f64::consts::LN_2, 2.319_046_813_846_299_6e-17];
 const QUARTER: [f64; 3] =
     [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 
-/// 1/n!: those of which all digits count, and of the rest those of one double.
+/// The coefficients 1/n! that need all digits; the rest are single doubles.
 const EXPONENTIAL: [Double; 14] = [
     Double(1.0, 0.0),
     Double(1.0, 0.0),
@@ -61,7 +61,7 @@ const EXPONENTIAL_REST: [f64; 13] = [
     2.479_596_263_224_797_6e-27,
 ];
 
-/// (-1)^n/(2n + 1)! and (-1)^n/(2n)!, likewise.
+/// The coefficients (-1)^n/(2n + 1)! and (-1)^n/(2n)! that need all digits; the rest are single doubles.
 const SINE: [Double; 9] = [
     Double(1.0, 0.0),
     Double(-0.166_666_666_666_666_66, -9.251_858_538_542_97e-18),
@@ -104,7 +104,7 @@ const COSINE_REST: [f64; 7] = [
     -3.769_987_628_815_905_4e-33,
 ];
 
-/// A number as the sum of two doubles, of which the second is less than the last digit of the first.
+/// A number as the sum of two doubles, the second of which is less than the last digit of the first.
 #[derive(Clone, Copy)]
 struct Double(f64, f64);
 
@@ -138,8 +138,7 @@ impl Double {
         sum(high, low + (self.0 * other.1 + self.1 * other.0))
     }
 
-    /// The neighbouring numbers that the value lies between, given the error; `None` where that is
-    /// not certain.
+    /// The neighbouring numbers around the value, given its error; `None` if they are not certain.
     fn around(self, error: f64) -> Option<(f64, f64)> {
         let Double(near, rest) = sum(self.0, self.1);
         match near.is_finite() && rest.abs() > error {
@@ -150,8 +149,8 @@ impl Double {
     }
 }
 
-/// The sum of c_n x^n for |x| < 0.7. What is made of the rest is less than 2^-55 of the whole: one double holds enough of
-/// its digits.
+/// The sum of c_n x^n for |x| < 0.7. The terms of `rest` make less than 2^-55 of the sum: one double has enough of their
+/// digits.
 fn polynomial(x: Double, first: &[Double], rest: &[f64]) -> Double {
     let mut value = 0.0;
     for coefficient in rest.iter().rev() {
@@ -171,7 +170,7 @@ fn exponential(x: Double) -> Double {
     let rest = x.minus(coarse).minus(fine);
     // |rest| < 0.35, and 0.35^27/27! < 2^-130.
     let series = polynomial(rest, &EXPONENTIAL, &EXPONENTIAL_REST);
-    // Two powers of two, since that of 1010 and that of -1010 are no numbers by themselves.
+    // Two powers of two are needed, since 2^1010 times a sum and 2^-1010 times it may not be representable by themselves.
     let half = (turns / 2.0).trunc();
     let scale = |value: f64| value * 2f64.powi(half as i32) * 2f64.powi((turns - half) as i32);
     Double(scale(series.0), scale(series.1))
@@ -185,13 +184,13 @@ pub fn exp(x: f64) -> Option<(f64, f64)> {
     value.around(value.0 * ERROR)
 }
 
-/// The logarithm of a positive number, from one that is nearly right: ln z = y + ln(z e^-y).
+/// The logarithm of a positive number, from an approximation: ln z = y + ln(z e^-y).
 fn logarithm(z: Double, y: f64) -> Option<Double> {
     if y.is_nan() || y.abs() > LARGEST_EXPONENT {
         return None;
     }
     let small = z.times(exponential(Double(-y, 0.0))).minus(Double(1.0, 0.0));
-    // Beyond the square there is less than 10^-36.
+    // The terms beyond the square are less than 10^-36.
     if small.0.abs() > 1e-12 {
         return None;
     }
@@ -221,20 +220,19 @@ pub fn power(base: f64, exponent: f64) -> Option<(f64, f64)> {
     value.around(value.0 * ERROR * (2.0 + exponent.abs()))
 }
 
-/// Whether no product of three such numbers or their roots leaves the range of normal numbers.
+/// Whether products of three such numbers or of their roots stay in the range of normal numbers.
 fn is_moderate(x: f64) -> bool {
     (1e-200..1e200).contains(&x.abs())
 }
 
-/// The square root: that of hardware is the nearest number, and the sign of x - y^2 tells on which
-/// side it lies.
+/// The square root: the hardware computes the nearest number, and the sign of x - y^2 determines on which side the root lies.
 pub fn sqrt(x: f64) -> Option<(f64, f64)> {
     if !is_moderate(x) {
         return None;
     }
     let root = x.sqrt();
     let Double(square, rest) = product(root, root);
-    // x and the rounded square are neighbours, so that their difference is a number itself.
+    // x and the rounded square are neighbours, so that their difference is a floating-point number.
     let excess = x - square;
     Some(match excess > rest {
         _ if excess == rest => (root, root),
@@ -243,7 +241,7 @@ pub fn sqrt(x: f64) -> Option<(f64, f64)> {
     })
 }
 
-/// The cube root, from one that is nearly right: y + (x - y^3)/(3 y^2).
+/// The cube root, from an approximation: y + (x - y^3)/(3 y^2).
 pub fn cbrt(x: f64) -> Option<(f64, f64)> {
     if !is_moderate(x) {
         return None;
@@ -252,14 +250,14 @@ pub fn cbrt(x: f64) -> Option<(f64, f64)> {
     let square = product(root, root);
     let rest = Double(x, 0.0).minus(square.times(Double(root, 0.0)));
     let correction = rest.0 / (3.0 * square.0);
-    // Beyond the first order there is less than 10^-28 of the root.
+    // The terms beyond first order are less than 10^-28 of the root.
     if correction.abs() > 1e-14 * root.abs() {
         return None;
     }
     sum(root, correction).around(root.abs() * ERROR)
 }
 
-/// An angle less its quarter turns, and how many these are.
+/// An angle less its quarter turns, and their number.
 fn reduced(x: f64) -> Option<(Double, i64)> {
     if x.is_nan() || x.abs() > LARGEST_ANGLE {
         return None;
@@ -269,7 +267,7 @@ fn reduced(x: f64) -> Option<(Double, i64)> {
     Some((rest, turns as i64))
 }
 
-/// The greatest number of quarter turns that is at most an angle, and the least that is at least it.
+/// The greatest number of quarter turns not above an angle, and the least not below it.
 pub fn quarters(x: f64) -> Option<[i64; 2]> {
     let (rest, turns) = reduced(x)?;
     match rest.0 {
@@ -280,7 +278,7 @@ pub fn quarters(x: f64) -> Option<[i64; 2]> {
     }
 }
 
-/// sin(x) and cos(x) for |x| < 0.8, of which the first term that is cut off is 0.8^32/32! < 2^-127.
+/// sin(x) and cos(x) for |x| < 0.8; the first truncated term is 0.8^32/32! < 2^-127.
 fn sine(x: Double) -> Double {
     x.times(polynomial(x.times(x), &SINE, &SINE_REST))
 }
@@ -325,7 +323,7 @@ mod tests {
     use crate::precise::Precise;
     use mms_math::Scalar as _;
 
-    /// Whether 77 digits agree that a value lies between two neighbours, or is both.
+    /// Asserts in 77 digits that a value lies between two neighbours, or equals both.
     fn assert_around(found: Option<(f64, f64)>, value: Precise, what: &str) {
         let Some((lower, upper)) = found else { panic!("{what} is left undecided") };
         let (below, above) = (Precise::from_f64(lower), Precise::from_f64(upper));
@@ -350,8 +348,7 @@ mod tests {
         assert_eq!(sqrt(1e-300), None);
     }
 
-    /// Searches halve their boxes, so that angles are near quarter turns time and again: where sines come near 0 and cosines
-    /// near 1, that is decided too.
+    /// Searches halve their boxes, so angles are often near quarter turns: sines near 0 and cosines near 1 are decided, too.
     #[test]
     fn waves_lie_between_neighbours_near_quarter_turns() {
         let around = |x: f64| {
@@ -372,7 +369,7 @@ mod tests {
             [tiny, -tiny].into_iter().for_each(around);
             tiny *= 0.37;
         }
-        // 6381956970095103 2^797 is nearest to a quarter turn of all doubles, but larger than what is reduced here.
+        // 6381956970095103 2^797 is the double nearest to a quarter turn, but larger than the angles that are reduced here.
         assert_eq!(sin(6_381_956_970_095_103.0 * 2f64.powi(797)), None);
     }
 }

@@ -1,8 +1,7 @@
-//! The n-ary normal form that sharing works on: expressions as operations of any number of operands, grouped by
-//! stage.
+//! The n-ary normal form for sharing: expressions as operations of any number of operands, grouped by stage.
 //!
-//! Unlike the graph, a sum may contain a sum here and a product a product. So the terms of one stage can stand
-//! apart, and what several operations share can be an operation of its own.
+//! Unlike in the graph, a sum may contain a sum here, and a product a product. So the terms of one stage can be separate, and
+//! common operands of several operations can be an operation of their own.
 
 use std::hash::BuildHasher as _;
 use std::ops::AddAssign;
@@ -17,14 +16,14 @@ use mms_symbolic::expr::{
     magnitude,
 };
 
-/// Longer sums and products are parted, so that the work on pairs of their operands grows with
+/// The largest number of operands. Longer sums and products are split, so that the work on pairs of their operands grows with
 /// their length and not with its square.
 const MAX_OPERANDS: usize = 32;
 
-/// How many sums within each other a coefficient goes into.
+/// The largest number of sums within each other that a coefficient is multiplied into.
 const SCALED_SUMS: usize = 4;
 
-/// Greater powers are left to the power function.
+/// The greatest exponent of a product; the power function computes greater ones.
 const MAX_EXPONENT: i32 = 1 << 24;
 
 /// A handle to an operation of [`Flat`].
@@ -32,7 +31,7 @@ const MAX_EXPONENT: i32 = 1 << 24;
 pub(super) struct Item(pub(super) u32);
 
 impl Item {
-    /// Its position.
+    /// The position of the operation.
     pub(super) fn index(self) -> usize {
         self.0 as usize
     }
@@ -51,7 +50,7 @@ pub(super) enum Operation {
     Sum(Vec<(Item, Rational)>),
     /// Factors with their exponents, in order.
     Product(Vec<(Item, i32)>),
-    /// An elementary function, and what is proved of its argument.
+    /// An elementary function, and the proved bound of its argument.
     Call(Function, Option<Small>, Vec<Item>),
 }
 
@@ -70,7 +69,7 @@ impl Operation {
         summed.chain(factors.iter().map(|(item, _)| *item)).chain(arguments.iter().copied())
     }
 
-    /// How many operands there are.
+    /// The number of operands.
     pub(super) fn size(&self) -> usize {
         match self {
             Operation::Constant(_) | Operation::Pi | Operation::Input(_) => 0,
@@ -81,21 +80,21 @@ impl Operation {
     }
 }
 
-/// Which stages are kept apart in a sum or product.
+/// The stages that are separate in a sum or product.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Grouping {
-    /// All four: what needs X alone can be kept for all times.
+    /// All four stages: values that need X alone can be stored for all times.
     Staged,
-    /// What needs X is one group, which leaves more to be shared.
+    /// Values that need X are one group, which allows more sharing.
     Joint,
 }
 
-/// How far the coefficient of a term goes into it.
+/// The places that the coefficient of a term may be multiplied into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scaling {
-    /// To a factor that is known before X is.
+    /// A factor that is known before X is.
     Factors,
-    /// To such a factor in every term of a sum, too: 2 X (a Y + b) is X (2 a Y + 2 b).
+    /// A factor that is known before X is, also in every term of a sum: 2 X (a Y + b) is X (2 a Y + 2 b).
     Sums,
 }
 
@@ -104,14 +103,14 @@ pub(super) enum Scaling {
 pub(super) struct Flat {
     pub(super) forms: Vec<Operation>,
     pub(super) stages: Vec<Stage>,
-    /// Whether another grouping makes other operations.
+    /// Whether the other grouping gives other operations.
     pub(super) is_grouped: bool,
-    /// Whether numbers that go into sums make other operations.
+    /// Whether multiplying numbers into sums gives other operations.
     pub(super) is_scalable: bool,
 }
 
 impl Flat {
-    /// The operations of `roots`, which are made of what is `reached`, and the item of each root.
+    /// The operations of `roots`, whose sub-expressions are `reached`, and the item of each root.
     pub(super) fn new(
         graph: &Graph,
         (reached, roots): (&[Expr], &[Expr]),
@@ -127,7 +126,7 @@ impl Flat {
         (maker.flat, roots.iter().map(|root| items[*root]).collect())
     }
 
-    /// So many times ln(-1), which has no value in any arithmetic.
+    /// `count` items of ln(-1), which has no value in any arithmetic.
     pub(super) fn void(count: usize) -> (Self, Vec<Item>) {
         let mut flat = Flat::default();
         let number = flat.push(Operation::Constant(Rational::NEG_ONE));
@@ -143,7 +142,7 @@ impl Flat {
         self.stages[item.index()]
     }
 
-    /// A new item, which no other form is compared with.
+    /// A new item, without a search for an equal form.
     pub(super) fn push(&mut self, form: Operation) -> Item {
         let own = match form {
             Operation::Input(symbol) => Stage::of(symbol),
@@ -157,7 +156,7 @@ impl Flat {
     }
 }
 
-/// Operations that are being made, hash-consed.
+/// Operations under construction, hash-consed.
 struct Maker {
     flat: Flat,
     /// The items by the hashes of their forms. Only ever looked up, never iterated.
@@ -218,7 +217,7 @@ impl Maker {
                 self.product(flat)
             }
             Node::Offset(operands) => {
-                // The number 1 stands for a constant, which is its coefficient.
+                // A constant is a coefficient of the number 1.
                 let (one, minus_one) = (Rational::ONE, Rational::NEG_ONE);
                 let [from, place] = operands.map(|operand| items[operand]);
                 let place = match self.flat.form(place) {
@@ -230,7 +229,7 @@ impl Maker {
                 };
                 self.collected_sum(vec![(from, one), place])
             }
-            // What is proved of an angle is said where its sine or cosine is taken.
+            // The proved bound of an angle belongs to its sine or cosine.
             Node::Small(_, angle) => items[*angle],
             Node::Call(function, arguments) => {
                 let small = match graph.node(arguments[0]) {
@@ -243,7 +242,7 @@ impl Maker {
         }
     }
 
-    /// A term and its coefficient, which joins the factors that are known earlier, if there are.
+    /// A term and its coefficient, which is multiplied into factors that are known earlier, if there are any.
     fn scaled(&mut self, term: Item, coefficient: &Rational) -> (Item, Rational) {
         if is_unit(coefficient) {
             return (term, coefficient.clone());
@@ -255,8 +254,8 @@ impl Maker {
         }
     }
 
-    /// A product or a sum times a number, where that takes no operation that depends on X. `sums` is how many
-    /// sums within each other the number may go into.
+    /// A product or a sum times a number, if that needs no operation that depends on X. `sums` is the largest number of sums
+    /// within each other that the number may be multiplied into.
     fn times(&mut self, item: Item, number: &Rational, sums: usize) -> Option<Item> {
         let Operation::Product(factors) = self.flat.form(item) else {
             return self.sum_times(item, number, sums);
@@ -279,7 +278,7 @@ impl Maker {
         Some(self.product(factors))
     }
 
-    /// A sum times a number, every term of which takes it.
+    /// A sum times a number, if every term can absorb it.
     fn sum_times(&mut self, item: Item, number: &Rational, sums: usize) -> Option<Item> {
         if sums == 0 || self.flat.stage(item) < Stage::Point {
             return None;
@@ -337,7 +336,7 @@ impl Maker {
         }
     }
 
-    /// The group of a stage: groups are computed on their own, in this order.
+    /// The group of a stage: groups are computed separately, in this order.
     fn group(&self, item: Item) -> Stage {
         match (self.flat.stage(item), self.grouping) {
             (Stage::PointTime, Grouping::Joint) => Stage::Point,
@@ -370,8 +369,7 @@ impl Maker {
     fn product(&mut self, factors: Vec<(Item, i32)>) -> Item {
         let groups = self.grouped(factors);
         let carried = self.carry(groups, |flat, stage, mut group| {
-            // One division at a point serves numerator and denominator; what is known before
-            // is inverted before.
+            // One division at a point serves numerator and denominator; values that are known earlier are inverted earlier.
             let inverse = group.iter().all(|(_, exponent)| *exponent < 0);
             if stage <= Stage::Time || !inverse {
                 return vec![(flat.collected_product(group), 1)];
@@ -382,8 +380,8 @@ impl Maker {
         self.collected_product(carried)
     }
 
-    /// Joins groups: each but the last becomes one operand beside the next. What needs t and no X
-    /// waits for what needs both.
+    /// Joins groups: each but the last becomes one operand of the next. The group that needs t and no X is joined to the one
+    /// that needs both.
     fn carry<N>(
         &mut self,
         groups: Groups<N>,
@@ -416,7 +414,7 @@ impl Maker {
             terms = parts
                 .map(|part| (self.intern(Operation::Sum(part.to_vec())), Rational::ONE))
                 .collect();
-            // A part may have been there before.
+            // A part may be an item that existed before.
             terms.sort();
         }
         match terms.as_slice() {
@@ -443,7 +441,7 @@ impl Maker {
     }
 }
 
-/// Operands in order, each once with all its numbers added up, but for what comes to 0.
+/// Sorts operands, adds up the numbers of equal ones, and drops zeros.
 pub(super) fn collected<N: AddAssign>(
     mut operands: Vec<(Item, N)>,
     is_zero: impl Fn(&N) -> bool,
@@ -464,7 +462,7 @@ pub(super) fn collected<N: AddAssign>(
 mod tests {
     use super::*;
 
-    /// A product of 40 factors is one of two, of which the one with the last factors may be older.
+    /// A product of 40 factors is one of two, and the factor with the last factors may be an older item.
     #[test]
     fn operands_are_in_order_where_long_products_are_parted() {
         let mut graph = Graph::default();

@@ -1,9 +1,8 @@
-//! Lowering to binary operations, in order. Values are numbered, so an operation on the same operands is one
-//! value.
+//! Lowering to binary operations, in order. Values are numbered, so an operation on the same operands is one value.
 //!
-//! Operands of one stage are combined first. But where parameters determine c, and all that X adds to it are
-//! products p and q, it is (c + p) + q and not c + (p + q), so that each goes into it in one fused step; and a
-//! quotient of what X determines comes before its product with what parameters do.
+//! Operands of one stage are combined first. But if parameters determine c, and X adds only products p and q to it, the sum is
+//! (c + p) + q and not c + (p + q), so that each product is added in one fused step; and a quotient of values that X determines
+//! is computed before its product with values of parameters.
 
 use std::hash::BuildHasher as _;
 
@@ -27,7 +26,7 @@ fn hash(op: &Op) -> u64 {
     FxBuildHasher.hash_one(op)
 }
 
-/// What is there for each stage.
+/// One item for each stage.
 type ByStage<T> = [T; Stage::ALL.len()];
 
 /// The value of each item that has one.
@@ -119,9 +118,9 @@ impl Builder {
         }
     }
 
-    /// Terms of one stage are added up first, then the stages, earliest first: what cancels at each time, or in differences
-    /// of coordinates, does so before anything else is rounded. But where all that X determines are products, these are
-    /// added to what parameters do one by one, so that none takes a step of its own: they are rounded anyway.
+    /// Adds up terms of one stage first, then the stages, earliest first: terms that cancel at each time, or in differences of
+    /// coordinates, do so before anything else is rounded. But if X determines products only, these are added one by one to the
+    /// part of parameters, so that none takes a step of its own: they are rounded anyway.
     fn sum(&mut self, terms: &[(Value, &Rational)]) -> Value {
         let content = common_magnitude(terms);
         let mut groups = ByStage::<Vec<(bool, Value)>>::default();
@@ -163,7 +162,7 @@ impl Builder {
         if one { factor } else { self.push(Op::Multiply(factor, value)) }
     }
 
-    /// Factors of one stage are multiplied first, then the stages, earliest first; one division serves all that divide.
+    /// Multiplies factors of one stage first, then the stages, earliest first; one division serves all divisors.
     fn product(&mut self, factors: impl Iterator<Item = (Value, i32)>) -> Value {
         let [mut above, mut below] = [ByStage::<Option<Value>>::default(); 2];
         for (base, exponent) in factors {
@@ -178,7 +177,7 @@ impl Builder {
         let Some(denominator) = self.multiplied(below) else {
             return self.multiplied(above).unwrap_or_else(|| self.constant(1));
         };
-        // What X determines is divided first: a product with what parameters do can then be added in one step.
+        // The part of X is divided first: its product with the part of parameters can then be added in one step.
         let is_parted = above.iter().flatten().count() > 1;
         let early = match is_parted && self.stage(denominator) != Stage::Parameter {
             true => above[Stage::Parameter as usize].take(),
@@ -192,7 +191,7 @@ impl Builder {
         }
     }
 
-    /// The product of one value for each stage, earliest first; nothing of none.
+    /// The product of one value for each stage, earliest first; `None` if there are no values.
     fn multiplied(&mut self, groups: ByStage<Option<Value>>) -> Option<Value> {
         let values = groups.into_iter().flatten();
         values.reduce(|product, value| self.push(Op::Multiply(product, value)))
@@ -240,7 +239,7 @@ impl Signed {
     }
 }
 
-/// The magnitude other than one that all coefficients share.
+/// The common magnitude of all coefficients, if it is not one.
 fn common_magnitude(terms: &[(Value, &Rational)]) -> Option<Rational> {
     let [(_, first), _, ..] = terms else { return None };
     if is_unit(first) {

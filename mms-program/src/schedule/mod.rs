@@ -1,17 +1,16 @@
-//! From expressions to straight-line code, in four steps.
+//! Schedules expressions as straight-line code, in four steps.
 //!
-//! * `flat`: sums and products, of any number of operands, are grouped by stage, so that nothing is computed later
-//!   than it is known.
-//! * `share`: common subexpressions. The pair of operands that most of them have in common becomes an operation of
-//!   its own, and so on, until no pair occurs twice.
-//! * `lower`: what is left becomes binary operations, those of one stage first, and equal ones one value.
-//! * `signs`: -((a - b) c) becomes (b - a) c, where nothing else reads that.
+//! * `flat`: sums and products, of any number of operands, are grouped by stage, so that no value is computed later than it is
+//!   known.
+//! * `share`: common subexpressions. The most frequent pair of operands becomes an operation of its own, and so on, until no
+//!   pair occurs twice.
+//! * `lower`: the result becomes binary operations, operands of one stage first; equal operations are one value.
+//! * `signs`: -((a - b) c) becomes (b - a) c, if nothing else reads the product.
 //!
-//! Every output is scheduled for itself, in several ways, and the cheapest is kept; values that outputs have in
-//! common are one value all the same. So an output costs the same beside others as alone. Ways that come to the
-//! same operations are tried once, and charged as often as they are named. Where that saves operations at a point,
-//! numbers move into sums whose terms all have a factor that is known earlier: 256 X (a Y + b), a and b of the
-//! stage Time, becomes X ((256 a) Y + 256 b).
+//! Every output is scheduled by itself, in several ways, and the cheapest is used; common values of outputs are still one
+//! value. So an output costs the same with others as alone. Ways with the same operations are tried once, and charged as often
+//! as they are listed. If it saves operations at a point, numbers are multiplied into sums whose terms all have a factor that
+//! is known earlier: 256 X (a Y + b), a and b of the stage Time, becomes X ((256 a) Y + 256 b).
 
 mod flat;
 mod lower;
@@ -28,35 +27,35 @@ use mms_symbolic::expr::Stage;
 use mms_symbolic::expr::{Expr, Graph, STEPS_OF_NODE, reachable};
 use mms_symbolic::sorted::SortedMap;
 
-/// What operations cost: those that depend on X first, since they are done at every point, then
-/// all; of two that are alike in both, the one that leaves less to t.
+/// The cost of operations: the number that depends on X first, since they run at every point, then the total; of two that are
+/// equal in both, the one with less at every time is cheaper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cost {
     /// Operations of the stages Point and PointTime.
     pub per_point: usize,
     /// Operations of all stages.
     pub total: usize,
-    /// Operations of the stage PointTime: all that is left to whoever keeps what X determines.
+    /// Operations of the stage PointTime: the remaining ones for a caller that stores the part of X.
     pub late: usize,
 }
 
 impl Cost {
-    /// Whether `other` is worth taking in place of this, where an operation that needs t counts twice: those who keep what
-    /// X determines do it too. Those who do not shall have about as much to do as before.
+    /// Whether `other` is worth using instead of this, where an operation that needs t counts twice, for callers that store the
+    /// part of X. Other callers must have about as much to compute as before.
     pub fn is_worth(self, other: Cost) -> bool {
         let weight = |cost: Cost| cost.per_point + cost.late;
         self.is_about(other) && weight(other) + 2 * WORTH_APART <= weight(self)
     }
 
-    /// Whether `other` is no more than this at a point, or about as much.
+    /// Whether `other` costs at most about as much at a point.
     fn is_about(self, other: Cost) -> bool {
         let more = other.per_point.saturating_sub(self.per_point);
         ROOM * more <= self.per_point
     }
 }
 
-/// What an output takes, in one function of a position, where a product that is added takes no step of its own: steps at a
-/// point first, then operations.
+/// The cost of an output in one function of a position, if an added product takes no step of its own: steps at a point first,
+/// then operations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Steps {
     /// Steps of the stages Point and PointTime.
@@ -68,8 +67,8 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Whether `other` has fewer steps than this, no more of them that need t, about as many operations at a point, and
-    /// no more elsewhere than the steps are worth that it spares.
+    /// Whether `other` has fewer steps than this, no more steps that need t, about as many operations at a point, and no more
+    /// operations elsewhere than the saved steps are worth.
     pub fn is_worth(self, other: Steps) -> bool {
         let spared = self.per_point.saturating_sub(other.per_point);
         let once = |cost: Cost| cost.total - cost.per_point;
@@ -80,21 +79,21 @@ impl Steps {
     }
 }
 
-/// How many operations at a point must be saved before an output is written in a way of its own: it has less in common
-/// with others then.
+/// The number of operations at a point that must be saved before an output is written in a way of its own: it then has less in
+/// common with others.
 const WORTH_APART: usize = 2;
 
-/// Of how many operations that depend on X one more is about as much.
+/// The number of operations that depend on X for which one more still counts as about as much.
 const ROOM: usize = 16;
 
-/// The program of `outputs`, without anything that they do not need.
+/// The program of `outputs`, with only the instructions that they need.
 pub fn schedule<K: Key>(graph: &Graph, outputs: &SortedMap<K, Vec<Expr>>) -> Program<K> {
     let program = lowered(outputs, &|components| cheapest_of_all(graph, components));
     named(outputs, in_stage_order(signs::carried(in_stage_order(program))))
 }
 
-/// The program of `outputs` as their expressions stand: nothing is shared but equal expressions. Where the budget is spent,
-/// what is left has no value.
+/// The program of `outputs` as their expressions are written: only equal expressions are shared. Once the budget is spent, the
+/// remaining outputs have no value.
 pub fn schedule_plainly<K: Key>(graph: &Graph, outputs: &SortedMap<K, Vec<Expr>>) -> Program<K> {
     let program = lowered(outputs, &|components| {
         let (flat, roots) = match graph.work().is_over() {
@@ -110,8 +109,8 @@ pub fn schedule_plainly<K: Key>(graph: &Graph, outputs: &SortedMap<K, Vec<Expr>>
     named(outputs, in_stage_order(program))
 }
 
-/// A program whose outputs are in the order of their keys. No pass asks for the keys, so each is compiled once, whatever
-/// they are.
+/// A program whose outputs are in the order of their keys. No pass uses the keys, so each pass is compiled once for all key
+/// types.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Unnamed {
     instrs: Vec<Instr>,
@@ -123,7 +122,7 @@ fn named<K: Key>(outputs: &SortedMap<K, Vec<Expr>>, made: Unnamed) -> Program<K>
     Program { instrs: made.instrs, outputs: outputs.keys().copied().zip(made.outputs).collect() }
 }
 
-/// All outputs, each as it is written.
+/// Lowers all outputs, each as `written` returns it.
 fn lowered<K: Key>(outputs: &SortedMap<K, Vec<Expr>>, written: &dyn Fn(&[Expr]) -> Way) -> Unnamed {
     let mut builder = Builder::default();
     let lower = |components: &Vec<Expr>| {
@@ -134,17 +133,17 @@ fn lowered<K: Key>(outputs: &SortedMap<K, Vec<Expr>>, written: &dyn Fn(&[Expr]) 
     Unnamed { instrs: builder.instrs, outputs }
 }
 
-/// How many operations that are done once may save one at every point.
+/// The number of operations done once that may save one at every point.
 const ONCE_FOR_EVERY_POINT: usize = 8;
 
-/// What the components of one output cost, at most: more ways are tried of what is emitted.
+/// An upper bound of the cost of the components of one output: more ways are tried for the emitted program.
 pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
     let scopes = [Scope::Made];
     let ways = written(graph, components, Scaling::Factors, &scopes);
     cheapest(graph, &ways, &scopes).0
 }
 
-/// What the components of one output take, in steps.
+/// The cost of the components of one output, in steps.
 pub fn steps(graph: &Graph, components: &[Expr]) -> Steps {
     let (flat, roots) = cheapest_of_all(graph, components);
     let mut builder = Builder::default();
@@ -161,13 +160,14 @@ pub fn steps(graph: &Graph, components: &[Expr]) -> Steps {
     }
 }
 
-/// What it takes to write an operand down and to make an operation with it.
+/// The steps of writing an operand and of making an operation with it.
 const STEPS_OF_OPERAND: u64 = 50;
 
-/// A way to write components down, with the items of these.
+/// Components as operations, with the item of each.
 type Way = (Flat, Vec<Item>);
 
-/// Components as n-ary operations, with what needs X apart from what needs t too and, where that differs, together.
+/// Writes components as n-ary operations, with the values that need X separate from those that need t too, and, if that
+/// differs, together.
 fn written(graph: &Graph, components: &[Expr], scaling: Scaling, scopes: &[Scope]) -> Vec<Way> {
     let reached = graph.reachable(components);
     let new = |grouping| Flat::new(graph, (&reached, components), grouping, scaling);
@@ -185,7 +185,7 @@ fn written(graph: &Graph, components: &[Expr], scaling: Scaling, scopes: &[Scope
     ways
 }
 
-/// The cheapest way to compute what was written down, with what it costs; of equals, the first.
+/// The cheapest of the written ways, with its cost; of equals, the first.
 fn cheapest(graph: &Graph, written: &[Way], scopes: &[Scope]) -> (Cost, Way) {
     let (plain, work) = (&written[0], graph.work());
     let cost_of_plain = cost_of(plain);
@@ -196,7 +196,7 @@ fn cheapest(graph: &Graph, written: &[Way], scopes: &[Scope]) -> (Cost, Way) {
     let mut spent = vec![0; written.len()];
     for scope in scopes {
         for (way, spent) in written.iter().zip(&mut spent) {
-            // Where all that was made is needed, both scopes come to the same.
+            // If all operations are needed, both scopes give the same result.
             if *scope == Scope::Needed && *spent > 0 && is_needed(way) {
                 work.spend(*spent);
                 continue;
@@ -222,8 +222,8 @@ fn is_needed((flat, roots): &Way) -> bool {
     needed.len() == flat.forms.len()
 }
 
-/// The cheapest way, numbers moved into sums where that saves operations at a point. It seldom does, so it is tried of
-/// what is emitted and of what comes close to it, and not of all that is compared.
+/// The cheapest way, with numbers multiplied into sums if that saves operations at a point. It rarely does, so it is only tried
+/// for emitted programs and close candidates, and not for all comparisons.
 fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Way {
     let scopes = [Scope::Made, Scope::Needed];
     let before = graph.work().left();
@@ -250,10 +250,10 @@ fn cost_of((flat, roots): &Way) -> Cost {
     cost_in(&builder)
 }
 
-/// The stages of what is done at every point.
+/// The stages that run at every point.
 const AT_POINTS: [Stage; 2] = [Stage::Point, Stage::PointTime];
 
-/// What all that was lowered costs.
+/// The cost of all lowered operations.
 fn cost_in(builder: &Builder) -> Cost {
     Cost {
         per_point: counted(builder, &AT_POINTS),
@@ -262,13 +262,13 @@ fn cost_in(builder: &Builder) -> Cost {
     }
 }
 
-/// How many operations of these stages were lowered.
+/// The number of lowered operations of these stages.
 fn counted(builder: &Builder, stages: &[Stage]) -> usize {
     let instrs = builder.instrs.iter();
     instrs.filter(|instr| instr.op.is_counted() && stages.contains(&instr.stage)).count()
 }
 
-/// Drops what no output needs, and sorts by stage; within a stage the order stays.
+/// Drops instructions that no output needs, and sorts by stage; within a stage the order stays.
 fn in_stage_order(program: Unnamed) -> Unnamed {
     let Unnamed { instrs, mut outputs } = program;
     let needed = needed(&instrs, &mut outputs.iter().flatten().copied());

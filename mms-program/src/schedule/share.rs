@@ -1,10 +1,9 @@
-//! Common subexpressions: pairs of operands that several sums or products have in common become operations of
-//! their own, the most frequent pair first (Hosangadi, Fallah & Kastner, Optimizing Polynomial Expressions by
-//! Algebraic Factorization and Common Subexpression Elimination, 2006, uses the same greedy rule).
+//! Common subexpressions: common pairs of operands of several sums or products become operations of their own, the most
+//! frequent pair first (Hosangadi, Fallah & Kastner, Optimizing Polynomial Expressions by Algebraic Factorization and Common
+//! Subexpression Elimination, 2006, uses the same greedy rule).
 //!
-//! In a sum a pair is two terms and the ratio of their coefficients, in a product two factors of which either both
-//! multiply, or one divides; a power is a pair of equal factors. Every occurrence but the first saves an
-//! operation.
+//! In a sum a pair is two terms and the ratio of their coefficients, in a product two factors that both multiply, or one of
+//! which divides; a power is a pair of equal factors. Every occurrence but the first saves an operation.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -16,7 +15,7 @@ use super::flat::{Flat, Item, Operation, collected};
 use mms_symbolic::expr::{Rational, is_unit, reachable};
 use mms_symbolic::work::Work;
 
-/// What can be shared.
+/// A pair of operands that can be shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 enum Pair {
     /// a + ratio b, a before b.
@@ -27,7 +26,7 @@ enum Pair {
     Quotient(Item, Item),
 }
 
-/// The position of a ratio among [`Ratios`]: their order is that in which they were met.
+/// The position of a ratio among [`Ratios`], in the order of their first occurrence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 struct Ratio(u32);
 
@@ -49,7 +48,7 @@ impl Pair {
         (a, b)
     }
 
-    /// A form that contains the pair, with `whole` in its place.
+    /// A form that contains the pair, with `whole` instead of it.
     fn replace(self, form: &Operation, whole: Item) -> Operation {
         match (self, form) {
             (Pair::Sum(a, b, _), Operation::Sum(terms)) => {
@@ -66,7 +65,7 @@ impl Pair {
                     found.map_or(0, |(_, exponent)| *exponent)
                 };
                 let (first, second) = (power(a), power(b));
-                // A quotient whose numerator is below is a pair the other way round.
+                // A quotient whose numerator is a divisor is the pair in the other order.
                 let sign = first.signum();
                 let opposite = if matches!(self, Pair::Quotient(..)) { -1 } else { 1 };
                 let count = if a == b { first.abs() / 2 } else { first.abs().min(second.abs()) };
@@ -81,14 +80,14 @@ impl Pair {
     }
 }
 
-/// The ratios of coefficients that were met, each once.
+/// The ratios of coefficients so far, each once.
 struct Ratios {
     all: Vec<Rational>,
     places: FxHashMap<Rational, Ratio>,
 }
 
 impl Default for Ratios {
-    /// With 1 and -1, which most ratios are.
+    /// Starts with 1 and -1, which most ratios are.
     fn default() -> Self {
         Ratios { all: vec![Rational::ONE, Rational::NEG_ONE], places: FxHashMap::default() }
     }
@@ -122,16 +121,16 @@ impl Ratios {
     }
 }
 
-/// Where pairs are counted. The greedy rule does better with the one or with the other.
+/// The operations in which pairs are counted. The greedy rule does better with one or with the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scope {
-    /// In all operations, with those that numbers have moved out of since.
+    /// All operations, including those that were replaced when numbers were multiplied into sums.
     Made,
-    /// In those that the roots need.
+    /// The operations that the roots need.
     Needed,
 }
 
-/// What it takes to count a pair.
+/// The steps of counting a pair.
 const STEPS_OF_PAIR: u64 = 50;
 
 /// Extracts shared pairs until no pair occurs twice, or the budget is spent.
@@ -154,8 +153,7 @@ pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope, work: &Work) 
     }
 }
 
-/// Operands of more than one of the sums and products that are counted, or of one more than once: only they can be
-/// shared.
+/// Marks the operands of several counted sums and products, or of one more than once: only they can be shared.
 fn common(flat: &Flat, counted: &[Item]) -> Vec<bool> {
     let mut uses = vec![0_u64; flat.forms.len()];
     for item in counted {
@@ -170,30 +168,30 @@ fn common(flat: &Flat, counted: &[Item]) -> Vec<bool> {
     uses.into_iter().map(|count| count > 1).collect()
 }
 
-/// Which pairs occur where, and how often.
+/// The places and frequencies of pairs.
 #[derive(Default)]
 struct Table {
-    /// Of the operations before sharing.
+    /// The sharable operands among the operations before sharing.
     common: Vec<bool>,
     ratios: Ratios,
-    /// How often a pair occurs, and how often in which operation. Their order here matters to nobody.
+    /// How often a pair occurs, in total and in each operation. The order of this map has no effect.
     places: FxHashMap<Pair, Places>,
-    /// Pairs that occur more than once, each as often as it does or more often. The most frequent is first; of equals, the
-    /// first in order, but for ratios.
+    /// Pairs that occur more than once, each with a frequency that is at least the true one. The most frequent is first; of
+    /// equals, the first in order, except for ratios.
     ranked: BinaryHeap<(u64, Reverse<Pair>)>,
     /// The pairs of one operation, while they are counted.
     pairs: Vec<(Pair, u64)>,
 }
 
-/// How often a pair occurs, and how often in which operation.
+/// How often a pair occurs, in total and in each operation.
 #[derive(Default)]
 struct Places {
     total: u64,
-    /// As how frequent it is ranked, which is no less; 0 where it is not.
+    /// The frequency in the ranking, which is not below the true one; 0 if the pair is not ranked.
     ranked: u64,
-    /// The one operation, of most pairs, while there were no others.
+    /// The one operation that contains the pair, as long as there is only one, as for most pairs.
     only: Option<(Item, u64)>,
-    /// All operations, in order, where there is not only one.
+    /// All operations that contain the pair, in order, if there are several.
     each: Vec<(Item, u64)>,
 }
 
@@ -263,7 +261,7 @@ impl Table {
         self.pairs = pairs;
     }
 
-    /// Removes the pairs of an operation. A pair that occurs less often keeps its rank until [`Table::next`] meets it.
+    /// Removes the pairs of an operation. A pair that occurs less often keeps its rank until [`Table::next`] reads it.
     fn withdraw(&mut self, flat: &Flat, item: Item, concerned: [Item; 3]) {
         let pairs = self.take_pairs(flat.form(item), Some(concerned));
         for (pair, _) in &pairs {
@@ -277,16 +275,16 @@ impl Table {
         self.pairs = pairs;
     }
 
-    /// The pair that occurs most often; of equals, the first in order.
+    /// The most frequent pair; of equals, the first in order.
     fn best(&mut self) -> Option<Pair> {
         let (total, best) = self.next()?;
         let Pair::Sum(a, b, _) = best else { return Some(best) };
-        // Those that differ in their ratio alone are next to each other, but not in the order of their ratios.
+        // Pairs that only differ in their ratio follow each other, but not in the order of their ratios.
         let mut equals = vec![best];
         while let Some((next, Reverse(Pair::Sum(c, d, _)))) = self.ranked.peek()
             && (*next, *c, *d) == (total, a, b)
         {
-            // Another one may have come in its place.
+            // Another pair may have replaced it.
             let Some((next, pair)) = self.next() else { break };
             match pair {
                 Pair::Sum(c, d, _) if (next, c, d) == (total, a, b) => equals.push(pair),
@@ -304,7 +302,7 @@ impl Table {
         equals.into_iter().min_by(|a, b| value(a).cmp(value(b)))
     }
 
-    /// Takes out the first pair of the ranks that occurs as often as they say.
+    /// Removes the first pair of the ranking whose frequency is still the ranked one.
     fn next(&mut self) -> Option<(u64, Pair)> {
         while let Some((ranked, Reverse(pair))) = self.ranked.pop() {
             let Some(places) = self.places.get_mut(&pair).filter(|it| it.ranked == ranked) else {
@@ -321,13 +319,13 @@ impl Table {
         None
     }
 
-    /// What it takes to count the pairs of an operation.
+    /// The steps of counting the pairs of an operation.
     fn steps(&self, form: &Operation) -> u64 {
         let operands = form.operands().filter(|item| self.is_common(*item)).count() as u64;
         STEPS_OF_PAIR * (1 + operands * operands / 2)
     }
 
-    /// Makes the pair an operation, and puts it in its places; says what that took.
+    /// Makes the pair an operation, and replaces it everywhere; returns the steps.
     fn extract(&mut self, flat: &mut Flat, pair: Pair) -> u64 {
         let mut steps = 0;
         let form = pair.form(&self.ratios);
@@ -337,7 +335,7 @@ impl Table {
         let (a, b) = pair.operands();
         let concerned = [a, b, whole];
         for place in places {
-            // With each of the pair, and with what takes its place.
+            // Pairs with each of the two operands, and with their replacement.
             steps += 3 * STEPS_OF_PAIR * flat.form(place).size() as u64;
             self.withdraw(flat, place, concerned);
             if place != whole {
@@ -353,8 +351,8 @@ impl Table {
         self.common.get(item.index()).copied().unwrap_or(true)
     }
 
-    /// The pairs of an operation, of those with a concerned operand if some are named, and how often each occurs in it; in
-    /// the place that is kept for them.
+    /// The pairs of an operation, only those with a concerned operand if some are given, and how often each occurs in it; in a
+    /// reused buffer.
     fn take_pairs(&mut self, form: &Operation, concerned: Option<[Item; 3]>) -> Vec<(Pair, u64)> {
         let mut pairs = std::mem::take(&mut self.pairs);
         pairs.clear();
@@ -385,8 +383,8 @@ impl Table {
         pairs
     }
 
-    /// Names every two operands that can be shared, the first one first, by their positions; of those with a concerned one
-    /// among them if some are named.
+    /// Calls a function for every two operands that can be shared, by their positions, the first one first; only pairs with a
+    /// concerned operand if some are given.
     fn each_two(
         &mut self,
         count: usize,
@@ -399,7 +397,7 @@ impl Table {
         for (index, first) in shared.iter().enumerate() {
             match concerned {
                 Some(concerned) if !concerned.contains(&item(*first)) => {}
-                // Pairs of two that are concerned are those of the first one.
+                // A pair of two concerned operands is counted with the first one.
                 Some(concerned) => {
                     let others =
                         shared[..index].iter().filter(|at| !concerned.contains(&item(**at)));
@@ -428,7 +426,7 @@ mod tests {
     use super::{Scope, share};
     use mms_symbolic::expr::{Graph, Symbol};
 
-    /// X Y is a part of t X Y, and of nothing that is needed.
+    /// X Y is a part of t X Y, but of no operation that is needed.
     #[test]
     fn what_nobody_needs_is_no_reason_to_share() {
         let mut graph = Graph::default();

@@ -4,10 +4,10 @@ use super::Unnamed;
 use crate::program::{Op, Value};
 use mms_symbolic::sorted::SortedSet;
 
-/// The program with a difference turned round wherever that spares a change of sign.
+/// Reverses a difference if that saves a change of sign.
 ///
-/// The sign is carried to the difference through products and quotients that nothing else reads. So every value is the
-/// same number as before, or of the other sign and read where that is allowed for.
+/// The sign is carried to the difference through products and quotients that nothing else reads. So every value is the same
+/// number as before, or has the other sign and is read accordingly.
 pub(super) fn carried(mut program: Unnamed) -> Unnamed {
     let mut readers = readers(&program);
     let mut differences: SortedSet<(Value, Value)> =
@@ -18,7 +18,7 @@ pub(super) fn carried(mut program: Unnamed) -> Unnamed {
         program.instrs[index].op = program.instrs[index].op.map(|value| renamed[value.index()]);
         let Op::Negate(value) = program.instrs[index].op else { continue };
         let Some((place, [a, b])) = carrier(&program, &readers, value) else { continue };
-        // What is there already is not computed once more.
+        // A difference that exists already is not computed again.
         if differences.insert((b, a)) {
             differences.remove(&(a, b));
             program.instrs[place.index()].op = Op::Subtract(b, a);
@@ -32,7 +32,7 @@ pub(super) fn carried(mut program: Unnamed) -> Unnamed {
     program
 }
 
-/// How many instructions and outputs read each value.
+/// The number of instructions and outputs that read each value.
 fn readers(program: &Unnamed) -> Vec<usize> {
     let mut readers = vec![0; program.instrs.len()];
     let operands = program.instrs.iter().flat_map(|instr| instr.op.operands());
@@ -49,7 +49,7 @@ fn difference(op: &Op) -> Option<(Value, Value)> {
     }
 }
 
-/// The difference that can take a sign in place of a value: the value itself, or a factor of it.
+/// The difference that can absorb a sign instead of a value: the value itself, or a factor of it.
 fn carrier(program: &Unnamed, readers: &[usize], value: Value) -> Option<(Value, [Value; 2])> {
     let mut open = vec![value];
     while let Some(value) = open.pop() {
@@ -70,7 +70,7 @@ mod tests {
     use mms_symbolic::expr::Stage;
     use mms_symbolic::expr::Symbol;
 
-    /// x, y, x - y, (x - y) y and its negative, which is an output beside these `others`.
+    /// x, y, x - y, (x - y) y and its negative, which is an output like these `others`.
     fn program(others: &[u32]) -> Unnamed {
         let [x, y, difference, product] = [0, 1, 2, 3].map(Value);
         let ops = [

@@ -1,6 +1,6 @@
-//! Errors against 77 digits, in units of 2^-104 of the true value.
+//! Errors compared with 77 digits, in units of 2^-104 of the true value.
 //!
-//! The bounds are what was seen at several times as many arguments, rounded up a little.
+//! The bounds are the errors at several times as many arguments, rounded up a little.
 
 use mms_math::{Double, Scalar};
 use mms_program::precise::Precise;
@@ -12,8 +12,7 @@ use super::sample::Range::{
 use super::{COUNT, exact, rounded};
 use crate::sampled::sampled_count;
 
-/// The error in units of 2^-104 of the true value; infinite where one is 0 or undefined and the
-/// other is not.
+/// The error in units of 2^-104 of the true value; infinite if one is 0 or undefined and the other is not.
 fn error(found: Double, expected: &Precise) -> f64 {
     let zero = Precise::from_f64(0.0);
     if !expected.is_defined() || expected.clone().magnitude().at_most(&zero) {
@@ -22,11 +21,11 @@ fn error(found: Double, expected: &Precise) -> f64 {
     }
     let relative = (exact(found) - expected.clone()) / expected.clone();
     let relative = relative.magnitude().to_f64();
-    // Not a number is no error of 0.
+    // A NaN is not an error of 0.
     if relative.is_nan() { f64::INFINITY } else { relative * 104_f64.exp2() }
 }
 
-/// A function of one argument, its reference, its bound, and where it is asked.
+/// A function of one argument, its reference, its bound, and the range of its arguments.
 struct Unary {
     name: &'static str,
     function: fn(Double) -> Double,
@@ -35,7 +34,7 @@ struct Unary {
     ranges: &'static [Range],
 }
 
-/// A function of two arguments, likewise: the ranges come in pairs.
+/// A function of two arguments, likewise: the ranges are in pairs.
 struct Binary {
     name: &'static str,
     function: fn(Double, Double) -> Double,
@@ -87,8 +86,7 @@ fn check_binary(cases: &[Binary]) {
     }
 }
 
-/// sin(pi x) with the nearest integer subtracted first, which is exact: 77 digits of pi are too few
-/// next to large integers.
+/// sin(pi x) with the nearest integer subtracted first, which is exact: next to large integers 77 digits of pi are too few.
 fn sin_pi(x: Precise) -> Precise {
     let count = x.to_f64().round();
     let sine = ((x - Precise::from_f64(count)) * Precise::pi()).sin();
@@ -354,7 +352,7 @@ fn inverse_circular_functions_keep_their_digits() {
     }]);
 }
 
-/// The exponent is made of the base so that the power stays in range: 2^(600 times the fraction).
+/// The exponent is computed from the base so that the power stays in range: 2^(600 times the fraction).
 #[test]
 fn powers_keep_their_digits() {
     check_binary(&[Binary {

@@ -1,4 +1,4 @@
-//! Results that have no error.
+//! Results without error.
 
 use mms_math::{Double, Scalar};
 use mms_program::interpret::Number as _;
@@ -25,7 +25,7 @@ fn rationals_are_rounded_once() {
     assert_eq!(Double::pi(), rounded(&Precise::pi()));
 }
 
-/// Two sides that must be one number, to the last bit.
+/// Asserts that two numbers are the same, to the last bit.
 #[track_caller]
 fn same(found: Double, expected: Double) {
     assert_eq!((found.to_f64(), found.low()), (expected.to_f64(), expected.low()));
@@ -85,7 +85,7 @@ fn functions_have_their_symmetries_and_exact_values() {
     same(one.atan(), Double::pi() * of(0.25));
 }
 
-/// How often `turn` goes into what was taken off an angle, and what that differs from a whole number by.
+/// The number of turns that were subtracted from an angle, and its difference from a whole number.
 fn turns_between(angle: Double, rest: Double, turn: Precise) -> (f64, f64) {
     let turns = (exact(angle) - exact(rest)) / turn;
     let whole = turns.to_f64().round();
@@ -101,7 +101,7 @@ fn whole_turns_are_taken_off_large_angles_and_no_others() {
         let rest = angle.within_turns();
         let (turns, error) = turns_between(angle, rest, two_pi());
         assert!(turns != 0.0 && rest.to_f64().abs() <= 3.3, "{angle:?} {rest:?}");
-        // Which turns are nearest is asked in 53 bits.
+        // The nearest turns are determined in 53 bits.
         assert!(error.abs() <= 2_f64.powi(-106), "{angle:?} {error:e}");
         assert_eq!(angle.to_f64().within_turns(), of(angle.to_f64()).within_turns().to_f64());
 

@@ -1,5 +1,5 @@
-//! Double-double arithmetic and its functions: against 77 digits, against each other where a result
-//! is exact, and against `f64` where there are no digits to keep.
+//! Double-double arithmetic and its functions: compared with 77 digits, with each other where a result is exact, and with `f64`
+//! where there are no digits to keep.
 
 mod accuracy;
 mod exactness;
@@ -9,14 +9,14 @@ mod special;
 use mms_math::{Double, Scalar as _};
 use mms_program::precise::Precise;
 
-/// Arguments taken of each range.
+/// The number of arguments in each range.
 const COUNT: usize = 1000;
 
 fn exact(x: Double) -> Precise {
     Precise::from_f64(x.to_f64()) + Precise::from_f64(x.low())
 }
 
-/// The double-double number that `exact` was given.
+/// The double-double number whose exact value this is.
 fn rounded(value: &Precise) -> Double {
     let high = value.to_f64();
     Double::new(high, (value.clone() - Precise::from_f64(high)).to_f64())

@@ -2,24 +2,24 @@
 
 use mms_math::{Double, Scalar as _};
 
-/// Where the arguments of a function lie. Exponents are those of two.
+/// The range of the arguments of a function. Exponents are binary.
 #[derive(Clone, Copy, Debug)]
 pub enum Range {
-    /// Of either sign, with uniform exponents.
+    /// Either sign, with uniform exponents.
     Magnitudes(f64, f64),
     /// Positive, with uniform exponents.
     Positive(f64, f64),
     /// Uniform.
     Between(f64, f64),
-    /// A number, and to both sides of it differences with uniform exponents.
+    /// A number plus or minus differences with uniform exponents.
     Around(f64, f64, f64),
-    /// Above a number, differences with uniform exponents.
+    /// A number plus differences with uniform exponents.
     Above(f64, f64, f64),
-    /// Below a number, differences with uniform exponents.
+    /// A number minus differences with uniform exponents.
     Below(f64, f64, f64),
-    /// Next to as many quarter turns of pi/2.
+    /// Next to up to this many quarter turns of pi/2.
     QuarterTurns(f64),
-    /// Next to as many quarter turns of 1/2.
+    /// Next to up to this many quarter turns of 1/2.
     QuartersOfHalves(f64),
 }
 
@@ -36,12 +36,12 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// A number of uniform distribution.
+    /// A uniformly distributed number.
     pub fn between(&mut self, lower: f64, upper: f64) -> f64 {
         lower + (upper - lower) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// A low part for `high`: mostly any, sometimes none or much smaller than it could be.
+    /// A low part for `high`: mostly any, sometimes 0 or much smaller than possible.
     fn completed(&mut self, high: f64) -> Double {
         let low = self.between(-0.5, 0.5) * high / (1_u64 << 53) as f64;
         let low = match self.next() % 8 {

@@ -81,7 +81,7 @@ fn what_is_not_an_ordinary_number_follows_f64() {
     }
 }
 
-/// The same kind of number, and the same sign of zero; where both are ordinary, close to it.
+/// Asserts the same kind of number and the same sign of zero; for ordinary numbers, closeness.
 fn follows(name: &str, arguments: &[f64], found: Double, expected: f64) {
     let (high, low) = (found.to_f64(), found.low());
     let agrees = if expected.is_nan() {
@@ -94,8 +94,7 @@ fn follows(name: &str, arguments: &[f64], found: Double, expected: f64) {
     assert!(agrees, "{name} of {arguments:?}: {found:?}, not {expected}");
 }
 
-/// Where low parts fade, and where a product of the method would overflow, the digits of `f64`
-/// are left at least.
+/// Near underflow, and where an intermediate product would overflow, at least the digits of `f64` remain.
 #[test]
 fn near_the_ends_of_the_range_digits_of_f64_are_left() {
     let mut random = Random(9);

@@ -1,4 +1,4 @@
-//! The quick functions of `Lane` and the careful ones of `f32` and `f64` against 77 digits.
+//! The quick functions of `Lane` and the careful ones of `f32` and `f64`, compared with 77 digits.
 
 use mms_math::{Lane, NEAR_ZERO, Scalar, WITHIN_ONE};
 use mms_program::precise::Precise;
@@ -7,18 +7,18 @@ use crate::sampled::sampled_count;
 
 type Real = fn(f64) -> f64;
 
-/// A function of one argument in both formats, each value held in an `f64`.
+/// A function of one argument in both formats, with each value in an `f64`.
 struct Function {
     name: &'static str,
-    /// Without and with fused products.
+    /// The quick function, without and with fused products.
     quick: [[Real; 2]; 2],
     careful: [Real; 2],
-    /// In `f64`.
+    /// The function of the standard library, in `f64`.
     standard: Real,
     truth: fn(f64) -> Precise,
     /// The largest error in `f64` and `f32`, in units of the last digit.
     bounds: [f64; 2],
-    /// Where the quick function always has a value.
+    /// The range where the quick function always has a value.
     known: [[f64; 2]; 2],
 }
 
@@ -49,14 +49,14 @@ impl Format {
         Precise::from_f64(2f64.powi(half)) * Precise::from_f64(2f64.powi(rest))
     }
 
-    /// Whether a value is right to a number of units, or beyond all numbers as the true one is.
+    /// Whether a value is right to a number of units, or infinite like the true one.
     fn is_right(&self, value: f64, truth: &Precise, units: f64) -> bool {
         if value.is_infinite() {
             let beyond = truth.clone() * Precise::from_f64(value.signum());
             return Precise::from_f64(self.most).at_most(&beyond);
         }
         let error = (Precise::from_f64(value) - truth.clone()).magnitude();
-        // Below the normal numbers each product on the way is rounded to the same last digit.
+        // Below the normal numbers each intermediate product is rounded to the same last digit.
         let below = truth.clone().magnitude().at_most(&Precise::from_f64(self.least));
         let units = if below { units + 1.0 } else { units };
         error.at_most(&(self.unit(truth) * Precise::from_f64(units)))
@@ -73,7 +73,7 @@ const HYPERBOLIC: [[f64; 2]; 2] = [[-707.0, 707.0], [-86.0, 86.0]];
 const LOGARITHMS: [[f64; 2]; 2] = [[3.2e-308, 2.9e307], [1.7e-38, 5.6e37]];
 const ABOVE_MINUS_ONE: [[f64; 2]; 2] =
     [[-1.0 + f64::EPSILON, 2.9e307], [-1.0 + f32::EPSILON as f64, 5.6e37]];
-/// Both signs of normal numbers, told by the magnitude.
+/// Normal numbers of both signs, given by their magnitude.
 const NORMAL: [[f64; 2]; 2] = [[f64::MIN_POSITIVE, f64::MAX], [f32::MIN_POSITIVE as f64, f64::MAX]];
 
 macro_rules! functions {
@@ -119,7 +119,7 @@ fn ln_1p_rest(x: f64) -> Precise {
     x.clone() * x * series
 }
 
-/// The bounds are what some ten thousand points each gave, rounded up.
+/// The bounds are the errors at about ten thousand points each, rounded up.
 fn functions() -> Vec<Function> {
     functions! {
         sqrt, |x| of(x).sqrt(), f64::sqrt, [0.5, 0.5], [[0.0, f64::MAX], [0.0, f64::MAX]];
@@ -154,17 +154,17 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// Between -1 and 1.
+    /// A number between -1 and 1.
     fn signed(&mut self) -> f64 {
         (self.bits() as i64) as f64 / 2f64.powi(63)
     }
 
-    /// A magnitude of an exponent from a range.
+    /// A magnitude with an exponent from a range.
     fn magnitude(&mut self, least: f64, most: f64) -> f64 {
         (least + (most - least) * self.signed().abs()).exp2()
     }
 
-    /// A number of either sign, of one of the kinds that functions find hard.
+    /// A number of either sign, of one of the kinds that are hard for functions.
     fn number(&mut self) -> f64 {
         let sign = self.signed().signum();
         let near = self.signed() * self.magnitude(-50.0, -3.0);
@@ -230,7 +230,7 @@ fn check(function: &Function, index: usize, x: f64) {
         assert!(right, "{name}({x:e}) in format {index}: {value:e} for {:e}", truth.to_f64());
     }
     let careful = (function.careful[index])(x);
-    // At a pole the careful one is infinite.
+    // At a pole the careful function is infinite.
     let right = match truth.is_defined() {
         true => format.is_right(careful, &truth, bounds[index].max(1.0)),
         false => !careful.is_finite(),
@@ -287,7 +287,7 @@ fn functions_of_two_arguments_are_right_or_not_a_number() {
     }
 }
 
-/// The quick and the careful values.
+/// The values of the quick and of the careful function.
 fn angles(format: usize, y: f64, x: f64) -> Vec<(f64, f64)> {
     match format {
         0 => vec![(Lane::<_, false>(y).atan2(Lane(x)).0, Scalar::atan2(y, x))],
@@ -314,7 +314,7 @@ fn powers(format: usize, base: f64, exponent: f64) -> [(f64, f64); 2] {
     }
 }
 
-/// Functions of [`Scalar`], in the scalars that have their own.
+/// Functions of [`Scalar`], in the scalars that implement them.
 macro_rules! everywhere {
     ($($function:ident),*) => {
         [$((
@@ -338,7 +338,7 @@ fn of_a_small_angle_no_reduction_is_needed() {
         for _ in 0..sampled_count(1000, 3) {
             let single = (random.signed() * limit) as f32;
             let x = f64::from(single) * (1.0 - f64::EPSILON);
-            // An error of the cosine counts as one of a number near 1.
+            // An error of the cosine is compared with a number near 1.
             let is_cosine = |format: usize, found: f64, x: f64| {
                 let error = (of(found) - of(x).cos()).magnitude();
                 error.at_most(&(FORMATS[format].unit(&of(0.75)) * of(2.0)))
