@@ -1,4 +1,4 @@
-//! `[boundary]`: the faces of a body, and what a field claims on them.
+//! `[boundary]`: the faces of a body, and the claims of a field on them.
 
 use crate::diagnostic::Diagnostic;
 use crate::domain::{Body, is_zero};
@@ -10,13 +10,13 @@ use crate::value::unknown_word;
 /// A named part of a body's boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Face {
-    /// The face of a box where the coordinate of that axis is least.
+    /// The face of a box where the coordinate along this axis is least.
     Min(usize),
-    /// The face of a box where the coordinate of that axis is greatest.
+    /// The face of a box where the coordinate along this axis is greatest.
     Max(usize),
     /// The inner circle, cylinder or sphere.
     Inner,
-    /// The outer one.
+    /// The outer circle, cylinder or sphere.
     Outer,
     /// The flat face of a sector at its first angle.
     ThetaMin,
@@ -34,12 +34,12 @@ pub enum Face {
     AxialMin,
     /// The face of an axisymmetric box where Z is greatest.
     AxialMax,
-    /// The edge of a polygon after the vertex of that position, and its name.
+    /// The edge of a polygon after the vertex at this position, and its name.
     Edge(usize, &'static str),
 }
 
 impl Face {
-    /// Every face of any body but the edges of polygons, which have names of their own.
+    /// Every face of any body except edges of polygons, which have names of their own.
     pub const ALL: &[Face] = &[
         Face::Min(0),
         Face::Max(0),
@@ -59,7 +59,7 @@ impl Face {
         Face::AxialMax,
     ];
 
-    /// The key of `[boundary]` that names it.
+    /// The key of `[boundary]` that names the face.
     pub fn name(self) -> &'static str {
         match self {
             Face::Min(0) => "x_min",
@@ -87,7 +87,7 @@ impl Face {
         let mut faces = Face::declared(body, space);
         match body {
             Body::Round(round) => faces.retain(|face| round.has_area(*face)),
-            // Where R is written as 0 there is the axis, which has no area.
+            // If R is written as 0, the box ends at the axis, which has no area.
             Body::Box { lower, .. } if lower.first().is_some_and(is_zero) => {
                 faces.retain(|face| *face != Face::RadialMin);
             }
@@ -96,7 +96,7 @@ impl Face {
         faces
     }
 
-    /// The faces that the keys of a body speak of, those without an area included.
+    /// The faces that the keys of a body define, including those without an area.
     fn declared(body: &Body, space: Space) -> Vec<Face> {
         match body {
             Body::Box { .. } => Face::of_box(space),
@@ -130,11 +130,11 @@ pub enum Claim {
     Roller,
     /// P N = 0.
     Free,
-    /// The solver is given u.
+    /// u is prescribed: the solver gets its values.
     Prescribed,
-    /// The solver is given P N.
+    /// P N is prescribed: the solver gets its values.
     Traction,
-    /// R = 0, and nothing leaves the axis.
+    /// R = 0, and no point leaves the axis.
     Axis,
 }
 
@@ -149,7 +149,7 @@ impl Claim {
         Claim::ALL.iter().copied().chain(axis).collect()
     }
 
-    /// The word for it in a field file.
+    /// The word for the claim in a field file.
     pub fn name(self) -> &'static str {
         match self {
             Claim::Fixed => "fixed",
@@ -161,7 +161,7 @@ impl Claim {
         }
     }
 
-    /// Its meaning, in a few words.
+    /// The meaning of the claim, in a few words.
     pub fn meaning(self) -> &'static str {
         match self {
             Claim::Fixed => "u = 0",
@@ -183,7 +183,7 @@ pub struct BoundarySpec {
     pub claim: Spanned<Claim>,
 }
 
-/// Reads `[boundary]`. Without a body, any face of any body will do.
+/// Reads `[boundary]`. Without a body, any face of any body is accepted.
 pub(super) fn boundary<'a>(
     entry: &Entry<'a>,
     body: Option<&Body>,

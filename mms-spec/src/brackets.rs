@@ -1,9 +1,9 @@
 //! Finds the bracket that was never closed.
 //!
-//! Without its end an array takes in all that follows, and TOML complains at each of those places but not where
-//! the end is missing. This looks for the place that a person would point at.
+//! An array without its end includes everything after it, and TOML reports an error at each of those places but not where the
+//! end is missing. This module finds the place that a person would point at.
 
-/// The `[` or `{` of a value that is never closed, in a text where one is.
+/// The `[` or `{` of a value that is never closed, in a text that has one.
 pub(super) fn unclosed(text: &str) -> Option<usize> {
     let mut open: Vec<(usize, u8)> = Vec::new();
     let mut position = 0;
@@ -40,7 +40,7 @@ fn string(rest: &[u8]) -> usize {
     1 + end.min(line) + 1
 }
 
-/// How far it is to a mark; an escaped character is no mark.
+/// The distance to a mark; an escaped character is no mark.
 fn length_to(text: &[u8], mark: &[u8], escapes: bool) -> usize {
     let mut position = 0;
     while position < text.len() && !text[position..].starts_with(mark) {

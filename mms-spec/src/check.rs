@@ -13,7 +13,7 @@ use crate::symbols::{LetSpec, lets};
 use crate::table::{Reader, Table, list};
 use crate::value::{plural, unknown_word};
 
-/// The names of the extremes at which every field is evaluated; those of a field are others.
+/// The names of the extremes at which every field is evaluated; a field's own extremes have other names.
 pub const REGIMES: &[&str] = &[
     "declared",
     "displacement_1e-4",
@@ -42,15 +42,15 @@ pub const REGIMES: &[&str] = &[
 pub struct CheckSpec {
     /// The quantity.
     pub quantity: Spanned<Quantity>,
-    /// Its components, row-major.
+    /// The components, row-major.
     pub equals: Vec<Formula>,
-    /// Names of this check alone.
+    /// The names that only this check defines.
     pub lets: Vec<LetSpec>,
-    /// Where the closed form comes from.
+    /// The source of the closed form.
     pub source: Option<Foreign>,
 }
 
-/// A set of parameters at which evaluation is tested, named by what is extreme about it.
+/// A set of parameters at which evaluation is tested, named after its extreme property.
 #[derive(Clone, Debug)]
 pub struct ExtremeSpec {
     /// The name.
@@ -61,7 +61,7 @@ pub struct ExtremeSpec {
     pub span: Span,
 }
 
-/// Reads one `[[check]]`; `field` are the names that the field defines.
+/// Reads one `[[check]]`; `field` has the names that the field defines.
 pub(super) fn check<'a>(
     table: &Table<'a>,
     (space, own): (Space, [&[Own]; 2]),
@@ -135,7 +135,7 @@ fn quantity<'a>(
     }
 }
 
-/// Reads every `[[extreme]]`; `parameters` are those of the field.
+/// Reads every `[[extreme]]`; `parameters` are the names of the field's parameters.
 pub(super) fn extremes<'a>(
     tables: &[Table<'a>],
     parameters: &[&str],

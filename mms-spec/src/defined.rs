@@ -1,4 +1,4 @@
-//! The quantities that a field file and its material define, and the closed forms that are about them.
+//! The quantities that a field file and its material define, and the closed forms for them.
 
 use crate::balance::{BalanceLaw, BalanceSpec};
 use crate::diagnostic::Diagnostic;
@@ -9,7 +9,7 @@ use crate::own::{Described, Own, Part};
 use crate::quantity::Quantity;
 use crate::source::Spanned;
 
-/// A given field of a field: the material's that the field sets, or one of its own.
+/// A given field of a field: one of the material that the field sets, or one of its own.
 #[derive(Clone, Copy, Debug)]
 struct Given<'a> {
     name: &'a str,
@@ -17,7 +17,7 @@ struct Given<'a> {
     doc: Option<&'a Foreign>,
 }
 
-/// The given fields of a field: first those that its material takes, in the order of its file, then those of its own.
+/// The given fields of a field: first the material's, in the order of its file, then the field's own.
 fn givens<'a>(field: &'a FieldSpec, material: Option<&'a MaterialSpec>) -> Vec<Given<'a>> {
     let taken = material.iter().flat_map(|material| &material.givens);
     let mut givens: Vec<_> = taken
@@ -37,7 +37,7 @@ pub fn own_quantities(field: &FieldSpec, material: Option<&MaterialSpec>) -> Vec
     quantities_of(field, givens(field, material))
 }
 
-/// The quantities that a field file may define, whatever its material is: any formula of `[material]` may set a given field.
+/// The quantities that a field file may define with any material: any formula of `[material]` may set a given field.
 pub(super) fn possible_quantities(field: &FieldSpec) -> Vec<Own> {
     let of_material = field.material.arguments.iter();
     let of_material =
@@ -45,8 +45,8 @@ pub(super) fn possible_quantities(field: &FieldSpec) -> Vec<Own> {
     quantities_of(field, of_material.chain(givens(field, None)).collect())
 }
 
-/// Makes the closed forms of a field be about the quantities that it has once its material is known. Reports those that are
-/// about a parameter of the material.
+/// Assigns the closed forms of a field to the quantities that it has once its material is known. Reports closed forms for a
+/// parameter of the material.
 pub fn settle_checks(field: &mut FieldSpec, own: &[Own], diagnostics: &mut Vec<Diagnostic>) {
     for check in &mut field.checks {
         let Quantity::Own(possible) = check.quantity.value else { continue };

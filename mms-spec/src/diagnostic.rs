@@ -1,11 +1,10 @@
-//! Messages to a user, and how they look.
+//! Messages to a user, and their layout.
 //!
-//! A phase collects every mistake that it finds as a [`Diagnostic`] (message, span, label, help) and goes on where
-//! that makes sense. [`render`] prints them all at the end, in the order of their places, each with its own
-//! `path:line:column` and a caret under the exact text. The same text comes from `mms check` and, as one compile
-//! error, from `field!`.
+//! A phase collects every mistake that it finds as a [`Diagnostic`] (message, span, label, help) and continues if that makes
+//! sense. [`render`] prints them all at the end, in the order of their places, each with its own `path:line:column` and a caret
+//! under the exact text. `mms check` and, as one compile error, `field!` print the same text.
 //!
-//! A mistake hides no other: what could not be read is replaced by a formula that stands for it, and a name whose
+//! A mistake hides no other: an unreadable formula is replaced by an empty one that is marked as reported, and a name whose
 //! definition failed is not reported where it is used.
 
 use std::collections::BTreeSet;
@@ -17,26 +16,26 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use crate::foreign::{lines, one_line, shown};
 use crate::source::{Sources, Span};
 
-/// More diagnostics than this are counted, not printed: nobody reads them.
+/// The largest number of printed diagnostics: further ones are only counted.
 pub const MAX_RENDERED: usize = 100;
 
-/// Names longer than this are cut where a message quotes them.
+/// The longest name that a message quotes in full.
 const MAX_QUOTED: usize = 40;
 
 /// One message about one place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// What was found to be wrong, in one sentence without a full stop.
+    /// The mistake, in one sentence without a full stop.
     pub message: String,
     /// The exact place.
     pub span: Span,
-    /// A few words beside the caret, often what was expected there.
+    /// A few words beside the caret, often the expected text.
     pub label: String,
-    /// What to do about it, one suggestion each.
+    /// Suggestions for the user.
     pub help: Vec<String>,
-    /// Whether it is no mistake, but may be one.
+    /// Whether the diagnostic is about a possible mistake only.
     pub is_warning: bool,
-    /// Where in the compiler it was made, so that a test can tell which messages no file provokes.
+    /// The place in the compiler's source that made it, so that a test can find messages that no file provokes.
     pub site: &'static Location<'static>,
 }
 
@@ -48,7 +47,7 @@ impl Diagnostic {
         Diagnostic { message, span, label, help, is_warning: false, site: Location::caller() }
     }
 
-    /// What may be a mistake.
+    /// A warning about a possible mistake.
     #[track_caller]
     pub fn warning(span: Span, message: impl Into<String>) -> Self {
         Diagnostic { is_warning: true, ..Self::error(span, message) }
@@ -67,7 +66,7 @@ impl Diagnostic {
     }
 }
 
-/// A piece of a user's text as messages quote it: in backticks, and cut where it is long.
+/// A piece of a user's text as messages quote it: in backticks, and cut if it is long.
 pub fn quoted(text: &str) -> String {
     match text.char_indices().nth(MAX_QUOTED) {
         Some((end, _)) => format!("`{}...`", shown(&text[..end])),
@@ -80,7 +79,7 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
     render_with(&Renderer::plain(), sources, diagnostics)
 }
 
-/// The same text as [`render`], coloured for a terminal.
+/// The diagnostics as [`render`] prints them, coloured for a terminal.
 pub fn render_styled(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
     render_with(&Renderer::styled(), sources, diagnostics)
 }
@@ -102,7 +101,7 @@ fn render_with(renderer: &Renderer, sources: &Sources, diagnostics: &[Diagnostic
     text
 }
 
-/// By place, then in the order they were found; a message that two phases found is shown once.
+/// The diagnostics by place, then in the order of detection; a message of two phases is shown once.
 fn in_order(diagnostics: &[Diagnostic]) -> Vec<&Diagnostic> {
     let mut ordered: Vec<&Diagnostic> = diagnostics.iter().collect();
     ordered.sort_by_key(|diagnostic| (diagnostic.span.source, diagnostic.span.start));
@@ -128,8 +127,8 @@ fn render_one(renderer: &Renderer, sources: &Sources, diagnostic: &Diagnostic) -
     renderer.render(&[title.element(snippet).elements(help)])
 }
 
-/// The line that a span starts on, and the part of the span on it. Only this line is shown, so
-/// that a message about a long array or a long file stays short.
+/// The line on which a span starts, and the part of the span on it. Only this line is shown, so that a message about a long
+/// array or a long file stays short.
 fn shown_line(sources: &Sources, span: Span) -> (String, Range<usize>) {
     let text = sources.get(span.source).text.as_str();
     let span = sources.span(span.source, span.start, span.end);
@@ -209,7 +208,7 @@ error: unknown key `titel`
         assert!(!render(&sources, &[diagnostic]).contains('\u{1b}'));
     }
 
-    /// The column is that of the line as it is shown.
+    /// The column refers to the line as it is shown.
     #[test]
     fn no_text_makes_lines_of_its_own_and_the_caret_stays_in_place() {
         let mut sources = Sources::default();

@@ -1,8 +1,8 @@
-//! From a TOML text to its tree, with every syntax error as a diagnostic.
+//! Parses a TOML text to its tree, with every syntax error as a diagnostic.
 //!
-//! TOML goes on after an error as far as it can, and then reports what follows from it as well.
-//! Here each slip gets one message, and the tree comes with the damaged places: a reader must not
-//! complain about values that are damaged, or keys that may have been lost.
+//! After an error TOML parses on as far as it can, and then reports consequences of the error as well. Here each slip gets one
+//! message, and the tree has a list of damaged places: a reader must not complain about damaged values, or about keys that may
+//! have been lost.
 
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ use crate::source::{SourceId, Sources, Span};
 /// The longest file that is read, in bytes.
 pub const MAX_FILE: usize = 1 << 20;
 
-/// More syntax errors than this in one file are noise.
+/// The largest number of syntax errors in one file; further ones are noise.
 const MAX_ERRORS: usize = 20;
 
 /// A TOML file as far as it could be read.
@@ -58,23 +58,23 @@ impl<'a> Document<'a> {
         };
         let open = errors.iter().any(is_open).then(|| brackets::unclosed(text)).flatten();
         let damaged = slips.iter().filter(|slip| !slip.is_duplicate()).map(Slip::place);
-        // What an open bracket takes in has lost its place in the tree.
+        // Values inside an open bracket are misplaced in the tree.
         let damage = damaged.chain(open.map(|open| open..text.len())).collect();
         diagnostics.extend(explained(sources, id, &slips, open));
         Some(Document { root, damage, incomplete })
     }
 }
 
-/// How much a syntax error takes with it.
+/// The extent of the damage of a syntax error.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
-    /// A table that is there already; its keys are kept.
+    /// A table that exists already; its keys are kept.
     SecondTable,
-    /// A key that is there already; the first one is kept.
+    /// A key that exists already; the first one is kept.
     SecondKey,
     /// One value.
     Value,
-    /// What follows, to an unknown extent.
+    /// Everything after the error, to an unknown extent.
     Lossy,
 }
 
@@ -96,7 +96,7 @@ impl Slip {
         } else if is_in_value(root, &place) && !message.starts_with("invalid multi-line") {
             Kind::Value
         } else {
-            // A long string without an end swallows the rest of the file.
+            // A long string without an end includes the rest of the file.
             Kind::Lossy
         };
         Slip { span, kind, message }
@@ -111,7 +111,7 @@ impl Slip {
     }
 }
 
-/// The line of a place, up to it.
+/// The line of a place, up to the place.
 fn line_before(sources: &Sources, span: Span) -> &str {
     sources.get(span.source).text[..span.start].rsplit('\n').next().unwrap_or_default()
 }
@@ -134,7 +134,7 @@ fn is_in_value(root: &DeTable<'_>, place: &Range<usize>) -> bool {
     false
 }
 
-/// One diagnostic for each slip and for the bracket that is open, none for their consequences.
+/// One diagnostic for each slip and for the open bracket, none for their consequences.
 fn explained(
     sources: &Sources,
     id: SourceId,
@@ -164,7 +164,7 @@ fn follows(text: &str, last: &Slip, slip: &Slip) -> bool {
     match slip.kind {
         _ if slip.span == last.span => true,
         Kind::Lossy => !between.contains('\n'),
-        // The keys of a table that is there already often are there as well.
+        // The keys of a table that exists already often exist as well.
         Kind::SecondKey => last.kind == Kind::SecondTable && !between.contains("\n["),
         Kind::SecondTable | Kind::Value => false,
     }
@@ -195,7 +195,7 @@ fn diagnostic(sources: &Sources, slip: &Slip) -> Diagnostic {
         kind => {
             let diagnostic =
                 error(format!("the TOML cannot be read: {}", slip.message)).label("found here");
-            // The digits that an expression starts with make TOML take all of it for a number.
+            // If an expression starts with digits, TOML reads all of it as a number.
             let is_number = ["invalid float", "invalid integer"]
                 .iter()
                 .any(|invalid| slip.message.starts_with(invalid));

@@ -1,4 +1,4 @@
-//! `[domain]`: where and when a field lives.
+//! `[domain]`: the body and the time window of a field.
 
 use crate::boundary::Face;
 use crate::diagnostic::{Diagnostic, quoted};
@@ -34,13 +34,13 @@ pub enum Body {
 /// A body around the origin.
 #[derive(Clone, Debug)]
 pub struct Round {
-    /// Which of them.
+    /// The shape.
     pub shape: &'static Shape,
     /// The inner radius; a disk has none.
     pub inner: Option<Formula>,
     /// The outer radius.
     pub outer: Formula,
-    /// The angles between which a sector lies; all around without them.
+    /// The angles between which a sector lies; without them it is a full ring.
     pub theta: Option<[Formula; 2]>,
     /// The ends of a cylinder.
     pub z: Option<[Formula; 2]>,
@@ -49,7 +49,7 @@ pub struct Round {
 }
 
 impl Round {
-    /// The pairs of bounds that are given beside the radii.
+    /// The pairs of bounds of the body, beside the radii.
     pub fn pairs(&self) -> impl Iterator<Item = &[Formula; 2]> {
         [&self.theta, &self.z, &self.phi].into_iter().flatten()
     }
@@ -59,7 +59,7 @@ impl Round {
         self.inner.iter().chain([&self.outer]).chain(self.pairs().flatten())
     }
 
-    /// The faces that its keys speak of, in a fixed order.
+    /// The faces that the keys define, in a fixed order.
     pub(super) fn declared(&self) -> Vec<Face> {
         [
             (Face::Inner, self.inner.is_some()),
@@ -76,8 +76,7 @@ impl Round {
         .collect()
     }
 
-    /// Whether a face has an area, as far as its key tells: not where the radius is written as 0, or the angle as that of
-    /// the axis.
+    /// Whether a face has an area, judging by its key: false if the radius is written as 0, or the angle as 0 or pi.
     pub(super) fn has_area(&self, face: Face) -> bool {
         let is_axis =
             |at: usize| self.phi.as_ref().is_some_and(|phi| phi[at].text.trim() == ["0", "pi"][at]);
@@ -102,24 +101,24 @@ pub struct Polygon {
     pub vertices: Vec<[Formula; 2]>,
     /// The names of the edges: the first runs from the first vertex to the second.
     pub names: Vec<&'static str>,
-    /// Where the vertices stand.
+    /// The place of the vertices in the file.
     pub span: Span,
 }
 
 /// A shape of a body: its keys in `[domain]`, and the dimension that it needs.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Shape {
-    /// The word for it in a field file.
+    /// The word for the shape in a field file.
     pub name: &'static str,
     /// The word with its article.
     pub noun: &'static str,
-    /// The dimension of a field on it; any where there is none.
+    /// The dimension of a field on this shape; any dimension if `None`.
     pub dimension: Option<usize>,
-    /// The keys that it must have.
+    /// The required keys.
     pub required: &'static [&'static str],
-    /// The keys that it may have.
+    /// The optional keys.
     pub optional: &'static [&'static str],
-    /// Its keys in words.
+    /// The keys in words.
     has: &'static str,
 }
 
@@ -183,27 +182,27 @@ pub const BODIES: &[Shape] = &[
     },
 ];
 
-/// The keys of `[domain]` that say where a body is.
+/// The keys of `[domain]` that define a body.
 pub const BODY_KEYS: &[&str] =
     &["lower", "upper", "inner", "outer", "theta", "z", "phi", "vertices", "names"];
 
-/// A polygon has no more vertices than this.
+/// The largest number of vertices of a polygon.
 pub const MAX_VERTICES: usize = 256;
 
 impl Shape {
-    /// The shape of that name.
+    /// The shape with this name.
     pub fn named(name: &str) -> Option<&'static Shape> {
         BODIES.iter().find(|shape| shape.name == name)
     }
 
-    /// The words for all of them.
+    /// The words for all shapes.
     pub fn words() -> Vec<&'static str> {
         BODIES.iter().map(|shape| shape.name).collect()
     }
 }
 
 impl Body {
-    /// The word for it in a field file.
+    /// The word for the shape in a field file.
     pub fn name(&self) -> &'static str {
         match self {
             Body::Box { .. } => "box",
@@ -213,12 +212,12 @@ impl Body {
         }
     }
 
-    /// Whether there is none.
+    /// Whether there is no body.
     pub fn is_nothing(&self) -> bool {
         matches!(self, Body::Nothing)
     }
 
-    /// The formulas that say where it is.
+    /// The formulas that define the body.
     pub fn formulas(&self) -> Vec<&Formula> {
         match self {
             Body::Box { lower, upper } => lower.iter().chain(upper).collect(),
@@ -234,9 +233,9 @@ impl Body {
 pub struct DomainSpec {
     /// The reference body.
     pub body: Body,
-    /// The first and the last time; none of a static field.
+    /// The first and the last time; none for a static field.
     pub time: Option<[Formula; 2]>,
-    /// Whether they are not the file's, but were given in its place: then a number is one in the unit of t.
+    /// Whether the window replaces the file's: then a number is in the unit of t.
     pub is_moved: bool,
 }
 
@@ -279,7 +278,7 @@ pub(super) fn domain<'a>(entry: &Entry<'a>, space: Space, reader: &mut Reader<'a
         "none" => Body::Nothing,
         _ => round(&table, shape, reader),
     };
-    // A key that was lost or misspelt is not missing.
+    // A lost or misspelt key is not missing.
     let is_lost = reader.is_incomplete() || table.misspelt.contains(&"time");
     let time = match table.get("time") {
         Some(time) => Some(reader.pair(&time, "expected the first and the last time")),
@@ -289,7 +288,7 @@ pub(super) fn domain<'a>(entry: &Entry<'a>, space: Space, reader: &mut Reader<'a
     DomainSpec { body, time, is_moved: false }
 }
 
-/// The word for a shape. One that is far from all words may mean a body that the scope leaves out.
+/// The word for a shape. A word that is far from all shapes may mean a body that is out of scope.
 fn word_of_shape<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spanned<String>> {
     let (found, words) = (reader.string(entry)?, Shape::words());
     if Shape::named(&found.value).is_some() {
@@ -297,12 +296,12 @@ fn word_of_shape<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spann
     }
     let unknown = unknown_word(&found, "shape", &words);
     let is_near = did_you_mean(&found.value, words).is_some();
-    let hint = format!("other bodies, and what stands for them: {SCOPE}");
+    let hint = format!("other bodies and their alternatives: {SCOPE}");
     reader.report(if is_near { unknown } else { unknown.help(hint) });
     None
 }
 
-/// The shape that the keys tell where no valid word does.
+/// The shape that the keys indicate, if there is no valid word.
 fn meant(table: &Table<'_>, dimension: usize) -> &'static Shape {
     let has = |key: &str| table.get(key).is_some();
     let name = match () {
@@ -317,7 +316,7 @@ fn meant(table: &Table<'_>, dimension: usize) -> &'static Shape {
 }
 
 impl Shape {
-    /// Whether it has faces that are not those of a box.
+    /// Whether the shape has other faces than a box.
     fn is_bent(&self) -> bool {
         !matches!(self.name, "box" | "none")
     }
@@ -379,7 +378,7 @@ fn plural_vertices(count: usize) -> String {
     if count == 1 { "1 vertex".into() } else { format!("{count} vertices") }
 }
 
-/// The names of edges, if they are as many different ones.
+/// The names of edges, if they are all different and as many as the edges.
 fn edges<'a>(
     entry: &Entry<'a>,
     count: Option<usize>,
@@ -422,12 +421,12 @@ fn edges<'a>(
     Some(known)
 }
 
-/// Why a point must have so many coordinates.
+/// The reason for the number of coordinates of a point, for messages.
 pub(super) fn one_per_dimension(dimension: usize) -> String {
     format!("a {dimension}-D field has {}", plural(dimension, "component"))
 }
 
-/// Why a vector must have so many components.
+/// The reason for the number of components of a vector, for messages.
 pub(super) fn one_per_direction(space: Space) -> String {
     match space {
         Space::Cartesian(dimension) => one_per_dimension(dimension),

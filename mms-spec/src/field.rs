@@ -20,19 +20,19 @@ use crate::study::{StudySpec, studies};
 use crate::symbols::{LetSpec, ParameterSpec, lets, parameters};
 use crate::table::{Entry, Reader, Table};
 
-/// A field file. Vectors and tensors have exactly the components of its [`Space`]; a component that
-/// was missing is [`Formula::is_reported`].
+/// A field file. Vectors and tensors have exactly the components of its [`Space`]; a missing component is
+/// [`Formula::is_reported`].
 #[derive(Clone, Debug)]
 pub struct FieldSpec {
     /// The file's stem.
     pub name: Foreign,
-    /// What it is, in a few words.
+    /// The title, in a few words.
     pub title: Foreign,
     /// The number of coordinates of a point: 1, 2 or 3.
     pub dimension: usize,
-    /// The coordinates, and what follows from them for vectors and tensors.
+    /// The coordinates, and the numbers of components of vectors and tensors.
     pub space: Space,
-    /// Where it comes from.
+    /// The published source.
     pub reference: Option<Foreign>,
     /// The parameters, in order.
     pub parameters: Vec<ParameterSpec>,
@@ -58,17 +58,17 @@ pub struct FieldSpec {
     pub extremes: Vec<ExtremeSpec>,
     /// The rigid motion on top.
     pub rigid: Option<RigidSpec>,
-    /// Formulas that have lost their place to a reported mistake, such as a component too many.
-    /// Nothing follows from them, but their syntax can be checked.
+    /// Formulas that lost their place because of a reported mistake, such as an excess component. They have no effect, but
+    /// their syntax is checked.
     pub stray: Vec<Formula>,
-    /// Names of the language that the file would define: what uses them may mean either.
+    /// Names of the language that the file would define: a use may mean either one.
     pub refused: Vec<String>,
-    /// Whether part of the file could not be read: an unknown name may be a consequence of that.
+    /// Whether part of the file could not be read: an unknown name may be a consequence.
     pub incomplete: bool,
 }
 
 impl FieldSpec {
-    /// Whether nothing moves: the file gives no time window.
+    /// Whether nothing moves: the file has no time window.
     pub fn is_static(&self) -> bool {
         self.domain.time.is_none()
     }
@@ -101,8 +101,7 @@ impl FieldSpec {
     }
 }
 
-/// Reads a field file. `None` only where not even the dimension can be told, or the file is too
-/// long to be read.
+/// Reads a field file. Returns `None` only if the dimension is unknown, or the file is too long to be read.
 pub fn read_field(
     sources: &Sources,
     id: SourceId,
@@ -143,7 +142,7 @@ pub fn read_field(
         None => MaterialUse::reported(root.span),
     };
     let Some(space) = space else {
-        // How many bounds the body needs is unknown; that it needs them is not.
+        // The number of bounds of the body is unknown; that it needs them is known.
         reader.required_table(&root, "domain");
         return None;
     };
@@ -189,7 +188,7 @@ pub fn read_field(
     Some(spec)
 }
 
-/// The place of a strain energy in a file without [field], which is that of a material.
+/// The place of a strain energy in a file without [field], which makes it a material file.
 fn material_file(document: &Document<'_>, sources: &Sources, id: SourceId) -> Option<Span> {
     if document.root.get("field").is_some() {
         return None;
@@ -238,7 +237,7 @@ struct Header {
 }
 
 impl Header {
-    /// The space of the field; a wrong dimension leaves the number of components to tell what was meant.
+    /// The space of the field; if the dimension is wrong, the number of components decides.
     fn space<'a>(&self, chosen: Option<&Table<'a>>, reader: &mut Reader<'a>) -> Option<Space> {
         let is_axisymmetric =
             self.coordinates.as_ref().is_some_and(|word| word.value == Space::WORDS[1]);
@@ -305,7 +304,7 @@ fn displacement_table<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Option<T
     reader.table(&entry, "[displacement]", DISPLACEMENT)
 }
 
-/// u, then the swirl if the field has one.
+/// The components of u, then the swirl if the field has one.
 fn displacement<'a>(
     table: Option<&Table<'a>>,
     space: Space,
@@ -328,7 +327,7 @@ fn components(entry: &Entry<'_>) -> Option<usize> {
     (1..=3).contains(&count).then_some(count)
 }
 
-/// Where and when: `[domain]`, `[boundary]`, `[rigid]`.
+/// The tables `[domain]`, `[boundary]` and `[rigid]`.
 struct Setup {
     domain: DomainSpec,
     boundary: Vec<BoundarySpec>,
@@ -352,7 +351,7 @@ impl Setup {
     }
 }
 
-/// What is claimed and tested: `[[check]]`, `[[study]]`, `[[extreme]]`.
+/// The tables `[[check]]`, `[[study]]` and `[[extreme]]`.
 struct Evidence {
     checks: Vec<CheckSpec>,
     studies: Vec<StudySpec>,

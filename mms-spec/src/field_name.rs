@@ -1,8 +1,8 @@
-//! Which names a field may have: its file's stem becomes a module of generated code.
+//! The rule for names of fields: a file's stem becomes a module of generated code.
 
 use crate::names::{MAX_NAME, is_identifier};
 
-/// Says what is wrong with a field's name, and which one is near.
+/// Returns the mistake in a field's name, and a similar valid name.
 pub fn validate(name: &str) -> Result<(), String> {
     if is_keyword(name) {
         return Err(format!(
@@ -26,7 +26,7 @@ pub fn validate(name: &str) -> Result<(), String> {
     Err(format!("`{name}` is not a name: {rule}; try `{near}`"))
 }
 
-/// The words that Rust keeps, in the edition of 2024, strict ones and reserved ones.
+/// The words that Rust 2024 reserves, strict ones and others.
 const KEYWORDS: &[&str] = &[
     "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue",
     "crate", "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "if", "impl",
@@ -35,13 +35,13 @@ const KEYWORDS: &[&str] = &[
     "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-/// Whether Rust keeps a word for itself, so that a module cannot be called that without `r#`.
+/// Whether Rust reserves a word, so that a module cannot have this name without `r#`.
 pub fn is_keyword(name: &str) -> bool {
     KEYWORDS.contains(&name)
 }
 
-/// The rule of field files, which is that of names and one more: no capital letters, so that files
-/// and modules are the same on every system.
+/// The rule for field files: the rule for names without capital letters, so that files and modules are the same on every
+/// system.
 fn is_plain(name: &str) -> bool {
     is_identifier(name)
         && name.len() <= MAX_NAME
@@ -49,7 +49,7 @@ fn is_plain(name: &str) -> bool {
         && !name.bytes().any(|byte| byte.is_ascii_uppercase())
 }
 
-/// What a user who wrote `name` may have meant.
+/// The name that a user who wrote `name` may have meant.
 fn near(name: &str) -> String {
     let stem = name.strip_suffix(".toml").unwrap_or(name).to_ascii_lowercase();
     let word = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };

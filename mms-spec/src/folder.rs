@@ -1,20 +1,20 @@
-//! The field files of a folder, for build scripts that embed or compile what lies in it.
+//! The field files of a folder, for build scripts that embed or compile them.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use crate::material::own_material;
 
-/// A field file, and the material file that it brings along.
+/// A field file, and the path of its own material file.
 #[derive(Clone, Debug)]
 pub struct FieldFile {
     /// The stem of the file, which is the name of the field.
     pub name: String,
-    /// Where the file is.
+    /// The path of the file.
     pub path: PathBuf,
-    /// What it says.
+    /// The text of the file.
     pub text: String,
-    /// Where the file of its own material is, if it has one.
+    /// The path of its own material's file, if it has one.
     pub material: Option<PathBuf>,
 }
 
@@ -24,7 +24,7 @@ impl FieldFile {
         [Some(&self.path), self.material.as_ref()].into_iter().flatten().map(PathBuf::as_path)
     }
 
-    /// The text of the field and that of its material, if it has one, as Rust expressions for a build script to write.
+    /// The texts of the field and of its material, if it has one, as Rust expressions for a build script to write.
     pub fn included(&self) -> [String; 2] {
         let material = self.material.as_ref().map(|path| format!("Some(include_str!({path:?}))"));
         [format!("include_str!({:?})", self.path), material.unwrap_or("None".into())]

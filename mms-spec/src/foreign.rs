@@ -1,40 +1,39 @@
-//! Texts from outside: names and titles of fields and materials, references, sources of closed forms,
-//! descriptions, names of extremes, paths, and formats and commands in checkpoints.
+//! Texts from outside: names and titles of fields and materials, references, sources of closed forms, descriptions, names of
+//! extremes, paths, and formats and commands in checkpoints.
 //!
-//! Such a text may steer a terminal, or look like a line of the program's own. A `Foreign` therefore has no
-//! `Display`: who prints it must say how. On a terminal, `shown()` escapes every character that cannot be seen, as
-//! Rust does, and keeps to one line of a thousand characters. In emitted code, `in_a_comment()` puts blanks in
-//! their place. `raw()` is for what escapes by itself, and for comparisons. `path` shows a path, and `markup`
-//! leaves out what HTML and XML forbid. Diagnostics and their source lines are shown in the same way.
+//! Such a text may steer a terminal, or look like a line of the program's own. A `Foreign` therefore has no `Display`: the
+//! caller chooses how to print it. For a terminal, `shown()` escapes every invisible character, as Rust does, and returns one
+//! line of at most a thousand characters. For emitted code, `in_a_comment()` replaces them by blanks. `raw()` is for code that
+//! escapes by itself, and for comparisons. `path` shows a path, and `markup` removes characters that HTML and XML forbid.
+//! Diagnostics and their source lines are shown in the same way.
 
 use std::path::Path;
 
 use serde_core::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Of a text no more characters than this are shown.
+/// The largest number of characters of a text that are shown.
 pub const MOST: usize = 1000;
 
-/// Of a path: more than any system opens.
+/// The largest number of characters of a path that are shown: more than any system opens.
 const MOST_OF_PATH: usize = 5000;
 
-/// A text from outside. It does not print itself: [`shown`](Foreign::shown) does. As JSON, which escapes, it is what it
-/// is.
+/// A text from outside. It has no `Display`: use [`shown`](Foreign::shown). As JSON, which escapes, it is unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Foreign(String);
 
 impl Foreign {
-    /// As it was written, for what escapes it by itself, and for comparisons.
+    /// The text as written, for code that escapes it by itself, and for comparisons.
     pub fn raw(&self) -> &str {
         &self.0
     }
 
-    /// For a person: see [`shown`].
+    /// The text for a person: see [`shown`].
     pub fn shown(&self) -> String {
         shown(&self.0)
     }
 
-    /// For a comment of emitted code, on one line: what cannot be seen is a blank. An escape would mean something to
-    /// some languages.
+    /// The text for a comment of emitted code, on one line, with blanks for invisible characters. An escape would have a
+    /// meaning in some languages.
     pub fn in_a_comment(&self) -> String {
         blanked(&self.0)
     }
@@ -76,18 +75,18 @@ impl<'de> Deserialize<'de> for Foreign {
     }
 }
 
-/// A text on one line, at most [`MOST`] characters of it: what cannot be seen, ends lines or changes the direction of
-/// writing is written as Rust escapes it, such as `\n` or `\u{1b}`.
+/// A text on one line, cut to [`MOST`] characters: characters that are invisible, end lines or change the direction of writing
+/// are escaped as in Rust, such as `\n` or `\u{1b}`.
 pub fn shown(text: &str) -> String {
     cut(text, MOST)
 }
 
-/// A path in the same way, in full.
+/// A path on one line, escaped likewise, in full.
 pub fn path(path: &Path) -> String {
     cut(&path.to_string_lossy(), MOST_OF_PATH)
 }
 
-/// The same of as many characters as are wanted.
+/// Escapes at most `most` characters of a text.
 fn cut(text: &str, most: usize) -> String {
     let end = text.char_indices().nth(most).map_or(text.len(), |(end, _)| end);
     let mut shown = escaped(&text[..end], |c| c.escape_debug().to_string());
@@ -97,12 +96,12 @@ fn cut(text: &str, most: usize) -> String {
     shown
 }
 
-/// A message that may hold foreign texts, all of it, on one line.
+/// A whole message that may contain foreign texts, on one line.
 pub fn one_line(text: &str) -> String {
     cut(text, usize::MAX)
 }
 
-/// Lines of ours that may hold foreign texts: all of it, but in each line what cannot be seen is escaped.
+/// Lines of this program that may contain foreign texts: the whole text, with invisible characters of each line escaped.
 pub fn lines(text: &str) -> String {
     escaped(text, |c| match c {
         '\n' | '\t' => c.to_string(),
@@ -110,7 +109,7 @@ pub fn lines(text: &str) -> String {
     })
 }
 
-/// JSON that says the same in characters that can be seen.
+/// The JSON document in visible characters only.
 pub fn json(document: &str) -> String {
     escaped(document, |c| match c {
         '\n' => c.to_string(),
@@ -121,13 +120,13 @@ pub fn json(document: &str) -> String {
     })
 }
 
-/// A text on one line, with blanks for what cannot be seen.
+/// A text on one line, with blanks for invisible characters.
 pub fn blanked(text: &str) -> String {
     escaped(text, |_| " ".to_owned()).trim_end().into()
 }
 
-/// A text for a document of HTML or XML, markup and all, without what these forbid, what ends a line in a script, and what
-/// changes the direction of writing beyond its element.
+/// A text for a document of HTML or XML, including markup, without forbidden characters, line ends within scripts, and
+/// characters that change the direction of writing beyond their element.
 pub fn markup(text: &str) -> String {
     let is_forbidden = |c: char| {
         let is_control = c.is_control() && !matches!(c, '\n' | '\t');
@@ -137,7 +136,7 @@ pub fn markup(text: &str) -> String {
     text.chars().filter(|&c| !is_forbidden(c)).collect()
 }
 
-/// A text with the characters that cannot be seen written in another way.
+/// A text with its invisible characters replaced by `escape`.
 fn escaped(text: &str, escape: impl Fn(char) -> String) -> String {
     let mut seen = String::with_capacity(text.len());
     for c in text.chars() {
@@ -151,19 +150,19 @@ fn turns(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Whether a character ends a line or a paragraph, and is none of those that a text has for that.
+/// Whether a character ends a line or a paragraph, and is not one of the usual line ends.
 fn is_line_end(c: char) -> bool {
     matches!(c, '\u{2028}' | '\u{2029}')
 }
 
-/// Whether a character is seen as itself, and does nothing else.
+/// Whether a character is visible as itself, and has no other effect.
 fn is_visible(c: char) -> bool {
     match c {
         ' '..='~' => true,
         _ if is_line_end(c) => false,
         _ if c.is_control() => false,
         _ if c.is_whitespace() => true,
-        // Alone, or first in a text, a mark that joins the letter before it is escaped as well.
+        // A mark that joins the letter before it is escaped as well if it is alone, or first in a text.
         _ => {
             let mut text = [b'x', 0, 0, 0, 0];
             let length = 1 + c.encode_utf8(&mut text[1..]).len();

@@ -1,16 +1,16 @@
-//! How a quantity is computed: with all its digits, or with the fewest operations.
+//! The form of computation of a quantity: with all its digits, or with the fewest operations.
 
 use crate::diagnostic::quoted;
 use crate::suggest::advice;
 
-/// Which of the ways to compute a quantity are open.
+/// The open ways to compute a quantity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Form {
-    /// Those that hold the accuracy contract: of each quantity, at any strain down to 1e-12, an error
-    /// of at most 64 eps of its largest magnitude.
+    /// The ways that fulfil the accuracy contract: for each quantity, at any strain down to 1e-12, an error of at most 64 eps
+    /// of its largest magnitude.
     #[default]
     Stable,
-    /// All. Where a strain e is small, its stress may lose eps/e, and its energy eps/e^2.
+    /// All ways. At a small strain e, the stress may lose eps/e, and the energy eps/e^2.
     Fast,
 }
 
@@ -18,7 +18,7 @@ impl Form {
     /// Every form.
     pub const ALL: [Form; 2] = [Form::Stable, Form::Fast];
 
-    /// Its name in a field file, on the command line and in the macro.
+    /// The name in a field file, on the command line and in the macro.
     pub const fn name(self) -> &'static str {
         match self {
             Form::Stable => "stable",
@@ -26,7 +26,7 @@ impl Form {
         }
     }
 
-    /// The form of that name; otherwise what is wrong with it, in one line.
+    /// The form with this name, or the mistake in one line.
     pub fn from_name(name: &str) -> Result<Form, String> {
         Self::ALL.into_iter().find(|form| form.name() == name).ok_or_else(|| {
             let known = Self::ALL.map(Form::name);

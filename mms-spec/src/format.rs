@@ -1,9 +1,9 @@
-//! Format 1 as data: the keys of each table, what each of them holds, and one sentence about it.
+//! Format 1 as data: the keys of each table, the type of each value, and one sentence about it.
 //!
-//! The reader takes its keys from here, and the JSON Schema for editors is made of it, so neither knows a key that
-//! the other does not. A schema sees form, not meaning: it refuses what the reader refuses, except where one place
-//! speaks of names that another one defines, and where numbers must increase. What depends on other values (how
-//! many components, which faces) is the reader's, and the schema's own tests hold it to that.
+//! The reader and the JSON Schema for editors are both made from this table, so they have the same keys. A schema checks form,
+//! not meaning: it refuses everything that the reader refuses, except if one place uses names that another one defines, or if
+//! numbers must increase. Only the reader checks conditions that depend on other values (the number of components, the faces),
+//! and the schema's own tests verify that.
 
 use crate::boundary::{Claim, Face};
 use crate::domain::Shape;
@@ -15,17 +15,17 @@ use crate::study::{FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, 
 /// A key of a table.
 #[derive(Debug)]
 pub struct Key {
-    /// The key.
+    /// The name of the key.
     pub name: &'static str,
-    /// Whether every such table must have it.
+    /// Whether every such table must have the key.
     pub required: bool,
-    /// What it holds.
+    /// The type of its value.
     pub holds: Holds,
-    /// What it is, in a sentence or two.
+    /// The description, in a sentence or two.
     pub doc: &'static str,
 }
 
-/// What a key holds.
+/// The type of the value of a key.
 #[derive(Debug)]
 pub enum Holds {
     /// A string for people.
@@ -70,14 +70,14 @@ pub enum Holds {
     Rotation(&'static [Key]),
 }
 
-/// How many formulas an array has.
+/// The number of formulas of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {
     /// One per dimension of the field.
     Dimension,
     /// One per component of the table's quantity.
     Quantity,
-    /// So many.
+    /// Exactly this number of formulas.
     Exactly(usize),
 }
 
@@ -94,7 +94,7 @@ pub fn names(keys: &[Key]) -> Vec<&'static str> {
     keys.iter().map(|key| key.name).collect()
 }
 
-/// The words that a `[[check]]` may name a quantity by: identifiers, then symbols.
+/// The words for a quantity in a `[[check]]`: identifiers, then symbols.
 pub fn quantities() -> Vec<&'static str> {
     let symbols = Quantity::pointwise()
         .filter(|quantity| Quantity::from_name(quantity.symbol()) == Some(*quantity))
@@ -115,7 +115,7 @@ pub fn claims(face: Face) -> Vec<&'static str> {
 
 /// A field file.
 pub const FIELD_FILE: &[Key] = &[
-    required("field", Holds::Table(FIELD), "What the field is."),
+    required("field", Holds::Table(FIELD), "The field: its title, dimension and coordinates."),
     optional(
         "parameters",
         Holds::Names(Keeper::Field, &Holds::Table(PARAMETER)),
@@ -131,7 +131,11 @@ pub const FIELD_FILE: &[Key] = &[
         Holds::Names(Keeper::Field, &Holds::Table(GIVEN)),
         "Given fields of the file's own, such as a temperature: functions of X and t.",
     ),
-    required("displacement", Holds::Table(DISPLACEMENT), "What is chosen; all else follows."),
+    required(
+        "displacement",
+        Holds::Table(DISPLACEMENT),
+        "The displacement; every other quantity follows from it.",
+    ),
     required(
         "material",
         Holds::Material(MATERIAL),
@@ -145,12 +149,12 @@ pub const FIELD_FILE: &[Key] = &[
     optional(
         "boundary",
         Holds::Faces,
-        "What holds on each face. A face that is left out claims nothing.",
+        "The claim about each face. An omitted face claims nothing.",
     ),
     optional(
         "balance",
         Holds::Tables(BALANCE),
-        "Further balances of a coupled code, such as that of heat; their sources follow.",
+        "Further balances of a coupled code, such as the heat balance; their sources are derived.",
     ),
     optional("check", Holds::Tables(CHECK), "Closed forms that were derived on paper."),
     optional("study", Holds::Tables(STUDY), "The orders that the solver must show on the field."),
@@ -164,14 +168,14 @@ pub const FIELD_FILE: &[Key] = &[
 
 /// `[field]`.
 pub const FIELD: &[Key] = &[
-    required("title", Holds::Text, "What the field is, in a few words."),
+    required("title", Holds::Text, "A title for the field, in a few words."),
     required("dimension", Holds::Dimension, "The number of reference coordinates: 1, 2 or 3."),
     optional(
         "coordinates",
         Holds::Word(|| Space::WORDS.to_vec()),
         "The coordinates: cartesian by default; axisymmetric, which are R and Z, with dimension = 2.",
     ),
-    optional("reference", Holds::Text, "Who published it, and where."),
+    optional("reference", Holds::Text, "The authors and the publication."),
 ];
 
 /// One of `[parameters]`.
@@ -183,7 +187,7 @@ pub const PARAMETER: &[Key] = &[
     ),
     optional("unit", Holds::Text, "The unit, such as kg/m^3."),
     optional("symbol", Holds::Text, "The symbol in LaTeX, such as E or \\lambda."),
-    optional("doc", Holds::Text, "What it is, in a few words."),
+    optional("doc", Holds::Text, "A description, in a few words."),
     optional(
         "range",
         Holds::Formulas(Length::Exactly(2)),
@@ -195,7 +199,7 @@ pub const PARAMETER: &[Key] = &[
 pub const GIVEN: &[Key] = &[
     required("value", Holds::Formula, "The function of X and t; it may use the names above it."),
     optional("unit", Holds::Text, "The unit, such as K."),
-    optional("doc", Holds::Text, "What it is, in a few words."),
+    optional("doc", Holds::Text, "A description, in a few words."),
 ];
 
 /// `[[balance]]`.
@@ -349,7 +353,7 @@ pub const STUDY: &[Key] = &[
 
 /// `[[extreme]]`.
 pub const EXTREME: &[Key] = &[
-    required("name", Holds::Text, "What is extreme, in a few words; each has another name."),
+    required("name", Holds::Text, "The extreme property, in a few words; each name is different."),
     required(
         "set",
         Holds::Names(Keeper::Field, &Holds::Formula),
@@ -387,7 +391,7 @@ pub const ROTATION: &[Key] = &[
 
 /// A material file.
 pub const MATERIAL_FILE: &[Key] = &[
-    required("material", Holds::Table(MATERIAL_HEADER), "What the material is."),
+    required("material", Holds::Table(MATERIAL_HEADER), "The material: its title and its energy."),
     optional(
         "parameters",
         Holds::Names(Keeper::Material, &Holds::Table(MATERIAL_PARAMETER)),
@@ -407,8 +411,8 @@ pub const MATERIAL_FILE: &[Key] = &[
 
 /// `[material]` of a material file.
 pub const MATERIAL_HEADER: &[Key] = &[
-    required("title", Holds::Text, "What the material is, in a few words."),
-    optional("reference", Holds::Text, "Who published it, and where."),
+    required("title", Holds::Text, "A title for the material, in a few words."),
+    optional("reference", Holds::Text, "The authors and the publication."),
     required(
         "strain_energy",
         Holds::Formula,
@@ -424,13 +428,13 @@ pub const MATERIAL_HEADER: &[Key] = &[
 /// One of the `[parameters]` of a material.
 pub const MATERIAL_PARAMETER: &[Key] = &[
     optional("unit", Holds::Text, "The unit, such as Pa."),
-    optional("doc", Holds::Text, "What it is, in a few words."),
+    optional("doc", Holds::Text, "A description, in a few words."),
 ];
 
 /// One of the `[given]` of a material.
 pub const MATERIAL_GIVEN: &[Key] = &[
     optional("unit", Holds::Text, "The unit, such as Pa."),
-    optional("doc", Holds::Text, "What it is, in a few words."),
+    optional("doc", Holds::Text, "A description, in a few words."),
     optional(
         "rest",
         Holds::Formula,

@@ -1,8 +1,8 @@
-//! The text of one expression, and the way back from any of its bytes to the file.
+//! The text of one expression, and the map from each of its bytes to the file.
 //!
-//! A TOML string is not its own text: it has quotes, escapes and line continuations, and a bare
-//! number may have underscores. A [`Formula`] keeps a map from its text to the source, so that a
-//! message about an expression can point at the very character the user typed.
+//! The text of a TOML string differs from its source: it has quotes, escapes and line continuations, and a bare number may have
+//! underscores. A [`Formula`] stores a map from its text to the source, so that a message about an expression can point at the
+//! very character that the user typed.
 
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ pub struct Formula {
     pub text: String,
     /// The whole value in the file, quotes included.
     pub span: Span,
-    /// Consecutive pieces that cover the text; empty for a formula that stands for a mistake.
+    /// Consecutive pieces that cover the text; empty for a formula whose mistake has been reported.
     pieces: Vec<Piece>,
 }
 
@@ -24,20 +24,19 @@ pub struct Formula {
 struct Piece {
     text: Range<usize>,
     source: Range<usize>,
-    /// Copied byte by byte, so that places inside correspond; otherwise the piece is one escape.
+    /// Whether the piece is copied byte by byte, so that places inside correspond; otherwise it is one escape.
     verbatim: bool,
 }
 
 impl Formula {
-    /// The formula of a TOML string: `raw` is the source text at `span`, quotes included, and
-    /// `decoded` is what it means.
+    /// The formula of a TOML string: `raw` is the source text at `span`, quotes included, and `decoded` is its value.
     pub(crate) fn from_string(raw: &str, decoded: &str, span: Span) -> Self {
         let mut scan = Scan::new(raw, span);
         if is_quoted(raw) {
             scan.string();
         }
         if !is_quoted(raw) || scan.formula.text != decoded {
-            // Only a string that TOML itself refused; the caret then covers all of it.
+            // This happens only for a string that TOML itself refused; the caret then covers all of it.
             scan.formula.text = decoded.into();
             let (text, source) = (0..decoded.len(), span.start..span.end);
             scan.formula.pieces = vec![Piece { text, source, verbatim: false }];
@@ -55,20 +54,20 @@ impl Formula {
         scan.formula
     }
 
-    /// The formula of a text that is nothing else, such as an argument of a command.
+    /// The formula of a text on its own, such as an argument of a command.
     pub fn plain(text: &str, span: Span) -> Self {
         let mut scan = Scan::new(text, span);
         scan.copy(text.len());
         scan.formula
     }
 
-    /// A formula in place of one whose mistake has been reported. It has no text, and parsing it
-    /// gives nothing and reports nothing.
+    /// A formula in place of one whose mistake has been reported. It has no text, and parsing it returns nothing and reports
+    /// nothing.
     pub fn reported(span: Span) -> Self {
         Formula { text: String::new(), span, pieces: Vec::new() }
     }
 
-    /// Whether this stands for a mistake that has been reported.
+    /// Whether the mistake of this formula has been reported.
     pub fn is_reported(&self) -> bool {
         self.pieces.is_empty()
     }
@@ -80,7 +79,7 @@ impl Formula {
         Span { source: self.span.source, start, end: end.max(start) }
     }
 
-    /// Where the character that starts at `offset` stands.
+    /// The place of the character that starts at `offset`.
     fn source_of(&self, offset: usize) -> usize {
         let after = self.pieces.partition_point(|piece| piece.text.end <= offset);
         match self.pieces.get(after) {
@@ -90,7 +89,7 @@ impl Formula {
         }
     }
 
-    /// Where the character that ends at `offset` ends.
+    /// The end of the character that ends at `offset`.
     fn source_end_of(&self, offset: usize) -> usize {
         let holding = self.pieces.partition_point(|piece| piece.text.end < offset);
         match self.pieces.get(holding) {
@@ -111,7 +110,7 @@ struct Scan<'a> {
 
 impl<'a> Scan<'a> {
     fn new(raw: &'a str, span: Span) -> Self {
-        // A piece without text, so that an empty string is not taken for a reported mistake.
+        // A piece without text distinguishes an empty string from a reported mistake.
         let opening = Piece { text: 0..0, source: span.start..span.start, verbatim: false };
         let formula = Formula { text: String::new(), span, pieces: vec![opening] };
         Scan { raw, position: 0, base: span.start, formula }
@@ -125,7 +124,7 @@ impl<'a> Scan<'a> {
         self.position += length;
     }
 
-    /// Takes source text as it stands.
+    /// Copies source text unchanged.
     fn copy(&mut self, length: usize) {
         let copied = &self.rest()[..length];
         let end = self.base + self.position + length;
@@ -141,7 +140,7 @@ impl<'a> Scan<'a> {
         self.position += length;
     }
 
-    /// Takes one character for an escape of `length` bytes.
+    /// Reads an escape of `length` bytes as one character.
     fn escape(&mut self, value: char, length: usize) {
         let start = self.formula.text.len();
         self.push(start..start + value.len_utf8(), length, false);
@@ -192,7 +191,7 @@ impl<'a> Scan<'a> {
     }
 }
 
-/// Whether a text is a string with both its quotes, as all are in valid TOML.
+/// Whether a text is a string with both its quotes, as in all valid TOML.
 fn is_quoted(raw: &str) -> bool {
     ['"', '\'']
         .iter()
@@ -204,7 +203,7 @@ fn newline(text: &str) -> usize {
     if text.starts_with("\r\n") { 2 } else { usize::from(text.starts_with('\n')) }
 }
 
-/// The character that an escape means, and the length of the escape without its backslash.
+/// The character of an escape, and the length of the escape without its backslash.
 fn escaped(after: &str) -> Option<(char, usize)> {
     let kind = after.chars().next()?;
     let digits = match kind {
@@ -244,7 +243,7 @@ mod tests {
     use super::*;
     use crate::source::Sources;
 
-    /// What the source has at the place of each occurrence of `needle` in the text.
+    /// The source text at the place of each occurrence of `needle` in the text.
     fn shown(raw: &str, needle: &str) -> String {
         let mut sources = Sources::default();
         let id = sources.add("x.toml", raw);

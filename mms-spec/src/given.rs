@@ -1,4 +1,4 @@
-//! Given fields: functions of X and t, such as a pressure or a temperature, that a material takes or that a field file defines.
+//! Given fields: functions of X and t, such as a pressure or a temperature, that a material uses or that a field file defines.
 
 use crate::foreign::Foreign;
 use crate::format::{GIVEN, MATERIAL_GIVEN};
@@ -15,13 +15,13 @@ pub struct MaterialGiven {
     pub name: Spanned<String>,
     /// The unit, as written.
     pub unit: Option<Spanned<String>>,
-    /// One line on what it is.
+    /// A description, in one line.
     pub doc: Option<Foreign>,
-    /// Its value in the state of rest, at which the material is judged; 0 if the file gives none.
+    /// The value in the state of rest, at which the material is judged; 0 if the file has none.
     pub rest: Option<Formula>,
 }
 
-/// A given field of a field file's own.
+/// A given field of a field file itself.
 #[derive(Clone, Debug)]
 pub struct GivenSpec {
     /// The name.
@@ -30,7 +30,7 @@ pub struct GivenSpec {
     pub value: Formula,
     /// The unit, as written.
     pub unit: Option<Spanned<String>>,
-    /// One line on what it is.
+    /// A description, in one line.
     pub doc: Option<Foreign>,
 }
 

@@ -1,5 +1,5 @@
-//! Values that live as long as the program, each kept once, as a compiler keeps the names of a program: what files name, and what
-//! is copied and compared wherever it is used.
+//! Values that live as long as the program, each stored once, like the names in a compiler: for names from files, which are
+//! copied and compared often.
 
 use std::borrow::Borrow;
 use std::collections::BTreeSet;
@@ -9,7 +9,7 @@ use std::sync::{Mutex, PoisonError};
 pub struct Interner<T: ?Sized + 'static>(Mutex<BTreeSet<&'static T>>);
 
 impl<T: ?Sized + Ord> Interner<T> {
-    /// No value yet.
+    /// An interner without values.
     pub const fn new() -> Self {
         Interner(Mutex::new(BTreeSet::new()))
     }

@@ -1,4 +1,4 @@
-//! The functions of the language of formulas, and the words of other languages that it lacks.
+//! The functions of the language of formulas, and words of other languages that it does not have.
 
 /// The functions of the language.
 pub const FUNCTIONS: &[&str] = &[
@@ -6,17 +6,17 @@ pub const FUNCTIONS: &[&str] = &[
     "atan2", "hypot", "cbrt",
 ];
 
-/// The page on what is not covered, as a literal.
+/// The page on the limits of the scope, as a literal.
 macro_rules! scope {
     () => {
         "docs/scope.md"
     };
 }
 
-/// The page on what is not covered, and what is nearest to it.
+/// The page on the limits of the scope, and the nearest alternatives.
 pub const SCOPE: &str = scope!();
 
-/// The advice on a word that other languages and books have, and this one not.
+/// The advice on a word of other languages and books that this language does not have.
 pub fn elsewhere(word: &str) -> Option<&'static str> {
     Some(match word {
         "log" => "the natural logarithm is `ln(x)`",
@@ -43,7 +43,7 @@ pub fn elsewhere(word: &str) -> Option<&'static str> {
     })
 }
 
-/// The advice on a power between a function and its argument, as in `sin^2(X)`, if a text ends so.
+/// The advice on a power between a function and its argument, as in `sin^2(X)`, if a text ends in this way.
 pub fn power_of_function(text: &str) -> Option<String> {
     let (before, exponent) = text.trim_end().rsplit_once('^')?;
     let is_word = |it: char| it.is_ascii_alphanumeric() || it == '_';
@@ -51,5 +51,5 @@ pub fn power_of_function(text: &str) -> Option<String> {
     let exponent: u32 = exponent.trim().parse().ok()?;
     FUNCTIONS
         .contains(&name)
-        .then(|| format!("the power of a function stands behind its call: `{name}(..)^{exponent}`"))
+        .then(|| format!("the power of a function follows its call: `{name}(..)^{exponent}`"))
 }

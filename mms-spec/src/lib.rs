@@ -1,14 +1,12 @@
-//! From TOML to [`FieldSpec`] and [`MaterialSpec`]: what a file says, in form only.
+//! Reads TOML to [`FieldSpec`] and [`MaterialSpec`]: the content of a file, in form only.
 //!
-//! Files are read through the TOML parser's spanned tables, key by key, so that the digits of numbers, the order
-//! of keys and the place of every value survive. The promise: every key of format 1 is read, every key that is not
-//! in it is refused, every value has its place, and one run reports every mistake of form in a file, each once.
-//! Names are checked where they are defined; what they mean where they are used is for `expr` to resolve, and
-//! nothing here knows calculus.
+//! Files are read through the TOML parser's spanned tables, key by key, so that the digits of numbers, the order of keys and
+//! the place of every value survive. The promise: every key of format 1 is read, every other key is refused, every value has
+//! its place, and one run reports every mistake of form in a file, each once. Names are checked where they are defined; `expr`
+//! resolves them where they are used, and this crate has no calculus.
 //!
-//! A mistake never hides another: what could not be read is replaced by a formula that stands for it
-//! ([`Formula::reported`]), so that the counts are right and later phases can go on without reporting
-//! consequences.
+//! A mistake never hides another: an unreadable formula is replaced by an empty one that is marked as reported
+//! ([`Formula::reported`]), so that the counts are right and later phases can continue without reporting consequences.
 
 mod balance;
 mod boundary;

@@ -16,11 +16,10 @@ use crate::symbols::{LetSpec, MaterialParameter, lets, material_parameters};
 use crate::syntax::{self, Kind};
 use crate::table::{Entry, Reader, Table};
 
-/// Which material a field uses, and with what in the place of its parameters.
+/// The material of a field, and the values of its parameters.
 #[derive(Clone, Debug)]
 pub struct MaterialUse {
-    /// A shipped material's stem, or the path of a material file; empty where it is missing, which
-    /// has been reported.
+    /// A shipped material's stem, or the path of a material file; empty if it is missing, which has been reported.
     pub model: Spanned<Foreign>,
     /// The reference density rho0; a static field may have none.
     pub density: Option<Formula>,
@@ -39,16 +38,15 @@ pub struct MaterialUse {
 pub struct MaterialSpec {
     /// The file's stem.
     pub name: Foreign,
-    /// What it is, in a few words.
+    /// The title, in a few words.
     pub title: Foreign,
-    /// Where it comes from.
+    /// The published source.
     pub reference: Option<Foreign>,
     /// The strain-energy density W per unit reference volume.
     pub strain_energy: Formula,
-    /// Whether W stays the same under rotations: not in the small strain, and not where the file
-    /// says so.
+    /// Whether W stays the same under rotations: false for the small strain, and if the file says so.
     pub frame_indifferent: bool,
-    /// The key by which the file says that it does.
+    /// The key by which the file claims that it does.
     pub claims_indifference: Option<Span>,
     /// The parameters.
     pub parameters: Vec<MaterialParameter>,
@@ -56,13 +54,13 @@ pub struct MaterialSpec {
     pub givens: Vec<MaterialGiven>,
     /// The definitions, in order.
     pub lets: Vec<LetSpec>,
-    /// The pair of moduli that the field gives in place of the file's own.
+    /// The pair of moduli that the field states instead of the file's own.
     pub moduli: Option<Pair>,
-    /// Formulas that have lost their place to a reported mistake.
+    /// Formulas that lost their place because of a reported mistake.
     pub stray: Vec<Formula>,
-    /// Names of the language that the file would define: what uses them may mean either.
+    /// Names of the language that the file would define: a use may mean either one.
     pub refused: Vec<String>,
-    /// Whether part of the file could not be read: an unknown name may be a consequence of that.
+    /// Whether part of the file could not be read: an unknown name may be a consequence.
     pub incomplete: bool,
 }
 
@@ -80,12 +78,12 @@ impl MaterialSpec {
         parameters.chain(self.givens.iter().map(|given| given.name.value.as_str()))
     }
 
-    /// The given field of that name.
+    /// The given field with this name.
     pub fn given(&self, name: &str) -> Option<&MaterialGiven> {
         self.givens.iter().find(|given| given.name.value == name)
     }
 
-    /// Where the file uses one of some names first.
+    /// The first place where the file uses one of some names.
     pub fn first_use(&self, names: &[&str]) -> Option<Spanned<String>> {
         self.formulas().find_map(|formula| {
             let ast = syntax::parse(formula, &mut Vec::new())?;
@@ -98,19 +96,19 @@ impl MaterialSpec {
         })
     }
 
-    /// Where W uses the small strain first, which a rotation changes.
+    /// The first place where W uses the small strain, which changes under rotations.
     pub fn small_strain(&self) -> Option<Spanned<String>> {
         self.first_use(&["eps_trace", "eps_squared"])
     }
 
-    /// Whether W is a function of I4: then the field gives the direction of the fibres.
+    /// Whether W is a function of I4: then the field states the direction of the fibres.
     pub fn has_fibres(&self) -> bool {
         self.first_use(&["I4"]).is_some()
     }
 }
 
 impl MaterialUse {
-    /// Tells the given fields from the parameters, which look alike until the material is known.
+    /// Separates the given fields from the parameters, which look alike until the material is known.
     pub fn tell_givens(&mut self, material: &MaterialSpec) {
         let (givens, arguments) = std::mem::take(&mut self.arguments)
             .into_iter()
@@ -131,8 +129,8 @@ impl MaterialUse {
     }
 }
 
-/// The path of the material file that the text of a field names, as in `model = "./mine.toml"`, for whoever gathers files
-/// before any is read. What is wrong with the text is left to [`read_field`](super::read_field).
+/// The path of the material file that the text of a field names, as in `model = "./mine.toml"`, for code that gathers files
+/// before any is read. [`read_field`](super::read_field) reports mistakes in the text.
 pub(super) fn own_material(text: &str) -> Option<String> {
     let table = DeTable::parse(text).ok()?;
     let material = table.get_ref().get("material")?.get_ref().as_table()?;
@@ -178,7 +176,7 @@ fn model<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Option<Spanned<Forei
     Some(Spanned { value: model.value.into(), span: model.span })
 }
 
-/// Keys that would be arguments, but for their likeness to a key that is absent.
+/// Keys that would be arguments, but resemble a missing key.
 fn misspelt_keys(
     table: &Table<'_>,
     own_keys: &[&'static str],
@@ -201,7 +199,7 @@ fn misspelt_keys(
     misspelt
 }
 
-/// Reads a material file. `None` only where the file is too long to be read, or is that of a field.
+/// Reads a material file. Returns `None` only if the file is too long to be read, or is a field file.
 pub fn read_material(
     sources: &Sources,
     id: SourceId,
@@ -244,7 +242,7 @@ pub fn read_material(
     };
     match reader.required_table(&root, "material") {
         Some(entry) => header(&entry, &mut spec, &mut reader),
-        // Nor is there anything to say of a file without its one necessary table.
+        // Without its one required table, nothing more is reported about the file.
         None => reader.lost_names = true,
     }
     (spec.stray, spec.refused) = (reader.stray, reader.refused);

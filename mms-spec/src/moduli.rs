@@ -1,9 +1,9 @@
-//! The moduli of an isotropic solid, of which any two determine the others: a field may give another
-//! pair than the one that its material is written in.
+//! The moduli of an isotropic solid, any two of which determine the others: a field may state another pair than the one in
+//! which its material is written.
 //!
-//! The conversions are those of linear elasticity in three dimensions (Bonet & Wood, Nonlinear
-//! Continuum Mechanics for Finite Element Analysis, 2008, section 6.6). A converted material is one
-//! like any other: its parameters are the given pair, and its own are definitions above the rest.
+//! The conversions come from linear elasticity in three dimensions (Bonet & Wood, Nonlinear Continuum Mechanics for Finite
+//! Element Analysis, 2008, section 6.6). A converted material is like any other: its parameters are the stated pair, and its
+//! own moduli are the first definitions.
 
 use crate::diagnostic::Diagnostic;
 use crate::field::FieldSpec;
@@ -21,13 +21,13 @@ pub const ENGINEERING: Pair = ["young", "nu"];
 const LAME: Pair = ["lambda", "mu"];
 const BULK_AND_SHEAR: Pair = ["kappa", "mu"];
 
-/// The pairs that a field may give.
+/// The pairs that a field may state.
 const PAIRS: [Pair; 3] = [LAME, ENGINEERING, BULK_AND_SHEAR];
 
-/// The pairs that a material may be written in.
+/// The pairs in which a material may be written.
 const OWN: [Pair; 2] = [LAME, BULK_AND_SHEAR];
 
-/// A modulus of a material, the pair that is given, and the one in terms of the other.
+/// A modulus of a material, the stated pair, and the modulus in terms of the pair.
 const CONVERSIONS: [(&str, Pair, &str); 5] = [
     ("lambda", ENGINEERING, "young*nu/((1 + nu)*(1 - 2*nu))"),
     ("lambda", BULK_AND_SHEAR, "kappa - 2*mu/3"),
@@ -39,8 +39,8 @@ const CONVERSIONS: [(&str, Pair, &str); 5] = [
 const DOCS: [(&str, &str); 3] =
     [("young", "Young's modulus"), ("nu", "Poisson's ratio"), ("kappa", "bulk modulus")];
 
-/// The pair that a material is written in, and those that a field may give in its place: none where
-/// the material uses one of their names for something else.
+/// The pair in which a material is written, and the pairs that a field may state instead: none if the material uses one of
+/// their names for something else.
 pub fn pairs(material: &MaterialSpec) -> Option<(Pair, Vec<Pair>)> {
     let is_parameter =
         |name: &str| material.parameters.iter().any(|parameter| parameter.name.value == name);
@@ -52,8 +52,8 @@ pub fn pairs(material: &MaterialSpec) -> Option<(Pair, Vec<Pair>)> {
     Some((own, others.filter(|pair| pair.iter().all(|name| is_free(name))).collect()))
 }
 
-/// Rewrites a material in the moduli that the field gives. Reports moduli that are no pair, and
-/// leaves nothing of them to complain about.
+/// Rewrites a material in the moduli that the field states. Reports moduli that are no pair, and removes them so that they
+/// cause no further messages.
 pub fn convert(
     sources: &mut Sources,
     field: &FieldSpec,
@@ -118,7 +118,7 @@ fn mistake(
         .help(format!("give {}", accepted.join(", or ")))
 }
 
-/// Puts the given pair in the place of the material's own.
+/// Replaces the material's own pair by the stated one.
 fn rewrite(sources: &mut Sources, own: Pair, pair: Pair, material: &mut MaterialSpec) {
     let place = material.parameters.iter().position(|it| own.contains(&it.name.value.as_str()));
     let (moduli, others): (Vec<_>, Vec<_>) = std::mem::take(&mut material.parameters)

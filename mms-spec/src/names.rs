@@ -1,8 +1,8 @@
-//! Which names a file may define.
+//! The names that a file may define.
 //!
-//! Names are ASCII identifiers, and emitters rename what a target reserves. The language reserves `X Y Z t pi` and
-//! the functions; in an axisymmetric field also `R`, in a material also the invariants. Everything else is free, `F`
-//! and `fn` included.
+//! Names are ASCII identifiers, and emitters rename words that a target reserves. The language reserves `X Y Z t pi` and the
+//! functions; in an axisymmetric field also `R`, in a material also the invariants. All other names are free, including `F` and
+//! `fn`.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ use crate::table::Reader;
 /// The longest name that a file may define.
 pub const MAX_NAME: usize = 100;
 
-/// The names that are given everywhere in a field.
+/// The names that are defined in every field.
 pub const COORDINATES: &[(&str, &str)] = &[
     ("X", "the first reference coordinate"),
     ("Y", "the second reference coordinate"),
@@ -26,7 +26,7 @@ pub const COORDINATES: &[(&str, &str)] = &[
     ("pi", "the circle's number"),
 ];
 
-/// The names that are given in an axisymmetric field, and those of Cartesian coordinates, which it lacks.
+/// The names that are defined in an axisymmetric field, and the Cartesian coordinates, which it does not have.
 pub const AXISYMMETRIC: &[(&str, &str)] = &[
     ("R", "the distance from the axis"),
     ("Z", "the coordinate along the axis"),
@@ -36,7 +36,7 @@ pub const AXISYMMETRIC: &[(&str, &str)] = &[
     ("Y", "a Cartesian coordinate; this field is written in R and Z"),
 ];
 
-/// The names that a strain-energy density is written in.
+/// The names in which a strain-energy density is written.
 pub const INVARIANTS: &[(&str, &str)] = &[
     ("I1", "the first invariant, tr C"),
     ("I2", "the second invariant of C"),
@@ -47,19 +47,19 @@ pub const INVARIANTS: &[(&str, &str)] = &[
     ("eps_squared", "the small strain contracted with itself"),
 ];
 
-/// Which names are kept.
+/// The kind of file that reserves names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keeper {
-    /// In a field file.
+    /// A field file.
     Field,
-    /// In a field file that is written in R and Z.
+    /// A field file that is written in R and Z.
     Axisymmetric,
-    /// In a material file, which also keeps the invariants.
+    /// A material file, which also reserves the invariants.
     Material,
 }
 
 impl Keeper {
-    /// The names that are kept in a field file.
+    /// The kind of a field file in a space.
     pub fn of(space: Space) -> Keeper {
         if space.is_axisymmetric() { Keeper::Axisymmetric } else { Keeper::Field }
     }
@@ -72,7 +72,7 @@ pub fn is_identifier(text: &str) -> bool {
         && bytes.all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
 }
 
-/// What a kept name means, or `None` where users may define it.
+/// The meaning of a reserved name, or `None` if users may define it.
 pub fn reserved(name: &str, keeper: Keeper) -> Option<&'static str> {
     let among = |names: &[(&str, &'static str)]| {
         names.iter().find(|(kept, _)| *kept == name).map(|(_, meaning)| *meaning)
@@ -95,12 +95,12 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// No names yet.
+    /// A file without names.
     pub fn new(keeper: Keeper) -> Self {
         Names { keeper, defined: BTreeMap::new(), own: BTreeMap::new() }
     }
 
-    /// Names the quantities of a given field or a balance. Returns whether they may be called so: otherwise the reason has
+    /// Defines the quantities of a given field or a balance. Returns whether the names are allowed: otherwise the reason has
     /// been reported.
     pub fn define_own(
         &mut self,
@@ -127,7 +127,7 @@ impl Names {
         true
     }
 
-    /// Defines a name. Returns whether it may be: otherwise the reason has been reported.
+    /// Defines a name. Returns whether it is allowed: otherwise the reason has been reported.
     pub fn define(&mut self, name: &Spanned<String>, reader: &mut Reader<'_>) -> bool {
         match self.refusal(name, reader) {
             None => {
@@ -167,7 +167,7 @@ impl Names {
     }
 }
 
-/// The mistake of a text that is no name, or too long a name.
+/// The mistake of a text that is no name, or is too long.
 pub(super) fn malformed(name: &Spanned<String>) -> Option<Diagnostic> {
     let shown = quoted(&name.value);
     if !is_identifier(&name.value) {

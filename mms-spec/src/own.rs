@@ -10,7 +10,7 @@
 //! | `NormalFlux` | `heat_normal_flux` | Q.N on a face with the outward unit normal N |
 //! | `Residual` | `volume_residual` | the left side of a constraint |
 //!
-//! Their descriptions are interned, so that a quantity stays something to copy and to compare.
+//! Their descriptions are interned, so that a quantity can be copied and compared.
 
 use std::ops::Deref;
 
@@ -69,7 +69,7 @@ impl Part {
 pub struct Described {
     /// The position among the quantities that the file defines.
     pub place: usize,
-    /// Which part of that.
+    /// The part of the given field or of the balance.
     pub part: Part,
     /// The name of the given field or the balance.
     pub of: String,
@@ -79,7 +79,7 @@ pub struct Described {
     pub symbol: String,
     /// The unit; empty if the file states none.
     pub unit: String,
-    /// One sentence.
+    /// The description, in one sentence.
     pub doc: String,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::own::{Own, Part};
 
-/// How many components a quantity has: [`Space::components`](crate::Space::components).
+/// The number of components of a quantity: [`Space::components`](crate::Space::components).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// One component.
@@ -19,7 +19,7 @@ macro_rules! quantities {
         on_request { $($requested:ident,)* }
         $($variant:ident $name:literal $symbol:literal $shape:ident $unit:literal $doc:literal,)*
     ) => {
-        /// What follows from a displacement field: the quantities a user can ask for.
+        /// A quantity that follows from a displacement field and that a user can request.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Quantity {
             $(#[doc = $doc] $variant,)*
@@ -31,8 +31,8 @@ macro_rules! quantities {
             /// Every quantity that a field is compiled with, in the order of derivation.
             pub const ALL: &[Quantity] = &[$(Quantity::$compiled,)*];
 
-            /// Those that follow from the others by a few operations, and that no solver needs: they are derived where
-            /// they are asked for, so that a field that is compiled does not carry them.
+            /// The quantities that follow from the others by a few operations, and that no solver needs: they are derived on
+            /// request, so that compiled fields do not contain them.
             pub const ON_REQUEST: &[Quantity] = &[$(Quantity::$requested,)*];
 
             /// The glossary's identifier, used in every target, in JSON and on the command line.
@@ -67,7 +67,7 @@ macro_rules! quantities {
                 }
             }
 
-            /// One sentence on what it is.
+            /// The description, in one sentence.
             pub fn doc(self) -> &'static str {
                 match self {
                     $(Quantity::$variant => $doc,)*
@@ -115,17 +115,17 @@ quantities! {
 }
 
 impl Quantity {
-    /// Those that a point and a time determine; a traction also needs the normal of a boundary.
+    /// The quantities that a point and a time determine; a traction also needs the normal of a boundary.
     pub fn pointwise() -> impl Iterator<Item = Quantity> {
         Self::ALL.iter().copied().filter(|quantity| *quantity != Quantity::Traction)
     }
 
-    /// Those of a point and a time and those on request: all that can be evaluated.
+    /// All quantities that can be evaluated at a point and a time, including those on request.
     pub fn evaluated() -> impl Iterator<Item = Quantity> + Clone {
         Self::ALL.iter().chain(Self::ON_REQUEST).copied()
     }
 
-    /// The same sentence of a material of the small strain, which has one stress and one configuration.
+    /// The description for a material of the small strain, which has one stress and one configuration.
     pub fn doc_at_small_strain(self) -> &'static str {
         match self {
             Quantity::MassDensity => "Mass per unit volume rho = rho0, at small strain.",
@@ -143,7 +143,7 @@ impl Quantity {
         }
     }
 
-    /// Whether a field of the quantity takes a unit normal N beside X and t.
+    /// Whether the quantity depends on a unit normal N beside X and t.
     pub fn takes_normal(self) -> bool {
         match self {
             Quantity::Traction => true,
@@ -152,13 +152,13 @@ impl Quantity {
         }
     }
 
-    /// Whether it is derived where it is asked for.
+    /// Whether the quantity is derived on request.
     pub fn is_on_request(self) -> bool {
         Self::ON_REQUEST.contains(&self)
     }
 
-    /// The quantity of that identifier, or of one of the accepted aliases
-    /// `u x v a H F J C B E rho P PK1 S PK2 p sigma b W` (`div_p` and `div_sigma` are both).
+    /// The quantity with this identifier, or with one of the accepted aliases `u x v a H F J C B E rho P PK1 S PK2 p sigma b W`
+    /// (`div_p` and `div_sigma` are both).
     pub fn from_name(name: &str) -> Option<Quantity> {
         let name = match name {
             "PK1" => "P",
@@ -170,19 +170,20 @@ impl Quantity {
         })
     }
 
-    /// The quantity of a name or alias in a field that defines quantities of its own: a given field `p` is what `p` means.
+    /// The quantity with a name or alias in a field that defines quantities of its own: if it has a given field `p`, `p` means
+    /// that.
     pub fn among(own: &[Own], name: &str) -> Option<Quantity> {
         let own = own.iter().find(|own| own.name == name);
         own.map(|own| Quantity::Own(*own)).or_else(|| Self::from_name(name))
     }
 
-    /// Whether the name means a quantity in every field, so that no file may give it to one of its own. `p` does not: a
-    /// given field may be called so.
+    /// Whether the name means a quantity in every field, so that no file may define it. `p` does not: a given field may have
+    /// this name.
     pub fn reserves(name: &str) -> bool {
         name != "p" && Self::from_name(name).is_some()
     }
 }
 
-/// The symbols that are accepted in place of identifiers.
+/// The symbols that are accepted instead of identifiers.
 const ALIASED: &[&str] =
     &["u", "x", "v", "a", "H", "F", "J", "C", "B", "E", "rho", "P", "S", "p", "sigma", "b", "W"];

@@ -1,4 +1,4 @@
-//! A rigid motion on top of a field: `[rigid]`, or the same keys on their own.
+//! A rigid motion on top of a field: `[rigid]`, or its keys on their own.
 
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
@@ -35,7 +35,7 @@ pub enum Rotation {
 }
 
 impl RigidSpec {
-    /// Its formulas: of the rotation, then of the translation.
+    /// The formulas of the rotation, then of the translation.
     pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
         let rotation: &[Formula] = match &self.rotation {
             Some(Rotation::Space { axis, .. }) => axis,
@@ -53,7 +53,7 @@ impl RigidSpec {
     }
 }
 
-/// Reads a text that is one key, `rigid`, and its table: a motion that no field file holds.
+/// Reads a text with the single key `rigid` and its table: a motion that is in no field file.
 pub fn read_rigid(
     sources: &Sources,
     id: SourceId,

@@ -1,5 +1,5 @@
-//! The field in space of which an axisymmetric one is the section, as the text of a file:
-//! X = (R cos theta, R sin theta, Z), and u turns with theta.
+//! The field in space whose section is an axisymmetric field, as the text of a file: X = (R cos theta, R sin theta, Z), and u
+//! turns with theta.
 
 use crate::boundary::{Claim, Face};
 use crate::domain::{Body, is_zero};
@@ -7,8 +7,8 @@ use crate::field::FieldSpec;
 use crate::foreign::Foreign;
 use crate::formula::Formula;
 
-/// The text of the field in space of which an axisymmetric field is the section. The body is the part of the body of revolution
-/// that keeps away from the axis, where R has no derivative.
+/// The text of the field in space whose section is an axisymmetric field. The body is the part of the body of revolution away
+/// from the axis, where R has no derivative.
 ///
 /// # Errors
 /// The first property of the field that a file in space cannot have: given fields, further balances, a rigid motion, a material
@@ -114,8 +114,8 @@ fn body(field: &FieldSpec) -> String {
     text
 }
 
-/// The claim about the face of the body in space. Where the section ends at the axis, the body in space has a face, on which u is
-/// prescribed.
+/// The claim about the face of the body in space. If the section ends at the axis, the body in space has a face there, on which
+/// u is prescribed.
 fn claim(it: &crate::boundary::BoundarySpec) -> String {
     let (face, is_round) = match it.face.value {
         Face::RadialMin => ("inner", true),

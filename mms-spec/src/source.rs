@@ -7,16 +7,16 @@ use crate::foreign::Foreign;
 /// A text with the path that messages show for it.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// The path as a user should read it, relative to the manifest where there is one.
+    /// The path as a user should read it, relative to the manifest if there is one.
     pub path: Foreign,
     /// The whole text.
     pub text: String,
 }
 
-/// The text that a file holds.
+/// The text of a file.
 ///
 /// # Errors
-/// It is not text in UTF-8, and where.
+/// The file is not UTF-8 text; the error has the place.
 pub fn text(bytes: Vec<u8>) -> io::Result<String> {
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
@@ -29,12 +29,12 @@ pub fn text(bytes: Vec<u8>) -> io::Result<String> {
     })
 }
 
-/// Which of the [`Sources`] a place is in.
+/// The index of one of the [`Sources`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SourceId(u32);
 
 impl SourceId {
-    /// Its position in the order of addition.
+    /// The position in the order of addition.
     pub fn index(self) -> usize {
         self.0 as usize
     }
@@ -56,11 +56,11 @@ pub struct Span {
 pub struct Spanned<T> {
     /// The value.
     pub value: T,
-    /// Where it stands.
+    /// The place in the file.
     pub span: Span,
 }
 
-/// The texts of one compilation: the field file and its material file, and those that a selection is made of.
+/// The texts of one compilation: the field file and its material file, and the texts of a selection.
 #[derive(Clone, Debug, Default)]
 pub struct Sources(Vec<Source>);
 
@@ -72,7 +72,7 @@ impl Sources {
         id
     }
 
-    /// The text of that position in the order of addition.
+    /// The text at this position in the order of addition.
     pub fn nth(&self, index: usize) -> Option<SourceId> {
         let id = u32::try_from(index).ok()?;
         (index < self.0.len()).then_some(SourceId(id))
@@ -83,20 +83,21 @@ impl Sources {
         self.0.iter().map(|source| source.text.as_str())
     }
 
-    /// 64 bits of all texts, in hexadecimal: FNV-1a (Fowler, Noll and Vo). They tell inputs apart, and are the same on every machine.
+    /// A hash of all texts, 64 bits in hexadecimal: FNV-1a (Fowler, Noll and Vo). It distinguishes inputs, and is the same on
+    /// every machine.
     pub fn hash(&self) -> String {
         let of = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         let hash = self.texts().flat_map(str::bytes).fold(0xcbf2_9ce4_8422_2325, of);
         format!("{hash:016x}")
     }
 
-    /// The text of that id.
+    /// The text with this id.
     pub fn get(&self, id: SourceId) -> &Source {
         &self.0[id.0 as usize]
     }
 
-    /// The bytes `start..end` of a text, moved onto character boundaries inside it: a place that
-    /// is always safe to slice, whoever computed it.
+    /// The bytes `start..end` of a text, moved onto character boundaries inside it: a place that is safe to slice for any
+    /// input.
     pub fn span(&self, source: SourceId, start: usize, end: usize) -> Span {
         let text = &self.get(source).text;
         let start = boundary_before(text, start);
@@ -125,7 +126,7 @@ impl Sources {
         (line, before[line_start..].chars().count() + 1)
     }
 
-    /// `path:line:column` of where a span starts, for a person.
+    /// `path:line:column` of the start of a span, for a person.
     pub fn place(&self, span: Span) -> String {
         let (line, column) = self.location(span);
         format!("{}:{line}:{column}", self.get(span.source).path.shown())

@@ -1,21 +1,21 @@
-//! The coordinates that a field is written in, and how many numbers a point, a vector and a tensor have in them.
+//! The coordinates in which a field is written, and the numbers of components of points, vectors and tensors in them.
 //!
 //! | `coordinates` | a point | a vector | a tensor |
 //! |---|---|---|---|
 //! | `cartesian` | `dimension` numbers | as many | `dimension` rows |
 //! | `axisymmetric` | R, Z | R, Z; with a swirl also theta | 3 rows: R, Z, theta |
 //!
-//! Components of an axisymmetric field refer to the fixed basis at the reference angle of the point: e_R, e_Z, and
-//! e_theta along the hoop.
+//! Components of an axisymmetric field refer to the fixed basis at the reference angle of the point: e_R, e_Z, and e_theta
+//! along the hoop.
 
 use crate::quantity::Shape;
 
 /// The coordinates of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Space {
-    /// Cartesian coordinates, of which there are so many.
+    /// Cartesian coordinates, and their number.
     Cartesian(usize),
-    /// R and Z of a field that is the same all around the axis Z.
+    /// R and Z of a field that is symmetric about the axis Z.
     Axisymmetric {
         /// Whether points also move along the hoop.
         swirl: bool,
@@ -59,7 +59,7 @@ impl Space {
         }
     }
 
-    /// Whether the field is the same all around the axis Z.
+    /// Whether the field is symmetric about the axis Z.
     pub fn is_axisymmetric(self) -> bool {
         matches!(self, Space::Axisymmetric { .. })
     }
@@ -80,7 +80,7 @@ impl Space {
         }
     }
 
-    /// The words for it, such as `2-D`.
+    /// The words for the space, such as `2-D`.
     pub fn noun(self) -> String {
         match self {
             Space::Cartesian(dimension) => format!("{dimension}-D"),

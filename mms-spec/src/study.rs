@@ -29,7 +29,7 @@ pub const PRECISIONS: &[&str] = &["f32", "f64"];
 /// The forms of the forcing that a study may name.
 pub const FORMS: &[&str] = &[Form::Stable.name(), Form::Fast.name()];
 
-/// A method and the order it must show. What is `None` or empty has the command's default.
+/// A method and the order it must show. A member that is `None` or empty has the command's default.
 #[derive(Clone, Debug)]
 pub struct StudySpec {
     /// The shape function, one of [`SHAPES`].
@@ -54,16 +54,16 @@ pub struct StudySpec {
     pub cells: Vec<usize>,
     /// The expected order.
     pub order: f64,
-    /// By how much the observed order may differ.
+    /// The largest allowed difference of the observed order.
     pub tolerance: Option<f64>,
-    /// Why this order is expected.
+    /// The reason for expecting this order.
     pub reason: Option<Foreign>,
     /// The table.
     pub span: Span,
 }
 
 impl StudySpec {
-    /// Whether its order is that of a method.
+    /// Whether the order belongs to this method.
     pub fn is_of(&self, shape: &str, integrator: &str, formulation: &str) -> bool {
         self.shape == shape && self.integrator == integrator && self.formulation() == formulation
     }
@@ -73,7 +73,7 @@ impl StudySpec {
     }
 }
 
-/// What the command does where a study leaves a choice open.
+/// The defaults of the command for choices that a study leaves open.
 const DEFAULT_SHAPE: &str = "cpgimp";
 const DEFAULT_INTEGRATOR: &str = "leapfrog";
 const DEFAULT_FORMULATION: &str = "updated";

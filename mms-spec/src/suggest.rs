@@ -1,10 +1,10 @@
-//! "Did you mean ...?": the nearest of the names that would have been right.
+//! Suggestions ("did you mean ...?"): the valid name that is nearest to a wrong one.
 
-/// Longer names are not compared: the cost grows with the product of the lengths.
+/// The longest names that are compared: the cost grows with the product of the lengths.
 const MAX_LENGTH: usize = 64;
 
-/// The candidate that `name` was most likely meant to be: one that differs by case only, or by
-/// few enough edits for its length. Of equally near candidates the first wins.
+/// The candidate that `name` was most likely meant to be: one that differs by case only, or by few enough edits for its length.
+/// Among equally near candidates the first is returned.
 pub fn did_you_mean<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
@@ -19,8 +19,8 @@ pub fn did_you_mean<'a>(
     best.map(|(_, candidate)| candidate)
 }
 
-/// The distance of two names, where it is small enough to be a slip. A third of the letters may
-/// differ, so names of one or two letters must agree but for case.
+/// The distance of two names, if it is small enough to be a slip. A third of the letters may differ, so names of one or two
+/// letters may differ in case only.
 fn likely_distance(name: &str, candidate: &str) -> Option<usize> {
     if name.len() > MAX_LENGTH || candidate.len() > MAX_LENGTH || name == candidate {
         return None;
@@ -30,7 +30,7 @@ fn likely_distance(name: &str, candidate: &str) -> Option<usize> {
     }
     let (a, b): (Vec<char>, Vec<char>) = (name.chars().collect(), candidate.chars().collect());
     let likely = a.len().max(b.len()) / 3;
-    // Each letter that one has more is an edit.
+    // Each additional letter is an edit.
     if a.len().abs_diff(b.len()) > likely {
         return None;
     }
@@ -38,7 +38,7 @@ fn likely_distance(name: &str, candidate: &str) -> Option<usize> {
     (distance <= likely).then_some(distance)
 }
 
-/// How many insertions, deletions, replacements and swaps of neighbours turn `a` into `b`.
+/// The number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
 fn edit_distance(a: &[char], b: &[char]) -> usize {
     let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
     rows[0] = (0..=b.len()).collect();
@@ -57,8 +57,7 @@ fn edit_distance(a: &[char], b: &[char]) -> usize {
     rows[a.len()][b.len()]
 }
 
-/// What to write in the place of a name that is not known: the one that is meant, or else what `otherwise` says,
-/// which is told all of them.
+/// Advice on an unknown name: the name that was probably meant, else the result of `otherwise`, which gets a list of all names.
 pub fn advice<'a>(
     name: &str,
     known: impl IntoIterator<Item = &'a str> + Clone,

@@ -13,7 +13,7 @@ use crate::table::{Entry, Reader, Table};
 pub struct LetSpec {
     /// The name.
     pub name: Spanned<String>,
-    /// What it stands for; it may use the names above it.
+    /// The formula; it may use the names above it.
     pub value: Formula,
 }
 
@@ -22,15 +22,15 @@ pub struct LetSpec {
 pub struct ParameterSpec {
     /// The name.
     pub name: Spanned<String>,
-    /// The value it has by default; it may use the parameters above it.
+    /// The default value; it may use the parameters above it.
     pub value: Formula,
     /// The unit, as written.
     pub unit: Option<Spanned<String>>,
-    /// The symbol in the math of LaTeX.
+    /// The symbol in LaTeX math.
     pub symbol: Option<Spanned<String>>,
-    /// One line on what it is.
+    /// A description, in one line.
     pub doc: Option<Foreign>,
-    /// The least and the greatest value it may take.
+    /// The least and the greatest allowed value.
     pub range: Option<[Formula; 2]>,
     /// Whether a selection makes it a constant.
     pub frozen: bool,
@@ -43,11 +43,11 @@ pub struct MaterialParameter {
     pub name: Spanned<String>,
     /// The unit, as written.
     pub unit: Option<Spanned<String>>,
-    /// One line on what it is.
+    /// A description, in one line.
     pub doc: Option<Foreign>,
 }
 
-/// Definitions in the order of the file. One whose name is refused is kept as a stray formula.
+/// Reads definitions in the order of the file. A formula whose name is refused is kept as a stray one.
 pub(super) fn lets<'a>(
     table: &Table<'a>,
     names: &mut Names,
@@ -55,7 +55,7 @@ pub(super) fn lets<'a>(
 ) -> Vec<LetSpec> {
     let mut lets = Vec::new();
     for Entry { key, value } in &table.entries {
-        // The header of another table in place of a formula takes the definitions below it.
+        // If the header of another table replaces a formula, that table contains the definitions below it.
         reader.lost_names |= value.get_ref().is_table();
         let value = reader.formula(&key.value, value);
         if names.define(key, reader) {
@@ -119,7 +119,7 @@ fn parameter<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> ParameterSpec {
     parameter
 }
 
-/// The symbol of a parameter, if it stands in the math of LaTeX without changing what surrounds it.
+/// The symbol of a parameter, if it is valid in LaTeX math without changing the text around it.
 fn math<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spanned<String>> {
     let symbol = reader.string(entry)?;
     let fault = if symbol.value.trim().is_empty() {
@@ -139,7 +139,7 @@ fn math<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spanned<String
     None
 }
 
-/// Whether each brace of a text has its partner; a backslash at the end would take the one behind it.
+/// Whether each brace of a text has its partner; a backslash at the end would escape the next brace.
 fn has_pairs(text: &str) -> bool {
     let (mut open, mut characters) = (0_usize, text.chars());
     while let Some(character) = characters.next() {
@@ -154,7 +154,7 @@ fn has_pairs(text: &str) -> bool {
     open == 0
 }
 
-/// Whether no parameter above has the symbol; reports the second one of the same symbol.
+/// Whether no parameter above has this symbol; reports the second one with the same symbol.
 fn is_new(symbol: &Spanned<String>, above: &[ParameterSpec], reader: &mut Reader<'_>) -> bool {
     let same = |it: &&ParameterSpec| it.symbol.as_ref().is_some_and(|it| it.value == symbol.value);
     let Some(first) = above.iter().find(same) else { return true };

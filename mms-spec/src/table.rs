@@ -1,8 +1,7 @@
-//! A table that knows where everything in it stands, and a reader that collects what is wrong.
+//! A table with the place of everything in it, and a reader that collects mistakes.
 //!
-//! Every function here reports its own mistakes and then returns the best that can be had, so
-//! that one run shows every mistake of a file. A value whose mistake is already known is passed
-//! over in silence, and a formula in its place is [`Formula::reported`].
+//! Every function here reports its own mistakes and then returns the best available value, so that one run shows every mistake
+//! of a file. A value whose mistake is already known is skipped silently, and its formula is replaced by [`Formula::reported`].
 
 use toml::de::{DeString, DeTable, DeValue};
 
@@ -14,7 +13,7 @@ use crate::language::elsewhere;
 use crate::source::{SourceId, Sources, Span, Spanned};
 use crate::suggest::{advice, did_you_mean};
 
-/// One file never gives more diagnostics than this.
+/// The largest number of diagnostics of one file.
 const MAX_DIAGNOSTICS: usize = 1000;
 
 /// A TOML value with its place.
@@ -25,24 +24,24 @@ pub type Value<'a> = toml::Spanned<DeValue<'a>>;
 pub struct Entry<'a> {
     /// The key, without quotes.
     pub key: Spanned<String>,
-    /// What it is set to.
+    /// The value of the key.
     pub value: &'a Value<'a>,
 }
 
 /// The entries of a table, in the order of the file.
 pub struct Table<'a> {
-    /// How messages call it, such as `[domain]`.
+    /// The name of the table in messages, such as `[domain]`.
     pub name: String,
-    /// Its header, or the whole of an inline table.
+    /// The place of its header, or of the whole inline table.
     pub span: Span,
     /// The entries.
     pub entries: Vec<Entry<'a>>,
-    /// Keys that are missing only because they are misspelt: reported as such.
+    /// Keys that are missing only because they are misspelt, and were reported as misspelt.
     pub(crate) misspelt: Vec<&'static str>,
 }
 
 impl<'a> Table<'a> {
-    /// A table with its name in messages and its place.
+    /// Makes a table with its name in messages and its place.
     pub fn new(
         name: impl Into<String>,
         span: Span,
@@ -56,22 +55,22 @@ impl<'a> Table<'a> {
         };
         let mut entries: Vec<_> =
             table.iter().map(|(own, value)| Entry { key: key(own), value }).collect();
-        // TOML sorts by name; the order of definitions is that of the file.
+        // TOML sorts by name; definitions have the order of the file.
         entries.sort_by_key(|entry| entry.key.span.start);
         Table { name: name.into(), span, entries, misspelt: Vec::new() }
     }
 
-    /// The value of that key.
+    /// The value of this key.
     pub fn value(&self, key: &str) -> Option<&'a Value<'a>> {
         self.get(key).map(|entry| entry.value)
     }
 
-    /// The keys among these that the table lacks.
+    /// The keys among these that are missing in the table.
     pub fn absent<'k>(&self, keys: &[&'k str]) -> Vec<&'k str> {
         keys.iter().copied().filter(|key| self.get(key).is_none()).collect()
     }
 
-    /// The entry of that key.
+    /// The entry of this key.
     pub fn get(&self, key: &str) -> Option<Entry<'a>> {
         self.entries.iter().find(|entry| entry.key.value == key).cloned()
     }
@@ -83,10 +82,10 @@ pub(crate) struct Reader<'a> {
     pub sources: &'a Sources,
     /// The text that is read.
     pub id: SourceId,
-    /// Formulas that have lost their place in the file's meaning to a reported mistake, such as a
-    /// component too many. Their own syntax is still worth checking.
+    /// Formulas that lost their place because of a reported mistake, such as an excess component. Their own syntax is still
+    /// checked.
     pub stray: Vec<Formula>,
-    /// Whether a table of names could not be read as one: a name may be defined in it.
+    /// Whether a table of names could not be read: a name may be defined in it.
     pub lost_names: bool,
     /// Names of the language that the file would define as well.
     pub refused: Vec<String>,
@@ -97,7 +96,7 @@ pub(crate) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// A reader for a parsed file.
+    /// Makes a reader for a parsed file.
     pub fn new(
         sources: &'a Sources,
         id: SourceId,
@@ -141,10 +140,10 @@ impl<'a> Reader<'a> {
         self.sources.span_of(self.id, value)
     }
 
-    /// Whether TOML could not read a value, and has said so.
+    /// Whether TOML could not read a value, and has reported it.
     pub fn is_damaged(&self, value: &Value<'_>) -> bool {
         let place = value.span();
-        // TOML gives an empty place to a value that is missing.
+        // TOML uses an empty place for a missing value.
         place.is_empty()
             || self
                 .damage
@@ -160,14 +159,14 @@ impl<'a> Reader<'a> {
         table
     }
 
-    /// A table in which only these keys make sense.
+    /// Reads a table that may only have these keys.
     pub fn table(&mut self, entry: &Entry<'a>, name: &str, keys: &[Key]) -> Option<Table<'a>> {
         let mut table = self.open_table(entry, name)?;
         self.check_keys(&mut table, keys);
         Some(table)
     }
 
-    /// A table whose keys are the user's own.
+    /// Reads a table whose keys are the user's own.
     pub fn open_table(&mut self, entry: &Entry<'a>, name: &str) -> Option<Table<'a>> {
         match entry.value.get_ref() {
             DeValue::Table(table) => {
@@ -181,7 +180,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A table of the user's own names, where there is one.
+    /// Reads a table of the user's own names, if there is one.
     pub fn names(&mut self, root: &Table<'a>, key: &str) -> Option<Table<'a>> {
         let entry = root.get(key)?;
         let table = self.open_table(&entry, &format!("[{key}]"));
@@ -206,7 +205,7 @@ impl<'a> Reader<'a> {
         let absent = table.absent(&keys);
         for entry in &table.entries {
             let key = entry.key.value.as_str();
-            // A key that lost its header to a syntax error may be right where it was written.
+            // A key that lost its header to a syntax error may be right in its original table.
             if keys.contains(&key) || self.incomplete || self.is_full() {
                 continue;
             }
@@ -221,7 +220,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reports a key that belongs elsewhere; returns whether it is there.
+    /// Reports a key that belongs elsewhere; returns whether the table has it.
     pub fn refuse(&mut self, table: &Table<'a>, key: &str, reason: &str) -> bool {
         let Some(entry) = table.get(key) else { return false };
         let message = format!("`{key}` has no meaning here");
@@ -229,13 +228,13 @@ impl<'a> Reader<'a> {
         true
     }
 
-    /// The entry of a key that must be there.
+    /// The entry of a required key.
     pub fn required(&mut self, table: &Table<'a>, key: &str) -> Option<Entry<'a>> {
         let message = format!("missing key `{key}`");
         self.needed(table, key, message, format!("{} needs `{key}`", table.name))
     }
 
-    /// The entry of a table that must be there.
+    /// The entry of a required table.
     pub fn required_table(&mut self, root: &Table<'a>, key: &str) -> Option<Entry<'a>> {
         let message = format!("missing table [{key}]");
         self.needed(root, key, message, format!("{} needs [{key}]", root.name))
@@ -260,7 +259,7 @@ impl<'a> Reader<'a> {
         self.wrong_type_because(key, value, expected, None);
     }
 
-    /// Reports a value of the wrong type, and says what to write instead.
+    /// Reports a value of the wrong type, with advice on a right one.
     pub fn wrong_type_because(
         &mut self,
         key: &str,
@@ -286,7 +285,7 @@ pub(crate) fn list(names: &[&str]) -> String {
     names.join(", ")
 }
 
-/// A decimal number as it is written.
+/// A decimal number as written.
 pub fn decimal<'a>(value: &'a DeValue<'_>) -> Option<&'a str> {
     match value {
         DeValue::Integer(digits) if digits.radix() == 10 => Some(digits.as_str()),

@@ -1,9 +1,9 @@
-//! The rigid twin of a field, on demand: the field under a superposed rigid motion x* = Q x + d, which its file
-//! does not hold. It is a test of objectivity.
+//! The rigid twin of a field, on demand: the field under a superposed rigid motion x* = Q x + d, which its file does not
+//! contain. It is a test of objectivity.
 //!
-//! A twin is a different solution of the same equations. Faces keep what a rigid motion keeps: one that is free
-//! stays free, while one that was at rest moves, and its displacement is prescribed. Closed forms are those of the
-//! field at rest, and are left out.
+//! A twin is a different solution of the same equations. Claims that a rigid motion preserves stay: a free face stays free,
+//! while a face at rest moves, and its displacement is prescribed. Closed forms apply to the field without the motion, and are
+//! omitted.
 
 use crate::boundary::Claim;
 use crate::diagnostic::Diagnostic;
@@ -14,29 +14,29 @@ use crate::rigid::read_rigid;
 use crate::source::Sources;
 use crate::space::Space;
 
-/// A rigid motion that is put on top of a field.
+/// A rigid motion on top of a field.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Twin {
-    /// None.
+    /// No motion.
     #[default]
     Nothing,
-    /// One that is large and accelerated in every way: in the time window of the field it turns by
-    /// two radians, and moves the body by some times its size. See [`Twin::text`].
+    /// A motion that is large and accelerated in every way: in the time window of the field it turns by two radians, and moves
+    /// the body by a few times its size. See [`Twin::text`].
     Standard,
     /// The keys of `[rigid]`, as in `rotation = "pi*t", translation = ["t", "0"]`.
     Given(String),
 }
 
 impl Twin {
-    /// The keys of `[rigid]` that the motion of a field stands for, s being the fraction of the time
-    /// window that has passed, and L the length of the body along X, its outer radius, or its first edge:
+    /// The keys of `[rigid]` for the motion of a field. With s the elapsed fraction of the time window, and L the length of the
+    /// body along X, its outer radius, or its first edge, the standard motion is:
     ///
     /// - in one dimension the translation 3 L s^2,
-    /// - in two the angle s + s^2 and the translation 3 L s, -2 L s^2,
-    /// - in three the same about the axis 2, -1, 2, and L s (2 - s) along Z,
-    /// - of an axisymmetric field the translation 3 L s^2 along the axis.
+    /// - in two dimensions the angle s + s^2 and the translation 3 L s, -2 L s^2,
+    /// - in three dimensions the same about the axis 2, -1, 2, and L s (2 - s) along Z,
+    /// - for an axisymmetric field the translation 3 L s^2 along the axis.
     ///
-    /// None where there is no motion, or where the body or the window of the field could not be read.
+    /// `None` if there is no motion, or if the body or the window of the field could not be read.
     pub fn text(&self, field: &FieldSpec) -> Option<String> {
         let keys = match self {
             Twin::Nothing => return None,
@@ -46,7 +46,7 @@ impl Twin {
         Some(keys)
     }
 
-    /// Puts the motion on top of a field. Its text becomes a source of its own.
+    /// Adds the motion to a field. Its text becomes a source of its own.
     pub fn apply(
         &self,
         sources: &mut Sources,
@@ -129,7 +129,7 @@ fn first_edge(polygon: &Polygon) -> Option<String> {
     Some(format!("hypot({}, {})", along(0)?, along(1)?))
 }
 
-/// A formula as an operand, on one line: a name or a number stands for itself. None if a mistake in it has been reported.
+/// A formula as an operand, on one line: names and numbers without parentheses. `None` if a mistake in it has been reported.
 fn term(formula: &Formula) -> Option<String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
     let words = || formula.text.split_whitespace().collect::<Vec<_>>().join(" ");

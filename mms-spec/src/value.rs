@@ -1,4 +1,4 @@
-//! The values that a table holds: text, numbers, words of a fixed list, formulas.
+//! The values of a table: text, numbers, words of a fixed list, formulas.
 
 use toml::de::DeValue;
 
@@ -9,7 +9,7 @@ use crate::source::{Span, Spanned};
 use crate::suggest::advice;
 use crate::table::{Entry, Reader, Table, Value, decimal, list};
 
-/// Cells and particles beyond this are a slip.
+/// The largest number of cells and particles; more are a slip.
 pub const MAX_COUNT: usize = 1_000_000_000;
 
 impl<'a> Reader<'a> {
@@ -26,13 +26,13 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The text for people of a key that may be left out.
+    /// Reads the text for people of an optional key.
     pub fn optional_foreign(&mut self, table: &Table<'a>, key: &str) -> Option<Foreign> {
         let entry = table.get(key)?;
         self.string(&entry).map(|text| text.value.into())
     }
 
-    /// The string of a key that must be there.
+    /// Reads the string of a required key.
     pub fn required_string(&mut self, table: &Table<'a>, key: &str) -> Option<Spanned<String>> {
         let entry = self.required(table, key)?;
         self.string(&entry)
@@ -132,7 +132,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The formula of a key that must be there, or one that stands for it.
+    /// Reads the formula of a required key; if it is missing, returns a reported one.
     pub fn required_formula(&mut self, table: &Table<'a>, key: &str) -> Formula {
         match self.required(table, key) {
             Some(entry) => self.formula(key, entry.value),
@@ -140,8 +140,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// An array of exactly `count` formulas; `reason` says why so many. What is missing is
-    /// filled up with formulas that stand for the mistake.
+    /// Reads an array of exactly `count` formulas; `reason` explains the number. Missing ones are filled up with reported
+    /// formulas.
     pub fn formulas(&mut self, entry: &Entry<'a>, count: usize, reason: &str) -> Vec<Formula> {
         let (key, value) = (entry.key.value.as_str(), entry.value);
         let span = self.span(value);
@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
         formulas
     }
 
-    /// The formulas of a key that must be there, or as many that stand for them.
+    /// Reads the formulas of a required key; if it is missing, returns as many reported ones.
     pub fn required_formulas(
         &mut self,
         table: &Table<'a>,
@@ -187,7 +187,7 @@ impl<'a> Reader<'a> {
         std::array::from_fn(|_| formulas.next().unwrap_or_else(|| Formula::reported(span)))
     }
 
-    /// An array of pairs of formulas; none where that is reported.
+    /// Reads an array of pairs of formulas; `None` if a mistake is reported.
     pub fn pairs(&mut self, entry: &Entry<'a>, what: &str) -> Option<Vec<[Formula; 2]>> {
         let key = entry.key.value.as_str();
         let DeValue::Array(items) = entry.value.get_ref() else {
@@ -203,7 +203,7 @@ impl<'a> Reader<'a> {
         Some(items.iter().map(pair).collect())
     }
 
-    /// An array of strings; none where that is reported.
+    /// Reads an array of strings; `None` if a mistake is reported.
     pub fn strings(&mut self, entry: &Entry<'a>) -> Option<Vec<Spanned<String>>> {
         let DeValue::Array(items) = entry.value.get_ref() else {
             self.wrong_type(&entry.key.value, entry.value, "an array of strings");
@@ -227,7 +227,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Keeps a lone formula where an array should be, so that its syntax is checked all the same.
+    /// Keeps a lone formula that should be an array, so that its syntax is still checked.
     fn keep_stray(&mut self, key: &str, value: &Value<'a>) {
         if value.get_ref().is_str() {
             let formula = self.formula(key, value);

@@ -4,24 +4,24 @@ use dashu_ratio::RBig;
 
 use crate::source::{Span, Spanned};
 
-/// An expression in postfix order: every node stands after its operands, the root is last.
-/// Without boxes there is no deep tree to walk or to drop.
+/// An expression in postfix order: every node follows its operands, and the root is last. Without boxes there is no deep tree
+/// to walk or to drop.
 #[derive(Clone, Debug)]
 pub struct Ast {
     /// The nodes; never empty.
     pub nodes: Vec<Node>,
 }
 
-/// A part of an expression, and where it stands.
+/// A part of an expression, and its place.
 #[derive(Clone, Debug)]
 pub struct Node {
-    /// What it is.
+    /// The kind of the node.
     pub kind: Kind,
-    /// From its first to its last character, without parentheses around it.
+    /// The place, from its first to its last character, without parentheses around it.
     pub span: Span,
 }
 
-/// What a node is; operands are indices into [`Ast::nodes`].
+/// The kind of a node; operands are indices into [`Ast::nodes`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
     /// An exact number.

@@ -1,4 +1,4 @@
-//! From characters to tokens.
+//! Reads characters as tokens.
 
 use std::ops::Range;
 
@@ -9,19 +9,19 @@ use super::number;
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::formula::Formula;
 
-/// More of one formula's characters than this are not complained about.
+/// The largest number of complaints about characters of one formula.
 const MAX_COMPLAINTS: usize = 10;
 
 /// A token and its place in the formula's text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Token {
-    /// What it is.
+    /// The kind of the token.
     pub kind: TokenKind,
-    /// Its bytes in the text.
+    /// The bytes of the token in the text.
     pub range: Range<usize>,
 }
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum TokenKind {
     Number(RBig),
@@ -34,7 +34,7 @@ pub(super) enum TokenKind {
     End,
 }
 
-/// The tokens of a formula, the last one [`TokenKind::End`]. `None` where a character is wrong.
+/// The tokens of a formula, the last one [`TokenKind::End`]. `None` if a character is wrong.
 pub(super) fn tokens(formula: &Formula, diagnostics: &mut Vec<Diagnostic>) -> Option<Vec<Token>> {
     let mut lexer = Lexer { formula, position: 0, complaints: Vec::new() };
     let mut tokens = Vec::new();
@@ -68,7 +68,7 @@ impl<'a> Lexer<'a> {
         self.position += rest.len() - rest.trim_start_matches([' ', '\t', '\n', '\r']).len();
     }
 
-    /// Reads one token; `None` where it was wrong.
+    /// Reads one token; `None` if it is wrong.
     fn token(&mut self) -> Option<Token> {
         let (start, rest) = (self.position, self.rest());
         let (kind, length) = match rest.chars().next()? {
@@ -143,7 +143,7 @@ impl<'a> Lexer<'a> {
     }
 }
 
-/// The length of the longest prefix of such characters.
+/// The length of the longest prefix of characters that satisfy `holds`.
 fn prefix(text: &str, holds: impl Fn(char) -> bool) -> usize {
     text.find(|character| !holds(character)).unwrap_or(text.len())
 }
@@ -156,7 +156,7 @@ fn is_expected(character: char) -> bool {
     is_name(character) || " \t\r\n.+-*/^(),".contains(character)
 }
 
-/// The length of the exponent that a text starts with. In `2exp(X)` there is none.
+/// The length of the exponent at the start of a text. In `2exp(X)` there is none.
 fn exponent(text: &str) -> usize {
     if !text.starts_with(['e', 'E']) {
         return 0;
@@ -166,7 +166,7 @@ fn exponent(text: &str) -> usize {
     if length == 1 && text[1..].starts_with(is_name) { 0 } else { length }
 }
 
-/// What to write instead of characters that people type or paste into formulas.
+/// The text to write instead of characters that people type or paste into formulas.
 fn advice(found: &str) -> Option<String> {
     let instead: Option<String> = found.chars().map(spelling).collect();
     if let Some(instead) = instead {

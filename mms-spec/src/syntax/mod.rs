@@ -1,12 +1,11 @@
-//! From the text of a [`Formula`](crate::formula::Formula) to an [`Ast`].
+//! Parses the text of a [`Formula`](crate::formula::Formula) to an [`Ast`].
 //!
-//! Numbers are exact decimals. `^` associates to the right and binds tighter than unary minus, so
-//! that `-x^2` is `-(x^2)`; its right side may have a sign, as in `2^-3`. `*` and `/` come next,
-//! then `+` and `-`, all to the left. Names and functions are not looked up here.
+//! Numbers are exact decimals. `^` associates to the right and binds tighter than unary minus, so that `-x^2` is `-(x^2)`; its
+//! right side may have a sign, as in `2^-3`. `*` and `/` come next, then `+` and `-`, all to the left. Names and functions are
+//! not looked up here.
 //!
-//! No text can overflow the stack or exhaust memory: nothing recurses, and nesting, nodes and
-//! numbers are bounded ([`MAX_DEPTH`], [`MAX_NODES`], [`MAX_DIGITS`], [`MAX_EXPONENT`]). Beyond a
-//! bound there is a diagnostic.
+//! No text can overflow the stack or exhaust memory: nothing recurses, and nesting, nodes and numbers are bounded
+//! ([`MAX_DEPTH`], [`MAX_NODES`], [`MAX_DIGITS`], [`MAX_EXPONENT`]). An expression beyond a bound is refused with a diagnostic.
 
 mod ast;
 mod lexer;

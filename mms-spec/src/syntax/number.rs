@@ -3,15 +3,15 @@
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-/// The most digits a number may have.
+/// The largest number of digits of a number.
 pub const MAX_DIGITS: usize = 1000;
 
-/// The largest decimal exponent a number may have, of either sign: far beyond every target's
-/// floating-point numbers, and small enough that a file full of such numbers takes no time.
+/// The largest decimal exponent of a number, of either sign: far beyond every target's floating-point numbers, and small enough
+/// that a file full of such numbers is read quickly.
 pub const MAX_EXPONENT: usize = 1000;
 
-/// Reads digits with an optional point and exponent, such as `12`, `.5`, `1.` or `1.5e-3`. The
-/// error is what is wrong with it, and its label.
+/// Reads digits with an optional point and exponent, such as `12`, `.5`, `1.` or `1.5e-3`. The error is the mistake and its
+/// label.
 pub(super) fn exact(text: &str) -> Result<RBig, (String, String)> {
     let (mantissa, exponent) = match text.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, Some(exponent)),
@@ -44,7 +44,7 @@ fn decimal_exponent(text: &str) -> Result<isize, (String, String)> {
         let message = "the exponent of this number has no digits".to_string();
         return Err((message, "expected digits after the `e`".into()));
     }
-    // Digits that do not fit are beyond the bound as well.
+    // Digits that do not fit exceed the bound as well.
     match digits.parse::<isize>() {
         Ok(size) if size.unsigned_abs() <= MAX_EXPONENT => {
             Ok(if is_negative { -size } else { size })

@@ -1,8 +1,7 @@
-//! From tokens to the tree, by operator precedence.
+//! Builds the tree from tokens, by operator precedence.
 //!
-//! The parser alternates between two states: before an operand, and after one. Operators wait on
-//! an explicit stack until one that binds less tightly comes, so no text can overflow the
-//! machine's stack.
+//! The parser alternates between two states: before an operand, and after one. Operators wait on an explicit stack until one
+//! that binds less tightly follows, so no text can overflow the machine's stack.
 
 use std::iter::Peekable;
 use std::ops::Range;
@@ -15,14 +14,14 @@ use crate::formula::Formula;
 use crate::language::power_of_function;
 use crate::source::{Span, Spanned};
 
-/// The most parentheses, calls and operators that may wait for their end at once.
+/// The largest number of parentheses, calls and operators that may be open at once.
 pub const MAX_DEPTH: usize = 500;
 
-/// The most nodes an expression may have.
+/// The largest number of nodes of an expression.
 pub const MAX_NODES: usize = 100_000;
 
-/// Parses a formula. Reports what is wrong and returns `None` where something is; a formula that
-/// stands for a reported mistake gives `None` in silence.
+/// Parses a formula. Reports mistakes and returns `None` if there is one; for a formula whose mistake has been reported it
+/// returns `None` and reports nothing.
 pub fn parse(formula: &Formula, diagnostics: &mut Vec<Diagnostic>) -> Option<Ast> {
     if formula.is_reported() {
         return None;
@@ -39,7 +38,7 @@ pub fn parse(formula: &Formula, diagnostics: &mut Vec<Diagnostic>) -> Option<Ast
     }
 }
 
-/// A mistake ends the parse: what follows it would be guesses.
+/// A mistake ends the parse: interpreting the text after it would be guesswork.
 type Outcome<T = ()> = Result<T, Box<Diagnostic>>;
 
 /// The tokens ahead.
@@ -49,13 +48,13 @@ type Rest<'a> = Peekable<slice::Iter<'a, Token>>;
 #[derive(Clone)]
 struct Operand {
     node: usize,
-    /// Its text, parentheses included.
+    /// The bytes of its text, parentheses included.
     range: Range<usize>,
 }
 
-/// What waits for its right side or its end.
+/// An operator or parenthesis that waits for its right side or its end.
 enum Waiting {
-    /// A minus sign at that byte.
+    /// A minus sign at this byte.
     Negate(usize),
     Binary(Operator),
     /// A `(` of a group.
@@ -69,7 +68,7 @@ enum Waiting {
 }
 
 impl Waiting {
-    /// How tightly it binds; nothing takes an operand out of a parenthesis.
+    /// The precedence; no operator takes an operand out of a parenthesis.
     fn strength(&self) -> u8 {
         match self {
             Waiting::Group(_) | Waiting::Call { .. } => 0,
@@ -105,7 +104,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Takes a token where an operand must begin. Returns whether one must still begin.
+    /// Reads a token where an operand must begin. Returns whether one must still begin.
     fn operand(&mut self, token: &Token, rest: &mut Rest<'_>) -> Outcome<bool> {
         let range = token.range.clone();
         match &token.kind {
@@ -128,12 +127,12 @@ impl Parser<'_> {
         }
     }
 
-    /// Takes a token after an operand. Returns whether an operand must follow it.
+    /// Reads a token after an operand. Returns whether an operand must follow it.
     fn operator(&mut self, token: &Token) -> Outcome<bool> {
         let range = token.range.clone();
         match &token.kind {
             TokenKind::Operator(operator) => {
-                // Power associates to the right: an equally strong one goes on waiting.
+                // Power associates to the right: an equally strong one stays on the stack.
                 let least = strength(*operator) + u8::from(*operator == Operator::Power);
                 self.reduce(least)?;
                 self.wait(Waiting::Binary(*operator)).map(|()| true)
@@ -193,7 +192,7 @@ impl Parser<'_> {
         ))
     }
 
-    /// Builds the nodes of all operators on top of the stack that bind at least so tightly.
+    /// Builds the nodes of all operators on top of the stack that bind at least this tightly.
     fn reduce(&mut self, least: u8) -> Outcome {
         while let Some(waiting) = self.waiting.pop_if(|waiting| waiting.strength() >= least) {
             let Some(right) = self.operands.pop() else { break };

@@ -1,4 +1,4 @@
-//! What the language means, and what it refuses.
+//! The meaning of the language, and the texts that it refuses.
 
 use super::*;
 use crate::diagnostic::Diagnostic;

@@ -1,4 +1,4 @@
-//! Which formula of a file must measure what.
+//! Assigns each formula of a file the dimension that it must have.
 
 use std::collections::BTreeMap;
 
@@ -20,14 +20,13 @@ use crate::space::Space;
 use crate::symbols::{LetSpec, ParameterSpec};
 use crate::syntax::{self, Ast, Kind};
 
-/// What a wrong density or modulus would lead to.
+/// The consequence of a wrong density or modulus.
 const FORCING: Option<&str> = Some("b = a - Div P/rho0 would not be an acceleration");
 
-/// Checks the units of a field file and of its material file: each unit by itself, and, in a file
-/// whose parameters all have one, the system that they form and the dimensions of all formulas.
+/// Checks the units of a field file and of its material file: each unit by itself, and, in a file whose parameters all have
+/// one, the system that they form and the dimensions of all formulas.
 ///
-/// Mistakes of any other kind are left to whoever finds them, and nothing is said about what
-/// follows from them.
+/// Other phases report all other mistakes, and this check reports no consequences of them.
 pub fn check(
     sources: &Sources,
     field: &FieldSpec,
@@ -41,7 +40,7 @@ pub fn check(
 
 /// The units of a file's parameters, as far as they could be read.
 struct Units {
-    /// In the order of the file.
+    /// The units in the order of the file.
     units: Vec<Option<Unit>>,
     /// Whether there are parameters, and all have a unit.
     complete: bool,
@@ -74,7 +73,7 @@ impl Checker<'_> {
         Units { units, complete }
     }
 
-    /// Checks a material file. Returns the dimensions of its parameters, where they are known.
+    /// Checks a material file. Returns the dimensions of its parameters, if they are known.
     fn material(&mut self, material: &MaterialSpec) -> BTreeMap<String, Dimension> {
         let parameters = material.parameters.iter().map(|parameter| parameter.unit.as_ref());
         let givens = material.givens.iter().map(|given| given.unit.as_ref());
@@ -148,12 +147,12 @@ impl Checker<'_> {
         self.formulas.define("t", Some(Measure::of(Dimension::time())));
     }
 
-    /// Names that a file would define and may not: nothing is known of what they measure.
+    /// Marks names that a file would define and may not: their dimensions are unknown.
     fn refuse(&mut self, names: &[String]) {
         names.iter().for_each(|name| self.formulas.define(name, None));
     }
 
-    /// A formula as parsed; its mistakes of syntax are reported elsewhere.
+    /// Parses a formula; its syntax errors are reported elsewhere.
     fn parsed(&self, formula: &Formula) -> Option<Ast> {
         syntax::parse(formula, &mut Vec::new())
     }
@@ -185,7 +184,7 @@ impl Checker<'_> {
         self.formulas.define(name, unit.map(|unit| Measure::of(unit.dimension.clone())));
     }
 
-    /// The value of a parameter: a number that has the unit, or a formula that amounts to it.
+    /// Checks the value of a parameter: a number that has the unit, or a formula of the same dimension.
     fn value(&mut self, formula: &Formula, dimension: &Dimension, message: String) {
         let Some(ast) = self.parsed(formula) else { return };
         if !is_numeric(&ast) {
@@ -224,7 +223,7 @@ impl Checker<'_> {
         self.expect(direction, Dimension::NONE, message, None);
     }
 
-    /// The given fields of the file's own: formulas that measure what their units say.
+    /// Checks the file's own given fields: formulas with the dimensions of their units.
     fn givens(&mut self, field: &FieldSpec) {
         for given in &field.givens {
             let name = &given.name.value;
@@ -245,7 +244,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The flux of a balance, which measures its storage times a velocity.
+    /// Checks the flux of a balance, which has the dimension of its storage times a velocity.
     fn balance(&mut self, balance: &BalanceSpec, space: Space) {
         let outer = self.formulas.clone();
         for formula in balance.formulas() {
@@ -271,7 +270,7 @@ impl Checker<'_> {
         self.formulas = outer;
     }
 
-    /// The dimension of a formula; none of a number 0 or a formula with a mistake.
+    /// The dimension of a formula; none for a number 0 or a formula with a mistake.
     fn inferred(&mut self, formula: &Formula) -> Option<Dimension> {
         let ast = self.parsed(formula)?;
         self.formulas.infer(&ast, &mut self.diagnostics)?.dimension
@@ -371,7 +370,7 @@ fn velocity() -> Dimension {
     Dimension::mechanical([0, 1, -1])
 }
 
-/// Whether a formula has no names but pi: a number, however it is written.
+/// Whether a formula has no names except pi: a number in any form.
 fn is_numeric(ast: &Ast) -> bool {
     ast.nodes.iter().all(|node| !matches!(&node.kind, Kind::Name(name) if name != "pi"))
 }

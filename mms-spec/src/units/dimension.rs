@@ -1,17 +1,16 @@
-//! Dimensions: what kind of quantity a value is, without regard to the size of its unit.
+//! Dimensions: the kind of quantity of a value, without regard to the size of its unit.
 
 use std::fmt;
 
 use dashu_ratio::RBig as Rational;
 
-/// The units that stand for the base dimensions, in the order in which they are printed.
+/// The units of the base dimensions, in the order in which they are printed.
 pub const BASE: [&str; 7] = ["kg", "m", "s", "K", "A", "mol", "cd"];
 
-/// An exponent longer than this is no physical one; bounded, so that no text takes long.
+/// The longest exponent; bounded, so that no text takes long. No physical exponent is longer.
 const MAX_BITS: usize = 64;
 
-/// Dimensions with a unit that is better known than the product of base units: the unit, then the
-/// exponents of kg, m and s.
+/// Dimensions whose unit is better known than the product of base units: the unit, then the exponents of kg, m and s.
 const COMMON: &[(&str, [i8; 3])] = &[
     ("m/s", [0, 1, -1]),
     ("m/s^2", [0, 1, -2]),
@@ -28,7 +27,7 @@ const COMMON: &[(&str, [i8; 3])] = &[
 
 /// A product of powers of the seven base dimensions, with exact exponents.
 ///
-/// It prints as an SI unit: `Pa`, `m/s^2`, `kg*m^-1*s^-1`; without dimension as `1`.
+/// It is printed as an SI unit: `Pa`, `m/s^2`, `kg*m^-1*s^-1`; without dimension as `1`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dimension([Rational; 7]);
 
@@ -76,17 +75,17 @@ impl Dimension {
         &self.0
     }
 
-    /// The dimension of a product. `None` where an exponent becomes absurdly long.
+    /// The dimension of a product. `None` if an exponent becomes absurdly long.
     pub fn times(&self, other: &Dimension) -> Option<Dimension> {
         self.combine(other, |a, b| a + b)
     }
 
-    /// The dimension of a quotient. `None` where an exponent becomes absurdly long.
+    /// The dimension of a quotient. `None` if an exponent becomes absurdly long.
     pub fn over(&self, other: &Dimension) -> Option<Dimension> {
         self.combine(other, |a, b| a - b)
     }
 
-    /// The dimension of a power. `None` where an exponent becomes absurdly long.
+    /// The dimension of a power. `None` if an exponent becomes absurdly long.
     pub fn power(&self, exponent: &Rational) -> Option<Dimension> {
         self.combine(&Self::NONE, |a, _| a * exponent)
     }
@@ -115,7 +114,7 @@ impl Dimension {
     }
 }
 
-/// How long a number is written in binary, the longer of numerator and denominator.
+/// The length of a number in binary, the longer of numerator and denominator.
 pub(super) fn bits(number: &Rational) -> usize {
     use dashu_int::ops::BitTest as _;
     number.numerator().bit_len().max(number.denominator().bit_len())

@@ -1,13 +1,12 @@
 //! Infers dimensions through every operation of a formula, on its text as parsed.
 //!
-//! On the tree each operation still has its place, and nothing has been cancelled or collected. What a formula
-//! must measure is compared with each term of its outermost sum. The number 0 fits any dimension, other numbers
-//! have none. What contains a mistake that has been reported is unknown, and is not reported again wherever it is
-//! used.
+//! On the tree each operation still has its place, and nothing has been cancelled or collected. The required dimension is
+//! compared with each term of a formula's outermost sum. The number 0 fits any dimension, other numbers have none. The
+//! dimension of a part with a reported mistake is unknown, and its uses are not reported again.
 //!
 //! | rule | |
 //! |---|---|
-//! | a + b, a - b, hypot(a, b), atan2(a, b) | one dimension; that of an angle is none |
+//! | a + b, a - b, hypot(a, b), atan2(a, b) | one dimension; an angle has none |
 //! | a^n, sqrt, cbrt | exponents times the number n |
 //! | a^b with b not a number | both without dimension |
 //! | every other function | argument without dimension |
@@ -21,23 +20,23 @@ use crate::source::Span;
 use crate::syntax::{Ast, Kind, Operator};
 use dashu_ratio::RBig as Rational;
 
-/// Numbers longer than this are no longer followed, so that no formula takes long.
+/// The longest number that is tracked, so that no formula takes long.
 const MAX_BITS: usize = 4096;
 
-/// An exponent beyond this is not applied to a number; it is applied to dimensions all the same.
+/// The largest exponent that is applied to a number; larger ones are applied to dimensions only.
 const MAX_EXPONENT: isize = 64;
 
-/// What is known of a value.
+/// The dimension and the number of a value, as far as they are known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measure {
-    /// Its dimension; `None` for the number 0, which fits any.
+    /// The dimension; `None` for the number 0, which fits any.
     pub dimension: Option<Dimension>,
-    /// Its value, where it is a rational number.
+    /// The value, if it is a rational number.
     pub number: Option<Rational>,
 }
 
 impl Measure {
-    /// A value of that dimension.
+    /// A value of this dimension.
     pub fn of(dimension: Dimension) -> Self {
         Measure { dimension: Some(dimension), number: None }
     }
@@ -52,31 +51,31 @@ impl Measure {
         self.dimension.is_none()
     }
 
-    /// Whether it can stand where that dimension is expected.
+    /// Whether the value fits where this dimension is expected.
     pub fn fits(&self, expected: &Dimension) -> bool {
         self.dimension.as_ref().is_none_or(|dimension| dimension == expected)
     }
 }
 
-/// What a formula must measure, and how to say so.
+/// The required dimension of a formula, and the message for a mistake.
 #[derive(Clone, Debug)]
 pub struct Expected<'a> {
     /// The dimension.
     pub dimension: Dimension,
     /// The mistake in one sentence, such as "the displacement must be a length".
     pub message: String,
-    /// What would follow from it, if anything.
+    /// The consequence of the mistake, if any.
     pub consequence: Option<&'a str>,
 }
 
-/// The names that formulas may use, with what they measure.
+/// The names that formulas may use, with their dimensions.
 #[derive(Clone, Debug, Default)]
 pub struct Formulas {
     names: BTreeMap<String, Measure>,
 }
 
 impl Formulas {
-    /// Defines a name; `None` where a mistake in its definition has been reported.
+    /// Defines a name; `None` if a mistake in its definition has been reported.
     pub fn define(&mut self, name: &str, measure: Option<Measure>) {
         match measure {
             Some(measure) => self.names.insert(name.into(), measure),
@@ -84,25 +83,25 @@ impl Formulas {
         };
     }
 
-    /// What a name measures, where that is known.
+    /// The dimension and the number of a name, if they are known.
     pub fn get(&self, name: &str) -> Option<&Measure> {
         self.names.get(name)
     }
 
-    /// What a formula measures. Reports the operations that units forbid; the result is then
-    /// `None`, as it is where a name is unknown.
+    /// Infers the dimension of a formula. Reports the operations that units forbid; the result is then `None`, as for an
+    /// unknown name.
     pub fn infer(&self, ast: &Ast, diagnostics: &mut Vec<Diagnostic>) -> Option<Measure> {
         let none = vec![false; ast.nodes.len()];
         self.measures(ast, &none, diagnostics).pop().flatten()
     }
 
-    /// Checks that a formula measures what it must. Each term of a sum is held to it on its own,
-    /// so that the message can name the term.
+    /// Checks that a formula has the required dimension. Each term of a sum is checked on its own, so that the message can name
+    /// the term.
     pub fn expect(&self, ast: &Ast, expected: &Expected<'_>, diagnostics: &mut Vec<Diagnostic>) {
         let sums = outer_sums(ast);
         let measures = self.measures(ast, &sums, diagnostics);
         for (term, measure) in measures.iter().enumerate() {
-            // Operands are taken by their operations: what is left are the terms.
+            // Operations have consumed their operands: only the terms remain.
             let Some(measure) = measure else { continue };
             if !measure.fits(&expected.dimension) {
                 diagnostics.push(message::term(self, ast, term, measure, expected));
@@ -110,8 +109,7 @@ impl Formulas {
         }
     }
 
-    /// The measures of the nodes that are no operand of an inferred operation. Sums in `outer` are
-    /// not inferred.
+    /// The measures of the nodes that are no operand of an inferred operation. Sums in `outer` are not inferred.
     fn measures(
         &self,
         ast: &Ast,
@@ -127,7 +125,7 @@ impl Formulas {
     }
 }
 
-/// The sums and changes of sign of which the terms of a formula are the operands.
+/// The sums and changes of sign whose operands are the terms of a formula.
 fn outer_sums(ast: &Ast) -> Vec<bool> {
     let mut outer = vec![false; ast.nodes.len()];
     let mut waiting: Vec<usize> = ast.nodes.len().checked_sub(1).into_iter().collect();
@@ -147,7 +145,7 @@ fn outer_sums(ast: &Ast) -> Vec<bool> {
 struct Inference<'a> {
     names: &'a Formulas,
     ast: &'a Ast,
-    /// The measures of the nodes so far; an operation takes those of its operands.
+    /// The measures of the nodes so far; an operation consumes those that are its operands.
     values: Vec<Option<Measure>>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
@@ -211,7 +209,7 @@ impl Inference<'_> {
         }
         match base.dimension {
             Some(dimension) => dimension.power(number).map(Measure::of),
-            // 0^0 is 1, whatever the 0 is of.
+            // 0^0 is 1 for a 0 of any dimension.
             None if number.is_zero() => Some(Measure::of(Dimension::NONE)),
             None => Some(base),
         }
@@ -278,7 +276,7 @@ impl Inference<'_> {
 
     fn pure_argument(&mut self, name: &str, value: &Measure, place: usize) -> Option<Measure> {
         if !crate::language::FUNCTIONS.contains(&name) {
-            // Not a function: reported where names are looked up.
+            // The name is no function: resolving it reports that.
             return None;
         }
         if value.fits(&Dimension::NONE) {
@@ -291,7 +289,7 @@ impl Inference<'_> {
     }
 }
 
-/// A number, unless it is too long to be followed.
+/// A number, unless it is too long to be tracked.
 fn bounded(number: Rational) -> Option<Measure> {
     (bits(&number) <= MAX_BITS).then(|| Measure::number(number))
 }
@@ -309,7 +307,7 @@ fn product(a: Measure, b: Measure) -> Option<Measure> {
 
 fn quotient(a: Measure, b: Measure) -> Option<Measure> {
     match (&a.dimension, &b.dimension) {
-        // Division by zero is reported where values are formed.
+        // The evaluation reports division by zero.
         (_, None) => None,
         (None, _) => Some(a),
         (Some(left), Some(right)) => match (&a.number, &b.number) {
@@ -331,7 +329,7 @@ fn number_power(base: &Rational, exponent: &Rational) -> Option<Measure> {
     let small = small.filter(|size| exponent.is_int() && size.abs() <= MAX_EXPONENT);
     match small {
         Some(size) if bits(base) <= MAX_BITS / 64 => bounded(base.pow(size)),
-        // A number, whatever its value; it is no longer followed as an exponent.
+        // A number of any value; it is no longer tracked as an exponent.
         _ => Some(Measure::of(Dimension::NONE)),
     }
 }

@@ -1,10 +1,10 @@
-//! The units that files may use: those of the SI with their prefixes, and few others.
+//! The units that files may use: the SI units with their prefixes, and a few others.
 
 use super::dimension::Dimension;
 use crate::suggest;
 
-/// How large a unit is, as 10^tens * 60^sixties SI units. The two factors are independent, so
-/// that sizes are equal only where both exponents are.
+/// The size of a unit, as 10^tens * 60^sixties SI units. The two factors are independent, so that sizes are equal only if both
+/// exponents are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
     /// The exponent of 10.
@@ -14,12 +14,12 @@ pub struct Size {
 }
 
 impl Size {
-    /// That of the SI unit.
+    /// The size of the SI unit.
     pub const SI: Size = Size { tens: 0, sixties: 0 };
 }
 
-/// A unit without its prefix: symbol, name, exponents in the order of `BASE`, power of ten of the
-/// SI unit, and whether prefixes may stand before it.
+/// A unit without its prefix: symbol, name, exponents in the order of `BASE`, power of ten of the SI unit, and whether prefixes
+/// are allowed.
 struct Plain {
     symbol: &'static str,
     name: &'static str,
@@ -41,7 +41,7 @@ const fn other(
     Plain { symbol, name, exponents, size: Size { tens, sixties }, prefixed: false }
 }
 
-/// Every unit; of two that could be meant by one text, the first is.
+/// Every unit; if a text could mean two of them, it means the first.
 const UNITS: &[Plain] = &[
     si("m", "metre", [0, 1, 0, 0, 0, 0, 0]),
     si("s", "second", [0, 0, 1, 0, 0, 0, 0]),
@@ -87,7 +87,7 @@ const PREFIXES: &[(&str, i16)] = &[
     ("da", 1),
 ];
 
-/// Names that people try, with what to do instead.
+/// Names that people try, with advice.
 const REFUSED: &[(&str, &str)] = &[
     ("deg", "angles are in radians, and values are not converted: use `rad` or `1`"),
     ("degree", "angles are in radians, and values are not converted: use `rad` or `1`"),
@@ -105,7 +105,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("lb", "values are not converted: use `kg`"),
 ];
 
-/// The dimension and the size of the unit with that symbol.
+/// The dimension and the size of the unit with this symbol.
 pub fn find(symbol: &str) -> Option<(Dimension, Size)> {
     let exact = UNITS.iter().find(|unit| unit.symbol == symbol).map(|unit| (unit, 0));
     let prefixed = || {
@@ -120,7 +120,7 @@ pub fn find(symbol: &str) -> Option<(Dimension, Size)> {
     Some((Dimension::new(unit.exponents), size))
 }
 
-/// The symbol of the unit of a dimension that is this large: the SI's own, or else with a prefix.
+/// The symbol of the unit of a dimension with this size: the SI unit's own, else one with a prefix.
 pub fn name(dimension: &Dimension, size: Size) -> Option<String> {
     let of = |unit: &&Plain| Dimension::new(unit.exponents) == *dimension;
     if let Some(unit) = UNITS.iter().filter(of).find(|unit| unit.size == size) {
@@ -135,7 +135,7 @@ pub fn name(dimension: &Dimension, size: Size) -> Option<String> {
     )
 }
 
-/// What to do about a symbol that is no unit.
+/// The advice on a symbol that is no unit.
 pub fn advice(symbol: &str) -> String {
     if let Some((_, advice)) = REFUSED.iter().find(|(name, _)| is_word(name, symbol)) {
         return advice.to_string();
@@ -145,7 +145,7 @@ pub fn advice(symbol: &str) -> String {
     }
     let candidates = candidates();
     suggest::advice(symbol, candidates.iter().map(String::as_str), |_| {
-        "units are those of the SI with their prefixes, such as `kg/m^3`, `MPa` or `1`".into()
+        "use SI units with their prefixes, such as `kg/m^3`, `MPa` or `1`".into()
     })
 }
 

@@ -9,10 +9,10 @@ use crate::source::Span;
 use crate::syntax::{Ast, Kind, Operator};
 use dashu_ratio::RBig as Rational;
 
-/// Terms with more names than this are not explained name by name.
+/// The largest number of names in a term that are explained one by one.
 const MAX_NAMES: usize = 6;
 
-/// A term that does not measure what it must.
+/// A term with another dimension than the required one.
 pub fn term(
     names: &Formulas,
     ast: &Ast,
@@ -77,7 +77,7 @@ pub fn in_words(dimension: &Dimension) -> String {
     if dimension.is_none() { "a number without unit".into() } else { dimension.to_string() }
 }
 
-/// The units of the names in a part of a formula, where it is more than a name and some have one.
+/// The units of the names in a part of a formula, if it is more than a name and some names have units.
 fn explanation(names: &Formulas, ast: &Ast, root: usize) -> Option<String> {
     if matches!(ast.nodes[root].kind, Kind::Name(_)) {
         return None;
@@ -96,7 +96,7 @@ fn explanation(names: &Formulas, ast: &Ast, root: usize) -> Option<String> {
     (has_unit && units.len() <= MAX_NAMES).then(|| format!("here {}", units.join(", ")))
 }
 
-/// Where the nodes of a part begin: they stand together, operands first.
+/// The first node of a part: its nodes are contiguous, operands first.
 fn first_node(ast: &Ast, root: usize) -> usize {
     let mut first = root;
     loop {
@@ -111,13 +111,12 @@ fn first_node(ast: &Ast, root: usize) -> usize {
     }
 }
 
-/// Advice about a number that seems to stand for a value with a unit: a factor of a term that
-/// lacks that unit.
+/// Advice about a number that seems to be a value with a unit: a factor of a term whose dimension differs by that unit.
 fn nameless(ast: &Ast, term: usize, found: &Dimension, expected: &Dimension) -> Option<String> {
     let mut waiting = vec![(term, false)];
     while let Some((node, divides)) = waiting.pop() {
         match &ast.nodes[node].kind {
-            // A whole number beside values with units is usually just that.
+            // A whole number beside values with units is usually a plain number.
             Kind::Number(number) if !number.is_int() || found.is_none() => {
                 let unit = if divides { found.over(expected) } else { expected.over(found) };
                 return Some(format!(

@@ -1,13 +1,12 @@
-//! Units of measurement: what a file says about them, and whether its formulas agree.
+//! Units of measurement: reads them, and checks that formulas agree with them.
 //!
-//! Units are optional. A unit that is written must be one ([`Unit::parse`]); it is parsed as a formula is, to the
-//! exponents of the seven base dimensions and the size of each symbol, a power of 10 times one of 60. Where all
-//! parameters of a file have a unit, the units must belong to one system ([`system`]), and dimensions are inferred
-//! through every operation of its formulas ([`Formulas`]), from the text as it stands: a message can so underline
-//! the very term that is wrong.
+//! Units are optional. A written unit must be valid ([`Unit::parse`]); it is parsed like a formula, to the exponents of the
+//! seven base dimensions and the size of each symbol, a power of 10 times one of 60. If all parameters of a file have a unit,
+//! the units must belong to one system ([`system`]), and dimensions are inferred through every operation of its formulas
+//! ([`Formulas`]), from the text as written: so a message can underline the very term that is wrong.
 //!
-//! Nothing here changes a value. A unit says what a number means; numbers are computed with as they are written,
-//! so a file may use metres or millimetres, but not both.
+//! No value is changed. A unit defines the meaning of a number; numbers are used as written, so a file may use metres or
+//! millimetres, but not both.
 
 mod check;
 mod dimension;

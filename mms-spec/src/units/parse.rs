@@ -1,4 +1,4 @@
-//! From the text of a unit to its dimension.
+//! Parses the text of a unit to its dimension.
 
 use super::dimension::Dimension;
 use super::known::{self, Size};
@@ -11,7 +11,7 @@ use dashu_ratio::RBig as Rational;
 /// A unit such as `kg/m^3`: products, quotients and powers of symbols.
 #[derive(Clone, Debug)]
 pub struct Unit {
-    /// What it measures.
+    /// The dimension of the unit.
     pub dimension: Dimension,
     /// The symbols in it, in the order of the text.
     pub symbols: Vec<Symbol>,
@@ -20,11 +20,11 @@ pub struct Unit {
 /// One symbol in a unit, such as `kg`.
 #[derive(Clone, Debug)]
 pub struct Symbol {
-    /// The symbol, and where it stands.
+    /// The symbol, and its place.
     pub symbol: Spanned<String>,
-    /// What it measures.
+    /// The dimension of the symbol.
     pub dimension: Dimension,
-    /// How large it is, beside the SI unit.
+    /// The size of the symbol, relative to the SI unit.
     pub size: Size,
 }
 
@@ -36,8 +36,7 @@ enum Part {
 }
 
 impl Unit {
-    /// Reads the unit that a file gives in a string. Every mistake is reported; the unit is then
-    /// `None`.
+    /// Reads the unit in a string of a file. Every mistake is reported; the unit is then `None`.
     pub fn parse(
         sources: &Sources,
         text: &Spanned<String>,
@@ -47,7 +46,7 @@ impl Unit {
         Self::of(&Formula::from_string(raw, &text.value, text.span), diagnostics)
     }
 
-    /// The unit that a plain text means, if it means one.
+    /// The unit of a plain text, if it is one.
     pub fn known(text: &str) -> Option<Unit> {
         let mut sources = Sources::default();
         let source = sources.add("unit", text);

@@ -1,16 +1,14 @@
-//! Whether the units of a file belong to one system.
+//! Checks that the units of a file belong to one system.
 //!
-//! Values are computed with as they are written. That is right in any system of units in which
-//! products have the size of the product of their factors, such as (m, kg, s, N, Pa) or (mm,
-//! tonne, s, N, MPa). So there must be one size for each base dimension from which the sizes of
-//! all symbols follow. The logarithms of these sizes solve a linear system with one equation for
-//! each symbol, and it must have a solution.
+//! Values are used as written. That is right in any system of units in which products have the size of the product of their
+//! factors, such as (m, kg, s, N, Pa) or (mm, tonne, s, N, MPa). So there must be one size for each base dimension from which
+//! the sizes of all symbols follow. The logarithms of these sizes solve a linear system with one equation for each symbol, and
+//! it must have a solution.
 //!
-//! The time t belongs to the system too: it is in seconds, unless a symbol of the file is a unit
-//! of time, such as `ms`.
+//! The time t belongs to the system too: it is in seconds, unless a symbol of the file is a unit of time, such as `ms`.
 //!
-//! Derived values are then in units of the same system ([`own`]), for the size of each unit follows whose dimension is a
-//! product of those of the parameters.
+//! Derived values are then in units of the same system ([`own`]), for the system determines the size of each unit whose
+//! dimension is a product of powers of the parameters' dimensions.
 
 use std::collections::BTreeMap;
 
@@ -23,21 +21,20 @@ use dashu_ratio::RBig as Rational;
 /// The logarithm of a size: its exponents of 10 and of 60.
 const SIZES: usize = 2;
 
-/// What an equation follows from.
+/// The origin of an equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Origin {
-    /// The symbol of that position.
+    /// The symbol at this position.
     Symbol(usize),
-    /// That t is in seconds, where no symbol says it.
+    /// The second as the unit of t, if no symbol is a unit of time.
     Seconds,
 }
 
-/// An equation between logarithms of sizes: exponents of the base dimensions, then what they must
-/// amount to.
+/// An equation between logarithms of sizes: exponents of the base dimensions, then the right side.
 struct Equation {
     dimensions: [Rational; BASE.len()],
     sizes: [Rational; SIZES],
-    /// What it follows from, with the multiple of each.
+    /// The equations that it is a combination of, with their multiples.
     origin: BTreeMap<Origin, Rational>,
 }
 
@@ -108,8 +105,8 @@ pub fn consistent<'a>(units: impl IntoIterator<Item = &'a Unit>) -> Option<Diagn
     None
 }
 
-/// The unit of the system of `units` in the place of the SI unit `si`: with `mm` and `MPa`, `Pa/m` becomes `MPa/mm`.
-/// `None` if the units do not determine its size, or have no name for it. Without units, or with those of the SI, it stays `si`.
+/// The unit of the system of `units` that replaces the SI unit `si`: with `mm` and `MPa`, `Pa/m` becomes `MPa/mm`. `None` if
+/// the units do not determine its size, or have no name for it. Without units, or with SI units, it stays `si`.
 pub fn own(units: &[Unit], si: &str) -> Option<String> {
     let symbols: Vec<&Symbol> = units.iter().flat_map(|unit| &unit.symbols).collect();
     if symbols.iter().all(|symbol| symbol.size == Size::SI) {
@@ -127,7 +124,7 @@ pub fn own(units: &[Unit], si: &str) -> Option<String> {
         }
     }
     let mut own = si.to_owned();
-    // From behind, so that places in front stay where they are.
+    // Replaced from the end, so that earlier places stay valid.
     for symbol in Unit::known(si)?.symbols.iter().rev() {
         let size = size(&equations, &symbol.dimension)?;
         let is_it = |other: &&&Symbol| other.dimension == symbol.dimension && other.size == size;
@@ -140,7 +137,7 @@ pub fn own(units: &[Unit], si: &str) -> Option<String> {
     Some(own)
 }
 
-/// How large the unit of a dimension is in a system, if that follows from it.
+/// The size of the unit of a dimension in a system, if the system determines it.
 fn size(equations: &[Equation], dimension: &Dimension) -> Option<Size> {
     let mut wanted = Equation {
         dimensions: dimension.exponents().clone(),
@@ -163,8 +160,8 @@ fn is_of_time(symbol: &Symbol) -> bool {
     BASE.iter().zip(exponents).all(is_only)
 }
 
-/// These symbols are not of one system, with seconds perhaps. The place is that of the one that is
-/// not of the SI among others that are, or else of the last.
+/// The message that these symbols, possibly with seconds, are not of one system. Its place is the only symbol that is not an SI
+/// unit, else the last symbol.
 fn mixture(involved: &[&Symbol], seconds: bool) -> Option<Diagnostic> {
     let mut foreign = involved.iter().filter(|symbol| symbol.size != Size::SI);
     let odd = match (foreign.next(), foreign.next()) {
@@ -278,7 +275,7 @@ mod tests {
             [of("Pa"), of("N/m^3"), of("m/s")].map(Option::unwrap),
             ["GPa", "kN/mm^3", "mm/ms"]
         );
-        // MPa and s leave lengths open.
+        // MPa and s do not determine lengths.
         assert_eq!(own(&["MPa"], "Pa").as_deref(), Some("MPa"));
         assert_eq!(own(&["MPa"], "m"), None);
         for units in [&[][..], &["m", "Pa", "1"], &["rad"]] {
@@ -288,7 +285,7 @@ mod tests {
         assert_eq!(own(&["cm", "g"], "Pa").as_deref(), Some("dPa"));
     }
 
-    /// A kilopascal is the product of no powers of metres and newtons alone.
+    /// A kilopascal is no product of powers of metres and newtons alone.
     #[test]
     fn a_ratio_of_units_must_fit_as_well() {
         let message = mixed(&["Pa/kPa"]).expect("a mixture");
