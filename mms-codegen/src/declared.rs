@@ -97,7 +97,7 @@ fn at_extreme(extreme: &ExtremeSpec, wrong: Diagnostic) -> Diagnostic {
     let mut diagnostic = Diagnostic::error(span, message).label(label);
     diagnostic.help = wrong.help;
     diagnostic.help(format!(
-        "extremes are held to what defaults are held to; this one sets {}",
+        "extremes must fulfil the conditions of defaults; this one sets {}",
         set.join(", ")
     ))
 }

@@ -72,7 +72,7 @@ impl Variation {
                 Err(format!("the body is no box: {why}"))
             }
             Variation::Affine if field.space.is_axisymmetric() => {
-                Err("an axisymmetric field has no affine part: u_R/R of it has no value on the axis".into())
+                Err("an axisymmetric field has no affine part: its u_R/R has no value on the axis".into())
             }
             Variation::Moduli(_) if pair(field).is_none() && !has_definitions(field) => {
                 Err("the material is not given by lambda and mu, kappa and mu, or young and nu, and no definition is called lambda".into())

@@ -171,7 +171,7 @@ fn false_claims_on_curved_faces_are_refuted_there() {
         let [x, y, z] = ["X", "Y", "Z"].map(number);
         let is_ball = rest.contains("sphere");
         let found = if is_ball { x.hypot(y).hypot(z) } else { x.hypot(y) };
-        assert!(text.contains("face: not everywhere is"), "{text}");
+        assert!(text.contains("does not hold everywhere"), "{text}");
         assert!((found - radius).abs() < 1e-12, "{radius}: {text}");
     }
     let triangle = "shape = \"polygon\"\nvertices = [[0, 0], [1, 0], [0, 1]]\n[boundary]\nedge_2 = \"fixed\"\n";

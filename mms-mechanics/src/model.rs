@@ -451,7 +451,7 @@ impl Reader<'_> {
             return Some(set);
         }
         let message =
-            format!("the value of {} does not follow from what is above it", quoted(&name.value));
+            format!("the value of {} may only use the parameters above it", quoted(&name.value));
         self.diagnostics.push(
             Diagnostic::error(value.span, message)
                 .label("expected numbers, and parameters above that one in [parameters]")

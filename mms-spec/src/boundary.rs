@@ -195,7 +195,7 @@ pub(super) fn boundary<'a>(
         reader.report(
             Diagnostic::error(entry.key.span, "a field without a body has no faces")
                 .label("claims are about faces, and `shape = \"none\"` has none")
-                .help("remove [boundary], or give the body that its claims are about"),
+                .help("remove [boundary], or add the body of its claims"),
         );
         return Vec::new();
     }

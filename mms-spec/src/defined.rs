@@ -116,13 +116,13 @@ fn doc_of_balance(balance: &BalanceSpec, part: Part) -> String {
     let name = &balance.name.value;
     match (part, &balance.law) {
         (Part::Source, BalanceLaw::Flow { storage: Some(_), flux: Some(_) }) => format!(
-            "Source of the balance of {name}, d(storage)/dt + Div(flux), per reference volume; a positive one supplies."
+            "Source of the balance of {name}, d(storage)/dt + Div(flux), per reference volume; a positive source adds to it."
         ),
         (Part::Source, BalanceLaw::Flow { flux: None, .. }) => format!(
-            "Source of the balance of {name}, d(storage)/dt, per reference volume; a positive one supplies."
+            "Source of the balance of {name}, d(storage)/dt, per reference volume; a positive source adds to it."
         ),
         (Part::Source, _) => format!(
-            "Source of the balance of {name}, Div(flux), per reference volume; a positive one supplies."
+            "Source of the balance of {name}, Div(flux), per reference volume; a positive source adds to it."
         ),
         (Part::Flux, _) => format!("Flux Q of {name} through reference area."),
         (Part::NormalFlux, _) => {

@@ -204,7 +204,7 @@ pub const GIVEN: &[Key] = &[
 
 /// `[[balance]]`.
 pub const BALANCE: &[Key] = &[
-    required("name", Holds::Name, "The name, after which its quantities are called."),
+    required("name", Holds::Name, "The name; the names of its quantities start with it."),
     optional("storage", Holds::Formula, "The amount that is stored per reference volume."),
     optional(
         "flux",
@@ -300,7 +300,7 @@ pub const DOMAIN: &[Key] = &[
 
 /// `[[check]]`.
 pub const CHECK: &[Key] = &[
-    required("quantity", Holds::Quantity, "The quantity that the closed form is of."),
+    required("quantity", Holds::Quantity, "The quantity that the closed form must equal."),
     required(
         "equals",
         Holds::Formulas(Length::Quantity),

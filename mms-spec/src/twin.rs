@@ -67,7 +67,7 @@ impl Twin {
                     field.material.span,
                     "a field without a body has no standard twin",
                 )
-                .label("the translation would be some times the size of its body")
+                .label("its translation is a multiple of the size of the body")
                 .help("give a motion, as in --rigid 'rotation = \"pi*t\"'"),
             );
             return;

@@ -365,7 +365,7 @@ impl<'a> QuantityProgram<'a> {
             (Op::Add(..), [a, b]) => format!("{a} + {b}"),
             (Op::Multiply(..), [a, b]) => format!("{a} * {b}"),
             (Op::Divide(..), [a, b]) => format!("{a} / {b}"),
-            (Op::Input(_), _) => "what is given is beyond the largest number".into(),
+            (Op::Input(_), _) => "an input is beyond the largest number".into(),
             _ => "a constant is beyond the largest number".into(),
         }
     }

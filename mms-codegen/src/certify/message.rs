@@ -187,8 +187,11 @@ pub fn refuted(
     value: f64,
 ) -> Diagnostic {
     let (face, word) = (claim.face.value.name(), claim.claim.value);
-    let message =
-        format!("`{face}` is no `{}` face: not everywhere is {}", word.name(), word.meaning());
+    let message = format!(
+        "`{face}` is no `{}` face: {} does not hold everywhere",
+        word.name(),
+        word.meaning()
+    );
     let help = match word {
         Claim::Axis => "leave the claim out where the body does not reach the axis",
         _ => "`prescribed` and `traction` claim nothing about the values",

@@ -106,7 +106,8 @@ impl<'a> Phases<'a> {
         let Some(source) = self.sources.nth(0) else { return };
         let message = "the work on this field was stopped before its end";
         let start = Diagnostic::error(self.sources.span(source, 0, 0), message);
-        self.diagnostics = vec![start.help("whoever asked for the field asked for that, too")];
+        self.diagnostics =
+            vec![start.help("the caller that requested the field requested the stop")];
     }
 
     /// Grants a phase `steps` steps for each node that a graph may have.

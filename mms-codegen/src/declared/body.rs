@@ -248,11 +248,9 @@ impl<'a> Declared<'a> {
         let exprs = [vertices[first], vertices[second]].concat();
         let diagnostic = Diagnostic::error(span, message).label(label);
         let diagnostic = self.with_parameters(diagnostic, &exprs);
-        self.report(
-            diagnostic.help(
-                "edges of a polygon meet in its vertices alone, each of which is another point",
-            ),
-        );
+        self.report(diagnostic.help(
+            "edges of a polygon may meet in its vertices only, and no vertex may be repeated",
+        ));
         None
     }
 }

@@ -159,7 +159,10 @@ impl Reader<'_> {
             }
         }
         for name in ["X", "Y", "Z", "t"] {
-            scope.withhold(name, "a material knows no place and no time; a field's parameters may");
+            scope.withhold(
+                name,
+                "a material does not depend on place or time; a field's parameters may",
+            );
         }
     }
 

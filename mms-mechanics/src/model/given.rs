@@ -16,12 +16,12 @@ use mms_symbolic::sorted::SortedMap;
 pub type OwnQuantities = SortedMap<Own, Vec<Expr>>;
 
 /// The names that formulas of balances may use beside the names of the file, for the help of a message.
-const LANGUAGE: &str = "a balance also knows u_x, v_x, H11, F11, Finv11, C11, Cinv11 and their like, J, and derivatives \
-                        such as T_X and T_t of what [let] and [given] define";
+const LANGUAGE: &str = "a balance may also use u_x, v_x, H11, F11, Finv11, C11, Cinv11 and similar names, J, and derivatives \
+                        such as T_X and T_t of names in [let] and [given]";
 
 /// The names that a balance of an axisymmetric field may use, for a message.
-const LANGUAGE_OF_R: &str = "a balance also knows u_r, v_r, H11, F11, Finv11, C11, Cinv11 and their like in the order R, Z, \
-                             theta, J, and derivatives such as T_R and T_t of what [let] and [given] define";
+const LANGUAGE_OF_R: &str = "a balance may also use u_r, v_r, H11, F11, Finv11, C11, Cinv11 and similar names in the order R, Z, \
+                             theta, J, and derivatives such as T_R and T_t of names in [let] and [given]";
 
 /// The motion whose parts the names of a balance mean.
 struct Moved {

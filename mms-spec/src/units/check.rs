@@ -257,7 +257,7 @@ impl Checker<'_> {
                     let name = &balance.name.value;
                     let message =
                         format!("the flux of `{name}` must be its storage times a velocity");
-                    let consequence = "d(storage)/dt + Div(flux) would add what does not agree";
+                    let consequence = "d(storage)/dt + Div(flux) would add different units";
                     self.expect(flux, expected, message, Some(consequence));
                 }
             }

@@ -53,7 +53,7 @@ pub fn sum(names: &Formulas, ast: &Ast, right: usize, found: [&Dimension; 2]) ->
     let [left, this] = found.map(in_words);
     let mut diagnostic =
         Diagnostic::error(ast.nodes[right].span, "the terms of a sum must have one unit")
-            .label(format!("this is {this}, but what stands before it is {left}"));
+            .label(format!("this is {this}, but the term before it is {left}"));
     diagnostic.help.extend(explanation(names, ast, right));
     diagnostic.help.extend(nameless(ast, right, found[1], found[0]));
     diagnostic

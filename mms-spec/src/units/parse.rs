@@ -186,7 +186,7 @@ impl Reader<'_> {
                 let message = format!("a unit has no number such as `{number}` in it");
                 self.diagnostics.push(
                     Diagnostic::error(span, message)
-                        .label("only 1 may stand here")
+                        .label("only the number 1 is allowed here")
                         .help("values are not converted: put the factor into the value"),
                 );
                 None

@@ -257,7 +257,7 @@ impl Graph {
                 "{nodes} nodes with {operands} operands were made; the bound is {} of both",
                 self.limit
             ),
-            "very many terms come of it: write it in a shorter form".into(),
+            "it makes very many terms: write it in a shorter form".into(),
             "`mms ... --max-nodes N` raises the bound; `field!` keeps the default".into(),
         ]
     }
