@@ -55,7 +55,7 @@ fn so_they_do_for_as_many_terms_as_a_graph_holds() {
     hold(Family::Polynomial, MANY);
 }
 
-/// Each definition uses the one before it twice: walking every use takes 2^45 steps, and 2^60 if all cases are tried.
+/// Each definition uses the one before it twice: walking every use would take 2^45 steps, and 2^60 if all cases are tried.
 #[test]
 fn what_is_used_twice_is_walked_once() {
     let levels = if all_is_tried() { 60 } else { 45 };

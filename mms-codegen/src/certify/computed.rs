@@ -12,8 +12,8 @@
 //! study` only if it fails at a corner or in the middle.
 //!
 //! The errors of the angles of sines, cosines and tangents bound how many of their digits are right. Whole turns are taken off
-//! an angle such as c t. The exact value of the result is defined with as many turns taken off as the computed one has; so for
-//! angles of more than a few turns only its size is known.
+//! an angle such as c t. The exact result is defined with the same number of turns taken off as the computed one; so for angles
+//! of more than a few turns only the size of the result is known.
 
 use mms_math::Scalar as _;
 

@@ -144,7 +144,7 @@ impl<'a> Quantities<'a> {
         let mut outputs = SortedMap::new();
         for (quantity, components) in &compiled.derived.quantities {
             let mut components = components.clone();
-            // The traction and the normal are finite for every N if the tensor is.
+            // The traction and the normal flux are finite for every N if the stress and the flux are.
             match quantity {
                 Quantity::Traction => {
                     let stress = &compiled.derived.quantities[&Quantity::FirstPiolaKirchhoff];

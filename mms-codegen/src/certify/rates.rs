@@ -237,7 +237,7 @@ fn search(
     search_until(chart, bounds, limit, steering, sharp, measure)
 }
 
-/// Bounds a measure as [`search`] does, where `sharp` computes the bound that is sharp enough for a value.
+/// Bounds a measure as `search` does, where `sharp` computes the bound that is sharp enough for a value.
 pub(super) fn search_until(
     chart: &Chart,
     bounds: &mut Enclosures<'_>,

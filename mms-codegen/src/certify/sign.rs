@@ -1,4 +1,5 @@
-//! The sign of an expression that must be positive, such as J = det F: a lower bound over the domain, or a point where it fails.
+//! The sign of an expression that must be positive, such as J = det F: a lower bound over the domain, or a point where it is
+//! not.
 
 use mms_math::Scalar as _;
 

@@ -1,7 +1,7 @@
 //! Reduction to normal form: expressions are multiplied out modulo the relations, so that terms cancel.
 //!
-//! Three kinds of sums stay in one piece: without any atom of a relation, functions of one root alone, and sums of more than
-//! 200 terms. Reduction is therefore bounded, and may not pay.
+//! Three kinds of sums stay in one piece: sums without any atom of a relation, sums of functions of one root alone, and sums of
+//! more than 200 terms. Reduction is therefore bounded, and may not pay.
 
 use super::nest::{integral_power, nested, take_common};
 use super::polynomial::Polynomial;
