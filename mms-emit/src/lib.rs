@@ -1,11 +1,10 @@
-//! Emitters: a program as text of one target language each. They print; they neither differentiate nor reorder.
+//! Emitters: each prints a program as text of one target language. They neither differentiate nor reorder.
 //!
-//! A language is a folder here and its word in the list below. All but one are ports, for which [`port`] has what
-//! they have in common. The Rust module `rust-mms-math`, which is also what `field!` expands to, has a printer of
-//! its own: it has the scalars, the vectorised loops and the bits of `mms-math`. The target `rust` is a port
-//! without a dependency. An emitted Rust file has the kernels without the contract, and no attribute of the whole
-//! file, so that it can be a module or be included in one. Fortran has an interface for C besides, which passes
-//! arrays of points on to its elemental procedures.
+//! Each language has a folder here and its word in the list below. All except one are ports, and [`port`] holds their common
+//! parts. The Rust module `rust-mms-math`, which `field!` also expands to, has a printer of its own: it shares the scalars,
+//! the vectorised loops and the bits of `mms-math`. The target `rust` is a port without a dependency. An emitted Rust file has
+//! the kernels without the contract, and no attribute of the whole file, so that it can be a module or be included in one.
+//! Fortran also has an interface for C, which passes arrays of points on to its elemental procedures.
 
 pub mod port;
 mod target;

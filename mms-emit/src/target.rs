@@ -1,4 +1,4 @@
-//! What a target language is, what it takes, and what it makes.
+//! Target languages: the inputs and the files of each.
 
 use std::sync::OnceLock;
 
@@ -14,7 +14,7 @@ use mms_symbolic::sorted::SortedMap;
 /// Names as they are in the file.
 const ANY: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
 
-/// A field that is emitted, in one language or more: its test vectors and its extent are computed once.
+/// A field that is emitted in one or more languages: its test vectors and its extent are computed once.
 #[derive(Clone, Debug)]
 pub struct Subject<'a> {
     pub(crate) compiled: &'a Compiled,
@@ -23,7 +23,7 @@ pub struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// What a field was compiled for.
+    /// Prepares a compiled field for emission.
     pub fn new(compiled: &'a Compiled) -> Self {
         Subject { compiled, vectors: OnceLock::new(), reach: OnceLock::new() }
     }
@@ -33,26 +33,26 @@ impl<'a> Subject<'a> {
         self.vectors.get_or_init(|| Port::new(self, &ANY).compute_vectors())
     }
 
-    /// Bounds of x by axis over body and time window, at the defaults of parameters; infinite where none is found. Of an
-    /// axisymmetric field they are those of the distance from the axis and of the coordinate along it.
+    /// Bounds of x by axis over body and time window, at the defaults of parameters; infinite if none is found. For an
+    /// axisymmetric field: bounds of the distance from the axis and of the coordinate along it.
     pub fn reach(&self) -> &[[f64; 2]] {
         self.reach.get_or_init(|| reach_at(self.compiled, &SortedMap::new()))
     }
 
-    /// Whether a check program has something to compare: a point where all functions have a value, if there are
-    /// functions of points.
+    /// Whether a check program has something to compare: a point where all functions have a value, if there are functions of
+    /// points.
     pub fn has_values(&self) -> bool {
         let is_needed = Port::new(self, &ANY).callables.iter().any(Callable::is_of_points);
         !is_needed || !self.vectors().samples.is_empty()
     }
 }
 
-/// What a target makes of a field.
+/// The files that a target emits for a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bundle {
-    /// The files: the one that a solver uses first; the check program, where there is one, and its test vectors last.
+    /// The files: the one that a solver uses first; last the check program, if there is one, and its test vectors.
     pub files: Vec<File>,
-    /// The line that builds and runs the check program in their folder, where there is one.
+    /// The line that builds and runs the check program in the folder of the files, if there is one.
     pub verify: Option<String>,
 }
 
@@ -69,13 +69,12 @@ impl Bundle {
 pub struct Target {
     /// The word of the command line.
     pub name: &'static str,
-    /// Another word for it, where a second language reads the same files.
+    /// Another word for the target, if a second language reads the same files.
     pub alias: Option<&'static str>,
-    /// What comes out, in one line.
+    /// A description of the emitted files, in one line.
     pub doc: &'static str,
-    /// Emits what a field was compiled for.
+    /// Emits a compiled field.
     pub emit: fn(&Subject<'_>) -> Bundle,
-    /// The words that mean something in the language or in what is emitted: parameters that are called
-    /// so are renamed.
+    /// The words that mean something in the language or in emitted code: parameters with such a name are renamed.
     pub words: &'static [&'static str],
 }

@@ -1,4 +1,4 @@
-//! What a user wrote, inside of what is emitted: it can neither end its comment nor hide what follows.
+//! A user's text inside emitted code: it can neither end its comment nor hide the code after it.
 
 use mms_spec::foreign::blanked;
 

@@ -22,7 +22,7 @@ pub const C_KEYWORDS: &str = "\
     sizeof static static_assert struct switch thread_local true typedef typeof typeof_unqual union \
     unsigned void volatile while asm fortran near far";
 
-/// C++23, section 5.11, where they are not those of C.
+/// C++23, section 5.11: the keywords that C does not have.
 pub const CPP_KEYWORDS: &str = "\
     and and_eq bitand bitor catch char8_t char16_t char32_t class co_await co_return co_yield compl \
     concept const_cast consteval constinit decltype delete dynamic_cast explicit export friend \
@@ -30,7 +30,7 @@ pub const CPP_KEYWORDS: &str = "\
     reinterpret_cast requires static_cast template this throw try typeid typename using virtual \
     wchar_t xor xor_eq";
 
-/// Macros of the standard headers and of compilers that stand without brackets.
+/// Macros of the standard headers and of compilers that are used without brackets.
 pub const MACROS: &str = "\
     NULL I complex imaginary noreturn errno stdin stdout stderr unix linux i386 NAN INFINITY \
     HUGE_VAL HUGE_VALF HUGE_VALL EOF RAND_MAX math_errhandling M_PI M_E MATH REAL \

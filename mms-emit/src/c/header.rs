@@ -57,12 +57,13 @@ fn types(port: &Port<'_>) -> String {
         text += &format!("    {name}_real {parameter};\n");
     }
     text += &closed(&format!("{name}_parameters"), port.parameters.is_empty());
-    text += "/** What only the parameters determine. */\ntypedef struct {\n";
+    text += "/** The values that depend only on the parameters. */\ntypedef struct {\n";
     text += &members(&format!("{name}_real"), port.kept.iter().map(|it| local(*it, false)));
     text += &members(&format!("{name}_wide"), port.kept_wide.iter().map(|it| local(*it, true)));
     let is_empty = port.kept.is_empty() && port.kept_wide.is_empty();
     text += &closed(&format!("{name}_field"), is_empty);
-    text += "/** What the parameters and the time determine. */\ntypedef struct {\n";
+    text +=
+        "/** The values that depend only on the parameters and the time. */\ntypedef struct {\n";
     text +=
         &members(&format!("{name}_real"), port.kept_at_times.iter().map(|it| local(*it, false)));
     text + &closed(&format!("{name}_instant"), port.kept_at_times.is_empty())
@@ -108,7 +109,7 @@ fn functions(port: &Port<'_>) -> String {
     text
 }
 
-/// What a function is of.
+/// The first argument of a function: the field at a time, or the prepared field if the function does not depend on time.
 pub(super) fn subject(port: &Port<'_>, callable: &Callable) -> String {
     let name = &port.name;
     match callable.time {
@@ -134,7 +135,7 @@ pub(super) fn head(port: &Port<'_>, callable: &Callable) -> String {
     broken(&start, &arguments, "")
 }
 
-/// The head of a function of many points, where arrays are said to be apart, or not.
+/// The head of a function of many points; `restrict` is the qualifier of its arrays, or empty.
 pub(super) fn batch_head(port: &Port<'_>, callable: &Callable, restrict: &str) -> String {
     let name = &port.name;
     let mut arguments = vec![subject(port, callable), "size_t n".into()];

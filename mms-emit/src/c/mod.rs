@@ -19,8 +19,8 @@ pub const TARGET: Target = Target {
     words: RULES.words,
 };
 
-/// The flags of the line that proves a port: those that make every warning an error, and no fused
-/// operations, which would change what double-double arithmetic relies on.
+/// The flags of the line that proves a port: every warning is an error, and no operations are fused, because fused
+/// operations would change what double-double arithmetic relies on.
 const FLAGS: &str = "-std=c99 -O2 -Wall -Wextra -Werror -ffp-contract=off";
 
 fn bundle(subject: &Subject<'_>) -> Bundle {
@@ -38,7 +38,7 @@ fn bundle(subject: &Subject<'_>) -> Bundle {
 
 /// Paragraphs as one comment.
 pub(super) fn comment(paragraphs: &[String], indent: &str) -> String {
-    // What would end the comment or begin another, and what C99 takes for a backslash.
+    // Breaks up comment marks, and the trigraphs that C99 reads as other characters.
     let harmless =
         |text: &String| text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?");
     let paragraphs: Vec<Vec<String>> =
@@ -52,7 +52,7 @@ pub(super) fn comment(paragraphs: &[String], indent: &str) -> String {
     text + " */\n"
 }
 
-/// The same as a comment of documentation.
+/// Paragraphs as one documentation comment.
 fn documented(paragraphs: &[String], indent: &str) -> String {
     comment(paragraphs, indent).replacen("/*", "/**", 1)
 }

@@ -141,7 +141,7 @@ fn of_many_points(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     text + "    }\n}\n"
 }
 
-/// The same of one point.
+/// A function of one point, which calls the function of many points.
 fn of_one_point(port: &Port<'_>, callable: &Callable) -> String {
     let mut arguments = vec![if callable.time { "now" } else { "field" }.to_string(), "1".into()];
     for (array, count) in callable.arrays() {
@@ -163,7 +163,7 @@ fn of_one_point(port: &Port<'_>, callable: &Callable) -> String {
     text + "}\n"
 }
 
-/// A part of the domain.
+/// A function of no point: a part of the domain.
 fn of_no_point(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     let mut text = head(port, callable) + "\n{\n";
     debug_assert!(subject(port, callable).ends_with("field"));

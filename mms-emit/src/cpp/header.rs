@@ -14,7 +14,7 @@ use crate::port::support::Calls;
 use crate::text::{indented, wrapped};
 use mms_program::Value;
 
-/// Functions of a point that C++ lacks: those of C, as templates in the scalar.
+/// Functions of a point that C++ lacks: the C functions as templates in the scalar.
 fn point(calls: &Calls) -> String {
     let mut text = support(POINT).needed(calls).join("\n\n").replace("REAL(", "T(");
     for name in ["rint", "fabs", "sin", "cos", "copysign", "log1p"] {
@@ -47,7 +47,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
         [wide(calls, is_wide), point].map(|text| text.replace("FIELD_", &format!("{upper}_")));
     let mut header = port.header();
     header.push(format!(
-        "Functions are templates in the scalar, and stand behind {upper}_FUNCTION, so that CUDA and HIP compile them for host and device. Compile with -ffp-contract=off, or with nvcc --fmad=false: what needs only parameters and the time is computed with twice the digits of a double. {name}_check.cpp checks the result."
+        "Functions are templates in the scalar, declared with {upper}_FUNCTION, so that CUDA and HIP compile them for host and device. Compile with -ffp-contract=off, or with nvcc --fmad=false: what needs only parameters and the time is computed with twice the digits of a double. {name}_check.cpp checks the result."
     ));
     let mut text = comment(&header, "");
     let _ = write!(
@@ -99,12 +99,12 @@ fn types(port: &Port<'_>) -> String {
         let _ = writeln!(text, "    T {parameter};");
     }
     text += "};\n\n";
-    text += "/// What only the parameters determine.\ntemplate <class T> struct Field {\n";
+    text +=
+        "/// The values that depend only on the parameters.\ntemplate <class T> struct Field {\n";
     text += &members("T", &port.kept, false);
     text += &members("detail::wide", &port.kept_wide, true);
     text += "};\n\n";
-    text +=
-        "/// What the parameters and the time determine.\ntemplate <class T> struct Instant {\n";
+    text += "/// The values that depend only on the parameters and the time.\ntemplate <class T> struct Instant {\n";
     text += &members("T", &port.kept_at_times, false);
     text + "};\n\n"
 }
@@ -229,7 +229,7 @@ fn function(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     definition(&doc, result, &callable.name, &arguments, &text)
 }
 
-/// The same at many points: an array for each coordinate and each component.
+/// A function of many points: an array for each coordinate and each component.
 fn batch(callable: &Callable) -> String {
     let inputs = callable.input_names();
     let mut arguments = vec![subject(callable, true), "std::size_t n".into()];

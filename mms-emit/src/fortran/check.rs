@@ -42,7 +42,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     text + &format!("end program {name}_check\n")
 }
 
-/// The name of a function in that of a procedure of 63 characters.
+/// The name of a function, shortened so that a procedure named after it has at most 63 characters.
 fn short(name: &str) -> &str {
     &name[..name.len().min(57)]
 }
@@ -80,8 +80,8 @@ fn checked(port: &Port<'_>, check: &Check<'_>) -> String {
     text
 }
 
-/// The call of the procedure for C: of all points; or where they have times of each and all before it, so that what is
-/// compared is the last of them.
+/// The call of the procedure for C: of all points at once; or, if times differ, of each point and all before it, where only
+/// the last result is compared.
 fn through_c(port: &Port<'_>, callable: &Callable) -> String {
     let (indent, which) = if callable.time { ("      ", ":point") } else { ("    ", ":") };
     let mut arguments = Vec::new();

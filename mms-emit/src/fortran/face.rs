@@ -83,7 +83,7 @@ fn given(port: &Port<'_>) -> String {
     text + "  end function given\n"
 }
 
-/// What an argument that holds an array is called: Fortran takes N for n.
+/// The name of an argument that is an array: N and H are renamed, because Fortran does not distinguish N from n.
 fn array(name: &str) -> &str {
     match name {
         "N" => "normal",

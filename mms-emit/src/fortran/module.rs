@@ -15,7 +15,7 @@ use mms_program::Value;
 const WIDE: &str = include_str!("support/wide.f90");
 const POINT: &str = include_str!("support/point.f90");
 
-/// What operators stand for.
+/// The functions of the support text behind the operators.
 const OPERATORS: [&str; 6] =
     ["wide_of", "wide_add", "wide_sub", "wide_neg", "wide_mul", "wide_div"];
 
@@ -96,11 +96,11 @@ fn types(port: &Port<'_>) -> String {
         let _ = writeln!(text, "    real(wp) :: {parameter} = 0.0_wp");
     }
     text += "  end type parameters_type\n\n";
-    text += "  !> What only the parameters determine.\n  type, public :: field_type\n    private\n";
+    text += "  !> The values that depend only on the parameters.\n  type, public :: field_type\n    private\n";
     text += &declared("real(wp)", &names(&port.kept, false), "    ");
     text += &declared("type(wide)", &names(&port.kept_wide, true), "    ");
     text += "  end type field_type\n\n";
-    text += "  !> What the parameters and the time determine.\n  type, public :: instant_type\n    private\n";
+    text += "  !> The values that depend only on the parameters and the time.\n  type, public :: instant_type\n    private\n";
     text += &declared("real(wp)", &names(&port.kept_at_times, false), "    ");
     text + "  end type instant_type\n\n"
 }
@@ -122,7 +122,7 @@ fn procedures(port: &Port<'_>, bodies: &Bodies) -> String {
     text
 }
 
-/// What is not read, so that no compiler wonders: an empty use.
+/// Empty uses of names that are not read, so that no compiler warns about them.
 fn unused(names: &[&str]) -> String {
     let uses =
         names.iter().map(|name| format!("    associate (unused => {name})\n    end associate\n"));
@@ -234,7 +234,7 @@ fn of_points(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     text
 }
 
-/// A part of the domain.
+/// A function of no point: a part of the domain.
 fn of_no_point(callable: &Callable, body: &Body, is_scalar: bool) -> String {
     let name = &callable.name;
     let count = callable.components.len();

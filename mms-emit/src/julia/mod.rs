@@ -25,13 +25,13 @@ const RULES: Rules = Rules {
     longest: 120,
 };
 
-/// The Julia Manual, section Keywords; those of two words too.
+/// The keywords of the Julia Manual, section Keywords, also the words of two-word keywords.
 const KEYWORDS: &str = "\
     abstract baremodule begin break catch const continue do else elseif end export false finally for \
     function global if import in isa let local macro module mutable outer primitive public quote return \
     struct true try type using where while";
 
-/// What a module of the name would hide from itself.
+/// Names that the module uses itself: a module of such a name would hide them.
 const NAMES: &str = "\
     Base Core Main T Parameters Field Instant BigFloat Ref abs acos asin atan cbrt cos cosh cospi exp expm1 \
     float log log1p ln_1p_rest pi promote setprecision sin sinh sinpi sqrt tan tanh wide dimension";

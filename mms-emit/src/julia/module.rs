@@ -37,9 +37,14 @@ pub(super) fn text(port: &Port<'_>) -> String {
         format!("{doc}const {end} = {}\n", tuple(numbers))
     });
     text += &parameters(port);
-    text += &structure("What only the parameters determine.", "Field", &port.kept, &port.kept_wide);
     text += &structure(
-        "What the parameters and the time determine.",
+        "The values that depend only on the parameters.",
+        "Field",
+        &port.kept,
+        &port.kept_wide,
+    );
+    text += &structure(
+        "The values that depend only on the parameters and the time.",
         "Instant",
         &port.kept_at_times,
         &[],
@@ -86,7 +91,7 @@ fn structure(doc: &str, name: &str, values: &[Value], wide: &[Value]) -> String 
 
 fn parameters(port: &Port<'_>) -> String {
     let defaults = &port.subject.vectors().defaults;
-    let mut text = "\"The parameters; their defaults are those of the field file, or set.\"\n\
+    let mut text = "\"The parameters; their defaults come from the field file, or were set.\"\n\
                     struct Parameters{T<:AbstractFloat}\n"
         .to_string();
     for (index, name) in &port.parameters {
@@ -109,7 +114,7 @@ fn parameters(port: &Port<'_>) -> String {
     text + &bracketed("Parameters{T}(", &names, ")\n\n")
 }
 
-/// Items between brackets: on the line of these, or on lines of their own.
+/// Items between brackets: on the line of the brackets if they fit, or on lines of their own.
 fn bracketed(open: &str, items: &[String], close: &str) -> String {
     match listed(items, 88).as_slice() {
         [line] if line.len() <= 40 => format!("{open}{line}{close}"),

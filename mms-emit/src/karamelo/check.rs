@@ -13,7 +13,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     let name = &port.name;
     let mut header = port.check_header(&format!("{name}.kar"));
     if let Some(last) = header.last_mut() {
-        *last += " Here an eps is that of single precision, every step is rounded to it, and where that loses more than half of what is accepted, four times that loss is.";
+        *last += " Here eps is the one of single precision, and every step is rounded to it. Where this rounding loses more than half of the accepted error, four times the loss is accepted.";
     }
     let mut text = comment(&header, "");
     let _ = write!(

@@ -28,14 +28,14 @@ pub const TARGET: Target = Target {
     words: RULES.words,
 };
 
-/// Names stand behind those of the field, so that no word is in the way.
+/// Emitted names begin with the name of the field, so that no word has to be avoided.
 const RULES: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
 
-/// The functions that all its versions have.
+/// The functions that all versions of Karamelo have.
 const HAS: &[Function] =
     &[Function::Sqrt, Function::Exp, Function::Ln, Function::Sin, Function::Cos, Function::Tan];
 
-/// Longer texts take versions long that put formulas in the place of names.
+/// Versions of Karamelo that substitute formulas for names are slow at longer texts.
 const LONG: u64 = 1_000_000;
 
 fn bundle(subject: &Subject<'_>) -> Bundle {
@@ -71,12 +71,12 @@ fn text(port: &Port<'_>) -> String {
     let body = port.body(&Karamelo(name), &roots, Context::Everything);
     let mut header = port.header();
     header.push(format!(
-        "Variables for an input file. Quantities are of the reference position x0, y0, z0 and of the time, and stand at the end; names with a number are steps on the way. Karamelo computes them in single precision. {name}_check.py checks the formulas."
+        "Variables for an input file. Quantities are functions of the reference position x0, y0, z0 and of the time, and come last; names with a number are intermediate values. Karamelo computes them in single precision. {name}_check.py checks the formulas."
     ));
     let longest = longest(port, &roots);
     if longest > LONG {
         header.push(format!(
-            "Versions of Karamelo without expressions (before class Expression) put formulas in the place of names: here up to {longest} of them in one, which they cannot hold. Choose quantities with --quantity, or freeze parameters."
+            "Versions of Karamelo without expressions (before class Expression) substitute formulas for names: here up to {longest} names in one formula, which is more than they can store. Choose quantities with --quantity, or freeze parameters."
         ));
     }
     let mut text = comment(&header, "");
@@ -101,7 +101,7 @@ fn text(port: &Port<'_>) -> String {
     text
 }
 
-/// How many names the longest formula has when all formulas stand in the place of their names.
+/// The number of names in the longest formula after all names are replaced by their formulas.
 fn longest(port: &Port<'_>, roots: &[Value]) -> u64 {
     let mut lengths: SortedMap<Value, u64> = SortedMap::new();
     for (index, instr) in port.program().instrs.iter().enumerate() {

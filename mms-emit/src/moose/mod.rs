@@ -1,7 +1,7 @@
 //! MOOSE: blocks of an input file, one ParsedFunction for each component, and a program that checks them.
 //!
-//! Their formulas are those of the Function Parser for C++, whose optimiser rearranges sums: what the
-//! compiler writes has no difference that it could take for 0.
+//! The Function Parser for C++ reads the formulas, and its optimiser rearranges sums: the compiler writes no difference
+//! that the optimiser could take for 0.
 
 mod check;
 mod dialect;
@@ -30,10 +30,10 @@ pub const TARGET: Target = Target {
     words: RULES.words,
 };
 
-/// Names stand behind those of the field, so that no word is in the way.
+/// Emitted names begin with the name of the field, so that no word has to be avoided.
 const RULES: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
 
-/// The functions of the parser, and those that can be written in one formula.
+/// The functions of the parser, and the ones that can be written in one formula.
 const HAS: &[Function] = &[
     Function::Sqrt,
     Function::Cbrt,
@@ -62,8 +62,8 @@ fn bundle(subject: &Subject<'_>) -> Bundle {
     )
 }
 
-/// How many operations a formula may have when names stand for formulas. The optimiser of the parser takes
-/// as long as that, and more; and what is shared can double it at every step.
+/// The limit of operations in a formula after names are replaced by formulas. The optimiser of the parser takes time at
+/// least in proportion to this number, and shared values can double it at every step.
 const LONGEST: u32 = 400;
 
 fn text(port: &Port<'_>) -> String {
@@ -92,10 +92,10 @@ fn text(port: &Port<'_>) -> String {
     }
     let mut header = port.header();
     header.push(format!(
-        "For `!include {name}.i` at the top level of an input file. Functions are of the coordinates of the undeformed mesh and of the time; those called {name}_q are steps on the way to others. A parameter is changed in its line, or on the command line. {name}_check.py checks the formulas."
+        "For `!include {name}.i` at the top level of an input file. Functions depend on the coordinates of the undeformed mesh and on the time; functions called {name}_q are intermediate values. A parameter is changed in its line, or on the command line. {name}_check.py checks the formulas."
     ));
     if port.compiled.field.space.is_axisymmetric() {
-        header.push("For blocks with coord_type = RZ: x is R and y is Z, and the components 1, 2 and 3 are those along R, Z and the hoop, in the order of MOOSE.".into());
+        header.push("For blocks with coord_type = RZ: x is R and y is Z, and the components 1, 2 and 3 are along R, Z and the hoop, in the order of MOOSE.".into());
     }
     let mut text = comment(&header, "");
     let defaults = &port.subject.vectors().defaults;
@@ -110,8 +110,8 @@ fn text(port: &Port<'_>) -> String {
     text + "\n[Functions]\n" + &blocks + "[]\n"
 }
 
-/// Which values are functions of their own, so that no formula is too long: within a function one that it
-/// names is computed once, however often its name stands there.
+/// Marks the values that become functions of their own, so that no formula is too long. A formula computes a function
+/// that it names once, however often the name occurs.
 fn apart(port: &Port<'_>, roots: &[Value]) -> Vec<bool> {
     let program = port.program();
     let needed = program.needed_for(roots.iter().copied());

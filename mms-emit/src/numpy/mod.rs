@@ -1,4 +1,4 @@
-//! Python: a module over NumPy arrays of any shape. Its printer is that of `python`.
+//! Python: a module over NumPy arrays of any shape, printed by `python`.
 
 use crate::python::{Library, TARGET as PYTHON, bundle};
 use crate::target::Target;

@@ -29,7 +29,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     text
 }
 
-/// What a user calls.
+/// The function that users call.
 fn face(port: &Port<'_>) -> String {
     let name = &port.name;
     let mut header = port.header();
@@ -60,7 +60,7 @@ fn arguments(callable: &Callable) -> String {
     arguments.join(", ")
 }
 
-/// The results: each component, or one row where nothing is of points.
+/// The results: each component, or one row for functions of no point.
 fn results(callable: &Callable) -> String {
     match (callable.is_of_points(), callable.components.as_slice()) {
         (_, [one]) => one.clone(),

@@ -21,7 +21,7 @@ pub enum Arithmetic {
 }
 
 impl Arithmetic {
-    /// Its sign.
+    /// The operator as text.
     pub fn sign(self) -> &'static str {
         match self {
             Arithmetic::Add => "+",
@@ -31,7 +31,8 @@ impl Arithmetic {
         }
     }
 
-    /// The function of the support text that does it with twice the digits, where there are no operators for such.
+    /// The function of the support text that computes the operation with twice the digits, in languages without operators for
+    /// it.
     pub fn wide_name(self) -> &'static str {
         match self {
             Arithmetic::Add => "wide_add",
@@ -42,7 +43,7 @@ impl Arithmetic {
     }
 }
 
-/// An argument that keeps what was computed before.
+/// An argument that holds values computed before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Owner {
     /// The parameters.
@@ -54,7 +55,7 @@ pub enum Owner {
 }
 
 impl Owner {
-    /// What the argument is called where a language has no custom of its own.
+    /// The name of the argument in languages without a convention of their own.
     pub fn name(self) -> &'static str {
         match self {
             Owner::Parameters => "parameters",
@@ -64,8 +65,8 @@ impl Owner {
     }
 }
 
-/// The name that a function has in the mathematical library of C, and of languages that took it over; none
-/// where there is no such function.
+/// The name of a function in the mathematical library of C, and of languages that adopted it; `None` if it has no such
+/// function.
 pub fn in_c_library(function: Function) -> Option<&'static str> {
     match function {
         Function::Ln => Some("log"),
@@ -81,11 +82,11 @@ pub fn in_c_library(function: Function) -> Option<&'static str> {
     }
 }
 
-/// How a language writes what programs are made of. `wide` says that a number has twice the digits of
-/// a double. What is written with a function of the support text records it in `calls`; the printer
-/// itself records functions of programs.
+/// The syntax of a language for the parts of a program. If `wide` is true, a number has twice the digits of a double. An
+/// implementation that writes a function of the support text records it in `calls`; the printer itself records functions of
+/// programs.
 pub trait Dialect {
-    /// A constant as an operand; one below 0 stands in brackets.
+    /// A constant as an operand; a negative one is written in brackets.
     fn literal(&self, number: &Rational, wide: bool, calls: &mut Calls) -> String;
     /// pi.
     fn pi(&self, wide: bool, calls: &mut Calls) -> String;
@@ -105,7 +106,7 @@ pub trait Dialect {
     }
     /// The name of a function of the caller's precision.
     fn function(&self, function: Function) -> String;
-    /// A call of it; arguments are names, literals or members.
+    /// A call of a function; arguments are names, literals or members.
     fn call(&self, function: Function, arguments: &[String]) -> String {
         format!("{}({})", self.function(function), arguments.join(", "))
     }
@@ -128,27 +129,27 @@ pub trait Dialect {
     fn negated(&self, a: &str, _wide: bool, _calls: &mut Calls) -> String {
         format!("-{a}")
     }
-    /// What a value is called in the function that computes it.
+    /// The name of a value in the function that computes it.
     fn local(&self, value: Value, wide: bool) -> String {
         local(value, wide)
     }
-    /// The statement that gives a new name to a value.
+    /// The statement that assigns a value to a new name.
     fn statement(&self, name: &str, value: &str, wide: bool) -> String;
 }
 
-/// Which function is being printed, and so where its operands are.
+/// The function being printed, which determines where its operands are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
-    /// That which prepares a field.
+    /// The function that prepares a field.
     Parameters,
-    /// That which goes to a time.
+    /// The function that computes a field at a time.
     Times,
-    /// One of points, of a field at a time or of a prepared field alone.
+    /// A function of points, of a field at a time or of a prepared field alone.
     Points {
-        /// Whether it is of a time.
+        /// Whether the function depends on time.
         timed: bool,
     },
-    /// One that computes everything, from the parameters on.
+    /// A function that computes everything from the parameters.
     Everything,
 }
 
@@ -174,24 +175,24 @@ pub fn local(value: Value, wide: bool) -> String {
 
 /// The body of a function.
 pub struct Body {
-    /// Its statements.
+    /// The statements.
     pub statements: Vec<String>,
     /// The names that they define.
     pub locals: Vec<String>,
-    /// Its results.
+    /// The results.
     pub results: Vec<String>,
-    /// The arguments that it reads.
+    /// The arguments that the body reads.
     pub inputs: Vec<Symbol>,
-    /// Whether it reads what an earlier stage kept.
+    /// Whether the body reads values kept by an earlier stage.
     pub reads_kept: bool,
-    /// Whether its statements compute with twice the digits.
+    /// Whether the statements compute with twice the digits.
     pub is_wide: bool,
-    /// The functions that it calls.
+    /// The functions that the body calls.
     pub calls: Calls,
 }
 
 impl Body {
-    /// Whether it reads a parameter.
+    /// Whether the body reads a parameter.
     pub fn reads_parameters(&self) -> bool {
         self.inputs.iter().any(|symbol| matches!(symbol, Symbol::Parameter(_)))
     }
@@ -199,13 +200,13 @@ impl Body {
 
 /// The bodies of all functions of a field.
 pub struct Bodies {
-    /// That which computes the default of each parameter.
+    /// The body of the function that computes the default of each parameter.
     pub defaults: Body,
-    /// That which prepares a field: what is kept, then what is kept with twice the digits.
+    /// The body of the function that prepares a field. Results: the kept values, then the values kept with twice the digits.
     pub prepare: Body,
-    /// That which goes to a time.
+    /// The body of the function that computes a field at a time.
     pub at_time: Body,
-    /// Those of the port's other functions, one each.
+    /// The bodies of the port's other functions, in order.
     pub callables: Vec<Body>,
 }
 
@@ -214,14 +215,14 @@ impl Bodies {
         [&self.defaults, &self.prepare, &self.at_time].into_iter().chain(&self.callables)
     }
 
-    /// The functions that any of them calls.
+    /// The functions that the bodies call.
     pub fn calls(&self) -> Calls {
         let mut calls = Calls::default();
         self.all().for_each(|body| calls.extend(&body.calls));
         calls
     }
 
-    /// Whether any of them computes with twice the digits.
+    /// Whether any body computes with twice the digits.
     pub fn are_wide(&self) -> bool {
         self.all().any(|body| body.is_wide)
     }
@@ -253,12 +254,12 @@ impl Port<'_> {
         self.callables.iter().zip(&bodies.callables)
     }
 
-    /// What computes `roots` in a function, as they are kept or returned.
+    /// The body that computes `roots` in a function, as they are kept or returned.
     pub fn body(&self, dialect: &dyn Dialect, roots: &[Value], place: Context) -> Body {
         self.body_of(dialect, roots, place, self.program().needed_for(roots.iter().copied()))
     }
 
-    /// The same, of the instructions that are needed there: others are known by their names.
+    /// The body that computes `roots` with the `needed` instructions only; all other values are read by name.
     pub fn body_of(
         &self,
         dialect: &dyn Dialect,
@@ -298,7 +299,7 @@ impl Port<'_> {
     }
 }
 
-/// What prints the instructions of one function, and records what they call.
+/// Prints the instructions of one function, and records the functions that they call.
 struct Printer<'a> {
     port: &'a Port<'a>,
     dialect: &'a dyn Dialect,
@@ -326,7 +327,7 @@ impl Printer<'_> {
                 let a = self.operand(*a);
                 Some(self.dialect.negated(&a, self.wide, &mut self.calls))
             }
-            // What is proved of an angle is no use to functions of other languages.
+            // Other languages have no use for the proved range of an angle.
             Op::Unary(function, _, a) => Some(self.call(*function, &[*a])),
             Op::Binary(function, a, b) => Some(self.call(*function, &[*a, *b])),
         }
@@ -347,7 +348,7 @@ impl Printer<'_> {
         self.dialect.call(function, &arguments)
     }
 
-    /// How a function reads a value: a literal, a local, an argument, or what an earlier stage kept.
+    /// The text by which a function reads a value: a literal, a local, an argument, or a value kept by an earlier stage.
     fn operand(&mut self, value: Value) -> String {
         let (dialect, place, wide) = (self.dialect, self.place, self.wide);
         let instr = self.port.program().instr(value);

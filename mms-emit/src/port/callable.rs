@@ -13,38 +13,38 @@ use mms_symbolic::expr::Symbol;
 /// A function of an emitted field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Callable {
-    /// Its name, without a prefix.
+    /// The name, without a prefix.
     pub name: String,
-    /// What it gives.
+    /// The output of the program that the function returns.
     pub output: Output,
-    /// One sentence on what that is.
+    /// One sentence on the output.
     pub doc: String,
-    /// Its unit, by the units of the field's parameters; of the SI where these have none.
+    /// The unit, in the units of the field's parameters; SI units if they have none.
     pub unit: String,
-    /// Scalar, vector or tensor; none for a list of another length.
+    /// Scalar, vector or tensor; `None` for a list of another length.
     pub shape: Option<Shape>,
     /// The names of its components, rows first.
     pub components: Vec<String>,
-    /// Whether it is of a time.
+    /// Whether the function depends on time.
     pub time: bool,
-    /// What it takes at a point: coordinates, normal or gradient.
+    /// The inputs at a point: coordinates, normal or gradient.
     pub inputs: Vec<Symbol>,
     /// The coordinates of the field.
     pub space: Space,
 }
 
 impl Callable {
-    /// Whether it is a quantity that the field file defines.
+    /// Whether the output is a quantity that the field file defines.
     pub fn is_own(&self) -> bool {
         matches!(self.output, Output::Quantity(Quantity::Own(_)))
     }
 
-    /// Whether it is evaluated at points.
+    /// Whether the function is evaluated at points.
     pub fn is_of_points(&self) -> bool {
         !self.inputs.is_empty()
     }
 
-    /// Which of three words it is: for what is of no point, of points, or of points and a time.
+    /// One of three words: for a function of no point, of points, or of points and a time.
     pub fn owner<'a>(&self, [alone, field, now]: [&'a str; 3]) -> &'a str {
         match (self.is_of_points(), self.time) {
             (false, _) => alone,
@@ -53,12 +53,12 @@ impl Callable {
         }
     }
 
-    /// Whether it gives one number, and not a list.
+    /// Whether the function returns one number, and not a list.
     pub fn is_scalar(&self) -> bool {
         self.shape == Some(Shape::Scalar)
     }
 
-    /// What it is, of which shape and in which unit: its documentation in every language.
+    /// The documentation in every language: the output, its shape and its unit.
     pub fn documentation(&self) -> String {
         let rows = self.space.rows();
         let shape = match (self.shape, self.components.len()) {
@@ -74,7 +74,7 @@ impl Callable {
         }
     }
 
-    /// What it takes at a point as arrays: X, N or H, and how many numbers each holds.
+    /// The inputs at a point as arrays: X, N or H, each with its number of components.
     pub fn arrays(&self) -> Vec<(&'static str, usize)> {
         let mut arrays: Vec<(&'static str, usize)> = Vec::new();
         for symbol in &self.inputs {
@@ -91,7 +91,7 @@ impl Callable {
         arrays
     }
 
-    /// The places of what it takes, among t, X, N and H of a point.
+    /// The indices of the inputs among t, X, N and H of a point.
     pub fn columns(&self) -> Vec<usize> {
         let dimension = self.space.coordinates();
         let first = |array: &str| match array {
@@ -103,12 +103,12 @@ impl Callable {
         arrays.flat_map(|(array, count)| first(array)..first(array) + count).collect()
     }
 
-    /// Whether it needs nothing but a point and a time, as functions of input files do.
+    /// Whether the function has no inputs except coordinates and time, like functions of input files.
     pub fn is_of_places(&self) -> bool {
         self.inputs.iter().all(|symbol| matches!(symbol, Symbol::Coordinate(_)))
     }
 
-    /// What tells its components apart behind its name, rows first: nothing, `_1`, `_12`.
+    /// The suffixes that distinguish the components after the name, rows first: nothing, `_1`, `_12`.
     pub fn suffixes(&self) -> Vec<String> {
         let rows = self.space.rows();
         match self.shape {
@@ -122,7 +122,7 @@ impl Callable {
         }
     }
 
-    /// The names of what it takes at a point.
+    /// The names of the inputs at a point.
     pub fn input_names(&self) -> Vec<String> {
         self.inputs.iter().map(|symbol| input(self.space, *symbol)).collect()
     }
@@ -141,8 +141,8 @@ pub fn input(space: Space, symbol: Symbol) -> String {
     }
 }
 
-/// The functions of a field: its domain, its material unless only quantities were asked for, quantities
-/// in the order of derivation, and what is given on faces.
+/// The functions of a field: its domain, its material unless only quantities are selected, quantities in the order of
+/// derivation, and prescribed values on faces.
 pub fn callables(compiled: &Compiled) -> Vec<Callable> {
     let wanted = |callable: &Callable| match callable.output {
         Output::Bound(Bound::Space) => false,
@@ -247,7 +247,7 @@ fn response(response: Response, compiled: &Compiled) -> Callable {
             "Pa",
             Shape::Tensor,
         ),
-        Response::Tangent => unreachable!("derived where it is asked for"),
+        Response::Tangent => unreachable!("derived where it is needed"),
     };
     let strained = !matches!(response, Response::Density | Response::WaveSpeed);
     let mut inputs = coordinates(space);
@@ -275,7 +275,7 @@ fn quantity(quantity: Quantity, compiled: &Compiled) -> Callable {
     if quantity.takes_normal() {
         inputs.extend((0..space.coordinates()).map(Symbol::Normal));
     }
-    // A symbol of the user's may be a word of the language.
+    // A symbol of the user's file may be a word of the language.
     let symbol = match quantity {
         Quantity::Own(_) => "value",
         _ => quantity.symbol(),
@@ -293,7 +293,7 @@ fn quantity(quantity: Quantity, compiled: &Compiled) -> Callable {
     }
 }
 
-/// Whether an output of a program is made of the time.
+/// Whether an output of a program depends on time.
 fn changes_with_time(program: &Program, output: Output) -> bool {
     let mut needed = program.instrs.iter().zip(program.needed(&[output]));
     needed.any(|(instr, needed)| needed && matches!(instr.op, Op::Input(Symbol::Time)))
@@ -302,7 +302,7 @@ fn changes_with_time(program: &Program, output: Output) -> bool {
 fn on_face(face: &str, datum: Datum, output: Output, compiled: &Compiled) -> Callable {
     let space = compiled.field.space;
     let mut components = components("", Shape::Vector, space);
-    // No face looks along the hoop.
+    // No face has a normal along the hoop.
     if datum == Datum::Normal {
         components.truncate(space.coordinates());
     }

@@ -1,14 +1,15 @@
 //! The common parts of check programs: the file of test vectors that they read, and the functions that they run.
 //!
-//! `FIELD_vectors.txt` is the same in every language. It holds tables: a line of a name, the numbers of rows and of
-//! columns and the errors that are accepted in double and in single precision, and the rows. First come the defaults of the
-//! parameters (`defaults`). For each set of parameters follow their values (`set`), the points (`at`: t, X, N and H) and a
-//! table for each function: what it gives at each point, or once. Numbers are the shortest decimals that read back as them.
+//! `FIELD_vectors.txt` is the same in every language. It holds tables. A table begins with a line of its name, the numbers
+//! of rows and of columns, and the errors accepted in double and in single precision; its rows follow. The first table holds
+//! the defaults of the parameters (`defaults`). For each set of parameters follow their values (`set`), the points (`at`: t,
+//! X, N and H) and a table for each function: its expected values at each point, or once. Numbers are the shortest decimals
+//! that read back as the same numbers.
 //!
-//! A check program calls a function at all points of one set of parameters, compares the results in one call, and
-//! accepts 64 eps of their largest magnitude. Where the formulas lose more than half of that in the interpreter's
-//! double precision, a set of parameters other than the defaults is left out, and with the defaults four times
-//! that loss is accepted: a port is to be right, not better than its formulas.
+//! A check program calls a function at all points of one set of parameters, compares the results in one call, and accepts
+//! 64 eps of their largest magnitude. If the formulas lose more than half of that in the interpreter's double precision, a set
+//! of parameters other than the defaults is left out, and with the defaults four times the loss is accepted: a port is to be
+//! right, not better than its formulas.
 
 use std::fmt::Write as _;
 
@@ -24,11 +25,11 @@ use crate::text::wrapped;
 pub struct Check<'a> {
     /// The function.
     pub callable: &'a Callable,
-    /// Its place among the functions of the field.
+    /// The index among the functions of the field.
     pub place: usize,
     /// The name of its table.
     pub table: &'a str,
-    /// What it must give: for each set of parameters, at its points or once.
+    /// The expected values: for each set of parameters, at its points or once.
     pub expected: Vec<&'a [Vec<f64>]>,
 }
 
@@ -114,8 +115,8 @@ impl Port<'_> {
         text
     }
 
-    /// The bundle of these texts, each behind the end of its file's name: sources, and the check program last. `FIELD`
-    /// stands for the name in the line that builds it.
+    /// The bundle of the texts, each with the end of its file's name: sources first, the check program last. `FIELD` in the
+    /// build line is replaced by the name of the field.
     pub fn bundle<const N: usize>(&self, texts: [(&str, String); N], verify: &str) -> Bundle {
         let file = |(end, text)| File { name: format!("{}{end}", self.name), text };
         let mut files: Vec<File> = texts.into_iter().map(file).collect();

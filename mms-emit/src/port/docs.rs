@@ -1,10 +1,10 @@
-//! What is said about a field in every language.
+//! Comments about a field, which are the same in every language.
 
 use super::Port;
 use mms_spec::foreign::{Foreign, blanked};
 
 impl Port<'_> {
-    /// What the field is, what it was made by and of, and what was selected: a paragraph each.
+    /// The title of the field, its source, its provenance and the selection: a paragraph each.
     pub fn header(&self) -> Vec<String> {
         let compiled = self.compiled;
         let mut paragraphs = vec![format!("{}.", compiled.field.title.in_a_comment())];
@@ -16,7 +16,7 @@ impl Port<'_> {
         paragraphs.iter().map(|text| blanked(text)).collect()
     }
 
-    /// What a parameter is, on one line.
+    /// The documentation of a parameter, on one line.
     pub fn parameter_doc(&self, index: usize) -> String {
         let parameter = &self.compiled.model.parameters[index];
         let what = parameter.doc.as_ref().map(Foreign::in_a_comment);

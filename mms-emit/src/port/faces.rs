@@ -1,21 +1,21 @@
-//! The faces of the body, and what is claimed on each.
+//! The faces of the body, and the claim on each.
 
 use super::Port;
 use mms_spec::{Claim, Face, FieldSpec};
 
-/// What is claimed on each face of the body, in the order of faces.
+/// The claim on each face of the body, in the order of faces.
 pub fn claims(field: &FieldSpec) -> Vec<(Face, Claim)> {
     let claim = |face: Face| {
         let claimed = field.boundary.iter().find(|it| it.face.value == face);
-        // What is not claimed is prescribed.
+        // A face without a claim is prescribed.
         claimed.map_or(Claim::Prescribed, |it| it.claim.value)
     };
     let faces = Face::of(&field.domain.body, field.space);
     faces.into_iter().map(|face| (face, claim(face))).collect()
 }
 
-/// What stands above the claims in emitted code.
-pub const DOC: &str = "What is claimed on each face of the body.";
+/// The comment above the claims in emitted code.
+pub const DOC: &str = "The claim on each face of the body.";
 
 impl Port<'_> {
     /// The names of faces, each with the word for its claim.

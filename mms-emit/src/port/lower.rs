@@ -1,24 +1,24 @@
 //! Legalises a program for a language: functions that it lacks are written out in those that it has, without a
 //! branch, and without a difference that algebra takes for 0.
 //!
-//! Some languages rearrange what they read: the parser of MOOSE makes (1 + x) - 1 to x, and with it every
-//! compensated logarithm to one of the rounded 1 + x. So ln(1 + x) is 2^4 ln(1 + y), where x is halved four times
-//! as x/(1 + sqrt(1 + x)), and then a series; x - ln(1 + x) follows the same way back as y^2 + 2 (y - ln(1 + y)),
-//! a sum of positive terms; exp(x) - 1 is 2 exp(x/2) sinh(x/2), or a series of x/64 squared up. The lowered
-//! program is run by the interpreter in one precision, and its own errors decide what a check program accepts.
+//! Some languages rearrange formulas: the parser of MOOSE simplifies (1 + x) - 1 to x, and so turns every compensated
+//! logarithm into one of the rounded 1 + x. Therefore ln(1 + x) is written as 2^4 ln(1 + y), where x is halved four times as
+//! x/(1 + sqrt(1 + x)), and then as a series. x - ln(1 + x) is computed from y by the same steps, as y^2 + 2 (y - ln(1 + y)),
+//! a sum of positive terms. exp(x) - 1 is 2 exp(x/2) sinh(x/2), or a series of x/64 squared up. The interpreter runs the
+//! lowered program in one precision, and the errors of this run decide how much a check program accepts.
 
 use mms_mechanics::Program;
 use mms_program::{Instr, Op, Stage, Value};
 use mms_symbolic::expr::{Function, Rational};
 
-/// How often the argument of a logarithm is halved, each time to less than half: ln(1 + x) is twice ln(1
-/// + y) with y = x/(1 + sqrt(1 + x)).
+/// The number of times that the argument of a logarithm is halved, each time to less than half: ln(1 + x) is twice
+/// ln(1 + y) with y = x/(1 + sqrt(1 + x)).
 const HALVINGS: u8 = 4;
 
-/// How often the argument of an exponential is halved: with e = exp(x/2) - 1, exp(x) - 1 = e (e + 2).
+/// The number of times that the argument of an exponential is halved: with e = exp(x/2) - 1, exp(x) - 1 = e (e + 2).
 const SQUARINGS: u8 = 6;
 
-/// Terms of the series that are summed then.
+/// The number of terms of the series that are summed.
 const TERMS: u8 = 10;
 
 /// A program of the same outputs in which only functions of `has` are called.
@@ -43,7 +43,7 @@ pub fn lowered(program: &Program, has: &[Function]) -> Program {
 struct Lowering<'a> {
     has: &'a [Function],
     instrs: Vec<Instr>,
-    /// That of the instruction which is written out.
+    /// The stage of the instruction which is written out.
     stage: Stage,
 }
 
@@ -153,7 +153,7 @@ impl Lowering<'_> {
             | Function::Sin
             | Function::Cos
             | Function::Tan => unreachable!("every language has {}", function.name()),
-            // What is computed in one precision has lost its digits before.
+            // A value computed in one precision has lost its digits already.
             Function::WithinTurns | Function::WithinTurnsPi => x,
             Function::Atan2 | Function::Powf => unreachable!("a function of two arguments"),
         }
@@ -182,7 +182,7 @@ impl Lowering<'_> {
         self.call(Function::Sqrt, product)
     }
 
-    /// The argument of a logarithm, halved as often, and every half on the way.
+    /// The halved argument of a logarithm, and every half on the way.
     fn halved(&mut self, mut x: Value) -> (Value, Vec<Value>) {
         let mut halves = Vec::new();
         for _ in 0..HALVINGS {
@@ -210,10 +210,10 @@ impl Lowering<'_> {
         (s, self.mul(cubed, sum))
     }
 
-    /// x - ln(1 + x), which is y^2 and twice that of y, the half of x: nothing cancels.
+    /// x - ln(1 + x) = y^2 + 2 (y - ln(1 + y)) with the half y of x: no digits cancel.
     fn ln_1p_rest(&mut self, x: Value) -> Value {
         let (x, halves) = self.halved(x);
-        // At the end x - 2 s is x s.
+        // For the last half, x - 2 s is x s.
         let (s, rest) = self.artanh(x);
         let product = self.mul(x, s);
         let twice = self.times(2, rest);

@@ -1,10 +1,10 @@
-//! What ports to other languages have in common.
+//! The common parts of ports to other languages.
 //!
 //! | module | holds |
 //! |---|---|
 //! | `callable` | the functions of a field, one list for all |
-//! | `body` | the one printer of instructions, over what a `Dialect` says of a language |
-//! | `faces` | what is claimed on each face, as data |
+//! | `body` | the one printer of instructions, over the `Dialect` of a language |
+//! | `faces` | the claim on each face, as data |
 //! | `motion` | how far the motion goes, as data |
 //! | `names` | a user's names under the rules of a language: words, case, length |
 //! | `number` | literals, in decimal and hexadecimal |
@@ -12,7 +12,7 @@
 //! | `lower` | a program in which functions that a language lacks are written out in those that it has |
 //! | `once` | numbers that are computed with no more digits than they have |
 //! | `vectors` | test vectors |
-//! | `check` | the file of test vectors, what check programs say of themselves, and which functions they call |
+//! | `check` | the file of test vectors, the comments of check programs, and the functions that they call |
 //!
 //! A port is flat: one statement per instruction, no shared divisions, no fused products. The stages Parameter and
 //! Time are computed in pairs of doubles, as in Rust, by support text in the language itself, in Julia in its own
@@ -55,17 +55,17 @@ pub struct Port<'a> {
     /// The field.
     pub compiled: &'a Compiled,
     program: Cow<'a, Program>,
-    /// Its name in the language, which files are named after too.
+    /// The name in the language, also used for file names.
     pub name: String,
-    /// The parameters that are left: their positions in the file, and their names in the language.
+    /// The parameters that are not frozen: their positions in the file, and their names in the language.
     pub parameters: SortedMap<usize, String>,
     /// The functions.
     pub callables: Vec<Callable>,
-    /// What a prepared field holds: values of the Parameter stage that points read.
+    /// Values that a prepared field holds: values of the Parameter stage that points read.
     pub kept: Vec<Value>,
-    /// The same with all digits, of values that the Time stage reads.
+    /// Values of the Parameter stage that the Time stage reads, kept with all digits.
     pub kept_wide: Vec<Value>,
-    /// What a field at a time holds: values of both stages that points read.
+    /// Values that a field at a time holds: values of both stages that points read.
     pub kept_at_times: Vec<Value>,
 }
 
@@ -75,7 +75,7 @@ impl<'a> Port<'a> {
         Self::of(subject, rules, Cow::Borrowed(&subject.compiled.program))
     }
 
-    /// The same for a language that computes everything in one precision, with functions that it has.
+    /// The field for a language that computes everything in one precision and has only the functions `has`.
     pub fn once(subject: &'a Subject<'a>, rules: &Rules, has: &[Function]) -> Self {
         let lowered = lower::lowered(&subject.compiled.program, has);
         let mut port = Self::of(subject, rules, Cow::Owned(lowered));
@@ -143,7 +143,7 @@ impl<'a> Port<'a> {
     }
 }
 
-/// The functions, those of the file's own quantities under names that the language takes and no other function has.
+/// The functions. The file's own quantities get names that the language accepts and no other function has.
 fn named(mut callables: Vec<Callable>, rules: &Rules) -> Vec<Callable> {
     for place in 0..callables.len() {
         if callables[place].is_own() {

@@ -3,7 +3,7 @@
 use super::Port;
 use super::number::decimal;
 
-/// What stands above both ends in emitted code.
+/// The comment above both ends in emitted code.
 pub const DOC: &str = "Bounds of x = X + u(X, t) over the whole body and time window with the default \
 parameters, in the unit of lengths: proved by interval arithmetic, and so a little wider than the motion. With other \
 parameters it may go farther.";

@@ -1,6 +1,6 @@
 //! Names of users as names of a language.
 
-/// What a language takes for a name.
+/// The rules of a language for names.
 pub struct Rules {
     /// Words that a member may not be called.
     pub words: &'static [&'static str],
@@ -12,7 +12,7 @@ pub struct Rules {
     pub longest: usize,
 }
 
-/// Functions of a field, and their arguments: what holds them may not be called so in every language.
+/// Functions of a field, and their arguments: in some languages the module or class around them must not have such a name.
 pub const FUNCTIONS: &str = "\
     default_parameters prepare at_time lower upper inner outer theta time_window density wave_speed \
     displacement position velocity acceleration displacement_gradient deformation_gradient jacobian \
@@ -31,8 +31,8 @@ impl Rules {
     }
 }
 
-/// A name that the language takes, near to `name`: letters, digits and underscores, neither at the
-/// beginning nor, where a word is in the way, without an underscore at the end.
+/// A name that the language accepts, close to `name`: letters, digits and underscores, with no digit or underscore at the
+/// beginning, and an underscore at the end only if the name is a word of the language.
 pub fn sanitised(name: &str, rules: &Rules, words: &[&str]) -> String {
     let word = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     let mut own: String = name.chars().map(word).collect();
@@ -46,8 +46,8 @@ pub fn sanitised(name: &str, rules: &Rules, words: &[&str]) -> String {
     own
 }
 
-/// The name of what holds functions, where the language keeps their names from it, and those of their
-/// faces for C.
+/// The name of the module or class around the functions: in a language where it must differ from their names, it also
+/// differs from the names of their faces for C.
 pub fn of_holder(name: &str, rules: &Rules, functions: &[&str]) -> String {
     let mut own = sanitised(name, rules, rules.modules);
     let keeps = rules.modules.contains(&FUNCTIONS);
@@ -66,7 +66,7 @@ const INNER: &str = "\
     rows given at worst failures points_count sets_count compare check_defaults prepare_all defaults value self \
     wp dp count index result check_open check_table check_unit check_accepted";
 
-/// The name of a function of a file's own quantity, beside the functions of these names.
+/// The name of a function of a file's own quantity, given the names of the other functions.
 pub fn of_own(name: &str, rules: &Rules, functions: &[&str]) -> String {
     let mut own = sanitised(name, rules, rules.words);
     let is_inner = |own: &str| {
@@ -82,8 +82,8 @@ pub fn of_own(name: &str, rules: &Rules, functions: &[&str]) -> String {
     own
 }
 
-/// Distinct names as distinct names of the language: one that had to be changed makes way for the
-/// others, and the later for the earlier.
+/// Distinct names as distinct names of the language: if two collide, the one that had to be changed is renamed, or the
+/// later one.
 pub fn unique(names: &[&str], rules: &Rules) -> Vec<String> {
     let wished: Vec<String> =
         names.iter().map(|name| sanitised(name, rules, rules.words)).collect();

@@ -13,7 +13,7 @@ pub fn decimal(value: f64) -> String {
     }
 }
 
-/// The same of an exact number.
+/// The nearest double to an exact number.
 pub fn nearest(number: &Rational) -> f64 {
     parts(number).0
 }

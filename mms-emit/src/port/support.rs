@@ -1,7 +1,7 @@
-//! The text that a language lacks: functions in its own words, of which only those are emitted that are called.
+//! Support texts: functions that a language lacks, written in the language. Only the called ones are emitted.
 //!
-//! What the code of a field calls is recorded while it is printed (`Calls`). What a support text calls itself is read
-//! from that text, which is ours and the same for every field.
+//! The printer records the functions that the code of a field calls (`Calls`). The calls inside a support text are read
+//! from the text, which is ours and the same for every field.
 
 use mms_symbolic::sorted::SortedSet;
 
@@ -16,7 +16,7 @@ impl Calls {
         name
     }
 
-    /// Records what other code calls.
+    /// Records the calls of other code.
     pub fn extend(&mut self, other: &Calls) {
         self.0.extend(other.0.iter().cloned());
     }
@@ -27,15 +27,15 @@ impl Calls {
     }
 }
 
-/// The parts of a support text: blocks between blank lines, two where the language leaves two, each the
-/// definition of one name.
+/// The parts of a support text: blocks separated by a blank line, or by two where the language separates definitions by
+/// two. Each block defines one name.
 pub struct Support {
     blocks: Vec<(String, &'static str)>,
 }
 
 impl Support {
-    /// The blocks of a text. One that defines no name is left out: it makes the file stand alone.
-    /// `comment` is what a line of a comment begins with.
+    /// Splits a text into blocks. Leaves out a block that defines no name: it only makes the file complete on its own.
+    /// `comment` lists the beginnings of comment lines.
     pub fn new(text: &'static str, comment: &[&str]) -> Self {
         let between = if text.contains("\n\n\n") { "\n\n\n" } else { "\n\n" };
         let blocks = text.split(between).map(|block| block.trim_matches('\n'));
@@ -43,7 +43,7 @@ impl Support {
         Support { blocks }
     }
 
-    /// The blocks that are called, and those that they call, in their order.
+    /// The blocks that are called, and the blocks that they call, in their order.
     pub fn needed(&self, calls: &Calls) -> Vec<&'static str> {
         let mut needed = vec![false; self.blocks.len()];
         let mut open: Vec<&str> = calls.names().collect();
@@ -64,8 +64,7 @@ impl Support {
     }
 }
 
-/// The name that a block defines: that before the first bracket or equals sign of its first line that
-/// is no comment.
+/// The name that a block defines: the word before the first bracket or equals sign of its first line that is not a comment.
 fn defined(block: &str, comment: &[&str]) -> Option<String> {
     let is_comment = |line: &&str| comment.iter().any(|start| line.trim_start().starts_with(start));
     let line = block.lines().find(|line| !is_comment(line) && !line.trim().is_empty())?;
@@ -77,7 +76,7 @@ fn defined(block: &str, comment: &[&str]) -> Option<String> {
     words(before).last().map(String::from)
 }
 
-/// The names in a block but for those of members.
+/// The names in a block, without the names of members.
 pub fn names_in(block: &str) -> impl Iterator<Item = &str> {
     words(block).filter(|word| {
         let before = &block[..word.as_ptr() as usize - block.as_ptr() as usize];

@@ -1,10 +1,10 @@
-//! Test vectors: inputs of a port's functions, and what they must give.
+//! Test vectors: inputs of a port's functions, and the expected outputs.
 //!
-//! Inputs are 16 points of the body, and its corners at the first and the last time, for the default parameters,
-//! for others, for an amplitude smaller by 2^-30, and for the field's own extremes. Each set of parameters has as
-//! many points as any other: where a function has no value another point stands twice, and a set without one is
-//! left out. Inputs are exact in single precision, so that both precisions get the same. Expected values are the
-//! program in 77 digits at these very numbers, rounded to double precision.
+//! Inputs are 16 points of the body, and its corners at the first and the last time, for the default parameters, for
+//! others, for an amplitude smaller by 2^-30, and for the field's own extremes. All sets of parameters have the same number of
+//! points: a point where a function has no value is replaced by another one, and a set without any is left out. Inputs are
+//! exact in single precision, so that both precisions get the same ones. Expected values are computed by the program in 77
+//! digits at these very numbers, and rounded to double precision.
 
 use mms_math::Scalar as _;
 
@@ -25,44 +25,43 @@ use mms_symbolic::sorted::SortedMap;
 /// of its values over the points of one set of parameters. It is what the stable form promises.
 pub const TOLERANCE: u32 = 64;
 
-/// Where the formulas themselves lose more than half of that in double precision, as those of the
-/// fast form do, a port may lose as many times as much as this.
+/// If the formulas themselves lose more than half of that in double precision, as fast forms do, a port may lose this many
+/// times as much.
 const MARGIN: f64 = 4.0;
 
 /// How many points of the inner body each set of parameters is evaluated at.
 const POINTS: usize = 16;
 
-/// Among how many parameters an amplitude is looked for.
+/// The number of parameters among which an amplitude is searched.
 const CANDIDATES: usize = 16;
 
-/// By how much, in powers of two, an amplitude is reduced.
+/// The factor that reduces an amplitude, as a negative power of two.
 const REDUCED: i32 = 30;
 
-/// Inputs and what is expected of them.
+/// Inputs and expected outputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vectors {
     /// The names of the functions.
     pub names: Vec<String>,
-    /// The defaults of the parameters that are left.
+    /// The defaults of the parameters that are not frozen.
     pub defaults: Vec<f64>,
-    /// Sets of values for the parameters that are left: the defaults, others, and extremes.
+    /// Sets of values for the parameters that are not frozen: the defaults, others, and extremes.
     pub sets: Vec<Vec<f64>>,
-    /// Where functions are evaluated: as many points for each set of parameters as for any other.
+    /// The samples at which functions are evaluated, equally many for each set of parameters.
     pub samples: Vec<Sample>,
-    /// The components that each function must give: at each sample, or for each set where it is of no
-    /// point.
+    /// The components that each function must return: at each sample, or for each set if it is a function of no point.
     pub expected: Vec<Vec<Vec<f64>>>,
-    /// The error that is accepted of each function, in eps of its largest magnitude.
+    /// The accepted error of each function, in eps of its largest magnitude.
     pub accepted: Vec<u32>,
-    /// The same in single precision; none where its range is too small for the field.
+    /// The accepted error of each function in single precision; `None` if its range is too small for the field.
     pub accepted_in_single: Option<Vec<u32>>,
 }
 
 impl Vectors {
-    /// What a check program says about its numbers.
+    /// The explanation of the numbers in a check program.
     pub fn meaning(&self) -> String {
         let mut text = format!(
-            "Inputs are exact in single precision, and expected values were computed in 77 digits. Errors are in eps of the largest magnitude of a function's values over the points of one set of parameters; {TOLERANCE} eps are accepted, which is what the formulas promise"
+            "Inputs are exact in single precision, and expected values were computed in 77 digits. Errors are in eps of the largest magnitude of a function's values over the points of one set of parameters; {TOLERANCE} eps are accepted, as the formulas promise"
         );
         let single = self.accepted_in_single.iter().flatten();
         if self.accepted.iter().chain(single).any(|accepted| *accepted != TOLERANCE) {
@@ -75,13 +74,13 @@ impl Vectors {
 /// A point and a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
-    /// Which set of parameters.
+    /// The index of the set of parameters.
     pub set: usize,
     /// t.
     pub time: f64,
     /// X.
     pub coordinates: Vec<f64>,
-    /// N, a unit vector but for rounding.
+    /// N, a unit vector up to rounding.
     pub normal: Vec<f64>,
     /// H, row-major.
     pub gradient: Vec<f64>,
@@ -94,7 +93,7 @@ impl Sample {
         std::iter::once(self.time).chain(arrays.into_iter().flatten().copied()).collect()
     }
 
-    /// What a function takes.
+    /// The value of an input of a function.
     pub fn input(&self, symbol: Symbol) -> f64 {
         match symbol {
             Symbol::Coordinate(axis) => self.coordinates[axis],
@@ -141,7 +140,7 @@ impl Port<'_> {
             let is_lost =
                 errors.iter().any(is_lost) || vectors.samples.len() == before.samples.len();
             if is_lost && set > 0 {
-                // No port can keep digits that the formulas lose, or give what has no value.
+                // No port can keep digits that the formulas lose, or compute a value that does not exist.
                 vectors = before;
                 continue;
             }
@@ -157,8 +156,8 @@ impl Port<'_> {
         vectors
     }
 
-    /// The error that is accepted of each function where everything is computed once, in this precision;
-    /// none where it has no digit left, or is beyond the range.
+    /// The accepted error of each function if everything is computed once, in this precision; `None` if no digit is right, or
+    /// if the values are out of range.
     pub fn accepted_once<T: Digits>(&self) -> Vec<Option<u32>> {
         let vectors = self.subject.vectors();
         let mut accepted = vec![TOLERANCE; self.callables.len()];
@@ -177,8 +176,8 @@ impl Port<'_> {
             .collect()
     }
 
-    /// The errors of each function in a precision with a set of parameters, in eps of its largest
-    /// magnitude; infinite where that is beyond its range.
+    /// The errors of each function in a precision with a set of parameters, in eps of its largest magnitude; infinite if
+    /// values are out of range.
     fn own_errors<T: Digits>(&self, parameters: &[f64], vectors: &Vectors, set: usize) -> Vec<f64> {
         let in_precision =
             |values: &[f64]| -> Vec<T> { values.iter().map(|value| T::from_f64(*value)).collect() };
@@ -213,7 +212,7 @@ impl Port<'_> {
         worst.iter().map(|[error, magnitude]| error / magnitude / T::PRECISION.eps()).collect()
     }
 
-    /// Values of parameters, by position; what depends on them follows.
+    /// Values of parameters, by position; dependent parameters follow.
     fn sets(&self) -> Vec<SortedMap<usize, Rational>> {
         let mut sets = vec![SortedMap::new(), self.changed()];
         let first = self.parameters.keys().take(CANDIDATES);
@@ -237,8 +236,7 @@ impl Port<'_> {
         sets
     }
 
-    /// Parameters that are numbers, each changed by a sixteenth: all of them, or those that the file
-    /// lets change.
+    /// Numerical parameters, each changed by 1/16: all of them, or the ones that the file allows to change.
     fn changed(&self) -> SortedMap<usize, Rational> {
         let changed = |index: &usize, sixteenths: u8| {
             let default = self.compiled.model.parameters[*index].default;
@@ -262,8 +260,8 @@ impl Port<'_> {
         set
     }
 
-    /// Adds what the functions give with these parameters, at points where all have a value. Those are
-    /// repeated in the place of others.
+    /// Adds the results of the functions with these parameters, at points where all functions have a value. These points are
+    /// repeated in place of the others.
     fn sample(&self, parameters: &[Precise], vectors: &mut Vectors) {
         let set = vectors.sets.len();
         let outputs: Vec<Output> = self.callables.iter().map(|callable| callable.output).collect();
@@ -308,12 +306,12 @@ impl Port<'_> {
     }
 }
 
-/// Whether formulas lose so much in double precision that a port has no room left.
+/// Whether formulas lose so much in double precision that a port has no margin.
 fn is_lost(error: &f64) -> bool {
     *error > f64::from(TOLERANCE) / 2.0
 }
 
-/// Whether a function has digits at all in a precision.
+/// Whether any digit of a function is right in a precision.
 fn has_digits(error: &f64) -> bool {
     *error < f64::from(u16::MAX)
 }
@@ -339,7 +337,7 @@ fn points(compiled: &Compiled, parameters: &[Precise], set: usize) -> Vec<Sample
     });
     let round = |value: Precise| single(value.to_f64());
     let at = |(index, fractions): (usize, Vec<Precise>)| {
-        // Some direction, another at each point.
+        // A different direction at each point.
         let direction: Vec<f64> = (0..compiled.field.dimension)
             .map(|axis| ((7 * index + 3 * axis) as f64).cos())
             .collect();
@@ -356,8 +354,8 @@ fn points(compiled: &Compiled, parameters: &[Precise], set: usize) -> Vec<Sample
     inner.chain(corners).enumerate().map(at).collect()
 }
 
-/// A gradient not far from that of a field. In a body that keeps its volume J - 1 is what larger numbers
-/// leave, and no formula has all digits of it from a rounded H.
+/// A gradient close to the gradient of a field. In a body that keeps its volume, J - 1 is a difference of larger numbers,
+/// and no formula computes all its digits from a rounded H.
 fn another(gradient: Vec<f64>) -> Vec<f64> {
     let factors = (0..).map(|index| 1.0 + f64::from(index) / 16.0);
     gradient.into_iter().zip(factors).map(|(value, factor)| single(value * factor)).collect()
@@ -373,7 +371,7 @@ fn single(value: f64) -> f64 {
     }
 }
 
-/// The same of a parameter, which may not become 0: the field may divide by it.
+/// The nearest number of single precision to a parameter, which may not become 0: the field may divide by it.
 fn single_parameter(value: f64) -> f64 {
     match single(value) {
         0.0 => value,

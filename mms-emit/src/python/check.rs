@@ -25,7 +25,7 @@ pub(super) fn text(port: &Port<'_>, library: Library) -> String {
         port,
         match library {
             Library::NumPy => {
-                "# What is computed in: double precision, or what the first argument says, such as float32.\n\
+                "# The precision: double, or the one that the first argument names, such as float32.\n\
             KIND = np.dtype(sys.argv[1] if len(sys.argv) > 1 else \"float64\")\n\
             EPS, LEAST = float(np.finfo(KIND).eps), float(np.finfo(KIND).tiny)\n"
             }
@@ -50,8 +50,8 @@ pub(crate) fn checked(port: &Port<'_>, precision: &str) -> String {
     format!("FIELD, COUNT = \"{name}\", {count}\n{precision}\n{}", include_str!("support/check.py"))
 }
 
-/// The accepted errors of what a library computes: what the formulas lose in one precision is up to a port
-/// that has no other, and exact numbers lose nothing.
+/// The accepted errors of a library. If the library has one precision only, the loss of the formulas in it is accepted;
+/// exact numbers lose nothing.
 fn accepted(port: &Port<'_>, library: Library) -> Vec<Option<u32>> {
     let accepted = &port.subject.vectors().accepted;
     match library {

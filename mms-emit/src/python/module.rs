@@ -38,7 +38,7 @@ pub(super) fn text(port: &Port<'_>, library: Library) -> String {
             "Functions take numbers, and return a float, a tuple, or a tuple of rows. Where a formula has no value they raise an error, as the module math does."
         }
         Library::NumPy => {
-            "Functions take numbers or arrays that broadcast, and return an array: the places of the component come first, those of the inputs last."
+            "Functions take numbers or arrays that broadcast, and return an array: the indices of the component come first, the indices of the inputs last."
         }
         Library::SymPy => {
             "Functions take symbols, expressions or numbers, and return an expression or a matrix. All numbers are exact."
@@ -87,7 +87,7 @@ pub(crate) fn comment(paragraphs: &[String], indent: &str) -> String {
 
 fn defaults(port: &Port<'_>, library: Library, body: &Body) -> String {
     let mut text = String::new();
-    // Names of their own only where there is something to compute.
+    // Names are introduced only if there is something to compute.
     let values: Vec<String> = if body.statements.is_empty() {
         body.results.clone()
     } else {
@@ -98,7 +98,7 @@ fn defaults(port: &Port<'_>, library: Library, body: &Body) -> String {
         (0..body.results.len()).map(|index| format!("_DEFAULTS[{index}]")).collect()
     };
     text += "\n\n@dataclass(frozen=True)\nclass Parameters:\n    \
-             \"\"\"The parameters; their defaults are those of the field file, or set.\"\"\"\n";
+             \"\"\"The parameters; their defaults come from the field file, or were set.\"\"\"\n";
     for ((index, name), value) in port.parameters.iter().zip(values) {
         text += "\n";
         text += &comment(&[port.parameter_doc(*index)], "    ");
@@ -128,7 +128,7 @@ fn parameter_type(library: Library) -> &'static str {
 fn field(port: &Port<'_>, library: Library, bodies: &Bodies, calls: &mut Calls) -> String {
     let body = &bodies.prepare;
     let mut text = "\n\nclass Field:\n    \
-                    \"\"\"What only the parameters determine.\"\"\"\n\n    \
+                    \"\"\"The values that depend only on the parameters.\"\"\"\n\n    \
                     def __init__(self, parameters=Parameters()):\n        \
                     self.parameters = parameters\n"
         .to_string();
@@ -148,7 +148,7 @@ fn field(port: &Port<'_>, library: Library, bodies: &Bodies, calls: &mut Calls) 
 fn instant(port: &Port<'_>, library: Library, bodies: &Bodies, calls: &mut Calls) -> String {
     let body = &bodies.at_time;
     let mut text = "\n\nclass Instant:\n    \
-                    \"\"\"What the parameters and the time determine.\"\"\"\n\n    \
+                    \"\"\"The values that depend only on the parameters and the time.\"\"\"\n\n    \
                     def __init__(self, field, t):\n        \
                     self.field = field\n        self.time = t\n"
         .to_string();

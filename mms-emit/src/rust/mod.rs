@@ -1,8 +1,7 @@
-//! Rust without a dependency: a module that a crate without the standard library takes too, and a
-//! program that checks it.
+//! Rust without a dependency: a module that also works in crates without the standard library, and a program that checks it.
 //!
-//! The target `rust-mms-math` is another: its module shares its scalars, its vectorised loops and its bits
-//! with everything that has `mms-math`. This one shares nothing, and is a port like those to other languages.
+//! The target `rust-mms-math` is different: its module has the scalars, the vectorised loops and the bits of `mms-math`.
+//! This target uses no crate, and is a port like the ones to other languages.
 
 mod check;
 mod dialect;
@@ -12,7 +11,7 @@ use crate::port::Port;
 use crate::port::names::Rules;
 use crate::target::{Bundle, Subject, Target};
 
-/// Rust that stands alone.
+/// Rust without dependencies.
 pub const TARGET: Target = Target {
     name: "rust",
     alias: None,
@@ -21,7 +20,7 @@ pub const TARGET: Target = Target {
     words: RULES.words,
 };
 
-/// Names that Rust takes.
+/// Rules of Rust for names.
 const RULES: Rules = Rules {
     words: &[KEYWORDS, "marker"],
     modules: &[KEYWORDS, "std core alloc main test libm proc_macro"],
@@ -29,7 +28,7 @@ const RULES: Rules = Rules {
     longest: 120,
 };
 
-/// The Rust Reference, keywords: strict, reserved, and those of one edition alone.
+/// The keywords of the Rust Reference: strict, reserved, and the keywords of a single edition.
 const KEYWORDS: &str = "\
     as async await break const continue crate dyn else enum extern false fn for gen if impl in let \
     loop match mod move mut pub ref return self Self static struct super trait true try type unsafe \

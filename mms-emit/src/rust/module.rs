@@ -17,7 +17,7 @@ use mms_spec::quantity::Shape;
 const REAL: &str = include_str!("support/real.rs");
 const WIDE: &str = include_str!("support/wide.rs");
 
-/// What generated items are allowed: names of mathematics, and functions that nobody calls.
+/// The lints that generated items allow: mathematical names, and functions without a caller.
 const ALLOWED: &str = "#[allow(dead_code, non_snake_case, unused_variables, clippy::all)]\n";
 
 /// The text of `FIELD.rs`.
@@ -32,7 +32,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     let wide = wide.replace("\n#[derive", &format!("\n{ALLOWED}#[derive"));
     let mut header = port.header();
     header.push(format!(
-        "A module for `mod {0};` or `include!`, which needs nothing but `core`, and the standard library or `libm` for elementary functions. {0}_check.rs checks the result.",
+        "A module for `mod {0};` or `include!`, which needs `core`, and the standard library or `libm` for elementary functions. {0}_check.rs checks the result.",
         port.name
     ));
     let mut text = comment(&header, "//");
@@ -69,7 +69,7 @@ fn documented(doc: &str, indent: &str) -> String {
     comment(&[doc.to_string()], &format!("{indent}///"))
 }
 
-/// A struct that is generic in its scalar, whatever it holds.
+/// A struct that is generic in its scalar, even if no member uses it.
 fn structure(doc: &str, name: &str, members: &str) -> String {
     format!(
         "{}{ALLOWED}#[derive(Clone, Copy, Debug)]\npub struct {name}<T> {{\n{members}    \
@@ -89,7 +89,7 @@ fn parameters(port: &Port<'_>, body: &Body) -> String {
         members += &documented(&port.parameter_doc(*index), "    ");
         let _ = writeln!(members, "    pub {name}: T,");
     }
-    let doc = "The parameters; their defaults are those of the field file, or set.";
+    let doc = "The parameters; their defaults come from the field file, or were set.";
     let mut text = structure(doc, "Parameters", &members);
     let _ = write!(
         text,
@@ -105,7 +105,7 @@ fn parameters(port: &Port<'_>, body: &Body) -> String {
 
 fn field(port: &Port<'_>, bodies: &Bodies) -> String {
     let held = members(&port.kept, false) + &members(&port.kept_wide, true);
-    let mut text = structure("What only the parameters determine.", "Field", &held);
+    let mut text = structure("The values that depend only on the parameters.", "Field", &held);
     let body = &bodies.prepare;
     let _ = write!(
         text,
@@ -138,7 +138,7 @@ fn at_time(port: &Port<'_>, body: &Body) -> String {
 
 fn instant(port: &Port<'_>, bodies: &Bodies) -> String {
     let held = members(&port.kept_at_times, false);
-    let doc = "What the parameters and the time determine.";
+    let doc = "The values that depend only on the parameters and the time.";
     let mut text = structure(doc, "Instant", &held);
     let _ = writeln!(text, "{ALLOWED}impl<T: Real> Instant<T> {{");
     let methods = methods(port, bodies, true);
@@ -169,7 +169,7 @@ fn array(items: &[String], columns: Option<usize>) -> String {
     }
 }
 
-/// The type of as many numbers.
+/// The type of `count` numbers.
 fn kind(shape: Option<Shape>, count: usize, rows: usize) -> String {
     match shape {
         Some(Shape::Scalar) => "T".into(),
@@ -206,7 +206,7 @@ fn method(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     )
 }
 
-/// The same at many points.
+/// A function of many points.
 fn batch(port: &Port<'_>, callable: &Callable) -> String {
     let rows = port.rows();
     let count = callable.components.len();

@@ -1,4 +1,4 @@
-//! Python: a module of SymPy expressions. Its printer is that of `python`.
+//! Python: a module of SymPy expressions, printed by `python`.
 
 use crate::python::{Library, TARGET as PYTHON, bundle};
 use crate::target::Target;

@@ -1,4 +1,4 @@
-//! Python: a module of UFL expressions. Its printer is that of `python`.
+//! Python: a module of UFL expressions, printed by `python`.
 
 use crate::python::{Library, TARGET as PYTHON, bundle};
 use crate::target::Target;

@@ -20,14 +20,14 @@ pub fn all_are_required() -> bool {
     std::env::var("MMS_REQUIRE_COMPILERS").is_ok_and(|value| value == "1")
 }
 
-/// Whether a command succeeds. One that does not is named, or fails the test where all are required.
+/// Whether a command succeeds. Prints the name of a command that fails, or fails the test if all are required.
 pub fn is_installed(command: &str) -> bool {
     let found = is_installed_optionally(command);
     assert!(found || !all_are_required(), "`{command}` fails, and MMS_REQUIRE_COMPILERS is 1");
     found
 }
 
-/// Whether a command succeeds, which is tried once. One that does not is named.
+/// Whether a command succeeds, which is tried once. Prints the name of a command that fails.
 pub fn is_installed_optionally(command: &str) -> bool {
     static KNOWN: LazyLock<Mutex<BTreeMap<String, bool>>> = LazyLock::new(Mutex::default);
     let runs = || {
@@ -77,7 +77,7 @@ fn can_read(target: &Target) -> bool {
     target.name == "julia" && is_installed(&import())
 }
 
-/// Refuses what is not Julia.
+/// Refuses files that are not Julia.
 const READER: &str = r#"
 import sys
 
@@ -97,8 +97,7 @@ for path in sys.argv[1:]:
         nodes.extend(node.children if node.has_error else [])
 "#;
 
-/// The targets that one of so many cases is tried in: those whose turn it is, so that each has one case; all where
-/// everything is tried.
+/// The targets that case `case` of `cases` is tried in: each target has one case, or all cases if everything is tried.
 pub fn in_turn(case: usize, cases: usize) -> impl Iterator<Item = &'static Target> {
     let is_tried = move |(place, _): &(usize, &Target)| all_is_tried() || place % cases == case;
     let targets = ports().enumerate().filter(is_tried);
@@ -131,8 +130,8 @@ pub fn shell(line: &str, folder: &Path) -> Output {
     Command::new("sh").args(["-c", &line]).current_dir(folder).output().expect("a shell")
 }
 
-/// Emits a field, and asserts that its check program passes; `change` may change its line. Returns
-/// the worst error in eps; 0 where there is but a parser of the language, to which it is a program.
+/// Emits a field, and asserts that its check program passes; `change` may change its build line. Returns the worst error in
+/// eps, or 0 if there is only a parser of the language, which must accept the program.
 pub fn prove(
     target: &Target,
     subject: &Subject<'_>,
@@ -161,7 +160,7 @@ pub fn prove(
     rest.split(' ').next().and_then(|word| word.parse().ok()).expect("a number")
 }
 
-/// Without optimisation: warnings come all the same, and numbers are the same but for round-off.
+/// The command without optimisation: the warnings are the same, and numbers differ by round-off only.
 pub fn quick(line: String) -> String {
     line.replace("-O2", "-O0").replace(" -O ", " ")
 }

@@ -37,7 +37,7 @@ upper = [0.375, 0.5, 0.25]
 time = [0.25, 0.75]
 "#;
 
-/// Each function of an argument between 0.1 and 0.8, and what else it takes.
+/// Each function of an argument between 0.1 and 0.8, and of its other arguments.
 fn functions(graph: &mut Graph, x: Expr, y: Expr) -> Vec<Expr> {
     let alone = |function: &&Function| !function.takes_turns_off();
     let mut calls: Vec<Expr> = (Function::ALL.iter().filter(alone))
@@ -46,7 +46,7 @@ fn functions(graph: &mut Graph, x: Expr, y: Expr) -> Vec<Expr> {
             _ => graph.call(*function, &[x, y]),
         })
         .collect();
-    // Arguments that are reduced, and those on the other side of 0.
+    // Arguments that are reduced, and negative arguments.
     for (function, factor) in [
         (Function::Sin, 40),
         (Function::Cos, -40),
@@ -76,7 +76,7 @@ fn functions(graph: &mut Graph, x: Expr, y: Expr) -> Vec<Expr> {
     calls
 }
 
-/// Sines and cosines of angles that whole turns are taken off, which is done before a point is known, and of others.
+/// Sines and cosines of angles whose whole turns are removed before a point is known, and of other angles.
 fn within_turns(graph: &mut Graph, x: Expr) -> Vec<Expr> {
     let mut calls = Vec::new();
     for (within, functions) in [
@@ -114,7 +114,7 @@ fn pairs(graph: &mut Graph, x: Expr, y: Expr, z: Expr) -> Vec<Expr> {
     all
 }
 
-/// A formula as deep as that.
+/// A formula of nesting depth `depth`.
 fn nest(graph: &mut Graph, x: Expr, y: Expr, depth: usize) -> Expr {
     (0..depth).fold(x, |inner, _| {
         let outer = graph.mul(inner, y);
@@ -123,8 +123,8 @@ fn nest(graph: &mut Graph, x: Expr, y: Expr, depth: usize) -> Expr {
     })
 }
 
-/// What is left of a value next to the nearest double to it, times 2^48: so that digits which only a
-/// computation with twice as many has become visible.
+/// The difference of a value and its nearest double, times 2^48: it shows digits that only a computation with twice the
+/// digits has.
 fn rest(graph: &mut Graph, expr: Expr, parameters: &[Precise]) -> Expr {
     let output = Output::Expected(0);
     let program = schedule(graph, &SortedMap::from([(output, vec![expr])]));
@@ -134,7 +134,7 @@ fn rest(graph: &mut Graph, expr: Expr, parameters: &[Precise]) -> Expr {
     graph.scale(rest, 1_u64 << 48)
 }
 
-/// The field with these formulas in place of those of its quantities.
+/// The field with these formulas as the formulas of its quantities.
 fn with_formulas(mut compiled: Compiled, graph: &mut Graph, formulas: &[Expr]) -> Compiled {
     let mut outputs = SortedMap::new();
     let mut left = formulas.iter().copied();
@@ -158,11 +158,10 @@ fn with_formulas(mut compiled: Compiled, graph: &mut Graph, formulas: &[Expr]) -
     compiled
 }
 
-/// The targets that have no number with twice the digits, and so none of those that make the first program.
+/// The targets without numbers of twice the digits; the first program, which consists of such digits, is not for them.
 const ONE_PRECISION: [&str; 3] = ["ufl", "moose", "karamelo"];
 
-/// What takes a quarter of a minute for a hundred formulas of parameters or of the time, which are computed
-/// with twice the digits.
+/// A target that takes 15 s for 100 formulas of parameters or of the time, which are computed with twice the digits.
 const SLOW: &str = "octave";
 
 #[test]
@@ -198,7 +197,7 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
     programs[3].extend(functions(&mut graph, xt, y));
     let mut seen = SortedSet::new();
     let targets: Vec<_> = ports().filter(|target| can_prove(target)).collect();
-    // What a program has to give is found once, for all of its targets.
+    // The expected results of a program are computed once, for all of its targets.
     let tried = sampled(0..programs.len(), 2).into_iter();
     let pairs = tried.flat_map(|index| targets.iter().map(move |target| (index, target)));
     let pairs = sampled(pairs, 3);
@@ -228,6 +227,6 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
             println!("{} {index}: {error} eps", target.name);
         }
     }
-    // Turns are taken off before a point is known.
+    // Whole turns are removed before a point is known.
     assert_eq!(seen.len(), 4 * (Function::ALL.len() - 2) + 2 * 2, "{seen:?}");
 }

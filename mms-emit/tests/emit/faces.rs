@@ -1,4 +1,4 @@
-//! Faces that no check program sees, as it is in the language itself: Fortran from C, C++ for a device.
+//! Faces that no check program tests in the language itself: Fortran from C, C++ for a device.
 
 use std::fs;
 
@@ -13,7 +13,7 @@ fn target(name: &str) -> &'static Target {
     Target::find(name).expect("a target of that name")
 }
 
-/// The numbers that functions take at some points: to each its own, near to those of a body.
+/// The number of points, each with different inputs, close to points of a body.
 const POINTS: usize = 5;
 
 /// A program in C that calls every function of the C and of the Fortran bundle of one field, and prints the

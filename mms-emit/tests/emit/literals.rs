@@ -54,7 +54,7 @@ fn a_thousand_terms_compile_in_every_language() {
     }
 }
 
-/// Where no function has a value at any point, defaults are what is left to check.
+/// If no function has a value at any point, the check program still checks the defaults.
 #[test]
 fn a_field_without_a_value_compiles() {
     let field = field("t*sqrt(X - 10)", Quantity::Velocity);
@@ -72,14 +72,14 @@ fn a_field_without_a_value_compiles() {
 fn every_check_program_refuses_the_source_of_another_field() {
     for target in ports().filter(|target| can_build(target)) {
         is_refused(target, "X*t/3*1.001");
-        // Others say themselves that there is no such root.
+        // Other languages report themselves that there is no such root.
         if ["c", "cpp", "fortran", "rust"].contains(&target.name) {
             is_refused(target, "X*t/3 + sqrt(X*t - 10)");
         }
     }
 }
 
-/// Asserts that a check program names the function that is wrong where the source is of this u.
+/// Asserts that a check program names the wrong function if the source is from a field with this u.
 fn is_refused(target: &Target, wrong: &str) {
     let [right, wrong] = ["X*t/3", wrong].map(|u| field(u, Quantity::DisplacementGradient));
     let [right, wrong] = [&right, &wrong].map(|field| (target.emit)(&Subject::new(field)));
@@ -166,7 +166,7 @@ fn test_vectors_are_one_text_in_every_language_and_keep_their_bits() {
     assert_eq!(lines.next(), None);
 }
 
-/// A check program that read but a part of them would pass what it has not seen.
+/// A check program that read only a part of the test vectors would pass without having seen the rest.
 #[test]
 fn every_check_program_refuses_test_vectors_that_are_not_whole() {
     let field = field("X*t/3", Quantity::DisplacementGradient);

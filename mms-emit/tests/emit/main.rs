@@ -1,5 +1,4 @@
-//! What is emitted, built with every warning an error and run: each port proves itself by its own
-//! check program.
+//! Emitted files, built with every warning an error and run: the check program of each port tests it.
 
 mod axisymmetric;
 mod build;

@@ -1,4 +1,4 @@
-//! How far the motion goes, as modules tell it.
+//! Tests of the bounds of the motion that modules declare.
 
 use mms_codegen::Compiled;
 use mms_emit::{Subject, Target};
@@ -10,18 +10,18 @@ use mms_symbolic::sorted::SortedMap;
 
 use super::gallery::{GALLERY, body_force, field};
 
-/// How many samples the body has along each edge, in one to three dimensions, and how many times are looked at.
+/// The number of samples along each edge of the body, in one to three dimensions.
 const ALONG: [usize; 3] = [65, 25, 7];
 const TIMES: usize = 33;
 
-/// By what part of the distance between both ends they may be wider than the samples at each: bounds stop within a hundredth,
-/// or after a hundred boxes, which for rings and columns that turn is much sooner.
+/// The tolerance at each end, as a part of the distance between both ends, by which bounds may be wider than the samples:
+/// bounds stop at 1/100, or after 100 boxes, which is much earlier for rings and columns that turn.
 const SLACK: f64 = 0.25;
 
-/// By what part most of them are wider at most: a hundredth, and what lies between samples.
+/// The tolerance at most ends: 1/100, and the motion between samples.
 const SHARP: f64 = 0.015;
 
-/// The least and the greatest x by axis of samples, by the scheduled program, which is none of what bounds are made of.
+/// The least and the greatest x by axis of samples, from the scheduled program, which the bounds do not use.
 fn reached(compiled: &Compiled) -> Vec<[f64; 2]> {
     let output = Output::Quantity(Quantity::Position);
     let parameters = compiled.parameters::<f64>(&SortedMap::new());
@@ -55,7 +55,7 @@ fn every_field_stays_within_what_its_modules_tell_and_nearly_fills_it() {
         let told = subject.reach();
         for (axis, (told, found)) in told.iter().zip(reached(compiled)).enumerate() {
             let width = found[1] - found[0];
-            // The samples are rounded.
+            // The samples have rounding errors.
             let rounding = 1e-14 * (found[0].abs() + found[1].abs());
             let beyond = [found[0] - told[0], told[1] - found[1]];
             println!("{name} {axis}: {told:?} {found:?}");
@@ -69,7 +69,7 @@ fn every_field_stays_within_what_its_modules_tell_and_nearly_fills_it() {
     assert!(4 * sharp > 3 * all, "{sharp} of {all} ends are sharp");
 }
 
-/// The bounds stand in the module as data, so that nobody types them again.
+/// The module contains the bounds as data, so that nobody types them again.
 #[test]
 fn modules_tell_how_far_the_motion_goes() {
     let compiled = field("sheared_block_2d");

@@ -1,4 +1,4 @@
-//! Names of users: none ends what it stands in, and none is lost.
+//! Names of users: none ends the text around it, and none is lost.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -36,7 +36,7 @@ fn parameters_may_have_any_name_in_every_language() {
     }
 }
 
-/// What a parameter is called like, in languages at large.
+/// Parameters named like words of many languages.
 #[test]
 fn words_of_any_language_are_names() {
     const WORDS: &str = "end double gamma y0 j1 I NULL NAN lambda def class None True and elif yield \
@@ -49,7 +49,7 @@ fn words_of_any_language_are_names() {
     let longer = format!("{}y", "x".repeat(99));
     let kept = TARGETS.iter().flat_map(|target| target.words).copied().chain([WORDS]);
     let kept = kept.flat_map(str::split_whitespace);
-    // The field language keeps some for itself.
+    // The field language reserves some names for itself.
     let is_free = |word: &&str| {
         !FUNCTIONS.contains(word) && !COORDINATES.iter().any(|(name, _)| name == word)
     };
@@ -75,7 +75,7 @@ fn words_of_any_language_are_names() {
     }
 }
 
-/// What a field needs of a language's support text is known from what it calls, not from how its text reads.
+/// The needed support functions are found from the calls of a field, not from the words of its text.
 #[test]
 fn a_parameter_called_like_a_support_function_brings_none_of_it() {
     const CALLED: &str = "wide_of ln_1p_rest sin_pi wide settled parameters_ math";
@@ -138,7 +138,7 @@ fn a_field_may_be_called_like_a_function_of_its_own() {
     }
 }
 
-/// Names of check programs are in no field's way.
+/// Names of check programs do not collide with names of fields.
 #[test]
 fn a_field_may_be_called_like_what_its_check_program_names() {
     let stems =

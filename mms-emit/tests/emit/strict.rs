@@ -40,7 +40,7 @@ fn c_has_no_warning_in_two_compilers_and_two_precisions() {
             let line = |line: String| {
                 let line =
                     line.replacen("cc ", &format!("{compiler} {MORE_WARNINGS} {precision} "), 1);
-                // Some warnings of GCC come with its optimisation, those of Clang before it.
+                // GCC reports some warnings only with optimisation; Clang reports all without it.
                 if compiler == "clang" { mostly_quick(line) } else { line }
             };
             let error = prove(
@@ -109,7 +109,7 @@ fn numpy_proves_itself_in_single_precision() {
     }
 }
 
-/// Where multiplications are fused with sums, as some compilers do unless they are told not to.
+/// Multiplications fused with sums, which some compilers do by default.
 #[test]
 fn c_keeps_its_digits_where_operations_are_fused() {
     if !is_installed("cc --version") {
@@ -264,7 +264,7 @@ fn moose_formulas_keep_their_digits_in_the_parser_of_moose() {
             *magnitude = magnitude.max(expected.abs());
         }
         for ((place, set), [error, magnitude]) in errors {
-            // What the formulas promise; in one precision these fields keep it.
+            // The promised accuracy of the formulas; in one precision these fields keep it.
             let eps = error / magnitude.max(f64::MIN_POSITIVE) / f64::EPSILON;
             let function = &callables(&field)[place].name;
             assert!(eps <= 64.0, "{name} {function} of set {set}: {eps} eps");

@@ -9,7 +9,7 @@ static wide wide_of(double value)
     return result;
 }
 
-/* A constant: the nearest double, and the nearest to what is left. */
+/* A constant: the nearest double, and the nearest double to the remainder. */
 static wide wide_parts(double high, double low)
 {
     const wide result = {high, low};
@@ -77,7 +77,7 @@ static wide wide_mul(wide a, wide b)
     return settled(product.high, product.low + (a.high * b.low + a.low * b.high));
 }
 
-/* Three quotients of high parts, each of what the last has left over. */
+/* Three quotients of high parts; the second and third divide the remainder of the one before. */
 static wide wide_div(wide a, wide b)
 {
     const double first = a.high / b.high;
@@ -207,7 +207,7 @@ static wide circular_series(wide a, int n)
     return sum;
 }
 
-/* The sine of as many quarter turns and of a rest of |rest| <= 0.8. */
+/* sin(quarters pi/2 + rest), for |rest| <= 0.8. */
 static wide sine_of_turn(double quarters, wide rest)
 {
     const double turned = fmod(quarters, 4.0);
@@ -218,7 +218,7 @@ static wide sine_of_turn(double quarters, wide rest)
     return turn < 2 ? result : wide_neg(result);
 }
 
-/* What whole quarter turns leave of an angle, up to 2^50. */
+/* angle - count pi/2, for angles up to 2^50. */
 static wide less_quarters(wide angle, double count)
 {
     const double half_pi_parts[4] = {1.5707963267948966, 6.123233995736766e-17,
@@ -229,7 +229,7 @@ static wide less_quarters(wide angle, double count)
     return angle;
 }
 
-/* The sine of an angle and of as many quarter turns more; not a number beyond 2^50. */
+/* sin(angle + quarters pi/2); NaN for angles beyond 2^50. */
 static wide sine_of_angle(wide angle, double quarters)
 {
     if (!(fabs(angle.high) < 1125899906842624.0)) {
@@ -254,7 +254,7 @@ static wide wide_tan(wide a)
     return wide_div(wide_sin(a), wide_cos(a));
 }
 
-/* The same of an angle in half turns, from which whole turns are taken off without error. */
+/* sin(pi half_turns + quarters pi/2); whole turns are subtracted without error. */
 static wide sine_of_half_turns(wide half_turns, double quarters)
 {
     if (!isfinite(half_turns.high)) {
@@ -276,7 +276,7 @@ static wide wide_cos_pi(wide a)
     return sine_of_half_turns(a, 1.0);
 }
 
-/* An angle of more than a few radians, up to 2^50, less whole turns. */
+/* An angle without its whole turns; angles up to 25 and beyond 2^50 are returned as they are. */
 static wide wide_within_turns(wide a)
 {
     const double size = fabs(a.high);
@@ -286,7 +286,7 @@ static wide wide_within_turns(wide a)
     return less_quarters(a, 4.0 * nearest_integer(a.high / 6.283185307179586));
 }
 
-/* The same of an angle in half turns, of any size. */
+/* An angle in half turns without its whole turns, of any size; angles up to 8 are returned as they are. */
 static wide wide_within_turns_pi(wide a)
 {
     if (!(fabs(a.high) > 8.0 && isfinite(a.high))) {
@@ -354,7 +354,7 @@ static wide wide_acos(wide a)
     return wide_atan2(complement(a), a);
 }
 
-/* Of a base that is not negative. */
+/* base^exponent, for a base that is not negative. */
 static wide wide_powf(wide base, wide exponent)
 {
     if (!(base.high > 0.0 && isfinite(base.high))) {

@@ -1,7 +1,7 @@
 int failures = 0;
 double worst = 0.0;
 
-/// Compares what a function gives with a set of parameters: the rows of what is found are columns here.
+/// Compares the results of a function with a set of parameters; the rows of the expected table are columns of `found`.
 template <class T> void check(const char *name, int rows, int columns, const double *expected, const T *found)
 {
     const int limit = accepted[sizeof(T) < sizeof(double)];
@@ -35,8 +35,8 @@ template <class T, std::size_t N> std::array<T, N> row(const T (&columns)[N][ROO
     return result;
 }
 
-/// Calls a function of one point, which puts COUNT numbers into `out`, at each; and that of many, for
-/// each point and all before it, so that what is compared is the last of them.
+/// Calls a function of one point, which writes COUNT numbers into `out`, at each point. Then calls its batch function for
+/// each point and all points before it, and compares the last result of each call.
 #define CHECK(NAME, COUNT, ONE, MANY)                                                      \
     table(#NAME, POINTS, COUNT);                                                           \
     for (int p = 0; p < POINTS; p++) {                                                     \
@@ -53,7 +53,7 @@ template <class T, std::size_t N> std::array<T, N> row(const T (&columns)[N][ROO
 
 template <class T> void check_all()
 {
-    // A field without a value at any point has numbers of its own alone.
+    // If the field has no value at any point, only its point-free numbers are compared.
     [[maybe_unused]] static T out[WIDEST], found[WIDEST][ROOM];
     static Points<T> at;
     static field_::Instant<T> now[ROOM];

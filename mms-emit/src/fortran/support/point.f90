@@ -15,7 +15,7 @@ contains
     end if
   end function cubic_root
 
-  ! Of a base that is not negative.
+  ! base^power, for a base that is not negative.
   elemental function power(base, exponent_) result(y)
     real(wp), intent(in) :: base, exponent_
     real(wp) :: y

@@ -102,7 +102,7 @@ contains
     y = settled(y%high, y%low + (a%high * b%low + a%low * b%high))
   end function wide_mul
 
-  ! Three quotients of high parts, each of what the last has left over.
+  ! Three quotients of high parts; the second and third divide the remainder of the one before.
   pure function wide_div(a, b) result(y)
     type(wide), intent(in) :: a, b
     type(wide) :: y, rest
@@ -262,7 +262,7 @@ contains
     end do
   end function circular_series
 
-  ! The sine of as many quarter turns and of a rest of |rest| <= 0.8.
+  ! sin(quarters pi/2 + rest), for |rest| <= 0.8.
   pure function sine_of_turn(quarters, rest) result(y)
     real(dp), intent(in) :: quarters
     type(wide), intent(in) :: rest
@@ -277,7 +277,7 @@ contains
     if (turn > 1) y = -y
   end function sine_of_turn
 
-  ! What whole quarter turns leave of an angle, up to 2^50.
+  ! angle - count pi/2, for angles up to 2^50.
   pure function less_quarters(angle, count_) result(y)
     type(wide), intent(in) :: angle
     real(dp), intent(in) :: count_
@@ -291,7 +291,7 @@ contains
     end do
   end function less_quarters
 
-  ! The sine of an angle and of as many quarter turns more; not a number beyond 2^50.
+  ! sin(angle + quarters pi/2); NaN for angles beyond 2^50.
   pure function sine_of_angle(angle, quarters) result(y)
     type(wide), intent(in) :: angle
     real(dp), intent(in) :: quarters
@@ -323,7 +323,7 @@ contains
     y = wide_sin(a) / wide_cos(a)
   end function wide_tan
 
-  ! The same of an angle in half turns, from which whole turns are taken off without error.
+  ! sin(pi half_turns + quarters pi/2); whole turns are subtracted without error.
   pure function sine_of_half_turns(half_turns, quarters) result(y)
     type(wide), intent(in) :: half_turns
     real(dp), intent(in) :: quarters
@@ -351,7 +351,7 @@ contains
     y = sine_of_half_turns(a, 1.0_dp)
   end function wide_cos_pi
 
-  ! An angle of more than a few radians, up to 2^50, less whole turns.
+  ! An angle without its whole turns; angles up to 25 and beyond 2^50 are returned as they are.
   pure function wide_within_turns(a) result(y)
     type(wide), intent(in) :: a
     type(wide) :: y
@@ -361,7 +361,7 @@ contains
     end if
   end function wide_within_turns
 
-  ! The same of an angle in half turns, of any size.
+  ! An angle in half turns without its whole turns, of any size; angles up to 8 are returned as they are.
   pure function wide_within_turns_pi(a) result(y)
     type(wide), intent(in) :: a
     type(wide) :: y
@@ -441,7 +441,7 @@ contains
     y = wide_atan2(complement(a), a)
   end function wide_acos
 
-  ! Of a base that is not negative.
+  ! base^power, for a base that is not negative.
   pure function wide_powf(base, power) result(y)
     type(wide), intent(in) :: base, power
     type(wide) :: y

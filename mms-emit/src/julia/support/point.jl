@@ -1,6 +1,6 @@
-# What stands in every module.
+# Definitions of every module.
 
-# Numbers of so many bits that nothing which cancels is missed.
+# Numbers of so many bits that cancellation loses no digit of a double.
 wide(value) = BigFloat(value)
 
 wide(high, low) = BigFloat(high) + BigFloat(low)
@@ -22,6 +22,6 @@ ln_1p_rest(x::BigFloat) = x - log1p(x)
 within_turns(x) = abs(x) <= 25 ? x : x - 2 * BigFloat(pi) * round(x / (2 * BigFloat(pi)))
 within_turns_pi(x) = abs(x) <= 8 ? x : x - 2 * round(x / 2)
 
-# A prepared field is one thing wherever functions are broadcast.
+# Broadcasting treats a prepared field as a scalar.
 Base.broadcastable(field::Field) = Ref(field)
 Base.broadcastable(now::Instant) = Ref(now)

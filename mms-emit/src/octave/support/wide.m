@@ -53,7 +53,7 @@ function r = wide_mul(a, b)
 end
 
 function r = wide_div(a, b)
-  % Three quotients of high parts, each of what the last has left over.
+  % Three quotients of high parts; the second and third divide the remainder of the one before.
   first = a(1) / b(1);
   rest = wide_sub(a, wide_mul(b, [first, 0]));
   second = rest(1) / b(1);
@@ -171,7 +171,7 @@ function r = circular_series(a, n)
 end
 
 function r = sine_of_turn(quarters, rest)
-  % The sine of as many quarter turns and of a rest of |rest| <= 0.8.
+  % sin(quarters pi/2 + rest), for |rest| <= 0.8.
   turn = mod(quarters, 4);
   if mod(turn, 2) == 0
     r = wide_add(rest, wide_mul(rest, circular_series(rest, 31)));
@@ -184,7 +184,7 @@ function r = sine_of_turn(quarters, rest)
 end
 
 function angle = less_quarters(angle, count)
-  % What whole quarter turns leave of an angle, up to 2^50.
+  % angle - count pi/2, for angles up to 2^50.
   parts = [1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33, 5.562271104316826e-50];
   for part = parts
     angle = wide_sub(angle, two_product(count, part));
@@ -192,7 +192,7 @@ function angle = less_quarters(angle, count)
 end
 
 function r = sine_of_angle(angle, quarters)
-  % The sine of an angle and of as many quarter turns more; not a number beyond 2^50.
+  % sin(angle + quarters pi/2); NaN for angles beyond 2^50.
   if ~(abs(angle(1)) < 1125899906842624)
     r = [NaN, 0];
     return
@@ -214,7 +214,7 @@ function r = wide_tan(a)
 end
 
 function r = sine_of_half_turns(half_turns, quarters)
-  % The same of an angle in half turns, from which whole turns are taken off without error.
+  % sin(pi half_turns + quarters pi/2); whole turns are subtracted without error.
   if ~isfinite(half_turns(1))
     r = [NaN, 0];
     return
@@ -234,7 +234,7 @@ function r = wide_cos_pi(a)
 end
 
 function r = wide_within_turns(a)
-  % An angle of more than a few radians, up to 2^50, less whole turns.
+  % An angle without its whole turns; angles up to 25 and beyond 2^50 are returned as they are.
   r = a;
   if abs(a(1)) > 25 && abs(a(1)) < 1125899906842624
     r = less_quarters(a, 4 * round(a(1) / 6.283185307179586));
@@ -242,7 +242,7 @@ function r = wide_within_turns(a)
 end
 
 function r = wide_within_turns_pi(a)
-  % The same of an angle in half turns, of any size.
+  % An angle in half turns without its whole turns, of any size; angles up to 8 are returned as they are.
   r = a;
   if abs(a(1)) > 8 && isfinite(a(1))
     turn = two_sum(rem(a(1), 2), rem(a(2), 2));
@@ -304,7 +304,7 @@ function r = wide_acos(a)
 end
 
 function r = wide_powf(base, exponent)
-  % Of a base that is not negative.
+  % base^exponent, for a base that is not negative.
   if ~(base(1) > 0 && isfinite(base(1)))
     r = [base(1)^exponent(1), 0];
     return

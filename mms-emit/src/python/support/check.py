@@ -2,7 +2,7 @@ worst, failures = 0.0, 0
 
 
 def vectors():
-    """The test vectors: tables by name, first the defaults, then those of each set of parameters."""
+    """The test vectors: tables by name, first the defaults, then the tables of each set of parameters."""
     text = pathlib.Path(__file__).with_name(f"{FIELD}_vectors.txt").read_text(encoding="utf-8")
     lines = (line for line in text.splitlines() if not line.startswith("#"))
     sets = [{}]

@@ -1,6 +1,6 @@
 
 
-# What stands for the numbers of a point in expressions.
+# Variables for the numbers of a point in expressions.
 LEAVES = [ufl.variable(ufl.as_ufl(1.0)) for _ in (SETS[0]["at"] or [[]])[0]]
 OPERATIONS = {
     "Sum": lambda a, b: a + b,
@@ -25,12 +25,12 @@ OPERATIONS = {
 
 @functools.cache
 def expression(owner, name, *columns):
-    """What a function gives, of leaves."""
+    """The result of a function of leaves."""
     return getattr(owner, name)(*(LEAVES[column] for column in columns))
 
 
 def evaluated(expression, point):
-    """The components of an expression, each node of which is computed once, in double precision."""
+    """The components of an expression; each node is computed once, in double precision."""
     values = dict(zip(LEAVES, point))
     for node in unique_post_traversal(expression):
         kind = type(node).__name__

@@ -65,7 +65,7 @@ class _Wide:
         return _settled(product.high, product.low + (self.high * other.low + self.low * other.high))
 
     def __truediv__(self, other):
-        # Three quotients of high parts, each of what the last has left over.
+        # Three quotients of high parts; the second and third divide the remainder of the one before.
         first = _ratio(self.high, other.high)
         rest = self - other * _Wide(first)
         second = _ratio(rest.high, other.high)
@@ -177,7 +177,7 @@ def _circular_series(a, n):
 
 
 def _sine_of_turn(quarters, rest):
-    """The sine of as many quarter turns and of a rest of |rest| <= 0.8."""
+    """sin(quarters pi/2 + rest), for |rest| <= 0.8."""
     if quarters % 2 == 0:
         result = rest + rest * _circular_series(rest, 31)
     else:
@@ -186,14 +186,14 @@ def _sine_of_turn(quarters, rest):
 
 
 def _less_quarters(angle, count):
-    """What whole quarter turns leave of an angle, up to 2^50."""
+    """angle - count pi/2, for angles up to 2^50."""
     for part in _HALF_PI_PARTS:
         angle = angle - _two_product(float(count), part)
     return angle
 
 
 def _sine_of_angle(angle, quarters):
-    """The sine of an angle and of as many quarter turns more; not a number beyond 2^50."""
+    """sin(angle + quarters pi/2); NaN for angles beyond 2^50."""
     if not abs(angle.high) < 1125899906842624.0:
         return _Wide(math.nan)
     count = round(angle.high / _HALF_PI_PARTS[0])
@@ -213,7 +213,7 @@ def _wide_tan(a):
 
 
 def _sine_of_half_turns(half_turns, quarters):
-    """The same of an angle in half turns, from which whole turns are taken off without error."""
+    """sin(pi half_turns + quarters pi/2); whole turns are subtracted without error."""
     if not math.isfinite(half_turns.high):
         return _Wide(math.nan)
     turn = _two_sum(math.fmod(half_turns.high, 2.0), math.fmod(half_turns.low, 2.0))
@@ -230,14 +230,14 @@ def _wide_cos_pi(a):
 
 
 def _wide_within_turns(a):
-    """An angle of more than a few radians, up to 2^50, less whole turns."""
+    """An angle without its whole turns; angles up to 25 and beyond 2^50 are returned as they are."""
     if not 25.0 < abs(a.high) < 1125899906842624.0:
         return a
     return _less_quarters(a, 4 * round(a.high / math.tau))
 
 
 def _wide_within_turns_pi(a):
-    """The same of an angle in half turns, of any size."""
+    """An angle in half turns without its whole turns, of any size; angles up to 8 are returned as they are."""
     if not 8.0 < abs(a.high) < math.inf:
         return a
     turn = _two_sum(math.fmod(a.high, 2.0), math.fmod(a.low, 2.0))
@@ -245,7 +245,7 @@ def _wide_within_turns_pi(a):
 
 
 def _wide_sinh(a):
-    """From e = exp_m1(a) as (e + e/(1 + e))/2 where (e^a - e^-a)/2 would cancel."""
+    """(e^a - e^-a)/2: from e = exp_m1(a) as (e + e/(1 + e))/2 where the difference would cancel."""
     if abs(a.high) < 1.0:
         e = _wide_exp_m1(a)
         return (e + e / (_ONE + e)).scaled(-1)
@@ -292,7 +292,7 @@ def _wide_acos(a):
 
 
 def _wide_powf(base, exponent):
-    """Of a base that is not negative."""
+    """base^exponent, for a base that is not negative."""
     if not (base.high > 0.0 and math.isfinite(base.high)):
         return _Wide(base.high**exponent.high)
     return _wide_exp(exponent * _wide_ln(base))

@@ -1,14 +1,14 @@
 /// Columns of numbers, one for each component.
 type Columns<T, const COUNT: usize> = [[T; POINTS]; COUNT];
 
-/// A table of the test vectors: what a function gives, and the errors that are accepted.
+/// A table of the test vectors: the expected results of a function, and the accepted errors.
 struct Table {
     rows: Vec<Vec<f64>>,
     accepted: [f64; 2],
 }
 
 impl Table {
-    /// Reads the next table of a name and of that size.
+    /// Reads the next table of this name and size.
     fn read(lines: &mut std::str::Lines<'_>, name: &str, size: [usize; 2]) -> Table {
         let numbers = |line: &str| line.split(' ').flat_map(str::parse).collect::<Vec<f64>>();
         let head = lines.find(|line| line.split(' ').next() == Some(name)).map(numbers);
@@ -26,12 +26,12 @@ impl Table {
         std::process::exit(2);
     }
 
-    /// One of the numbers of its first row.
+    /// The number in column `place` of the first row, as a table.
     fn number(&self, place: usize) -> Table {
         Table { rows: vec![vec![self.rows[0][place]]], accepted: self.accepted }
     }
 
-    /// As many of its columns, from the first of them.
+    /// N columns, from `first` on.
     fn columns<T: Real, const N: usize>(&self, first: usize) -> Columns<T, N> {
         core::array::from_fn(|k| core::array::from_fn(|p| T::of(self.rows[p][first + k])))
     }
@@ -44,7 +44,7 @@ struct Errors {
 }
 
 impl Errors {
-    /// Compares what a function gives with a set of parameters.
+    /// Compares the results of a function with a set of parameters.
     fn check<T: Real, const N: usize, const P: usize>(
         &mut self,
         name: &str,
@@ -91,13 +91,13 @@ fn up_to<T: Real, const N: usize>(columns: &Columns<T, N>, p: usize) -> [&[T]; N
     columns.each_ref().map(|column| &column[..=p])
 }
 
-/// What a function of one point gives at each.
+/// The results of a function of one point, at each point.
 fn one<T: Real, const N: usize>(call: impl Fn(usize) -> [T; N]) -> Columns<T, N> {
     let rows: [_; POINTS] = core::array::from_fn(call);
     core::array::from_fn(|k| rows.each_ref().map(|row| row[k]))
 }
 
-/// What a function of many points gives for the last of them, called for each point and all before it.
+/// The last results of a function of many points, called for each point and all points before it.
 fn many<T: Real, const N: usize>(call: impl Fn(usize, [&mut [T]; N])) -> Columns<T, N> {
     let mut found = [[T::of(0.0); POINTS]; N];
     (0..POINTS).rev().for_each(|p| call(p, found.each_mut().map(|column| &mut column[..=p])));

@@ -1,5 +1,5 @@
-/// A scalar: `f32` or `f64`. Its functions are those of the standard library. A crate without it has
-/// `libm` as a dependency, and a feature of that name, which takes them from there.
+/// A scalar: `f32` or `f64`. Elementary functions come from the standard library. A crate without it has a dependency
+/// and a feature `libm`, and uses the functions of that crate.
 pub trait Real:
     Copy
     + PartialOrd
@@ -11,7 +11,7 @@ pub trait Real:
 {
     /// The nearest number of this precision.
     fn of(value: f64) -> Self;
-    /// The same number in double precision.
+    /// The value in double precision.
     fn to_f64(self) -> f64;
     fn sqrt(self) -> Self;
     fn cbrt(self) -> Self;

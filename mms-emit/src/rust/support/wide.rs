@@ -40,7 +40,7 @@ impl core::ops::Mul for Wide {
 
 impl core::ops::Div for Wide {
     type Output = Wide;
-    /// Three quotients of high parts, each of what the last has left over.
+    /// Three quotients of high parts; the second and third divide the remainder of the one before.
     fn div(self, other: Wide) -> Wide {
         let first = self.high / other.high;
         let rest = self - other * wide_of(first);
@@ -56,7 +56,7 @@ fn wide_of(value: f64) -> Wide {
     Wide { high: value, low: 0.0 }
 }
 
-/// A constant: the nearest `f64`, and the nearest to what is left.
+/// A constant: the nearest `f64`, and the nearest `f64` to the remainder.
 fn wide_parts(high: f64, low: f64) -> Wide {
     Wide { high, low }
 }
@@ -206,7 +206,7 @@ fn circular_series(a: Wide, n: i32) -> Wide {
     sum
 }
 
-/// The sine of as many quarter turns and of a rest of |rest| <= 0.8.
+/// sin(quarters pi/2 + rest), for |rest| <= 0.8.
 fn sine_of_turn(quarters: f64, rest: Wide) -> Wide {
     let turn = ((quarters % 4.0) as i32).rem_euclid(4);
     let result = match turn % 2 {
@@ -216,7 +216,7 @@ fn sine_of_turn(quarters: f64, rest: Wide) -> Wide {
     if turn < 2 { result } else { -result }
 }
 
-/// What whole quarter turns leave of an angle, up to 2^50.
+/// angle - count pi/2, for angles up to 2^50.
 fn less_quarters(angle: Wide, count: f64) -> Wide {
     const HALF_PI_PARTS: [f64; 4] = [
         core::f64::consts::FRAC_PI_2,
@@ -227,7 +227,7 @@ fn less_quarters(angle: Wide, count: f64) -> Wide {
     HALF_PI_PARTS.iter().fold(angle, |rest, part| rest - two_product(count, *part))
 }
 
-/// The sine of an angle and of as many quarter turns more; not a number beyond 2^50.
+/// sin(angle + quarters pi/2); NaN for angles beyond 2^50.
 fn sine_of_angle(angle: Wide, quarters: f64) -> Wide {
     if !(Real::magnitude(angle.high) < 1125899906842624.0) {
         return wide_of(f64::NAN);
@@ -248,7 +248,7 @@ fn wide_tan(a: Wide) -> Wide {
     wide_sin(a) / wide_cos(a)
 }
 
-/// The same of an angle in half turns, from which whole turns are taken off without error.
+/// sin(pi half_turns + quarters pi/2); whole turns are subtracted without error.
 fn sine_of_half_turns(half_turns: Wide, quarters: f64) -> Wide {
     if !half_turns.high.is_finite() {
         return wide_of(f64::NAN);
@@ -266,7 +266,7 @@ fn wide_cos_pi(a: Wide) -> Wide {
     sine_of_half_turns(a, 1.0)
 }
 
-/// An angle of more than a few radians, up to 2^50, less whole turns.
+/// An angle without its whole turns; angles up to 25 and beyond 2^50 are returned as they are.
 fn wide_within_turns(a: Wide) -> Wide {
     let size = Real::magnitude(a.high);
     if !(size > 25.0 && size < 1125899906842624.0) {
@@ -275,7 +275,7 @@ fn wide_within_turns(a: Wide) -> Wide {
     less_quarters(a, 4.0 * nearest_integer(a.high / core::f64::consts::TAU))
 }
 
-/// The same of an angle in half turns, of any size.
+/// An angle in half turns without its whole turns, of any size; angles up to 8 are returned as they are.
 fn wide_within_turns_pi(a: Wide) -> Wide {
     if !(Real::magnitude(a.high) > 8.0 && a.high.is_finite()) {
         return a;
@@ -333,7 +333,7 @@ fn wide_acos(a: Wide) -> Wide {
     wide_atan2(complement(a), a)
 }
 
-/// Of a base that is not negative.
+/// base^exponent, for a base that is not negative.
 fn wide_powf(base: Wide, exponent: Wide) -> Wide {
     if !(base.high > 0.0 && base.high.is_finite()) {
         return wide_of(Real::powf(base.high, exponent.high));
