@@ -1,8 +1,8 @@
 //! Lists the field files for the tests: one set of tests per file for `tests/fields.rs`.
 //!
-//! Names that no module can have are refused (`spec/field_name.rs`), and so are files that are no fields: a
-//! mistake in one of them breaks the build at its place. What derivatives say of it, `mms-gallery` finds. Cargo
-//! runs this again when the folder or a file in it changes: `fields/` is its own list.
+//! Refuses names that no module can have (`spec/field_name.rs`), and files that are not fields: a mistake in one of them breaks
+//! the build at its position. `mms-gallery` finds mistakes that only derivatives show. Cargo runs this again if the folder or a
+//! file in it changes: `fields/` is its own list.
 
 use std::path::PathBuf;
 use std::{env, fs, io, process};
@@ -14,7 +14,7 @@ use mms_spec::field_name::validate;
 use mms_spec::quantity::Quantity;
 use mms_spec::{FieldFile, field_files};
 
-/// Modules beside those of the fields, and crates that these files use by name.
+/// Modules other than the modules of fields, and crates that these files use by name.
 const TAKEN: &[&str] = &[
     "core",
     "current",

@@ -1,4 +1,4 @@
-//! The page of errors holds: every row is measured again, at fewer points and for some quantities.
+//! Tests of the page of errors: every row is measured again, at fewer points and for some quantities.
 
 #[path = "../examples/accuracy/sample.rs"]
 mod sample;
@@ -13,25 +13,25 @@ use crate::sampled::sampled;
 /// The page.
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/accuracy.md");
 
-/// By what factor an error may exceed the committed one: with fewer points the largest value of a
-/// quantity is smaller, too, and J falls to its least value elsewhere.
+/// The factor by which an error may exceed the committed one: with fewer points the largest value of a quantity is smaller,
+/// too, and the least J is at another point.
 const FACTOR: f64 = 64.0;
 
-/// What may be added to it, in eps.
+/// The addition to that limit, in eps.
 const MARGIN: f64 = 16.0;
 
-/// At how many points.
+/// The number of points.
 const POINTS: usize = 4;
 
-/// The quantities that each field is measured for: of each kind of derivation one.
+/// The quantities that each field is measured for: one of each kind of derivation.
 const QUANTITIES: [Quantity; 3] =
     [Quantity::DisplacementGradient, Quantity::StrainEnergy, Quantity::BodyForce];
 
 /// A cell of the page with components that are not finite: the largest value may be among them.
 const LOST: &str = "lost";
 
-/// The committed rows of a field: regime and numbers, in the order of the page. Where there is no
-/// number, or components were lost, nothing is promised.
+/// The committed rows of a field: regime and numbers, in the order of the page. A number is `None` if there is none, or if
+/// components were lost; then nothing is promised.
 fn committed(page: &str, field: &str) -> Vec<(String, Vec<Option<f64>>)> {
     let rows = page.lines().map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
     let rows = rows.filter(|cells| cells.get(1) == Some(&field));
@@ -42,15 +42,15 @@ fn committed(page: &str, field: &str) -> Vec<(String, Vec<Option<f64>>)> {
     rows.map(|cells| (cells[2].to_string(), cells[3..9].iter().map(number).collect())).collect()
 }
 
-/// The regimes that can be made whatever the points are: among few, J may not reach a value.
+/// The regimes that any points can reach: among few points, J may not reach a given value.
 fn sure<'a>(regimes: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     regimes.into_iter().filter(|regime| !regime.starts_with("jacobian")).collect()
 }
 
-/// What the stable form promises where, in eps.
+/// The error that the stable form promises, in eps.
 const PROMISED: f64 = 64.0;
 
-/// The field that does not keep it at small displacements; the page says why.
+/// The field that exceeds it at small displacements; the page says why.
 const UNMENDED: &str = "self_weight_column";
 
 #[test]

@@ -1,12 +1,12 @@
-//! Evaluation at many points: the same values as one by one, wherever a point stands in a batch,
-//! however it is stored, and where the quick functions do not know.
+//! Evaluation at many points: the values are the same as one by one, at any place in a batch, in any storage, and where the
+//! quick functions do not apply.
 
 use mms_gallery::{
     axis_aligned_3d, bar_1d, cyclic_shear_3d, generalized_vortex, quiet_boundary_2d, twisted_column,
 };
 use mms_runtime::math::batch::Blocked;
 
-// With numbers for what it depends on, its angle is proved to be at most 1.
+// With numbers for its parameters, its angle is proved to be at most 1.
 mms_macros::field!(
     "fields/generalized_vortex.toml",
     freeze = [middle, half_width, young, rho0, angle],
@@ -14,7 +14,7 @@ mms_macros::field!(
     name = frozen_vortex
 );
 
-/// How many numbers of double precision are in a block.
+/// The number of double-precision values in a block.
 const BLOCK: usize = f64::BLOCK;
 
 /// Counts around a whole number of blocks, so that the last block is full, short, or absent.
@@ -37,7 +37,7 @@ fn distance<T: Copy + Into<f64>>(found: &[Vec<T>], expected: &[Vec<T>], eps: f64
     if error == 0.0 { 0.0 } else { error / scale / eps }
 }
 
-/// Holds the three ways of a quantity at many points to the one of a point.
+/// Compares the three ways to evaluate a quantity at many points with the evaluation at one point.
 macro_rules! agree {
     ($module:ident, $float:ident, $count:expr, $columns:expr, $time:expr, $(
         $quantity:ident $batch:ident $aos:ident $cached:ident
@@ -71,7 +71,7 @@ macro_rules! agree {
             for (index, row) in rows.iter().enumerate() {
                 let column = whole.each_ref().map(|column| column[index]);
                 assert_eq!(row.map(<$float>::to_bits), column.map(<$float>::to_bits));
-                // Alone, a point has the same bits as in company.
+                // A point alone has the same bits as in a batch.
                 let mut alone = [[0.0; $components]];
                 at.$aos(&points[index..=index], &mut alone);
                 assert_eq!(alone[0].map(<$float>::to_bits), column.map(<$float>::to_bits));
@@ -144,7 +144,7 @@ fn many_points_of_a_twist() {
     );
 }
 
-/// Where much of what X determines is made of little, at every time anew.
+/// Many values that depend on X are sums and products of few, which are computed anew at every time.
 #[test]
 fn many_points_of_polynomials() {
     let plane = |count| [0.819, 0.671].map(|step| spread(count, step, [0.0, 1.0]));
@@ -159,7 +159,7 @@ fn many_points_of_polynomials() {
     );
 }
 
-/// What a few sums and products make of the rest does not come from memory.
+/// Values that take a few sums and products of the others are computed and not stored.
 #[test]
 fn few_numbers_are_kept_of_many_points() {
     assert_eq!(quiet_boundary_2d::Point::<f64>::BYTES, 8 * 76);
@@ -197,7 +197,7 @@ fn tractions_take_a_normal_at_every_point() {
     assert!(distance(&cached, &expected, f64::EPSILON) <= 16.0);
 }
 
-/// An angle of 1e9 is beyond the quick sine. Its block is computed again, one by one.
+/// An angle of 1e9 is beyond the range of the quick sine. Its block is computed again, one by one.
 #[test]
 fn where_the_quick_functions_do_not_know_the_careful_ones_do() {
     let field = axis_aligned_3d::prepare(&axis_aligned_3d::Parameters::<f64>::default());
@@ -212,8 +212,8 @@ fn where_the_quick_functions_do_not_know_the_careful_ones_do() {
     assert_eq!(out[6], at.body_force(points[6]));
 }
 
-/// Nothing is taken off an angle that is proved to be small, and it is no less exact. Outside of what the proof
-/// is for, the careful functions take over.
+/// An angle that is proved to be small is not reduced, and is as exact. Outside of the range of the proof, the careful
+/// functions are used.
 #[test]
 fn an_angle_that_is_proved_small_may_be_large_elsewhere() {
     let frozen = frozen_vortex::prepare::<f64>(&frozen_vortex::Parameters::default());
@@ -244,7 +244,7 @@ fn an_angle_that_is_proved_small_may_be_large_elsewhere() {
     }
 }
 
-/// What has no value says so: J < 0 has no logarithm.
+/// An undefined value is NaN: J < 0 has no logarithm.
 #[test]
 fn what_is_undefined_is_not_a_number_in_a_batch_too() {
     let parameters = bar_1d::Parameters { amplitude: -2.0, ..bar_1d::Parameters::<f64>::default() };

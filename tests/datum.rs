@@ -1,5 +1,5 @@
-//! ARCHITECTURE.md shows one datum, the bar's J, at every border of the compiler. Here the same is
-//! made, and compared with what the page shows.
+//! ARCHITECTURE.md shows one datum, the bar's J, at every border of the compiler. This test computes it and compares it with
+//! the page.
 
 use std::fs;
 
@@ -50,7 +50,7 @@ fn needed(program: &Program, output: Output) -> String {
     program.to_string().lines().filter(is_shown).collect::<Vec<_>>().join("\n")
 }
 
-/// What every step makes, as the page shows it.
+/// The result of every step, as the page shows it.
 fn steps(compiled: &Compiled) -> Vec<(&'static str, String)> {
     let formula = &compiled.field.displacement[0];
     let ast = syntax::parse(formula, &mut Vec::new()).expect("a right formula");

@@ -136,7 +136,7 @@ fn kinematics_by_dual_numbers<K: Kernel>() {
     }
 }
 
-/// The rows of a tensor: those of the coordinates, and of an axisymmetric field the one around the axis.
+/// The number of rows of a tensor: one per coordinate, and the hoop row of an axisymmetric field.
 fn rows<K: Kernel>() -> usize {
     compiled(K::NAME).field.space.rows()
 }
@@ -168,7 +168,7 @@ fn stress_by_dual_numbers<K: Kernel>() {
             pairs.push((stress, energy.0.eps1));
         }
     }
-    // W is a difference of terms of the size of the modulus, which is what rounds.
+    // W is a difference of terms of the size of the modulus, whose rounding counts.
     let modulus = modulus::<K>();
     for (symbolic, dual) in pairs {
         let bound = 64.0 * f64::EPSILON * modulus;
@@ -176,11 +176,11 @@ fn stress_by_dual_numbers<K: Kernel>() {
     }
 }
 
-/// P = 0 at F = I unless given fields press; and unless the material says otherwise W(Q F) = W(F) and P(Q F) = Q P(F), at the
-/// gradients of the field and for rotations Q in each plane.
+/// P = 0 at F = I unless given fields press; and, unless the material declares otherwise, W(Q F) = W(F) and P(Q F) = Q P(F), at
+/// the gradients of the field and for rotations Q in each plane.
 fn objectivity<K: Kernel>() {
     let is_indifferent = compiled(K::NAME).material.frame_indifferent;
-    // F rounds by eps, which changes W and P by the modulus times that.
+    // F rounds by eps, which changes W and P by the modulus times eps.
     let bound = 64.0 * f64::EPSILON * modulus::<K>();
     let is_free = compiled(K::NAME).model.givens.is_empty();
     for (index, (point, time, gradient)) in gradients::<K>(64).into_iter().enumerate() {
@@ -237,7 +237,7 @@ fn modulus<K: Kernel>() -> f64 {
     K::material_strain_energy(Dual::constant(first.time), &constants, &gradient).0.eps1eps2
 }
 
-/// F and J as stresses and densities know them: at small strain the present configuration is the reference.
+/// F and J in the definitions of stresses and densities: at small strain the present configuration is the reference.
 fn carriers<K: Kernel>(deformation: &[f64], jacobian: f64) -> (Vec<f64>, f64) {
     let dimension = rows::<K>();
     match compiled(K::NAME).model.kind {
@@ -249,13 +249,13 @@ fn carriers<K: Kernel>(deformation: &[f64], jacobian: f64) -> (Vec<f64>, f64) {
     }
 }
 
-/// The field's stresses are those of its material at its gradient, and tau = P F^T,
-/// sigma = tau/J, nominal stress = P^T, traction = P N; at small strain tau = sigma = P.
+/// The field's stresses equal the stresses of its material at its gradient, and tau = P F^T, sigma = tau/J, nominal
+/// stress = P^T, traction = P N; at small strain tau = sigma = P.
 fn stress_measures<K: Kernel>() {
     let dimension = rows::<K>();
     let modulus = modulus::<K>();
     for (point, time, gradient) in gradients::<K>(64) {
-        // The material is given a rounded H, and its stress answers with the modulus times |F|^2.
+        // The material gets a rounded H, and its stress changes by the modulus times |F|^2.
         let stretch: f64 = gradient.iter().map(|h| h * h).sum::<f64>() + 1.0;
         let bound = 64.0 * f64::EPSILON * modulus * stretch;
         let close = |what: &str, a: f64, b: f64| {
@@ -298,7 +298,7 @@ fn strains_and_densities<K: Kernel>() {
         assert!((a - b).abs() <= bound, "{what}: {a:e} and {b:e}");
     };
     let gradients = gradients::<K>(64);
-    // What is reduced by relations rounds like the largest values, not like those at the point.
+    // Quantities from relations round like the largest values, not like the values at the point.
     let strain = largest(gradients.iter().flat_map(|(_, _, gradient)| gradient).copied());
     let stretch = (1.0 + strain) * (1.0 + strain);
     let [divergence, force] = [Quantity::DivP, Quantity::BodyForceDensity].map(|quantity| {
@@ -346,8 +346,7 @@ fn strains_and_densities<K: Kernel>() {
     }
 }
 
-/// rho0 a - Div P - rho0 b with Div P from central differences of P: the residual must vanish
-/// like the square of the step.
+/// rho0 a - Div P - rho0 b with Div P from central differences of P: the residual must vanish like the square of the step.
 fn balance_by_finite_differences<K: Kernel>() {
     let points = sample(compiled(K::NAME), 32);
     let coordinates = points.iter().flat_map(|point| &point.coordinates).copied();
@@ -361,7 +360,7 @@ fn balance_by_finite_differences<K: Kernel>() {
         let [residual, scale] = residual(step);
         (residual, scale)
     });
-    // Where P is at most quadratic in X the differences are exact, and rounding is left.
+    // If P is at most quadratic in X, the differences are exact, and only rounding is left.
     if coarse > 1e-9 * scale {
         let order = (coarse / fine).log2();
         assert!(
@@ -377,7 +376,7 @@ fn spreading(stress: &[f64], radius: f64) -> [f64; 2] {
     [(stress[0] - stress[8]) / radius, stress[3] / radius]
 }
 
-/// The largest component of the residual, and of the terms it is made of.
+/// The largest component of the residual, and of its terms.
 fn momentum_residual<K: Kernel>(at: &[f64], time: f64, step: f64) -> [f64; 2] {
     let (dimension, width) = (K::DIMENSION, rows::<K>());
     let (mut divergence, mut slopes) = (vec![0.0; dimension], vec![0.0_f64; dimension]);
@@ -418,7 +417,7 @@ fn momentum_residual<K: Kernel>(at: &[f64], time: f64, step: f64) -> [f64; 2] {
     rows.fold([0.0; 2], |[residual, scale], [r, s]| [r.max(residual), s.max(scale)])
 }
 
-/// Both run the same program; they may differ only where the compiler contracts or reorders,
+/// Compiled code and the interpreter run the same program; they may differ only where the compiler contracts or reorders,
 /// which Rust does not.
 fn emitted_and_interpreted<K: Kernel>() {
     let compiled = compiled(K::NAME);
@@ -473,7 +472,7 @@ fn agree_in_single<K: Kernel>(
     }
 }
 
-/// Whether numbers are equal. Long after the time window some may be none, which have no bits.
+/// Whether numbers are equal. Long after the time window some may be NaN, whose bits are not compared.
 fn are_same<T: PartialOrd>(found: &[T], expected: &[T], is_late: bool) -> bool {
     let is_none = |number: &T| is_late && number.partial_cmp(number).is_none();
     let same = |(a, b): (&T, &T)| a == b || is_none(a) && is_none(b);
@@ -487,8 +486,7 @@ fn closed_forms<K: Kernel>() {
     }
 }
 
-/// Every kind of term is there in some field, and so is every parameter of a material and every
-/// face that some field has.
+/// Every kind of term occurs in some field, and so do every parameter of a material and every face.
 #[test]
 fn the_gallery_leaves_no_term_unseen() {
     let mut asked: BTreeSet<String> = Term::KINDS.iter().map(|kind| kind.to_string()).collect();
@@ -543,7 +541,7 @@ fn scene<T: Interpretable>(name: &str, study: &StudySpec) -> Scene<T> {
     scene.expect("a field without a swirl")
 }
 
-/// The method of a study, with the command's defaults for what it leaves out.
+/// The method of a study, with the command's defaults for what it omits.
 fn method(study: &StudySpec) -> Method {
     /// The member of a family that the file names.
     fn named<N: std::str::FromStr>(word: &str) -> N {

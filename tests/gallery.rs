@@ -15,10 +15,10 @@ use mms_symbolic::sorted::SortedMap;
 
 use crate::sampled::sampled;
 
-/// Less than a block, one, and more of either precision.
+/// Less than one block, exactly one, and more, in either precision.
 const COUNTS: [usize; 5] = [1, 9, 64, 70, 260];
 
-/// Both to the bit: the shortest text that reads back as a number is that of no other.
+/// Compares to the bit: the shortest text that reads back as a number is unique to it.
 fn same<V: Debug>(what: &str, compiled: &[V], interpreted: &[V]) {
     for (point, (compiled, interpreted)) in compiled.iter().zip(interpreted).enumerate() {
         let [compiled, interpreted] = [compiled, interpreted].map(|it| format!("{it:?}"));
@@ -89,7 +89,7 @@ fn agree<T: Real, const D: usize>(
     );
 }
 
-/// The hoop strains of axisymmetric fields, and their materials at other ones.
+/// The hoop strains of axisymmetric fields, and their materials at other strains.
 fn axisymmetric<T: Real, const D: usize>(
     what: &str,
     fields: [&Field<T, D>; 2],
@@ -160,10 +160,10 @@ fn hold<T: Interpretable>(entry: &Entry, of: fn(&Code) -> Build<T>) {
     }
 }
 
-/// The share of fields: one in so many is tried.
+/// One field in `SHARE` is tried.
 const SHARE: usize = 4;
 
-/// All that a solver asks for, of compiled fields, in both precisions.
+/// All values that a solver requests from compiled fields, in both precisions.
 #[test]
 fn interpreted_fields_have_the_bits_of_compiled_ones() {
     for entry in sampled(FIELDS, SHARE) {

@@ -1,4 +1,4 @@
-//! That the matrix leaves no mode out, and that its verdicts are those of sequences with a known answer.
+//! The matrix has a row for every mode, and its verdicts on sequences with a known answer are right.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,7 +17,7 @@ fn studies() -> Vec<(Row, Study)> {
     rows.into_iter().map(|row| (row.clone(), row.study().unwrap().0)).collect()
 }
 
-/// Asserts that some row has each of these.
+/// Asserts that each of the items has some row.
 fn each_has_a_row<T: std::fmt::Debug + Copy>(all: &[T], has: impl Fn(&Row, &Study, T) -> bool) {
     let studies = studies();
     for &one in all {
@@ -148,7 +148,7 @@ fn arguments_are_cut_at_blanks_but_between_apostrophes() {
     assert_eq!(arguments("a  --b 'c = \"d e\"' f"), ["a", "--b", "c = \"d e\"", "f"]);
 }
 
-/// A row that expects an order.
+/// A row with an expected order.
 fn row(order: Expected) -> Row {
     Row {
         name: "some/mode".into(),
@@ -175,7 +175,7 @@ fn finished(level: usize, errors: [f64; 3]) -> Outcome {
     Outcome::Finished { run, errors, mean_velocity: vec![1.0] }
 }
 
-/// The verdict on these errors on 8, 16, ... cells, the same in all norms.
+/// The verdict for these errors on 8, 16, ... cells, the same in all norms.
 fn verdict(order: Expected, errors: &[f64]) -> Verdict {
     let levels = errors.iter().enumerate().map(|(level, &e)| finished(level, [e; 3]));
     judge(&row(order), &levels.collect::<Vec<_>>()).verdict
@@ -184,7 +184,7 @@ fn verdict(order: Expected, errors: &[f64]) -> Verdict {
 const SECOND: Expected = Expected::Order(2.0);
 const NONE: Expected = Expected::Word(Word::None);
 
-/// Of no run theory is not known to be right.
+/// Without a level, theory is not confirmed.
 #[test]
 fn without_a_level_nothing_passes() {
     for order in [SECOND, Expected::Word(Word::Exact)] {
@@ -213,7 +213,7 @@ fn verdicts_on_known_sequences() {
     assert_eq!(verdict(EXACT, &[1e-15, f64::NAN, 1e-15]), Verdict::Fail);
 }
 
-/// A defect may leave the order and change the constant.
+/// A defect may keep the order and change the constant.
 #[test]
 fn the_right_order_with_another_constant_fails() {
     let judgement = |scale: f64| {
@@ -236,7 +236,7 @@ fn the_largest_error_counts_too() {
     assert_eq!((judgement.verdict, judgement.observed_order()), (Verdict::Fail, Some(2.0)));
 }
 
-/// A stop is what some rows expect; a run that was never started proves nothing.
+/// Some rows expect a stop; a run that was never started proves nothing.
 #[test]
 fn a_run_that_stopped_does_not_converge_and_one_that_was_refused_fails() {
     let stopped = match finished(2, [1.0; 3]) {
@@ -252,7 +252,7 @@ fn a_run_that_stopped_does_not_converge_and_one_that_was_refused_fails() {
     }
 }
 
-/// Where the time step alone is refined, the order is that in time.
+/// If only the time step is refined, the order is in time.
 #[test]
 fn an_order_in_time_is_that_over_time_steps() {
     let row = Row { halvings: 2, constant: Some(100.0), ..row(SECOND) };
@@ -276,7 +276,7 @@ fn momentum_is_held_to_what_it_is() {
     assert_eq!(judge(&row(vec![1.0, 0.0]), &levels).verdict, Verdict::Fail);
 }
 
-/// What catches a defect is observed by the command; what rows say that they catch is held here.
+/// The command observes which rows catch a defect; this test checks the rows that claim to catch one.
 #[test]
 fn the_page_of_defects_has_those_that_rows_say_they_catch() {
     let page = include_str!("../docs/defects.md");

@@ -1,5 +1,5 @@
-//! Rigid twins of every field: the same motion, followed by a rotation and a translation. What they
-//! must be is computed here by plain arithmetic in 77 digits; and they are solutions of their own.
+//! Rigid twins of every field: the same motion, followed by a rotation and a translation. The expected values are computed
+//! here by plain arithmetic in 77 digits; and twins are solutions of their own.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use crate::sampled::sampled;
 
-/// At how many points a field is looked at.
+/// The number of points per field.
 const POINTS: usize = 3;
 
 type Vector = Vec<Precise>;
@@ -74,11 +74,11 @@ static TWINS: LazyLock<Vec<(&str, Field, Field)>> = LazyLock::new(|| {
     twins.collect()
 });
 
-/// A field and its standard twin; `None` where the material is not frame-indifferent, or the field static, and says so.
+/// A field and its standard twin; `None` if the field is static, or if the material is not frame-indifferent and says so.
 fn with_twin(entry: &Entry) -> Option<(Field, Field)> {
     let inner = entry.compile().unwrap_or_else(|error| panic!("{error}"));
     if inner.field.space.is_axisymmetric() {
-        // It is moved along its axis alone: mms-codegen/tests/axisymmetric.rs.
+        // It is moved along its axis only: mms-codegen/tests/axisymmetric.rs.
         return None;
     }
     let options = Options::from(Selection { twin: Twin::Standard, ..Selection::default() });
@@ -216,7 +216,7 @@ fn drift(field: &Field, s: &Precise, rate: &Precise) -> [Vector; 3] {
     ]
 }
 
-/// Values by two routes, by what they are of.
+/// Values by two routes, grouped by quantity.
 #[derive(Default)]
 struct Pairs {
     of: BTreeMap<String, Vec<(Precise, Precise)>>,
@@ -229,8 +229,8 @@ impl Pairs {
         self.of.entry(what.to_string()).or_default().extend(pairs);
     }
 
-    /// Asserts that they differ by no more than this part of the largest of their kind: where a
-    /// value is 0 by chance, rounding is left of it.
+    /// Asserts that the two routes differ by no more than `part` of the largest value of their kind: where a value is 0 by
+    /// chance, rounding is left.
     fn assert_agree(&self, field: &str, part: f64) {
         for (what, pairs) in &self.of {
             let expected = pairs.iter().map(|(_, expected)| expected.clone().magnitude());
@@ -248,7 +248,7 @@ impl Pairs {
     }
 }
 
-/// Every quantity of a twin, from those of the field.
+/// Every quantity of a twin, computed from the quantities of the field.
 fn composed(inner: &Field, quantity: Quantity, at: &Sample<Precise>) -> Vec<Precise> {
     let motion = Motion::standard(inner, &at.time);
     let ([q, q1, q2], [d, d1, d2]) = (&motion.rotation, &motion.translation);
@@ -315,15 +315,15 @@ fn twins_are_the_field_turned_and_moved() {
     }
 }
 
-/// The derivative of `f` by central differences of that step.
+/// The derivative of `f` by central differences with this step.
 fn slope(step: &Precise, f: impl Fn(Precise) -> Vec<Precise>) -> Vec<Precise> {
     let (ahead, behind) = (f(step.clone()), f(-step.clone()));
     let per_width = number(0.5) / step.clone();
     scaled(&plus(&ahead, &scaled(&behind, &number(-1.0))), &per_width)
 }
 
-/// Without a word on rotations: H, v and a are derivatives of u, P is that of W at the twin's own
-/// gradient, and b balances. Central differences of relative step 1e-20 leave 40 digits less a few.
+/// Without using rotations: H, v and a are derivatives of u, P is the derivative of W at the twin's own gradient, and b
+/// balances. Central differences of relative step 1e-20 keep almost 40 digits.
 #[test]
 fn twins_are_solutions_of_their_own() {
     for (name, _, twin) in TWINS.iter() {
@@ -372,7 +372,7 @@ fn compare_with_differences(twin: &Field, point: &Sample<Precise>, pairs: &mut P
     pairs.add("rho0 a", &plus(&force, &divergence), &inertia);
 }
 
-/// The same numbers, one of them larger.
+/// The numbers, with one of them increased by `step`.
 fn moved(at: &[Precise], entry: usize, step: Precise) -> Vec<Precise> {
     let mut moved = at.to_vec();
     moved[entry] = moved[entry].clone() + step;

@@ -1,5 +1,5 @@
-//! The page of what a scene saves holds: its operations are those of today, and less of a field is
-//! never more. Times are not looked at.
+//! Test of the page on savings by scenes: its operation counts are current, and a smaller part of a field never costs more.
+//! Times are not compared.
 
 #[path = "../examples/scene/cost.rs"]
 mod cost;
@@ -56,7 +56,7 @@ fn a_motion_along_one_axis_takes_the_same_operations_in_three_dimensions() {
 #[test]
 fn less_of_a_field_is_no_more_machine_code() {
     let bench = Workbench::open().expect("a workbench");
-    // Keeping points takes loops of its own, and another precision other functions.
+    // Caching points needs loops of its own, and another precision other functions.
     let is_part = |[more, less]: &[Variant; 2]| {
         less.is_kept == more.is_kept && less.precision == more.precision
     };

@@ -1,4 +1,4 @@
-//! What is generated from the 1D bar, as text to review: a change of it is seen in a difference.
+//! Generated code and text of the 1D bar, for review: a change shows as a difference.
 //!
 //! After a deliberate change, `INSTA_UPDATE=always cargo test --test suite snapshots` writes the files in
 //! `snapshots/` anew; read the difference before it is committed.
@@ -23,7 +23,7 @@ fn the_program_of_the_bar_is_as_reviewed() {
     insta::assert_snapshot!("bar_1d_program", bar().program);
 }
 
-/// What `mms show bar_1d` prints with one more argument.
+/// The output of `mms show bar_1d` with one more argument.
 fn shown(argument: &str) -> String {
     let show = Command::new(env!("CARGO_BIN_EXE_mms"))
         .args(["show", "bar_1d", argument])

@@ -12,10 +12,10 @@ use mms_spec::{Face, MaterialSpec, format, read_material};
 
 use crate::sampled::sampled;
 
-/// The share of texts: one in so many is compiled.
+/// One text in `SHARE` is compiled.
 const SHARE: usize = 12;
 
-/// What `mms new` can be asked for.
+/// The bodies that `mms new` supports.
 const BODIES: [(Body, usize); 4] =
     [(Body::Box, 1), (Body::Box, 2), (Body::Box, 3), (Body::Annulus, 2)];
 
@@ -39,7 +39,7 @@ fn greedy() -> MaterialSpec {
     read_material(&sources, source, "./greedy.toml", &mut Vec::new()).expect("a material")
 }
 
-/// Every shipped material, and one that is not.
+/// Every shipped material, and one that is not shipped.
 fn materials() -> Vec<MaterialSpec> {
     let mut materials = gallery::materials();
     assert_eq!(materials.len(), MATERIALS.len());
@@ -56,7 +56,7 @@ fn started(body: Body, dimension: usize, material: &MaterialSpec, is_undeformed:
     Template { name, path, dimension, body, material, is_undeformed, schema }.text()
 }
 
-/// Every text that the template gives.
+/// Every text that the template writes.
 fn texts() -> Vec<String> {
     let materials = materials();
     let all = BODIES.iter().flat_map(|(body, dimension)| {
@@ -137,7 +137,7 @@ fn the_names_that_the_template_defines_are_known_to_it() {
     assert_eq!(defined, taken);
 }
 
-/// A key of the format, or a claim, that nobody explains is one that nobody finds.
+/// Every key of the format and every claim must be explained, or nobody finds it.
 #[test]
 fn the_texts_name_every_key_and_every_claim() {
     let all = texts().concat();

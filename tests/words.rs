@@ -1,5 +1,5 @@
-//! The compiler of field files knows no solver, so it keeps its own lists of the words that a field
-//! file may use. These tests hold them together with the lists of what there is.
+//! The compiler of field files does not depend on the solver, so it keeps its own lists of the words that a field file may use.
+//! These tests compare them with the lists of the solver.
 
 use mms_codegen::compile;
 use mms_codegen::compile::Failure;
@@ -8,8 +8,8 @@ use mms_spec::language::FUNCTIONS;
 use mms_spec::names::MAX_NAME;
 use mms_spec::{INTEGRATORS, SHAPES};
 
-/// What means something in a target language or in what is generated for it: one line per target. A
-/// field may use every one of these as a name.
+/// The words with a meaning in a target language or in generated code: one line per target. A field may use every one of
+/// these as a name.
 const TARGETS: &[(&str, &[&str])] =
     &[("Rust", &[RUST_KEYWORDS, RUST_PRELUDE, RUST_TYPES, RUST_GENERATED])];
 
@@ -19,7 +19,7 @@ const RUST_KEYWORDS: &str = "\
     mod move mut pub ref return self Self static struct super trait true type unsafe use where \
     while async await abstract become box do final macro override priv typeof unsized virtual \
     yield try gen macro_rules union raw safe auto default";
-/// What is in scope without being named, and the crates' names.
+/// The names in scope without an import, and the crates' names.
 const RUST_PRELUDE: &str = "\
     Option Some None Ok Err Result Vec Box String ToString Iterator IntoIterator FromIterator \
     Extend Into From TryFrom TryInto Clone Copy Send Sync Sized Unpin Drop drop Fn FnMut \
@@ -100,8 +100,7 @@ fn the_functions_that_a_message_offers_are_those_that_are_reserved() {
     assert_eq!(offered, FUNCTIONS);
 }
 
-/// The field of `tests/programs/odd_names.rs`, where each of its names is compiled and
-/// evaluated.
+/// The field of `tests/programs/odd_names.rs`, where each of its names is compiled and evaluated.
 const ODD_NAMES: &str = include_str!("programs/odd_names.toml");
 
 #[test]

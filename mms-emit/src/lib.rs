@@ -25,7 +25,7 @@ macro_rules! targets {
 targets! { rust rust_mms_math c cpp fortran python numpy sympy ufl octave julia moose karamelo }
 
 impl Target {
-    /// The target of that name, or of its other one.
+    /// Finds the target with this name or alias.
     pub fn find(name: &str) -> Option<&'static Target> {
         TARGETS.iter().find(|target| target.name == name || target.alias == Some(name))
     }

@@ -447,7 +447,7 @@ impl Study {
             lines.push(IN_TIME.into());
         }
         if self.rows().iter().any(is_noise) {
-            lines.push("~ an error that may be nothing but round-off, and is not judged".into());
+            lines.push("~ an error that may be round-off alone, and is not judged".into());
         }
         lines.join("\n")
     }

@@ -1,4 +1,4 @@
-//! Axisymmetric fields, through every command: those that take them, and those that refuse them.
+//! Axisymmetric fields in every command: commands that accept them, and commands that refuse them.
 
 use super::mms::{Folder, numbers};
 
@@ -25,7 +25,7 @@ fn a_shaft_is_checked_with_its_axis() {
     assert!(!checked.stdout.contains("UNDEFINED"), "{checked}");
 }
 
-/// On the axis H has two equal stretches around it, and vectors their component along it alone.
+/// On the axis, H has two equal stretches around it, and vectors have only their component along it.
 #[test]
 fn values_on_the_axis_are_those_of_a_round_body() {
     let folder = folder();
@@ -71,7 +71,7 @@ lower = [0, 0]
 upper = [1, 1]
 "#;
 
-/// Right triangles of the legs 1/n, whose points have the exact displacement.
+/// Right triangles with legs 1/n, whose points have the exact displacement.
 fn triangles(n: usize) -> String {
     let h = 1.0 / n as f64;
     let all = || (0..=n).flat_map(|j| (0..=n).map(move |i| (i as f64 * h, j as f64 * h)));
@@ -92,8 +92,8 @@ fn triangles(n: usize) -> String {
     )
 }
 
-/// l1, l2 and h1 of what linear interpolation between multiples of 1/n leaves of R^3/100, as means with these weights: by the
-/// midpoint rule along R.
+/// l1, l2 and h1 of the error of linear interpolation of R^3/100 between multiples of 1/n, as means with these weights: by
+/// the midpoint rule along R.
 fn of_interpolation(n: usize, weight: fn(f64) -> f64) -> [f64; 3] {
     const PARTS: usize = 4000;
     let (h, mut sums) = (1.0 / n as f64, [0.0; 4]);
@@ -111,7 +111,7 @@ fn of_interpolation(n: usize, weight: fn(f64) -> f64) -> [f64; 3] {
     [sums[1] / sums[0], (sums[2] / sums[0]).sqrt(), (sums[3] / sums[0]).sqrt()]
 }
 
-/// Norms over triangles and over points are those over the rings that they stand for, and the gradient has its part around the axis.
+/// Norms over triangles and points are norms over the rings that they represent, and the gradient has its hoop part.
 #[test]
 fn errors_of_rings_weigh_by_their_radius() {
     let folder = Folder::new();
@@ -129,12 +129,12 @@ fn errors_of_rings_weigh_by_their_radius() {
         let found = ["l1", "l2", "h1"].map(|name| error(name, level));
         let flat = of_interpolation(n, |_| 1.0);
         for ((found, right), flat) in found.into_iter().zip(of_interpolation(n, |r| r)).zip(flat) {
-            // The midpoint rule errs by 1e-7, and without the weight a fifth is missing.
+            // The error of the midpoint rule is 1e-7; without the weight, a fifth would be missing.
             assert!((found / right - 1.0).abs() < 1e-6, "{n}: {found} is not {right}");
             assert!((found / flat - 1.0).abs() > 0.1, "{n}: {found} is {flat}");
         }
     }
-    // Errors that are R times a factor, over points: the mean is factor sum R^2/sum R.
+    // Errors of `factor` R, over points: the mean is factor sum R^2/sum R.
     let points = |factor: f64, n: usize| -> String {
         let all = (0..n * n).map(|at| [at % n, at / n].map(|it| (it as f64 + 0.5) / n as f64));
         let line = |[r, z]: [f64; 2]| format!("{r},{z},{},0\n", r.powi(3) / 100.0 + factor * r);
@@ -149,7 +149,7 @@ fn errors_of_rings_weigh_by_their_radius() {
     assert!((mean / right - 1.0).abs() < 1e-12, "{mean} is not {right}");
 }
 
-/// Volumes and masses of states are per radian, and `judge` reads states back, with and without a swirl, in each format.
+/// Volumes and masses of states are per radian. `judge` reads states back, with and without a swirl, in each format.
 #[test]
 fn states_of_rings_are_judged_as_exact() {
     let folder = folder();
@@ -186,9 +186,9 @@ fn states_of_rings_are_judged_as_exact() {
         let numbers = table.lines().skip(1).filter_map(|line| line.split(',').nth(of));
         numbers.filter_map(|it| it.parse::<f64>().ok()).sum::<f64>()
     };
-    // (2^2 - 1^2)/2 of the length 1, and 1000 times that.
+    // (2^2 - 1^2)/2 for length 1, and 1000 times as much.
     assert!((sum(volume) - 1.5).abs() < 1e-12 && (sum(mass) - 1500.0).abs() < 1e-9);
-    // A file may leave out the shears along a hoop that nothing moves along.
+    // A file may omit the shears along a hoop if nothing moves along it.
     let left: String = table
         .lines()
         .map(|line| {
@@ -204,7 +204,7 @@ fn states_of_rings_are_judged_as_exact() {
     judged.complains("deformation_gradient, first_piola_kirchhoff, cauchy_stress");
 }
 
-/// States of a run have all nine components of tensors, the one around the axis last; weights of rings are for boxes.
+/// States of a run have all nine components of tensors, the hoop component last; weights of rings are for boxes.
 #[test]
 fn the_solver_runs_a_body_of_revolution() {
     let folder = Folder::new();
@@ -226,7 +226,7 @@ fn the_solver_runs_a_body_of_revolution() {
     }
 }
 
-/// A static body of revolution comes to its equilibrium, of second order.
+/// A static body of revolution reaches its equilibrium with second order.
 #[test]
 fn a_static_body_of_revolution_relaxes() {
     let folder = Folder::new();
@@ -258,7 +258,7 @@ z_max = "fixed"
     folder.mms(study).exits(0).prints("pass: observed order 2.");
 }
 
-/// A disk that turns about its axis: no point of it moves outward, whatever its components in the fixed basis do.
+/// A disk that turns about its axis: no point moves outward, although its components in the fixed basis change.
 #[test]
 fn the_extent_of_a_body_that_turns_is_its_distance_from_the_axis() {
     let folder = Folder::new();
@@ -291,7 +291,7 @@ time = [2, 3.1]
     assert_eq!(height, [0.0, 1.0]);
 }
 
-/// `mms new --from-axisymmetric` writes the field in space: F, P and b of both agree where the meridian is turned.
+/// `mms new --from-axisymmetric` writes the field in space: F, P and b of both agree if the meridian is turned.
 #[test]
 fn a_field_in_space_is_written_of_its_section() {
     let folder = folder();

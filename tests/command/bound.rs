@@ -1,8 +1,8 @@
-//! The bound on the size of a derivation: stated, settable, and told by its cause.
+//! The bound on the size of a derivation: it is stated, can be set, and names its cause.
 
 use super::mms::{BAR, Folder};
 
-/// A bar whose definition `A` is a product of so many waves, with a large derivative.
+/// A bar whose definition `A` is a product of `count` waves, with a large derivative.
 fn waves(count: usize) -> Folder {
     let waves: Vec<_> = (1..=count).map(|k| format!("cos({k}*c*pi*t/length + X/length)")).collect();
     let text = BAR.replace("cos(c*pi*t/length)\"", &format!("({})\"", waves.join("*")));
@@ -38,7 +38,7 @@ fn what_is_too_large_is_named_with_its_cause_and_the_way_out() {
     run.complains("of this field is too large").complains("in `A`");
     run.complains("nodes with").complains("the bound is 4000 of both");
     run.complains("--max-nodes N");
-    // The place is that of the product, not of the whole definition.
+    // The position points to the product, not to the whole definition.
     let document = folder.mms("check waves.toml --max-nodes 4000 --json").exits(2).json();
     let found = &document["files"][0]["diagnostics"][0];
     let index = |key: &str| found[key].as_u64().expect("a position") as usize - 1;

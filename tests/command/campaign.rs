@@ -13,7 +13,7 @@ use serde_json::Value;
 use super::mms::{Folder, Run, timeless};
 use super::sampled::sampled_count;
 
-/// At the end of the window the bar has u = a X (2 - X), with a = 0.2. It notes each of its runs in `log`.
+/// At the end of the window the bar has u = a X (2 - X), with a = 0.2. The solver logs each of its runs in `log`.
 const SOLVER: &str = r#"
 echo "run of $2 cells"
 echo "$2" >> "$(dirname "$0")/log.txt"
@@ -27,7 +27,7 @@ awk -v n="$2" -v p="$3" 'BEGIN {
 }' > "$1/the results/u '$2'.csv"
 "#;
 
-/// A campaign with so many words behind those of the solver.
+/// A campaign whose solver gets additional words as arguments.
 fn file(words: &str, studies: &str) -> String {
     format!(
         "[solver]\nname = \"tiny\"\nrun = \"sh 'my solver.sh' {{output}} {{cells}} {words}\"\n\
@@ -112,7 +112,7 @@ fn a_run_is_made_again_where_its_command_its_program_its_results_or_its_version_
     assert_eq!((count(), count()), (5, 5));
     folder.write(&format!("{ODD}/one.h"), "2");
     assert_eq!((count(), count()), (6, 6));
-    // The name of the solver and the limit of time make no other results.
+    // The name of the solver and the time limit do not change results.
     folder.write(
         &format!("{ODD}/c.toml"),
         &text.replace("} 2", "} 3").replace("limit = 2", "limit = 3"),
@@ -165,9 +165,9 @@ fn a_run_that_fails_is_named_and_ends_no_other() {
         (&failed["status"], &failed["last_words"][0]),
         (&"failed".into(), &"the matrix is singular".into())
     );
-    // It is tried again, and only it.
+    // Only the failed run is tried again.
     campaign(&folder, &[]).exits(3);
-    // What two studies ask for is made once.
+    // A run that two studies need is made once.
     assert_eq!(runs(&folder), [4, 8, 16, 16, 32]);
     let page = folder.mms("report out").exits(1);
     page.prints("1 of 2 verdicts is not as expected");
@@ -294,8 +294,8 @@ fn the_field_is_written_before_a_run() {
     assert_eq!(fs::read_to_string(&emitted[0]).expect("a source"), folder.read("own/bar_1d.c"));
 }
 
-/// After its period the bar is where it was: its state at the start and an error are results at the end. The state alone
-/// tells the solver how many cells there are.
+/// After its period the bar is back at its start: its initial state and an error are the results at the end. Only the
+/// state shows the solver the number of cells.
 #[test]
 fn a_run_gets_the_exact_state_of_its_level() {
     let folder = Folder::new();
@@ -322,7 +322,7 @@ awk -F, 'NR == FNR { n = (FNR - 1) / 2; next }
     let states = find(&folder.path("target"), "state.csv");
     assert_eq!(states.len(), 3);
     assert!(states.iter().any(|it| fs::read_to_string(it).expect("a state") == own));
-    // A state of another format makes another run, whatever comes of it.
+    // A state of another format makes another run, with any result.
     folder.write("c.toml", &format!("{solver}state = \"npz\"\n{study}"));
     folder.mms("campaign c.toml --only bar_1d/1");
     assert_eq!(folder.read("log.txt").lines().count(), 4);
@@ -372,7 +372,7 @@ fn dt_alone_may_be_refined() {
     run.prints("pass: ").prints("pass: observed order 1.00").prints("dt 1.000e-2 to dt 2.500e-3");
 }
 
-/// Three meshes with three time steps each are fitted by A h^p + B dt^q; the particles of a cell are the solver's and the state's.
+/// Three meshes with three time steps each are fitted by A h^p + B dt^q; solver and state have the same particles per cell.
 #[test]
 fn space_and_time_are_refined_each_by_itself() {
     let folder = Folder::new();
@@ -402,7 +402,7 @@ fn space_and_time_are_refined_each_by_itself() {
         .complains("`--expected-order time=..`: it is not judged");
 }
 
-/// A signal of this name.
+/// Sends a signal of this name.
 fn signal(child: &Child, name: &str) {
     let status = Command::new("kill").args([name, &child.id().to_string()]).status();
     assert!(status.expect("kill").success());
@@ -415,8 +415,8 @@ fn start(folder: &Folder) -> Child {
     command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts")
 }
 
-/// Killed at many moments, as nobody can prepare for; the same command goes on, one run at most is lost each time, and the
-/// document is that of a campaign that ran through, in folders of the same names.
+/// A campaign is killed at many moments. The same command continues it, and each time at most one run is lost. The document
+/// is the document of an undisturbed campaign, in folders of the same names.
 #[test]
 fn killed_anywhere_it_loses_one_run_at_most_and_ends_with_the_same_document() {
     const CELLS: [usize; 8] = [4, 8, 12, 16, 20, 24, 28, 32];
@@ -425,7 +425,7 @@ fn killed_anywhere_it_loses_one_run_at_most_and_ends_with_the_same_document() {
     let document = || timeless(&campaign(&folder, &["--json"]).exits(0).json());
     let undisturbed = document();
     assert_eq!(undisturbed["studies"][0]["verdict"], "pass");
-    // Ends a campaign that was killed so often, and removes it.
+    // Ends a campaign that was killed `kills` times, and removes it.
     let end = |kills: usize| {
         assert_eq!(document(), undisturbed);
         let made = runs(&folder);
@@ -447,7 +447,7 @@ fn killed_anywhere_it_loses_one_run_at_most_and_ends_with_the_same_document() {
         let mut child = start(&folder);
         wait = (wait + 37) % 160;
         sleep(Duration::from_millis(wait));
-        // One that has come to its end makes room for the next.
+        // A campaign that has ended makes room for the next.
         if child.try_wait().expect("a child").is_some() {
             end(kills);
             kills = 0;
@@ -490,7 +490,7 @@ fn proposals_show_what_can_be_shown_and_can_be_pasted() {
         .exits(0)
         .prints("--only=travelling_wave_2d/4")
         .prints("in time/4");
-    // Whoever can start at rest alone gets the field that does.
+    // A solver that can only start at rest gets the field that does.
     let little = "can = { dimensions = [2] }\n";
     folder.write(&format!("{ODD}/c.toml"), &file("2", little));
     let run = campaign(&folder, &["--suggest", "--json"]).exits(0).json();
@@ -499,7 +499,7 @@ fn proposals_show_what_can_be_shown_and_can_be_pasted() {
     let unseen = run["unseen"].as_array().expect("terms");
     let start = unseen.iter().find(|it| it["term"] == "initial_velocity").expect("a start");
     assert!(start["needs"].as_array().expect("keys").iter().any(|key| key == "start_moving"));
-    // Whoever solves in R and Z as well gets a body of revolution.
+    // A solver that also solves in R and Z gets a body of revolution.
     let rings = "can = { dimensions = [2], axisymmetric = true, start_moving = true }\n";
     folder.write(&format!("{ODD}/c.toml"), &file("2", rings));
     campaign(&folder, &["--suggest"])

@@ -1,10 +1,10 @@
-//! `mms campaign --canary`, and what continuous integration reads of a campaign: JUnit XML and a summary in Markdown.
+//! `mms campaign --canary`, and the output of a campaign for continuous integration: JUnit XML and a summary in Markdown.
 
 #![cfg(unix)]
 
 use super::mms::{Folder, Run};
 
-/// At the end of its window the bar has u = 0.2 X (2 - X). The script multiplies that by $4, and adds C h^$3.
+/// At the end of its window the bar has u = 0.2 X (2 - X). The script multiplies this by $4, and adds C h^$3.
 const SOLVER: &str = r#"[ "$3" = x ] && { echo "no licence" >&2; exit 3; }
 awk -v n="$2" -v p="$3" -v f="$4" 'BEGIN {
     print "X,u"
@@ -12,7 +12,7 @@ awk -v n="$2" -v p="$3" -v f="$4" 'BEGIN {
 }' > "$1/u.csv"
 "#;
 
-/// Runs the campaign of a solver with these words behind its meshes.
+/// Runs the campaign of a solver with these words after its meshes.
 fn campaign(folder: &Folder, words: &str, more: &str, options: &str) -> Run {
     folder.write("solve.sh", SOLVER);
     let text = format!(
@@ -36,7 +36,7 @@ fn a_study_fails_with_a_wrong_force_or_measures_nothing() {
     let plain = campaign(&folder, "2 {force_factor}", "", "--json").exits(0);
     assert_eq!(plain.stderr.matches("was done before").count(), 3, "{plain}");
     assert!(plain.json()["studies"][0]["canary"].is_null(), "{plain}");
-    // This one is told of the factor, and takes no notice of it.
+    // This solver gets the factor and ignores it.
     let deaf = campaign(&folder, "2 1 {force_factor}", "", "--canary").exits(1);
     deaf.prints("0 of 1 studies fail").prints("bar_1d passes with -b: it measures nothing");
     assert_eq!(
@@ -45,7 +45,7 @@ fn a_study_fails_with_a_wrong_force_or_measures_nothing() {
     );
 }
 
-/// The source that `emit` writes for a canary has -b, and everything else as it was.
+/// The source that `emit` writes for a canary has -b; everything else is unchanged.
 #[test]
 fn the_emitted_source_of_a_canary_has_the_other_sign() {
     let folder = Folder::new();

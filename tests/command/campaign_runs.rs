@@ -1,4 +1,4 @@
-//! `mms campaign`: when a run counts as done, and what its processes may leave.
+//! `mms campaign`: when a run counts as done, and which files and processes it may leave.
 
 #![cfg(unix)]
 
@@ -13,13 +13,13 @@ use super::mms::{Folder, Run};
 
 const STUDY: &str = "[[study]]\nfield = \"bar_1d\"\ncells = [8]\n";
 
-/// A campaign of one run; its solver gets the folder for results behind its words.
+/// A campaign of one run; its solver gets the folder for results as its last argument.
 fn campaign(run: &str, more: &str) -> String {
     let run = serde_json::to_string(run).expect("a text");
     format!("[solver]\nrun = {run}\noutput = \"{{output}}/u.csv\"\n{more}\n{STUDY}")
 }
 
-/// A solver that notes its runs in `log.txt` of a folder, and writes u at the end with an error.
+/// A solver that logs its runs in `log.txt` of a folder, and writes u at the end with an error.
 fn solver(folder: &Folder, comment: &str) -> String {
     let log = folder.path("log.txt");
     format!(
@@ -33,12 +33,12 @@ fn program(folder: &Folder, name: &str, text: &str) {
     fs::set_permissions(folder.path(name), Permissions::from_mode(0o755)).expect("permissions");
 }
 
-/// How many runs were made.
+/// The number of runs that were made.
 fn count(folder: &Folder) -> usize {
     fs::read_to_string(folder.path("log.txt")).unwrap_or_default().lines().count()
 }
 
-/// Runs a campaign of one run, which is then done, but one mesh is not enough for a verdict.
+/// Runs a campaign of one run, which is done afterwards; one mesh is not enough for a verdict.
 fn done(folder: &Folder, file: &str) -> Run {
     let path =
         format!("{}:{}", folder.path("bin").display(), std::env::var("PATH").expect("a PATH"));
@@ -49,7 +49,7 @@ fn done(folder: &Folder, file: &str) -> Run {
 
 #[test]
 fn a_run_is_made_again_if_what_it_starts_is_another_program() {
-    // The command, where it is run, and the file that is really run.
+    // The command, its working folder, and the file that is really run.
     let cases = [
         ("./solve {output}", "build", "build/solve"),
         ("./solve {output}", "{here}/build", "build/solve"),
@@ -91,7 +91,7 @@ fn a_run_is_made_again_if_what_it_starts_is_another_program() {
     }
 }
 
-/// Two folders with one store: results are those of the solver that lies there.
+/// Two folders with one store: a folder gets only results of the solver in it.
 #[test]
 fn a_second_checkout_is_judged_by_its_own_solver() {
     for (run, is_shared) in [("./solve {output}", true), ("sh -c '. $0/solve' . {output}", false)] {
@@ -102,7 +102,7 @@ fn a_second_checkout_is_judged_by_its_own_solver() {
             folder.write(&file, &campaign(run, "directory = \"build\""));
             done(&folder, &file);
         }
-        // Where nothing says what is started, each folder has results of its own.
+        // If the command does not show which file is run, each folder has results of its own.
         assert_eq!(count(&folder), if is_shared { 2 } else { 3 }, "{run}");
     }
 }
@@ -144,7 +144,7 @@ fn empty_and_cut_results_are_not_done() {
     }
 }
 
-/// A table that was cut is still a table; but one program ends all of its tables alike.
+/// A table that was cut is still a table, but one program ends all of its tables in the same way.
 #[test]
 fn a_table_that_is_cut_within_a_line_is_not_done() {
     for (end, first, second) in [("\\n", 3, 0), ("", 0, 0)] {
@@ -155,7 +155,7 @@ fn a_table_that_is_cut_within_a_line_is_not_done() {
         );
         let cut =
             "if [ $2 = 32 ] && [ ! -e once ]; then touch once; truncate -s CUT \"$1/u.csv\"; fi\n";
-        // Without the break at the end nobody can tell, and nothing is cut.
+        // Without line breaks at the ends a cut cannot be detected, and nothing counts as cut.
         let cut = if end.is_empty() { "" } else { &cut.replace("CUT", "-5") };
         folder.write("solve.sh", &format!("echo run >> log.txt\n{awk}{cut}"));
         let text = campaign("sh solve.sh {output} {cells}", "").replace("[8]", "[8, 16, 32]");
@@ -185,7 +185,7 @@ fn a_result_that_was_changed_after_its_run_is_noticed() {
     run.complains("is not trusted: `")
         .complains("output/u.csv` has changed since the run; it is now `");
     assert_eq!((count(&folder), fs::read_to_string(&result).expect("a result")), (2, text));
-    // A folder with results may have more than there was.
+    // A folder with results may have additional files.
     folder.write("c.toml", &campaign("./solve {output}", "").replace("/u.csv", ""));
     done(&folder, "c.toml");
     done(&folder, "c.toml");
@@ -211,14 +211,14 @@ fn result(folder: &Folder, name: &str) -> PathBuf {
     PathBuf::from(found.trim_end())
 }
 
-/// Whether there is a process of this number that is no zombie.
+/// Whether there is a process of this number that is not a zombie.
 fn is_there(number: &str) -> bool {
     let state = Command::new("ps").args(["-o", "stat=", "-p", number.trim()]).output();
     let state = String::from_utf8(state.expect("ps").stdout).expect("a word");
     !state.trim().is_empty() && !state.trim().starts_with('Z')
 }
 
-/// Waits, for as long as a test may take.
+/// Waits until a condition holds, for as long as a test may take.
 fn wait_until(what: impl Fn() -> bool) {
     while !what() {
         sleep(Duration::from_millis(10));
@@ -270,11 +270,11 @@ fn whatever_ends_a_campaign_ends_its_processes() {
         for number in folder.read("left").split_whitespace() {
             match code {
                 Some(_) => assert!(!is_there(number), "{signal}: {number} is still there"),
-                // Then its supervisor is alone.
+                // Afterwards only its supervisor is left.
                 None => wait_until(|| !is_there(number)),
             }
         }
-        // The next one waits for the supervisor, and takes the folder.
+        // The next campaign waits for the supervisor, and then uses the folder.
         program(&folder, "solve", &solver(&folder, "one"));
         done(&folder, "c.toml");
         assert!(result(&folder, "u.csv").ends_with("1/output/u.csv"));
@@ -304,7 +304,7 @@ fn a_campaign_that_ignores_the_end_of_its_terminal_goes_on() {
     assert!(String::from_utf8_lossy(&ended.stdout).contains("1 of 1 runs are done"));
 }
 
-/// Where even the supervisor is killed, what it left goes on alone: in its folder, which no other run gets.
+/// If the supervisor is killed too, its solver goes on alone in its folder, which no other run gets.
 #[test]
 fn a_run_that_is_left_over_shares_no_folder_with_its_successor() {
     let folder = Folder::new();

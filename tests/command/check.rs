@@ -6,7 +6,7 @@ use std::process::Command;
 
 use super::mms::{BAR, Folder};
 
-/// A folder with the bar, changed.
+/// A folder with the bar, in which `from` is replaced by `to`.
 fn changed(from: &str, to: &str) -> Folder {
     assert!(BAR.contains(from), "the bar has no `{from}`");
     let folder = Folder::new();
@@ -29,7 +29,7 @@ fn a_right_file_exits_0_and_its_closed_form_is_named() {
     run.prints("slide 'Return to the 1D Bar', with the sign corrected");
     assert_eq!(run.stderr, "");
     assert!(!run.stdout.contains("  name "), "{run}");
-    // A parameter may have the name of a quantity, which is said.
+    // A parameter may have the name of a quantity, and a note says so.
     let folder = Folder::new();
     folder.write("bar.toml", &BAR.replace("young", "E"));
     let run = folder.mms("check bar.toml").exits(0);
@@ -48,7 +48,7 @@ fn the_sign_printed_on_the_slides_is_refuted_with_exit_1() {
     assert!(checks[0]["difference"]["derived"].is_number(), "{checks}");
 }
 
-/// Digits that are the same show no difference.
+/// A difference beyond the shown digits is described, because equal digits do not show it.
 #[test]
 fn a_difference_behind_the_digits_that_are_shown_is_said() {
     let close =
@@ -58,7 +58,7 @@ fn a_difference_behind_the_digits_that_are_shown_is_said() {
     folder.mms("check bar.toml").exits(1).prints("which differ after the 16th digit");
 }
 
-/// Of a parameter that is set, its range is not looked at.
+/// If a parameter is set, its range is not checked.
 #[test]
 fn what_is_set_is_what_is_checked() {
     let amplitude = "amplitude = { value = 0.2,";
@@ -73,7 +73,7 @@ fn what_is_set_is_what_is_checked() {
     folder.mms("check bar.toml --set amplitud=1").exits(2).prints("1 mistake(s)");
 }
 
-/// Each value that a range allows must be an elastic solid.
+/// Each value in a range must give an elastic solid.
 #[test]
 fn a_range_without_a_positive_density_or_modulus_is_refused_at_its_line() {
     let cases = [
@@ -164,7 +164,7 @@ fn the_document_of_a_wrong_file_names_each_place() {
 /// The bar, with a displacement and one closed form of it.
 fn with_displacement(u: &str, closed_form: &str) -> Folder {
     let folder = Folder::new();
-    // What is claimed of the bar does not hold for every displacement.
+    // The claims of the bar do not hold for every displacement.
     let before = &BAR[..BAR.find("[boundary]").expect("claims")];
     let text = before.replace("X*(2*length - X)/length^2 * A", u);
     assert_ne!(text, before);
@@ -211,7 +211,7 @@ fn a_difference_is_told_before_what_is_undefined() {
 
 #[test]
 fn what_cancels_is_evaluated_as_it_is_written() {
-    // Canonical form makes X of it; as written it has no value in half of the domain.
+    // Canonical form simplifies this to X; as written it has no value in half of the domain.
     let root = "sqrt(X/length - 1/2)";
     let folder = with_displacement(&format!("A*{root}*{root}"), "A*(X/length - 1/2)");
     let run = folder.mms("check bar.toml").exits(1);
@@ -303,7 +303,7 @@ fn digits_that_a_sum_loses_are_told() {
     assert_eq!(json["files"][0]["certificate"]["angle_digits"], 1);
 }
 
-/// A product on the way to it is beyond the largest number.
+/// A product inside the speed exceeds the largest number.
 #[test]
 fn a_speed_without_a_bound_is_no_number() {
     let run = Folder::with_bar("bar.toml").mms("check bar.toml --set young=1e300").exits(0);

@@ -1,4 +1,4 @@
-//! Runs that are killed, interrupted or cannot write, and go on.
+//! Runs that are killed, interrupted or cannot write, and continue.
 
 use std::fs;
 use std::process::{Child, Command, Stdio};
@@ -9,13 +9,13 @@ use serde_json::Value;
 use super::sampled::sampled_count;
 use crate::mms::Folder;
 
-/// A run of some hundred steps, and everything that it writes but its checkpoints.
+/// A run of some hundred steps that writes everything except checkpoints.
 const RUN: &str = "run bar_1d --cells 64 --history run.csv --vtk states --frames 5 --json";
 
-/// Where its checkpoints go.
+/// The options for checkpoints.
 const KEEPING: &str = "--checkpoint run.checkpoint --every 20";
 
-/// A document but for what takes time, and for the command.
+/// A document without timings and without its command.
 fn timeless(mut document: Value) -> Value {
     let run = document.as_object_mut().expect("an object");
     for key in ["seconds", "ns_per_particle_step", "provenance"] {
@@ -24,7 +24,7 @@ fn timeless(mut document: Value) -> Value {
     document
 }
 
-/// What a run leaves, byte by byte: the history, the list of states, and the states.
+/// The files that a run writes, byte by byte: the history, the list of states, and the states.
 fn written(folder: &Folder) -> Vec<(String, String)> {
     let mut names = vec!["run.csv".to_owned()];
     let states = fs::read_dir(folder.path("states")).expect("a folder");
@@ -36,14 +36,14 @@ fn written(folder: &Folder) -> Vec<(String, String)> {
     names.into_iter().map(|name| (name.clone(), folder.read(&name))).collect()
 }
 
-/// What the run ends with if nothing happens to it.
+/// The results of an undisturbed run.
 fn undisturbed() -> (Value, Vec<(String, String)>) {
     let folder = Folder::new();
     let document = timeless(folder.mms(RUN).exits(0).json());
     (document, written(&folder))
 }
 
-/// The run, which goes on if there is something to go on from.
+/// The arguments of the run, which continues if there is a checkpoint.
 fn arguments(folder: &Folder) -> String {
     let resume =
         if folder.path("run.checkpoint").exists() { "--resume run.checkpoint" } else { "" };
@@ -60,7 +60,7 @@ fn spawn(folder: &Folder, arguments: &str) -> Child {
         .expect("the program starts")
 }
 
-/// At a hundred instants anywhere in the run.
+/// The run is killed at a hundred random instants.
 #[test]
 fn killed_again_and_again_it_ends_with_the_same_bytes() {
     let start_of_one = Instant::now();
@@ -69,7 +69,7 @@ fn killed_again_and_again_it_ends_with_the_same_bytes() {
     let (mut kills, mut resumed, mut random) = (0, 0, 1_u64);
     while kills < sampled_count(100, 4) {
         let folder = Folder::new();
-        // Each life is short of the whole run, so that it takes several.
+        // Each attempt is shorter than the whole run, so that the run takes several.
         for _ in 0..8 {
             random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             resumed += usize::from(folder.path("run.checkpoint").exists());
@@ -83,7 +83,7 @@ fn killed_again_and_again_it_ends_with_the_same_bytes() {
         let last = folder.mms(&arguments(&folder)).exits(0);
         assert_eq!(timeless(last.json()), document);
         assert_eq!(written(&folder), files);
-        // Nor is there anything else: what was killed half-way is gone.
+        // No other file exists: files that were half written are gone.
         let mut left = fs::read_dir(folder.path("")).expect("a folder");
         let is_ours = |name: &str| ["run.csv", "states", "run.checkpoint"].contains(&name);
         assert!(left.all(|it| is_ours(&it.expect("an entry").file_name().to_string_lossy())));
@@ -91,7 +91,7 @@ fn killed_again_and_again_it_ends_with_the_same_bytes() {
     assert!(10 * resumed > kills, "{resumed} of {kills} went on from a checkpoint");
 }
 
-/// Runs a command until it has written a state, then types Ctrl-C: what is said, and the step of the checkpoint.
+/// Runs a command until it has written a state, then types Ctrl-C. Returns its message and the step of the checkpoint.
 #[cfg(unix)]
 fn interrupt(folder: &Folder, arguments: &str, state: &str) -> (String, u64) {
     let process = spawn(folder, arguments);
@@ -109,7 +109,7 @@ fn interrupt(folder: &Folder, arguments: &str, state: &str) -> (String, u64) {
     (said, head["step"].as_u64().expect("a number"))
 }
 
-/// Whoever types Ctrl-C in a run that would take hours is told how to go on, and it does.
+/// After Ctrl-C in a run that would take hours, the message names the command that continues it.
 #[test]
 #[cfg(unix)]
 fn an_interrupted_run_says_how_to_go_on() {
@@ -127,7 +127,7 @@ fn an_interrupted_run_says_how_to_go_on() {
     assert!(said.contains(&format!("`{command}`")), "the same command goes on: {said}");
 }
 
-/// A checkpoint of the middle of a short run.
+/// A checkpoint from the middle of a short run.
 fn kept(folder: &Folder) -> Vec<u8> {
     folder.mms("run bar_1d --cells 8 --checkpoint kept --every 7").exits(0);
     fs::read(folder.path("kept")).expect("a checkpoint")
@@ -169,13 +169,13 @@ fn a_checkpoint_of_another_run_is_refused_by_the_command_that_wrote_it() {
             .exits(2)
             .complains("`mms run bar_1d --cells 8 --checkpoint kept --every 7`");
     }
-    // Neither threads nor what is written belong to the run.
+    // Neither the threads nor the outputs belong to the identity of a run.
     folder.mms("run bar_1d --cells 8 --resume kept --threads 2 --output out").exits(0);
     folder.mms("run bar_1d --cells 8 --resume missing").exits(2).complains("missing");
     folder.mms("run bar_1d --cells 8 --every 3").exits(2);
 }
 
-/// Single precision, too.
+/// Runs in single precision continue, too.
 #[test]
 fn a_run_in_single_precision_goes_on_to_the_bit() {
     let folder = Folder::new();
@@ -185,7 +185,7 @@ fn a_run_in_single_precision_goes_on_to_the_bit() {
     assert_eq!(timeless(rest), timeless(whole));
 }
 
-/// Said before any work is done.
+/// The refusal comes before any work is done.
 #[test]
 fn what_cannot_be_written_is_refused_at_once() {
     let folder = Folder::new();
@@ -200,7 +200,7 @@ fn what_cannot_be_written_is_refused_at_once() {
     assert_eq!(folder.read("file"), "", "left as it was");
 }
 
-/// Rows behind the checkpoint are written anew; those before it stand for what the run did.
+/// Rows after the checkpoint are written anew; rows before it record what the run did, and must not change.
 #[test]
 fn a_history_that_was_changed_before_the_checkpoint_is_refused() {
     let folder = Folder::new();
@@ -231,7 +231,7 @@ fn a_history_that_was_changed_before_the_checkpoint_is_refused() {
     }
 }
 
-/// One of another version does not look damaged.
+/// A checkpoint of another version is not reported as damaged.
 #[test]
 fn an_older_checkpoint_is_refused_by_its_format() {
     let folder = Folder::new();
@@ -247,7 +247,7 @@ fn an_older_checkpoint_is_refused_by_its_format() {
     folder.mms("run bar_1d --cells 8 --resume kept").exits(2).complains(said);
 }
 
-/// A list of the states behind the checkpoint alone would look like one of the whole run.
+/// A list of only the states after the checkpoint would look like a list of the whole run.
 #[test]
 fn states_go_on_only_where_those_before_are() {
     let folder = Folder::new();
@@ -263,7 +263,7 @@ fn states_go_on_only_where_those_before_are() {
     assert_eq!(folder.read("states/bar_1d.pvd"), list);
 }
 
-/// As on a disk that is full: the run says what it could not write, and the last checkpoint stays.
+/// As on a full disk: the run names the file that it could not write, and the last checkpoint stays.
 #[test]
 #[cfg(unix)]
 fn a_disk_that_fills_up_loses_nothing() {
@@ -295,7 +295,7 @@ fn a_disk_that_fills_up_loses_nothing() {
     assert!(names.iter().all(|name| name == "kept" || name == "run.csv"), "{names:?}");
 }
 
-/// One row per step; the last one is what the run itself says.
+/// The history has one row per step; the last one has the numbers that the run itself reports.
 #[test]
 fn the_history_closes_with_the_numbers_of_the_run() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! `mms diagnose`: mistakes that are made here by hand, of numbers that `mms eval` gives.
+//! `mms diagnose`: mistakes made here by hand, in numbers from `mms eval`.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::mms::{Folder, Run};
 
-/// Quantities of the field at points of an even grid, as `mms eval` gives them.
+/// Quantities of the field at points of an even grid, from `mms eval`.
 fn grid(folder: &Folder, count: usize, time: f64) -> Vec<Value> {
     let middle = |k: usize| (k as f64 + 0.5) / count as f64;
     let points = (0..count * count).map(|k| [middle(k % count), middle(k / count)]);
@@ -56,7 +56,7 @@ fn a_law_alone_is_named() {
     diagnose(&folder, &transposed, options).exits(1).prints("named: stress_transposed (mistake)");
     let cauchy = with(&|point| numbers(point, "cauchy_stress"));
     diagnose(&folder, &cauchy, options).exits(1).prints("named: stress_cauchy");
-    // F in single precision shows through the tangent.
+    // F in single precision is visible through the tangent.
     let single = table(header, &points, |point| {
         let f = numbers(point, "deformation_gradient");
         [f.iter().map(|it| f64::from(*it as f32)).collect(), first(point)].concat()
@@ -80,7 +80,7 @@ fn a_law_alone_is_named() {
     diagnose(&folder, &over, options).exits(1).prints("named: stress_volume [over J]");
     let unit = with(&|point| first(point).iter().map(|it| it * 1e-6).collect());
     diagnose(&folder, &unit, options).exits(1).prints("another unit: 10^-6");
-    // Six digits are the floor of what can be said.
+    // With six digits no smaller mistake can be named.
     let header = "F11,F12,F21,F22,sigma11,sigma12,sigma21,sigma22";
     let rounded = table(header, &points, |point| {
         [numbers(point, "deformation_gradient"), numbers(point, "cauchy_stress")].concat()
@@ -88,7 +88,7 @@ fn a_law_alone_is_named() {
     diagnose(&folder, &rounded, options).exits(0).prints("nothing");
 }
 
-/// sigma = C:eps whatever the measure is called, and P F^T/J is another stress; the tangent is C.
+/// sigma = C:eps for every name of the measure, and P F^T/J is another stress; the tangent is C.
 #[test]
 fn the_law_of_the_small_strain_has_one_stress() {
     let folder = Folder::new();
@@ -145,7 +145,7 @@ fn a_tangent_alone_is_named() {
     let (young, poisson) = (1e6, 0.3);
     let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
     let mu = young / (2.0 * (1.0 + poisson));
-    // 11, 22, 33, 12 of neo-Hookean material in plane strain; what nobody looks at is nonsense.
+    // 11, 22, 33, 12 of neo-Hookean material in plane strain; the components that are not read are nonsense.
     let with = |of_stress: f64| {
         let names: Vec<_> = (0..16).map(|k| format!("DDSDDE{}{}", k / 4 + 1, k % 4 + 1)).collect();
         table(&format!("F11,F12,F21,F22,{}", names.join(",")), &points, |point| {
@@ -208,7 +208,7 @@ fn accelerations_at_an_exact_state_name_a_term() {
     assert_eq!(best["hypothesis"], "force_sign");
     let same: Vec<_> = best["equivalent_always"].as_array().unwrap().iter().collect();
     assert!(same.contains(&&Value::from("moduli_factor")), "{same:?}");
-    // What was left out is not missed.
+    // An omitted body force is not reported as missing.
     diagnose(&folder, &with(1.0, -1.0), "--without body_force").exits(0).prints("nothing");
     let residual = table("X,Y,time,r_x,r_y", &points, |point| {
         let b = numbers(point, "body_force");
@@ -218,7 +218,7 @@ fn accelerations_at_an_exact_state_name_a_term() {
     let named = diagnose(&folder, &residual, "").exits(1);
     named.prints("residuals at an exact state").prints("named: force_twice");
     diagnose(&folder, &residual, "--residual-sign -").exits(1).prints("named: force_missing");
-    // The same as forces: each point stands for one of 16 x 16 parts of the square.
+    // The same residual as forces: each point represents one of 16 x 16 parts of the square.
     let forces = table("X,Y,time,r_x,r_y", &points, |point| {
         let b = numbers(point, "body_force");
         let part = -1000.0 / 256.0;
@@ -278,7 +278,7 @@ fn results_of_a_method_are_like_it_and_go_to_the_page() {
     folder.mms(like).exits(0).prints("like shape=cpgimp,integrator=leapfrog").prints("to do: ");
     let document: Value = serde_json::from_str(&folder.read("out/diagnosis.json")).unwrap();
     let number = |key: &str| document["like"][key].as_f64().unwrap();
-    // It is that method, on that grid.
+    // The reported method is right, on its grid.
     assert!((number("factor") - 1.0).abs() < 0.02, "{}", number("factor"));
     assert!(number("apart") < 0.03, "{}", number("apart"));
     folder.mms("report out").exits(0);

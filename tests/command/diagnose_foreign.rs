@@ -1,5 +1,6 @@
-//! `mms diagnose` of codes that share nothing with this project: each run has one mistake that was planted there. Runs are those of
-//! docs/diagnosis.md#by-codes-of-other-people: scikit-fem 12 in motion, on 16 and 32 cells, and FElupe 11.3 at rest, on 4 and 8,
+//! `mms diagnose` of codes that share nothing with this project: each run has one planted mistake. Runs are listed in
+//! docs/diagnosis.md#by-codes-of-other-people: scikit-fem 12 in motion, on 16 and 32 cells, and FElupe 11.3 at rest, on 4 and
+//! 8,
 //! in single precision.
 
 use std::path::Path;
@@ -7,11 +8,11 @@ use std::path::Path;
 use super::mms::Folder;
 use crate::sampled::sampled;
 
-/// One in so many runs is tried.
+/// One run in `SHARE` is tried.
 const SHARE: usize = 77;
 
-/// A run; the names that say what was planted, or `nothing` if it is harmless; and the size, if it has one. Without a name the
-/// mistake is one of those that docs/diagnosis.md lists as missed: it must not be called another one, and not `nothing`.
+/// A run; the names that say what was planted, or `nothing` if it is harmless; and the size, if it has one. A run without a
+/// name has a mistake that docs/diagnosis.md lists as missed: it must be reported neither as another one nor as `nothing`.
 type Planted = (&'static str, &'static [&'static str], Option<f64>);
 
 const RUNS: [Planted; 77] = [

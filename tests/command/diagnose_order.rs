@@ -9,14 +9,14 @@ use super::judge_orders::{RUNS, files};
 use super::mms::Folder;
 use crate::sampled::sampled;
 
-/// One in so many runs is tried.
+/// One run in `SHARE` is tried.
 const SHARE: usize = 10;
 
-/// The time at which results are written, and h of the meshes.
+/// The time at which results are written; below, h of the meshes.
 const TIME: f64 = 0.01;
 const SIZES: [f64; 2] = [1.0 / 32.0, 1.0 / 64.0];
 
-/// Writes results of `bar_1d` on both meshes, whose errors are those of a wave, c h^q; returns the arguments that name them.
+/// Writes results of `bar_1d` on both meshes, with the errors of a wave, c h^q; returns the arguments that name them.
 fn written(folder: &Folder, factor: f64, order: f64) -> String {
     for h in SIZES {
         let count = (1.0 / h).round() as usize;
@@ -88,7 +88,7 @@ fn a_method_sets_the_order_and_the_size() {
     }
 }
 
-/// Runs of a code that shares nothing with this project, on the two finest meshes.
+/// Runs of a code that shares nothing with this project, on its two finest meshes.
 #[test]
 fn right_runs_of_finite_elements_are_nothing() {
     let folder = Folder::new();
@@ -138,7 +138,7 @@ c1 = { unit = "Pa" }
 c2 = { unit = "Pa" }
 "#;
 
-/// A rod at rest, of a material of its own.
+/// A rod at rest, with a material of its own.
 const ROD: &str = r#"
 [field]
 title     = "A rod at rest"

@@ -1,17 +1,17 @@
-//! `mms diagnose` of accelerations and of residuals at an exact state: of right ones nothing is said, on any mesh.
+//! `mms diagnose` of accelerations and of residuals at an exact state: if they are right, nothing is reported, on any mesh.
 
 use std::fmt::Write as _;
 
 use super::mms::{Folder, Run};
 use crate::sampled::sampled;
 
-/// One in so many fields is tried.
+/// One field in `SHARE` is tried.
 const SHARE: usize = 9;
 
 /// Cells along an edge of the square that is diagnosed.
 const CELLS: usize = 20;
 
-/// The fields of the gallery that move or may, each with a time within its window.
+/// The fields of the gallery that move or may move, each with a time within its window.
 const FIELDS: [(&str, f64); 28] = [
     ("axis_aligned_1d", 0.01),
     ("axis_aligned_2d", 0.01),
@@ -59,7 +59,7 @@ fn exact_accelerations_are_nothing() {
     }
 }
 
-/// The state of the sheared block at the nodes of a grid: X, and the tractions of its upper face and of its right one.
+/// The state of the sheared block at the nodes of a grid: X, and the tractions of its upper face and of its right face.
 struct Block {
     folder: Folder,
     nodes: Vec<[f64; 2]>,
@@ -149,7 +149,7 @@ fn residuals_at_nodes_name_what_is_missing() {
         .collect();
     let run = block.diagnose("r", &half, false, nodal).exits(1);
     run.prints("named: traction_factor [all faces] (mistake)");
-    // Each cell with points of its own, as discontinuous output has them.
+    // Each cell with points of its own, as in discontinuous output.
     let side = CELLS + 1;
     let mut text = "X,Y,r1,r2\n".to_owned();
     for cell in 0..CELLS * CELLS {
@@ -162,7 +162,7 @@ fn residuals_at_nodes_name_what_is_missing() {
     block.folder.write("twice.csv", &text);
     let run = block.folder.mms(&format!("diagnose sheared_block_2d twice.csv {nodal}")).exits(1);
     run.prints("named: traction_missing on y_max (mistake)");
-    // The second row is of a node that two cells have.
+    // The second row is of a node that two cells share.
     let (at, zero) = text.match_indices("0e0,0e0").nth(1).expect("a second row");
     text.replace_range(at..at + zero.len(), "1e3,0e0");
     block.folder.write("other.csv", &text);
@@ -187,14 +187,14 @@ fn accelerations_take_the_volumes_of_their_nodes() {
         let run = block.diagnose("a", &wrong, has_volumes, TIME).exits(1);
         run.prints("named: traction_missing on y_max (mistake)");
     }
-    // Where points are unevenly apart, nothing tells.
+    // If points are unevenly spaced, the volumes cannot be found.
     let mut uneven = block;
     uneven.nodes.iter_mut().for_each(|node| node[0] = node[0].powi(2));
     let run = uneven.diagnose("a", &wrong, false, TIME).exits(2);
     run.complains("the points are not evenly apart").complains("`--map volume=..`");
 }
 
-/// A code that has no residuals begins with its accelerations.
+/// A code without residuals begins with its accelerations.
 #[test]
 fn a_plan_says_what_each_step_needs_and_sees() {
     let folder = Folder::new();

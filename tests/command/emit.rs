@@ -39,7 +39,7 @@ fn a_file_is_written_whole_into_the_folder() {
     assert_eq!(folder.read("new/folder/field_my_bar.rs").trim_end(), text.trim_end());
     let files = std::fs::read_dir(folder.path("new/folder")).expect("the folder");
     assert_eq!(files.count(), 1, "nothing else is left there");
-    // Again, over the old one.
+    // Emits again, over the old file.
     folder.mms("emit my-bar.toml -o new/folder --target rust-mms-math").exits(0);
     assert!(folder.read("new/folder/field_my_bar.rs").contains("cauchy_stress"));
 }
@@ -64,7 +64,7 @@ fn the_same_command_writes_the_same_bytes() {
     let emitted = |field: &str| {
         folder.mms(&format!("emit {field} --freeze --target rust-mms-math")).exits(0).stdout
     };
-    // Neither the path nor the time enters.
+    // Neither the path nor the time is part of the text.
     assert_eq!(emitted("deep/bar_1d.toml"), emitted("bar_1d"));
     assert_eq!(emitted("bar_1d"), emitted("bar_1d"));
 }
@@ -98,7 +98,7 @@ fn a_bundle_is_written_with_the_line_that_checks_it() {
         run["files"].as_array().expect("files").iter().map(|file| file["path"].as_str()).collect();
     assert_eq!(paths, written.each_ref().map(|path| Some(path.as_str())));
     assert!(run["verify"].as_str().expect("a line").starts_with("cd a/b && cc "));
-    // Without a folder the document has the texts.
+    // Without a folder the document contains the texts.
     let run = folder.mms("emit bar_1d --target c --json").exits(0).json();
     assert_eq!(run["files"][1]["text"].as_str(), Some(folder.read("a/b/bar_1d.c").as_str()));
     assert!(run["verify"].as_str().expect("a line").starts_with("cc "));
@@ -231,7 +231,7 @@ fn a_folder_that_cannot_be_made_is_named() {
         .complains("cannot write `taken/bar_1d.rs`");
 }
 
-/// Nowhere in the body has the logarithm a value.
+/// The logarithm has no value anywhere in the body.
 #[test]
 fn a_check_program_that_would_compare_nothing_is_not_written() {
     let folder = Folder::new();
@@ -243,7 +243,7 @@ fn a_check_program_that_would_compare_nothing_is_not_written() {
     run.complains("no point in its domain where all of these quantities have a value");
 }
 
-/// The claim of each face stands in the module as data, so that nobody types it again.
+/// The module contains the claim of each face as data, so that nobody types it again.
 #[test]
 fn modules_tell_the_claims_of_faces() {
     let folder = Folder::new();
@@ -264,7 +264,7 @@ fn modules_tell_the_claims_of_faces() {
         let text = folder.read(&format!("{target}/{file}"));
         assert!(text.contains(line), "{target} has no `{line}`");
     }
-    // They stay if one quantity is chosen.
+    // The claims stay if one quantity is chosen.
     folder.mms("emit sheared_block_2d --target c --quantity b -o one").exits(0);
     assert!(folder.read("one/sheared_block_2d.h").contains("FACE_Y_MIN \"fixed\""));
 }
@@ -316,7 +316,7 @@ fn units_of_functions_are_those_of_the_field() {
         }
     }
     assert!(documented >= 8, "{documented}");
-    // Of the SI, and where nothing is said.
+    // In SI units, and without units in the file.
     folder.mms("emit bar_1d --target c -o si").exits(0);
     assert!(folder.read("si/bar_1d.h").contains("Unit: kg/m^3."));
 }

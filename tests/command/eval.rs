@@ -1,4 +1,4 @@
-//! `mms eval`: the numbers, how they are printed, and what is refused.
+//! `mms eval`: the numbers, their printed form, and refusals.
 
 use mms_bar::bar_1d;
 use serde_json::{Value, json};
@@ -124,8 +124,8 @@ fn double_precision_has_the_shortest_digits_that_read_back() {
     assert_eq!(numbers(&run.json()["points"][0]["strain_energy"]), [expected]);
 }
 
-/// With twice the digits, u = X (2 L - X) A cos(sqrt(E/rho0) pi t / L) / L^2 at the decimals that were
-/// typed. By mpmath: 0.37*1.63*0.2*cos(sqrt(1000)*pi*0.013) with 40 digits.
+/// With twice the digits, u = X (2 L - X) A cos(sqrt(E/rho0) pi t / L) / L^2 at the decimals that were typed. By mpmath:
+/// 0.37*1.63*0.2*cos(sqrt(1000)*pi*0.013) with 40 digits.
 #[test]
 fn twice_the_digits_are_asked_for_by_name() {
     let run = Folder::new()
@@ -180,7 +180,7 @@ fn parameters_follow_those_they_depend_on() {
     assert_close(displacement("--set length=2 --set amplitude=1"), 0.75, 1e-15);
 }
 
-/// What is asked for alone is derived alone, and has the bits that it has beside all others.
+/// A single quantity is derived alone, and has the same bits as beside all others.
 #[test]
 fn a_quantity_alone_is_what_it_is_among_all() {
     let evaluate = |quantity: &str| {
@@ -232,7 +232,7 @@ fn traction_needs_the_normal_of_a_boundary() {
     };
     let stress = value("--at 0 --time 0 --quantity P", "first_piola_kirchhoff");
     assert_eq!([along("1"), along("-1")], [stress, -stress]);
-    // And nothing else takes one.
+    // No other quantity takes a face.
     for option in ["--face x_max", "--normal 1", "--face x_max --quantity u,P"] {
         self::refused(
             &format!("bar_1d --at 0 --time 0 {option}"),
@@ -326,7 +326,7 @@ fn a_value_outside_its_range_is_refused_with_the_range() {
         run.complains("`--set amplitude=0.26`").complains("`amplitude` is 0.26, outside its range");
         run.complains("bar.toml:10:37").complains("expected 0 to 0.25");
     }
-    // The range follows the parameters it depends on.
+    // The range changes with the parameters that it depends on.
     folder.mms("eval bar.toml --at 0.3 --time 0 --set amplitude=0.26 --set length=2").exits(0);
     let run = folder.mms("eval bar.toml --at 0.3 --time 0 --set length=0.5").exits(2);
     run.complains("`amplitude` is 0.2, outside its range").complains("expected 0 to 0.125");
@@ -365,7 +365,7 @@ fn points_outside_body_and_window_are_evaluated_with_a_warning() {
     let document = folder.mms(&format!("{command} --json")).exits(0).json();
     assert_eq!(document["outside_body"], serde_json::json!([1, 2]));
     assert_eq!(document["outside_time"], true);
-    // Angles of a sector are those of its points, whatever turn they are in.
+    // Points of a sector are found at any turn of their angle.
     let sector = "eval conformal_sector_2d --time 0.01 --quantity u";
     assert_eq!(folder.mms(&format!("{sector} --at 0.5,0.5")).exits(0).stderr, "");
     folder.mms(&format!("{sector} --at -0.5,0.5")).exits(0).complains("is outside the body");

@@ -1,4 +1,4 @@
-//! `mms extremes`: what breaks, and how it says so.
+//! `mms extremes`: the cases that fail, and their messages.
 
 use serde_json::Value;
 
@@ -35,7 +35,7 @@ fn every_row_of_the_bar_is_as_theory_expects() {
             "expected",
         ];
         assert_eq!(keys(row), own);
-        // There is an error within its bound, or there is a reason.
+        // A row has an error within its bound, or a reason.
         match row["l2"].as_f64() {
             Some(error) => {
                 assert!(row["bound"].as_f64().is_some_and(|bound| error <= bound), "{row:#}")
@@ -45,7 +45,7 @@ fn every_row_of_the_bar_is_as_theory_expects() {
             }
         }
     }
-    // Units change nothing but rounding, and a small motion is in proportion.
+    // Units change only rounding, and the error of a small motion is proportional to the motion.
     let declared = document["declared_l2"].as_f64().expect("an error");
     for name in ["units/soft", "units/stiff", "units/small", "units/large"] {
         assert_close(row(&document, name)["l2"].as_f64().expect("an error"), declared, 1e-9);
@@ -59,9 +59,9 @@ fn every_row_of_the_bar_is_as_theory_expects() {
     }
 }
 
-/// A cell in space may hold a thousand times the material of a bar that is pressed in its middle: no bound is claimed of such
-/// a grid, and whether the bar turns inside out is up to rounding (of Courant numbers from 0.395 to 0.405, at every other
-/// one). A grid that moves with the material follows the same motion in second order.
+/// A cell in space may hold 1000 times the material of a bar that is pressed in its middle. No bound is claimed for such a
+/// grid, and rounding decides whether the bar turns inside out (for every other Courant number from 0.395 to 0.405). A grid
+/// that moves with the material follows the same motion in second order.
 #[test]
 fn a_nearly_inverted_body_is_within_its_bound_or_the_grid_is_said_to_be_too_coarse() {
     let folder = Folder::new();
@@ -78,7 +78,7 @@ fn a_nearly_inverted_body_is_within_its_bound_or_the_grid_is_said_to_be_too_coar
     folder.mms(study).exits(1);
     folder.mms(&format!("{study} --formulation total --shape linear --courant 0.013")).exits(0);
     assert_eq!(verdicts("bar_1d"), ["within bound"; 2]);
-    // Its J is least at a corner of body and time window, where no random point lies.
+    // Its J is least at a corner of body and time window, where no random point is.
     assert!(verdicts("axis_aligned_1d").iter().all(|verdict| verdict != "left out"));
 }
 
@@ -101,8 +101,8 @@ fn the_largest_stable_courant_number_is_that_of_theory() {
     }
 }
 
-/// A step between the one that is proved to be stable and the largest that is; a row with a Courant number of its own says
-/// itself what it is there for.
+/// A step between the proved stable step and the largest stable step; a row with its own Courant number names its purpose
+/// itself.
 #[test]
 fn an_unstable_step_is_run_where_it_is_allowed() {
     let rows = "--row units/soft --row courant/2 --formulation total --shape linear --courant 0.75";
@@ -114,7 +114,7 @@ fn an_unstable_step_is_run_where_it_is_allowed() {
     assert_eq!(row(&document, "courant/2")["diagnosis"], "unstable_step");
 }
 
-/// As on any command: with parameters that are set, and a motion on top.
+/// The options work as in any command: parameters that are set, and a motion on top.
 #[test]
 fn the_field_is_taken_as_it_is_asked_for() {
     let declared = |options: &str| {

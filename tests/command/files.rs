@@ -1,4 +1,4 @@
-//! Where results go: links, permissions, what is no plain file, and a stderr that takes nothing.
+//! Destinations of results: links, permissions, files that are not plain, and a stderr that accepts nothing.
 #![cfg(unix)]
 
 use std::fs::{self, File, Permissions};
@@ -8,10 +8,10 @@ use std::thread;
 
 use super::mms::{BAR, Folder};
 
-/// The run whose history is written; eight cells take forty steps.
+/// The run whose history is written; eight cells need 40 steps.
 const RUN: &str = "run bar_1d --cells 8";
 
-/// The names of a history, and forty steps.
+/// The header of a history, and 40 steps.
 const LINES: usize = 41;
 
 #[test]
@@ -32,7 +32,7 @@ fn a_link_stays_and_the_file_behind_it_keeps_its_permissions() {
     assert_eq!(fs::read_dir(folder.path("data")).expect("a folder").count(), 2);
 }
 
-/// A link leads to what it leads to.
+/// A link to a file that is read is not an output.
 #[test]
 fn a_link_to_what_is_read_is_not_written_through() {
     let folder = Folder::with_bar("bar.toml");
@@ -42,7 +42,7 @@ fn a_link_to_what_is_read_is_not_written_through() {
     assert_eq!(folder.read("bar.toml"), BAR);
 }
 
-/// It gets all of the history, once, and stays.
+/// A FIFO gets the whole history, once, and stays.
 #[test]
 fn what_is_no_plain_file_is_written_to() {
     let folder = Folder::new();
@@ -63,7 +63,7 @@ fn what_is_no_plain_file_is_written_to() {
 
     let printed = folder.mms(&format!("{RUN} --history /dev/stdout")).exits(0).stdout;
     assert!(printed.starts_with("step,time,") && printed.contains("8 cells"), "{printed}");
-    // Also where stdout is a plain file, whose content it does not replace.
+    // Also if stdout is a plain file, whose content is not replaced.
     let out = File::options().create(true).append(true).open(folder.path("out")).expect("a file");
     let status = Command::new(env!("CARGO_BIN_EXE_mms"))
         .args(format!("{RUN} --history /dev/stdout").split_whitespace())
@@ -75,7 +75,7 @@ fn what_is_no_plain_file_is_written_to() {
     assert_eq!(found.lines().count(), printed.lines().count());
 }
 
-/// Who names a link for a state does not name what is behind it, nor what the files beside it lead to.
+/// A link given for a state is replaced; its target and the targets of links beside it are not written.
 #[test]
 fn states_are_not_written_through_links() {
     let all = [
@@ -103,7 +103,7 @@ fn states_are_not_written_through_links() {
     }
 }
 
-/// Who names a folder does not name what a link in it leads to.
+/// A link in a given folder is replaced; its target is not written.
 #[test]
 fn a_link_in_a_folder_of_results_is_not_written_through() {
     let folder = Folder::new();
@@ -123,25 +123,25 @@ fn a_link_in_a_folder_of_results_is_not_written_through() {
         fs::remove_file(folder.path("out").join(name)).expect("the link is still there");
         folder.mms(arguments).exits(0);
     }
-    // Nor is a folder in it.
+    // A folder behind such a link is not written either.
     fs::create_dir_all(folder.path("elsewhere")).expect("a folder");
     symlink("../elsewhere", folder.path("out/axis_aligned_1d")).expect("a link");
     let run = folder.mms("emit --all --target c -o out").exits(2);
     run.complains("cannot write to `out/axis_aligned_1d`")
         .complains("it is a link, which is not written to");
     assert_eq!(fs::read_dir(folder.path("elsewhere")).expect("a folder").count(), 0);
-    // Nor is a FIFO, which may have no reader.
+    // A FIFO is not written either, since it may have no reader.
     let fifo = folder.path("out/report.html");
     assert!(Command::new("mkfifo").arg(fifo).status().expect("mkfifo").success());
     folder.mms("report out").exits(2).complains("out/report.html`: it is a FIFO");
-    // Behind a link to a folder is what was named.
+    // A link given as the folder itself is followed.
     fs::create_dir(folder.path("other")).expect("a folder");
     symlink("other", folder.path("link")).expect("a link");
     folder.mms("emit bar_1d --target c -o link").exits(0);
     assert!(folder.path("other/bar_1d.c").is_file());
 }
 
-/// What a process leaves that is killed while it writes is of the size of what it wrote.
+/// The unfinished files of a process that was killed while it wrote are as large as the part that it wrote.
 #[test]
 fn what_a_killed_run_left_is_removed_by_the_next_one_and_nothing_else_is() {
     let folder = Folder::new();
@@ -160,7 +160,7 @@ fn what_a_killed_run_left_is_removed_by_the_next_one_and_nothing_else_is() {
     assert_eq!(fs::read_dir(folder.path("out")).expect("a folder").count(), 1);
 }
 
-/// The name that the user gave, and no other.
+/// Messages use the name that the user gave, and no other.
 #[test]
 fn errors_name_the_file_that_was_asked_for() {
     let folder = Folder::new();
@@ -184,7 +184,7 @@ fn errors_name_the_file_that_was_asked_for() {
     }
 }
 
-/// What cannot be said is lost, and nothing else.
+/// A message that cannot be written is lost, and nothing else.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_full_stderr_stops_nothing() {

@@ -1,20 +1,19 @@
-//! Texts from files, and names of files: on terminals they are seen and do nothing, and on pages they stand where they
-//! belong.
+//! Texts from files, and names of files: terminals show them without obeying them, and pages show them in their place.
 
 use std::process::{Command, Stdio};
 
 use super::mms::{BAR, Folder, Run};
 
-/// Steers a terminal.
+/// A text that steers a terminal.
 const OSC: &str = include_str!("data/osc_title.toml");
 
-/// Looks like two lines of `mms check`.
+/// A text that looks like two lines of `mms check`.
 const FORGED: &str = include_str!("data/forged_lines.toml");
 
-/// What the title of [`FORGED`] would be taken for.
+/// The line that the title of [`FORGED`] imitates.
 const PROOF: &str = "  proof  J > 0: 1 <= J <= 1";
 
-/// Every field of text that a file has, each with an escape, a line and a mark that turns writing.
+/// A file with every text field that exists, each with an escape, a line break and a mark that turns the direction of writing.
 fn everywhere() -> String {
     let evil = r"e\u001b]0;pwned\u0007\u009b2J\u202e\n  proof  J > 0: 1 <= J <= 1";
     let mut text = FORGED.lines().filter(|line| !line.starts_with("title")).collect::<Vec<_>>();
@@ -29,12 +28,12 @@ fn everywhere() -> String {
     )
 }
 
-/// As on a terminal, which gets what others are spared.
+/// Runs a command as on a terminal, whose output has more than a pipe gets.
 fn on_a_terminal(folder: &Folder, arguments: &[&str]) -> Run {
     folder.run_with(arguments, |command| command.env("CLICOLOR_FORCE", "1"))
 }
 
-/// Asserts that nothing of a run steers the terminal, but for colours of our own, and that no line is forged.
+/// Asserts that a run steers the terminal only with our own colours, and forges no line.
 fn assert_harmless(run: &Run) {
     for text in [&run.stdout, &run.stderr] {
         let own = |rest: &str| {
@@ -90,7 +89,7 @@ fn no_text_of_a_file_gets_through_any_command() {
     }
 }
 
-/// Their mistakes too.
+/// Messages about mistakes in a file are harmless, too.
 #[test]
 fn messages_about_a_file_quote_it_harmlessly() {
     let folder = Folder::new();
@@ -153,7 +152,7 @@ fn names_of_files_are_shown_as_texts_are() {
     assert_harmless(&emitted.exits(0));
 }
 
-/// A page of XML and HTML has none of what these forbid.
+/// A page has no characters that XML and HTML forbid.
 #[test]
 fn pages_hold_what_pages_may() {
     let folder = Folder::new();
@@ -173,7 +172,7 @@ fn pages_hold_what_pages_may() {
     );
 }
 
-/// What was printed is part of what was asked for.
+/// Printing is part of a command, and a failure to print is an error.
 #[test]
 #[cfg(target_os = "linux")]
 fn what_cannot_be_printed_is_an_error() {

@@ -1,4 +1,4 @@
-//! `mms judge --errors`: tables of errors with a known law, and tables that are none.
+//! `mms judge --errors`: tables of errors with a known law, and tables without one.
 
 use super::mms::{Folder, Run, keys};
 
@@ -9,7 +9,7 @@ fn judge(table: &str, options: &str) -> Run {
     folder.mms(&format!("judge --errors errors.csv {options}"))
 }
 
-/// A table of h = 1/8, 1/16, .. with the errors that a law makes of h times 8.
+/// A table of h = 1/8, 1/16, .. with errors that a law computes from 8 h.
 fn table(header: &str, levels: i32, law: impl Fn(f64) -> Vec<f64>) -> String {
     let row = |k: i32| {
         let x = 0.5f64.powi(k);
@@ -32,7 +32,7 @@ fn the_exit_code_is_the_verdict() {
     two.prints("pass: observed order 2.00").prints("two levels cannot show");
 }
 
-/// The finest pair within 0.15 of 2, and yet of first order in the limit.
+/// The finest pair is within 0.15 of 2, and yet of first order in the limit.
 #[test]
 fn a_hidden_lower_order_does_not_pass() {
     let hidden = table("l2", 4, |x| vec![0.81 * 64.0 * x * x + 0.19 * 8.0 * x]);
@@ -48,7 +48,7 @@ fn a_hidden_lower_order_does_not_pass() {
     judge(&small, "--tolerance 0.05").exits(1);
 }
 
-/// Columns of what is no error, as tables of other codes have them, and errors of two digits.
+/// Columns that are not errors, as in tables of other codes, and errors with two digits.
 #[test]
 fn tables_of_other_codes_are_judged_by_their_errors() {
     let rates = "h,L2,L2 rate,H1,H1 rate\n0.1,1.2e-3,,3e-2,\n0.05,3e-4,2.0,1.5e-2,1.0\n0.025,7.5e-5,2.0,7.5e-3,1.0\n";
@@ -138,7 +138,7 @@ fn quantities_are_judged_each_by_itself() {
     folder.run(&arguments).exits(0).prints("pass: 3 of 3 quantities pass");
 }
 
-/// Of a quantity that is named, H1 has one order less, unless its own is named as well.
+/// If a quantity is named, H1 has one order less, unless its own order is named as well.
 #[test]
 fn the_order_of_a_quantity_is_that_of_its_values() {
     let rows = [1.0, 0.5, 0.25].map(|h: f64| format!("{h},{},{}\n", h.powi(3), h * h));
@@ -151,7 +151,7 @@ fn the_order_of_a_quantity_is_that_of_its_values() {
     }
 }
 
-/// Replicates, in a table between blanks: three rows of each h.
+/// Replicates in a table with blanks: three rows of each h.
 #[test]
 fn rows_of_one_h_are_replicates() {
     let rows = (0..12).map(|k| {
@@ -178,7 +178,7 @@ fn space_and_time_are_told_apart() {
     run.prints("fail: observed order 1.00").prints("l2 in dt");
     run.prints("l2 = 3.000e0 h^2.00 +2.000e0 dt^1.00 in all runs, within 0.0 %");
     judge(&table, "--expected-order 2,time=1").exits(0).prints("pass: observed order 2.00");
-    // One h alone is a study in time.
+    // A table with a single h is a study in time.
     let in_time = "h,dt,l2\n1,0.4,16\n1,0.2,4\n1,0.1,1\n";
     judge(in_time, "").exits(0).prints("3 levels, dt 4.000e-1 to dt 1.000e-1");
 }
@@ -189,7 +189,7 @@ fn the_csv_file_of_a_study_is_judged_as_it_is() {
     folder.mms("study bar_1d --cells 8,16,32,64 --output study").exits(0);
     let run = folder.mms("judge --errors study/convergence.csv --output again").exits(0);
     run.prints("4 levels, h 1.250e-1 to h 1.562e-2").prints("again/convergence.svg");
-    // What it writes can be judged again.
+    // The output can be judged again.
     folder.mms("judge --errors again/convergence.csv").exits(0);
     let picture = folder.read("again/convergence.svg");
     assert!(picture.contains("cell size h") && !picture.contains("stopped"));
@@ -208,7 +208,7 @@ fn what_may_be_round_off_is_left_out() {
     judge(stalls, "").exits(0).prints("3 levels, h 8.000e0 to h 2.000e0");
 }
 
-/// Each is refused at its place, with what was expected.
+/// Each bad table is refused at its position, with the expected content.
 #[test]
 fn bad_tables_are_refused_where_they_are_bad() {
     let cases = [
@@ -255,7 +255,7 @@ fn bad_tables_are_refused_where_they_are_bad() {
     }
 }
 
-/// No table makes it panic, or print what is no number.
+/// No table makes it panic, or print something that is not a number.
 #[test]
 fn extreme_numbers_are_judged_without_nonsense() {
     for errors in [[0.0; 4], [1.0; 4], [1e-320; 4], [1e300, 1e-300, 1e300, 1e-300], [1e308; 4]] {

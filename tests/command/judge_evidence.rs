@@ -1,4 +1,4 @@
-//! `mms judge FIELD FILE..`: what is no evidence, what part of the body results cover, which times and meshes they have.
+//! `mms judge FIELD FILE..`: results that are no evidence, the part of the body that results cover, and their times and meshes.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -21,7 +21,7 @@ fn judge(files: &str, options: &str) -> Run {
     Folder::new().mms(&format!("{WAVE} {} {options}", files.join(" ")))
 }
 
-/// The numbers of a key of all levels.
+/// The numbers of one key, for all levels.
 fn of_levels(document: &Value, key: &str) -> Vec<f64> {
     let levels = document["levels"].as_array().expect("levels").iter();
     levels.filter_map(|level| level[key].as_f64()).collect()
@@ -36,13 +36,13 @@ fn near(found: &[f64], expected: &[f64], tolerance: f64) {
     );
 }
 
-/// The exact state at points of a table, or of a mesh; of u alone where no other quantities are asked for.
+/// The exact state at points of a table or a mesh; u alone if no other quantities are requested.
 fn state(folder: &Folder, field: &str, points: &str, to: &str, options: &str) {
     let state = format!("state {field} --points {points} -o {to} {options}");
     folder.mms(&state).exits(0);
 }
 
-/// A table of points of a grid, (n + 1) x (n + 1) of the unit square, those that are wanted.
+/// A table of the points of a grid of the unit square, (n + 1) x (n + 1), that `is_wanted` selects.
 fn grid(n: usize, is_wanted: impl Fn(f64, f64) -> bool) -> String {
     let of = |at: usize| at as f64 / n as f64;
     let places = (0..(n + 1) * (n + 1)).map(|at| (of(at / (n + 1)), of(at % (n + 1))));
@@ -84,7 +84,7 @@ fn the_start_is_no_evidence() {
     assert_eq!(document["verdict"], "no evidence");
     assert_eq!(document["quantities"][0]["norms"][1]["verdict"], "no evidence");
     assert_eq!(document["excluded"], Value::Null);
-    // The exact solution at a later time is another matter.
+    // The exact solution at a later time is no match.
     let folder = Folder::new();
     folder.write("points.csv", &grid(4, |_, _| true));
     for (time, code) in [("0", 2), ("0.0158", 0)] {
@@ -107,7 +107,7 @@ fn walls_and_loads_are_no_evidence_alone() {
     let all = "4.csv 8.csv 16.csv";
     folder.mms(&format!("{WAVE} {all} --quantity b")).exits(2).prints("no evidence");
     folder.mms(&format!("{WAVE} {all}")).exits(0);
-    // A judgement of nothing is no baseline either.
+    // A judgement without evidence is no baseline either.
     folder.mms(&format!("{WAVE} 8.csv --quantity b --output saved")).exits(2);
     let baseline = "--quantity b --baseline saved/convergence.json";
     folder.mms(&format!("{WAVE} 8.csv {baseline}")).exits(2).prints("no evidence");
@@ -147,7 +147,7 @@ fn ring(counts: [usize; 2], radii: [f64; 2], angles: [f64; 2], cells: usize) -> 
 }
 
 const SECTOR: &str = "conformal_sector_2d";
-/// Its radii and angles, a little within it.
+/// The radii and angles of the sector, a little within it.
 const RADII: [f64; 2] = [0.5 + 1e-12, 1.0 - 1e-12];
 const ANGLES: [f64; 2] = [0.0, std::f64::consts::FRAC_PI_2];
 
@@ -190,12 +190,12 @@ fn points_fill_the_body_or_a_part_that_is_asked_for() {
         let run = judged(name, "--part").exits(0);
         run.prints("pass: observed order 2.00").prints("only a part of the body is judged");
     }
-    // A mistake is one in a part, too.
+    // A mistake stays a mistake in a part of the body.
     let run = folder.mms(&format!("{WAVE} half4.csv half16.csv --quantity u --h 1/4,1/8"));
     run.exits(1);
 }
 
-/// A plate that has as many points across as along is full.
+/// A plate with as many points across as along is full.
 #[test]
 fn points_that_are_nearer_along_one_axis_fill_the_body() {
     let folder = Folder::new();
@@ -231,14 +231,14 @@ fn a_time_is_what_its_text_says() {
     let files = "time_4.pvd time_8.pvd";
     let document = judge(files, "--map X=points --json").exits(0).json();
     near(&of_levels(&document, "order_l2"), &[1.90], 0.005);
-    // A time with more digits may be the one that was printed so.
+    // A time with more digits may be the time that was printed with fewer.
     let other = judge(files, "--map X=points --time 0.0158 --json").json();
     assert_eq!(other["times"], serde_json::json!([0.0158]));
     assert!(of_levels(&other, "l2")[1] > 2.0 * of_levels(&document, "l2")[1]);
     judge(files, "--map X=points --time 0.0258").exits(2).complains("no time at which all files");
 }
 
-/// Where values have no more digits than the time, who wrote them cut it off.
+/// If values have no more digits than the time, the writer cut the time off.
 #[test]
 fn a_time_that_was_rounded_is_named() {
     let folder = Folder::new();
@@ -264,7 +264,7 @@ fn a_time_that_was_rounded_is_named() {
     run.prints("(6 significant digits), and of its time t = 0.0123457; say it with `--time`");
     let run = folder.mms(&format!("{WAVE} a.csv --time 0.01234567"));
     run.prints("at t = 0.01234567").prints("(6 significant digits); it is left out");
-    // Fewer digits than values have are all that there are.
+    // If values have more digits than the time, the time is complete.
     folder.write("a.csv", &table("0.0123"));
     let run = folder.mms(&format!("{WAVE} a.csv")).exits(1);
     assert!(!run.stdout.contains("its floor"), "{run}");
@@ -279,7 +279,7 @@ fn nodes_are_as_far_from_each_other_as_cells_are_wide() {
     let given = judge(files, "--time 0.0158 --h 1/4,1/8 --json").exits(0).json();
     assert_eq!(given["levels"], document["levels"]);
     judge(files, "--time 0.0158 --h 1/0,1/8").exits(2).complains("expected a positive number");
-    // Nodes within the body alone.
+    // Nodes only inside the body.
     let folder = Folder::new();
     let is_inside = |x: f64, y: f64| [x, y].iter().all(|it| (0.001..0.999).contains(it));
     for n in [8, 16] {

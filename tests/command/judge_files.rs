@@ -1,4 +1,4 @@
-//! `mms judge FIELD FILE..`: files of results as other programs write them. Those in `data/` were made by NumPy and VTK.
+//! `mms judge FIELD FILE..`: files of results as other programs write them. NumPy and VTK wrote the files in `data/`.
 
 use super::mms::{Folder, Run};
 
@@ -55,7 +55,7 @@ fn moved_points_without_u_are_asked_for_and_found_by_the_inverse_motion() {
     judge("").exits(2).complains("`--map X=x,y` or `--map x=x,y`");
     let run = passes(judge("--map x=x,y"));
     run.prints("X: X of x by the inverse of the exact motion");
-    // x was used to find X, and shows nothing.
+    // x was used to find X, and is not judged.
     assert!(!run.stdout.contains("displacement\n"), "{run}");
     judge("--map x=x,y --quantity x").exits(2).complains("no position that can be judged");
     judge("--map x=x,y --quantity v,u").exits(2).complains("no displacement that can be judged");
@@ -133,7 +133,7 @@ fn files_that_take_more_memory_than_they_may_are_refused_before_they_are_read() 
     judge("0")
         .exits(2)
         .complains("moose_8.csv: cannot read it: it has 1 MB, and there are 0 MB of memory");
-    // One mesh has no order.
+    // One mesh gives no order.
     judge("100").exits(1).prints("norms of u");
 }
 
@@ -153,7 +153,7 @@ fn columns_without_a_header_are_named_by_an_option() {
     folder.mms(&diagnose).exits(0).prints("nothing");
 }
 
-/// Exact states at the nodes of a grid, as Tecplot and LAMMPS would write them.
+/// Exact states at the nodes of a grid, in the formats of Tecplot and LAMMPS.
 #[test]
 fn tecplot_and_dumps_are_judged_as_tables_are() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! `mms judge FIELD FILE..`: readings of names that are open, and the options that choose one.
+//! `mms judge FIELD FILE..`: ambiguous names, and the options that choose a reading.
 
 use super::mms::{Folder, Run};
 
@@ -44,7 +44,7 @@ fn suggested(run: &Run) -> Vec<String> {
     parts.filter_map(|it| Some(format!("--{}", it.split_once('`')?.0))).collect()
 }
 
-/// Follows the first suggestion of each message until the file is judged; the options that were taken.
+/// Follows the first suggestion of each message until the file is judged; returns the options used.
 fn followed(folder: &Folder, command: &str) -> String {
     let mut options = String::new();
     for _ in 0..4 {
@@ -78,7 +78,7 @@ fn suggestions_for_positions_and_quantities_lead_to_a_verdict() {
             format!(" --map X={},{} --map u={},{}", names[0], names[1], names[2], names[3]);
         assert_eq!(options, expected);
     }
-    // Between other columns.
+    // The columns are among other columns.
     let columns = [("u_x", "m"), ("u_y", "n"), ("time", "time"), ("X", "q"), ("Y", "r")];
     folder.write("odd.csv", &table(&rows, &columns));
     let options = followed(&folder, &format!("judge {WAVE} odd.csv"));
@@ -118,7 +118,7 @@ fn s_is_asked_for_unless_the_file_or_the_user_tells() {
         folder.mms(&format!("{judge}{other}")).exits(1);
         folder.mms(&format!("{judge} --quantity u")).exits(0);
     }
-    // Beside P it is that of textbooks.
+    // Beside P, S has its meaning in textbooks.
     folder
         .write("s.csv", &with(&[of("S", NAMES), of("P", &["P11", "P12", "P21", "P22"])].concat()));
     folder.mms(&judge).exits(0).prints("second_piola_kirchhoff");
@@ -207,7 +207,7 @@ fn a_profile_decides_what_the_numbers_leave_open() {
     judge("--from own.toml").exits(2).complains("own.toml:3:1").complains("a quantity: X, x");
 }
 
-/// Nodal errors of order 3 on linear cells, as of a quadratic solution whose file has its nodes as corners.
+/// Nodal errors of order 3 on linear cells, as from a quadratic solution whose file has its nodes as corners.
 #[test]
 fn a_quadratic_solution_on_linear_cells_is_asked_for() {
     let folder = Folder::new();
@@ -267,7 +267,7 @@ fn units_in_a_header_are_checked_against_those_of_the_field() {
         .complains("values are not converted");
     with("m", "m", "MPa").exits(2).complains("`sigma_xx` is in MPa");
     with("m", "m", "m").exits(2).complains("the unit of `sigma_xx` is m").complains("Pa");
-    // Words in brackets are no units.
+    // Words in brackets are not units.
     with("m", "m", "Average").exits(0);
 }
 
@@ -289,7 +289,7 @@ fn components_behind_a_mapped_or_profiled_name_are_its_entries() {
     }
 }
 
-/// The cells of a grid of squares in the legacy format, with arrays of points behind them.
+/// The cells of a grid of squares in the legacy format, followed by arrays of points.
 fn vtk(points: &[[f64; 2]], cells: &[&[usize]], kinds: &[u8], data: &str) -> String {
     let place = |[x, y]: &[f64; 2]| format!("{x:?} {y:?} 0\n");
     let cell = |points: &&[usize]| {
@@ -312,7 +312,7 @@ fn vtk(points: &[[f64; 2]], cells: &[&[usize]], kinds: &[u8], data: &str) -> Str
 #[test]
 fn points_that_fill_the_body_in_one_reading_are_not_asked_about() {
     let folder = Folder::new();
-    // A bar that is drawn out: as x, its points lie in the body too, and end before its end.
+    // A bar that is drawn out: read as x, its points are inside the body too, and do not reach its end.
     let points: Vec<[f64; 2]> = (0..9).map(|at| [f64::from(at) / 8.0, 0.0]).collect();
     let cells: Vec<[usize; 2]> = (0..8).map(|at| [at, at + 1]).collect();
     let cells: Vec<&[usize]> = cells.iter().map(|it| &it[..]).collect();
@@ -334,7 +334,7 @@ fn what_is_no_part_of_the_body_stops_nothing() {
     let number = |text: &String| text.parse::<f64>().expect("a number");
     let mut points: Vec<[f64; 2]> =
         rows[1..].iter().map(|row| [number(&row[1]), number(&row[2])]).collect();
-    // A point of no cell, far away, and a line on the boundary without a stress.
+    // A point without a cell, far away, and a line on the boundary without a stress.
     points.push([5.0, 5.0]);
     let cells: [&[usize]; 5] =
         [&[0, 1, 4, 3], &[1, 2, 5, 4], &[3, 4, 7, 6], &[4, 5, 8, 7], &[0, 1]];

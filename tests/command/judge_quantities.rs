@@ -1,4 +1,4 @@
-//! `mms judge FIELD FILE..`: what is judged besides u, how it is judged, and results that have no order.
+//! `mms judge FIELD FILE..`: quantities besides u, how they are judged, and results that have no order.
 
 use serde_json::Value;
 
@@ -19,7 +19,7 @@ fn state(folder: &Folder, field: &str, n: usize, options: &str) -> String {
     folder.read("state.csv")
 }
 
-/// A table, with what `change` makes of the numbers of a row by the names of their columns.
+/// A table whose numbers are replaced by `change`, which gets the name of the column and the number.
 fn changed(table: &str, change: impl Fn(&str, f64) -> f64) -> String {
     let mut lines = table.lines();
     let header = lines.next().expect("a header");
@@ -58,7 +58,7 @@ fn the_exact_solution_is_told_and_nothing_speaks_against_it() {
     // Errors that are round-off may change.
     let baseline = "judge sheared_block_2d state.csv --baseline judged/convergence.json";
     folder.mms(baseline).exits(0).prints("pass");
-    // One quantity that is no round-off decides.
+    // One quantity above round-off decides.
     let table = folder.read("state.csv");
     folder
         .write("wrong.csv", &changed(&table, |name, it| if name == "v_x" { it + 1.0 } else { it }));
@@ -67,7 +67,7 @@ fn the_exact_solution_is_told_and_nothing_speaks_against_it() {
     assert_eq!(document["quantity"], "velocity");
 }
 
-/// Three digits of u hide whatever the solver did.
+/// Three digits of u hide all errors of the solver.
 #[test]
 fn too_few_digits_are_no_exact_solution() {
     let folder = Folder::new();
@@ -87,7 +87,7 @@ fn too_few_digits_are_no_exact_solution() {
     run.prints("not asymptotic").complains("(3 digits after the point): write more of them");
 }
 
-/// T is P N: of a face by its name, by normals beside it, or at points of one face alone.
+/// T is P N: for a face by its name, for normals beside it, or at points of a single face.
 #[test]
 fn tractions_are_judged_on_their_faces() {
     let folder = Folder::new();
@@ -101,10 +101,10 @@ fn tractions_are_judged_on_their_faces() {
     assert_eq!(document["samplings"]["traction"], "points of faces");
     assert_close(largest(&document, "traction"), 10.0, 1e-9);
     let norms = &quantity(&document, "traction")["norms"];
-    // Five points of twenty, since each corner has two.
+    // Five points of twenty, since each corner occurs twice.
     assert_close(norms[0]["levels"][0]["error"].as_f64().expect("l1"), 2.5, 1e-9);
 
-    // A face for itself, by its normals, and 0 where none is.
+    // A single face, by its normals, and 0 where there is none.
     let header = table.lines().next().expect("a header");
     let at = |name: &str| header.split(',').position(|it| it == name).expect("a column");
     let [x, y] = ["traction_y_max_x", "traction_y_max_y"].map(at);
@@ -135,7 +135,7 @@ fn tractions_are_judged_on_their_faces() {
     folder.write("t.csv", &format!("time,X,Y,traction_x,traction_y,N_x,N_y\n{long}"));
     let judge_t = "judge sheared_block_2d t.csv --quantity traction";
     folder.mms(judge_t).exits(2).complains("t.csv:2: the normal has a length of 2");
-    // Corners lie on two faces: what stands there is not judged.
+    // Corners belong to two faces: values there are not judged.
     let alone = table.lines().skip(1).map(|line| {
         let all: Vec<f64> = line.split(',').map(|it| it.parse().expect("a number")).collect();
         let is_corner = [all[1], all[2]].iter().all(|it| [0.0, 1.0].contains(it));
@@ -153,7 +153,7 @@ fn tractions_are_judged_on_their_faces() {
     folder.mms(judge_t).exits(2).complains("`traction_inner`: no point lies on such a face");
 }
 
-/// The nine components are those that the law has in three dimensions, checked through von Mises stress and S = F^-1 P.
+/// The nine components follow the law in three dimensions, checked through von Mises stress and S = F^-1 P.
 #[test]
 fn all_nine_components_are_those_of_plane_strain() {
     let folder = Folder::new();
@@ -173,7 +173,7 @@ fn all_nine_components_are_those_of_plane_strain() {
     let deviator: f64 =
         (0..9).map(|at| (sigma[at] - if at % 4 == 0 { mean } else { 0.0 }).powi(2)).sum();
     assert_close((1.5 * deviator).sqrt(), of("von_mises")[0], 1e-10);
-    // In a bar both are alike.
+    // In a bar both are the same.
     let bar =
         folder.mms("eval bar_1d --at 0.3 --time 0 --all-components --quantity sigma,p --json");
     let point = bar.json()["points"][0].clone();
@@ -181,7 +181,7 @@ fn all_nine_components_are_those_of_plane_strain() {
     assert_eq!(sigma[4], sigma[8]);
     assert_close(sigma[0] + 2.0 * sigma[8], -3.0 * numbers(&point["pressure"])[0], 1e-12);
 
-    // A state has them, and they are judged where that is asked for.
+    // A state has nine components, which are judged on request.
     for file in ["state.csv", "state.npz", "state.vtu"] {
         folder.write("grid.csv", &grid(4));
         let state = format!(
@@ -196,13 +196,13 @@ fn all_nine_components_are_those_of_plane_strain() {
     folder.mms(judge).exits(0);
     let document = folder.mms(&format!("{judge} --all-components --json")).exits(1).json();
     assert_close(largest(&document, "cauchy_stress"), 100.0, 1e-9);
-    // What has four components has no nine.
+    // Four components do not count as nine.
     state(&folder, "sheared_block_2d", 4, "--quantity u,sigma");
     let four = folder.mms("judge sheared_block_2d state.csv --all-components");
     four.exits(2).complains("has 4 component(s), and of 3 dimension(s) 9 are expected");
 }
 
-/// Points in another order, with those between two ranks twice.
+/// Points in another order; points between two ranks occur twice.
 #[test]
 fn results_in_another_order_are_the_same() {
     let folder = Folder::new();
@@ -273,7 +273,7 @@ fn mesh(folder: &Folder, n: usize, power: i32) -> String {
     text
 }
 
-/// Stresses have one order less in theory, and as much as u at some places; that is labelled.
+/// Stresses have one order less in theory, and as much as u at some points; such results are labelled.
 #[test]
 fn stresses_of_cells_have_an_order_of_their_own() {
     let folder = Folder::new();
@@ -298,7 +298,7 @@ fn stresses_of_cells_have_an_order_of_their_own() {
     assert_eq!(seen(&second), ("pass".into(), [1.0, 2.0], true.into()));
     let says = &quantity(&second, "first_piola_kirchhoff")["says"];
     assert!(says.to_string().contains("superconvergence: these"), "{says}");
-    // Who says an order is held to it.
+    // A given expected order is enforced.
     assert_eq!(seen(&judge(1, "--expected-order P=2")), ("fail".into(), [2.0, 2.0], false.into()));
     let by_norm = judge(1, "--expected-order P:linf=2,u:H1=1");
     let norms = &quantity(&by_norm, "first_piola_kirchhoff")["norms"];
@@ -312,7 +312,7 @@ fn stresses_of_cells_have_an_order_of_their_own() {
         .complains("`--expected-order P:l7=..`: it is not judged");
 }
 
-/// A mesh of n lines of three nodes, with the exact u at its nodes: the error is that of interpolation.
+/// A mesh of n lines of three nodes, with the exact u at its nodes: the only error is interpolation.
 fn quadratic_lines(folder: &Folder, n: usize) -> String {
     let places = (0..=2 * n).map(|at| at as f64 / (2 * n) as f64);
     let rows: String = places.clone().map(|x| format!("{x}\n")).collect();
@@ -347,7 +347,7 @@ fn elements_of_degree_2_have_an_order_more() {
     run.prints("expected order: 3, one more than the degree of the cells");
     run.prints("pass: observed order 3.0").prints("expected 3");
     folder.mms(&format!("{judge} --expected-order 2")).exits(1).prints("expected 2");
-    // An order of u is that of its values, and not that of its gradient.
+    // An order of u applies to its values, not to its gradient.
     folder.mms(&format!("{judge} --expected-order u=3")).exits(0).prints("expected 3");
     folder.mms(&format!("{judge} --expected-order u=3,u:H1=3")).exits(1).prints("(h1;");
 }
@@ -367,7 +367,7 @@ fn iterated(folder: &Folder, name: &str, n: usize, tolerance: f64) {
     );
 }
 
-/// The iterative error is the difference of two runs, and a hundred times that is a floor.
+/// The iterative error is the difference of two runs; 100 times this error is a floor.
 #[test]
 fn iterative_errors_are_found_from_two_runs() {
     let folder = Folder::new();
@@ -378,7 +378,7 @@ fn iterative_errors_are_found_from_two_runs() {
     let judge = "judge bar_1d 8.csv 16.csv 32.csv 64.csv --quantity u";
     let run = folder.mms(&format!("{judge} --tighter tight.csv")).exits(0);
     run.prints("iterative errors, from `tight.csv`, root mean squares: u 1.0e-7");
-    // Of 1.56e-4, 3.9e-5, 9.8e-6 and 2.4e-6 the last two are not a hundred times larger.
+    // Of 1.56e-4, 3.9e-5, 9.8e-6 and 2.4e-6 the last two are less than 100 times larger.
     run.prints("`32.csv`: the error of displacement is at its floor of 1.0e-5, a hundred times its iterative error");
     run.prints("(l2; 2 levels, h 1.250e-1 to h 6.250e-2)");
     folder

@@ -1,5 +1,4 @@
-//! `mms judge FIELD FILE..`: results of the project's own solver, of a mesh of finite elements, and of files that are
-//! wrong.
+//! `mms judge FIELD FILE..`: results of the project's own solver, of a finite-element mesh, and of wrong files.
 
 use serde_json::Value;
 
@@ -8,7 +7,7 @@ use super::mms::{Folder, Run};
 /// The meshes of the runs.
 const CELLS: [usize; 3] = [8, 16, 32];
 
-/// Runs of the bar on three meshes, and what each says of its errors at the end.
+/// Runs of the bar on three meshes, and the errors that each reports at the end.
 fn runs(folder: &Folder) -> Vec<Value> {
     let run = |cells: usize| {
         let run =
@@ -34,7 +33,7 @@ fn near(a: f64, b: f64, tolerance: f64) {
     assert!((a / b - 1.0).abs() < tolerance, "{a} and {b}");
 }
 
-/// A table of points of the bar with X, the exact u, and what `change` makes of them.
+/// A table of points of the bar with X and columns that `change` computes from X and the exact u.
 fn exact(
     folder: &Folder,
     points: usize,
@@ -97,14 +96,14 @@ fn counts_of_points_give_h_and_the_verdict_its_exit_code() {
     let mistake = |name: &str| excluded.iter().find(|it| it["hypothesis"] == name).expect("a name");
     assert_eq!(mistake("lambda_factor")["excluded"], false);
     assert_eq!(mistake("force_sign")["excluded"], true);
-    // The error is some thousandths of u, and b makes u.
+    // The error is some thousandths of u, and b causes u.
     let part = mistake("force_factor")["from"].as_f64().expect("a size");
     assert!((1e-4..1e-2).contains(&part), "{part}");
     let higher = folder.mms("judge bar_1d out8 out16 out32 --quantity u --expected-order 3");
     higher.exits(1).prints("fail");
 }
 
-/// What six digits leave of u = x - X is no order.
+/// The rounding of u = x - X to six digits has no order.
 #[test]
 fn floors_of_files_are_found() {
     let folder = Folder::new();
@@ -123,7 +122,7 @@ fn floors_of_files_are_found() {
     run.prints("u = x - X").prints("observed order 3.97 (l2; 2 levels, h 4.000e0 to h 2.000e0)");
 }
 
-/// Numbers of single precision that were written with the digits of double precision may lie beside the body.
+/// Numbers of single precision that were written with the digits of double precision may be slightly outside the body.
 #[test]
 fn single_precision_is_seen_behind_its_digits() {
     let folder = Folder::new();
@@ -134,18 +133,18 @@ fn single_precision_is_seen_behind_its_digits() {
     folder.write("a.csv", &format!("time,X,u\n{rows}"));
     let judge = "judge bar_1d a.csv --h 1 --set length=0.8";
     folder.mms(judge).exits(1).prints("X: X as given");
-    // One digit more, and it is a number of double precision beside the body.
+    // With one more digit it is a double-precision number outside the body.
     folder.write("a.csv", &format!("time,X,u\n{rows}0.01,0.8000000119209291,0\n"));
     folder.mms(judge).exits(2);
 }
 
-/// Times whose digits let neighbours be the same are told apart by which is nearer.
+/// If the digits of a time allow two neighbouring times, the nearer one is chosen.
 #[test]
 fn each_time_is_judged_once() {
     let folder = Folder::new();
     let both = |of: f64| {
         for (name, points) in [("a", 4), ("b", 8), ("c", 16)] {
-            // The error is that of the second time alone.
+            // Only the second time has an error.
             let rows = ["0.01", "0.02"].map(|time| {
                 let error = if time == "0.02" { of / f64::from(points).powi(2) } else { 0.0 };
                 let row = |x: f64, u: f64| format!("{time},{x},{}", u + error);
@@ -188,7 +187,7 @@ fn cells_are_measured_by_quadrature() {
     near(number(&document["levels"][0]["cell_size"]), 0.25, 1e-12);
 }
 
-/// Values of cells are measured at their middles, and are no evidence alone.
+/// Values of cells are measured at cell centres, and are no evidence alone.
 #[test]
 fn middles_of_cells_are_named_and_are_no_evidence_alone() {
     let folder = Folder::new();
@@ -234,8 +233,8 @@ fn values(folder: &Folder, quantity: &str, points: &[[f64; 2]]) -> Vec<Value> {
     run["points"].as_array().expect("points").iter().map(|it| it[quantity].clone()).collect()
 }
 
-/// A grid of quads on the unit square, with the exact u of `axis_aligned_2d` in its nodes, and in the middles of its cells W
-/// and 2 more, in the legacy format.
+/// A grid of quads on the unit square, with the exact u of `axis_aligned_2d` at its nodes, and W and two other quantities at
+/// the centres of its cells, in the legacy format.
 fn mesh(folder: &Folder, cells: usize) -> String {
     let side = cells + 1;
     let grid = |count: usize, offset: f64| -> Vec<[f64; 2]> {

@@ -1,10 +1,10 @@
-//! A material of the user's own, in a file next to the field's.
+//! A user's own material, in a file next to the field's.
 
 use super::mms::{BAR, Folder, assert_close, numbers};
 
 const NEO_HOOKEAN: &str = include_str!("../../mms-codegen/materials/neo_hookean.toml");
 
-/// W whose stress in uniaxial strain is P = kappa (F - 1).
+/// An energy W whose stress in uniaxial strain is P = kappa (F - 1).
 const STIFFNESS: &str = r#"
 [material]
 title         = "linear in the Jacobian"
@@ -39,7 +39,7 @@ fn the_same_energy_in_a_file_gives_the_same_numbers_and_errors() {
         let document = folder.mms(&format!("study {field} --cells 8,16 --json")).exits(0).json();
         [0, 1].map(|level| document["levels"][level]["l2"].as_f64().expect("an error"))
     };
-    // Compiled forcing is that of loops over many points, some eps away from the interpreter's.
+    // Compiled forcing runs in loops over many points, and differs from the interpreter's by some eps.
     for (own, shipped) in errors("own/bar.toml").into_iter().zip(errors("bar_1d")) {
         assert_close(own, shipped, 1e4 * f64::EPSILON);
     }
@@ -69,7 +69,7 @@ fn a_missing_file_is_reported_where_it_is_named() {
     }
 }
 
-/// By whatever path, a run does not write where it reads.
+/// A run refuses to overwrite its input, given by any path.
 #[test]
 fn what_a_run_reads_is_not_replaced() {
     let folder = bar_of(Some(NEO_HOOKEAN), "lambda  = \"0\"\nmu      = \"young/2\"");

@@ -61,12 +61,12 @@ fn list_tells_what_each_field_claims_and_is_checked_by() {
     }
 }
 
-/// A line without the blanks that its columns are aligned with.
+/// The words of a line, without the blanks that align its columns.
 fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
 }
 
-/// The fields that ship are those derived by hand; who adds another need not list it.
+/// The fields that ship are derived by hand; an added field need not be listed.
 #[test]
 fn the_page_shows_the_gallery_as_it_is_listed() {
     let page = include_str!("../../docs/guide/gallery.md");
@@ -158,8 +158,8 @@ fn fields_of_the_gallery_are_checked_by_name() {
     folder.mms("check bar1d").exits(2).complains("did you mean `bar_1d`?");
 }
 
-/// The commands in an order in which the examples of each find the files of those before it. Those of the others take long: a test
-/// beside them shows that they are understood.
+/// The commands in an order in which the examples of each find the files of those before it. The other commands take long:
+/// a separate test shows that their examples are understood.
 const QUICK: [&str; 15] = [
     "new", "check", "show", "eval", "list", "schema", "emit", "state", "judge", "diagnose",
     "campaign", "report", "run", "study", "explain",
@@ -188,7 +188,7 @@ fn the_help_of_a_command_begins_with_two_examples_that_work() {
     }
 }
 
-/// `gimp` is two shape functions, and the first file stands where the field should.
+/// `gimp` is two shape functions, and the first file is in the place of the field.
 #[test]
 fn words_that_people_mean_otherwise_get_a_hint() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! What is read: plain files, and none of them beyond what its kind may hold.
+//! Reading files: only plain files, and no more of each than its kind may hold.
 #![cfg(unix)]
 
 use std::fs::{self, File};
@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 
 use super::mms::{BAR, Folder};
 
-/// More than any file may have; it takes no room.
+/// A size that no file may have; the file takes no space on disk.
 const HUGE: u64 = 3 << 30;
 
-/// Far more than a command needs that reads no more than it may, in KiB.
+/// A memory limit in KiB, far more than a command needs if it reads no more than it may.
 const MEMORY: &str = "1500000";
 
 fn sparse(folder: &Folder, name: &str) {
@@ -23,7 +23,7 @@ fn fifo(folder: &Folder, name: &str) {
     assert!(Command::new("mkfifo").arg(folder.path(name)).status().expect("mkfifo").success());
 }
 
-/// What a command says that has to end soon, in a little memory: its exit code, and stderr.
+/// Runs a command that has to end soon, in little memory; returns its exit code and stderr.
 fn soon(folder: &Folder, arguments: &str) -> (Option<i32>, String) {
     let script = format!("ulimit -v {MEMORY}; exec {} {arguments}", env!("CARGO_BIN_EXE_mms"));
     let mut command = Command::new("sh");
@@ -42,7 +42,7 @@ fn soon(folder: &Folder, arguments: &str) -> (Option<i32>, String) {
     (output.status.code(), String::from_utf8(output.stderr).expect("a text"))
 }
 
-/// Puts everything that is no plain file of bearable length into a folder, under names of a kind; and what is said of each.
+/// Puts files that are not plain or too long into a folder, under names of a kind; returns them with the expected messages.
 fn odd_files(folder: &Folder, extension: &str) -> Vec<(String, &'static str)> {
     let name = |stem: &str| format!("{stem}.{extension}");
     sparse(folder, &name("sparse"));
@@ -111,7 +111,7 @@ fn a_page_names_what_is_no_plain_file_and_leaves_it_out() {
         assert!(named(&said), "{file}: {said}");
         assert!(page.contains(&format!("{file}: ")), "{file}");
     }
-    // Nor is a state that is none.
+    // Odd files are no states either.
     for (file, complaint) in odd_files(&folder, "vtu") {
         fs::remove_file(folder.path("all/bar_1d_0000.vtu")).expect("it was there");
         fs::rename(folder.path(&file), folder.path("all/bar_1d_0000.vtu")).expect("moved");
@@ -123,7 +123,7 @@ fn a_page_names_what_is_no_plain_file_and_leaves_it_out() {
         let line = said.lines().find(|line| line.contains("bar_1d.pvd")).unwrap_or_default();
         assert!(line.contains(complaint), "{file}: {said}");
     }
-    // A list leads to files beside it alone.
+    // A list leads only to files beside it.
     let list = folder.read("all/bar_1d.pvd");
     for other in ["/dev/zero", "../all/bar_1d_0001.vtu"] {
         folder.write("all/bar_1d.pvd", &list.replace("bar_1d_0000.vtu", other));
@@ -155,7 +155,7 @@ fn a_checkpoint_or_a_history_that_is_none_is_refused_at_once() {
     for (file, complaint) in odd_files(&folder, "checkpoint") {
         let (code, said) = soon(&folder, &format!("{run} --resume {file}"));
         assert_eq!(code, Some(2), "{file}: {said}");
-        // Of one that is plain it is first asked whether there is memory for its state.
+        // For a plain file, the memory for its state is checked first.
         let is_named = match file.starts_with("sparse") {
             true => said.contains("no whole checkpoint") || said.contains("cannot hold its state"),
             false => said.contains(complaint) || said.contains("no whole checkpoint"),

@@ -1,4 +1,4 @@
-//! `mms report`: the numbers of its page are those of the documents. It is XML, so that a parser of XML reads it.
+//! `mms report`: the numbers of its page agree with the documents. The page is XML, so that a parser of XML reads it.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -49,7 +49,7 @@ field = "bar_1d"
 cells = [4, 8, 16]
 "#;
 
-/// What `mms verify --defects` writes, in a program that has some, of two that one row catches.
+/// A document of `mms verify --defects` from a program with two defects; one row catches them as given.
 fn defects(caught: &str) -> String {
     let defect = |name: &str, objects: &str| {
         format!(
@@ -89,7 +89,7 @@ pub fn text(node: Node) -> String {
     node.descendants().filter(|node| node.is_text()).filter_map(|node| node.text()).collect()
 }
 
-/// A cell: what is shown, and the number behind it.
+/// A cell: the text, and the number behind it.
 type Cell = (String, Option<f64>);
 
 /// A table: its columns and its rows.
@@ -124,7 +124,7 @@ fn tables(page: &Document, heading: &str) -> BTreeMap<String, Table> {
     named(section, "table").map(table).collect()
 }
 
-/// Asserts that a cell shows a member of a document, to the digits that it shows.
+/// Asserts that a cell shows a member of a document, to the displayed digits.
 fn assert_shows((shown, number): &Cell, value: &Value, place: &str) {
     match value {
         Value::Null => assert!(matches!(shown.as_str(), "\u{2013}" | ""), "{place}: {shown}"),
@@ -134,7 +134,7 @@ fn assert_shows((shown, number): &Cell, value: &Value, place: &str) {
             let number = number.or_else(|| shown.parse().ok());
             assert_eq!(number, Some(value), "{place}");
             if let Ok(read) = shown.parse::<f64>() {
-                // Half of the last digit that is shown.
+                // Half of the last displayed digit.
                 let (digits, exponent) = shown.split_once('e').unwrap_or((shown, "0"));
                 let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
                 let exponent: i32 = exponent.parse().expect("an exponent");
@@ -150,7 +150,7 @@ fn assert_shows((shown, number): &Cell, value: &Value, place: &str) {
     }
 }
 
-/// Asserts that the rows of a table are objects of a document, whose keys its columns are.
+/// Asserts that the rows of a table are objects of a document, whose keys are its columns.
 fn assert_rows(table: &Table, rows: &[Value], keys: &[&str]) {
     assert_eq!(table.columns.len(), keys.len(), "{:?}", table.columns);
     assert_eq!(table.rows.len(), rows.len());
@@ -423,7 +423,7 @@ fn the_numbers_of_a_run_are_those_of_its_document() {
     let state = tables.remove("The state at the end").expect("the state");
     assert_shows(&state.rows[0][1], &run["diagnostics"]["mass"], "mass");
     assert_shows(&state.rows[2][1], &run["diagnostics"]["kinetic_energy"], "energy");
-    let parts = tables.remove("What it took").expect("times");
+    let parts = tables.remove("Time taken").expect("times");
     for row in &parts.rows {
         assert_eq!(row[1].1, run["seconds"][row[0].0.as_str()].as_f64(), "{}", row[0].0);
     }

@@ -1,4 +1,4 @@
-//! `mms report`: what is on its page whatever the results are, and what makes none.
+//! `mms report`: the parts of its page for any results, and results that make no page.
 
 use roxmltree::Node;
 
@@ -134,7 +134,7 @@ fn what_is_no_result_is_named_and_left_where_it_is() {
     folder.write("all/f.pvd", "<VTKFile/>");
     let timeless = "<VTKFile><DataSet timestep=\"NaN\" file=\"x.vtu\"/></VTKFile>";
     folder.write("all/h.pvd", timeless);
-    // Before a method had a form, a result did not say which one it was of.
+    // Before methods had a form, a result did not name one.
     folder.write("all/g.json", &study.replace("\"form\": \"stable\",", ""));
     let version = "\"document_version\": 2,";
     assert!(study.contains(version));
@@ -173,7 +173,7 @@ fn a_page_replaces_none_of_what_it_is_made_of() {
         run.complains(&format!("`--output {file}`: that file is read")).prints_nothing();
     }
     assert_eq!(files.map(|file| folder.read(file)), before);
-    // Last time's page is none of it.
+    // The previous page is not part of the results.
     for _ in 0..2 {
         folder.mms("report all").exits(0);
     }

@@ -1,5 +1,5 @@
-//! S, pressure and von Mises stress, which are derived where they are asked for: held to the nine components of sigma of the same
-//! motion in three dimensions, and to F S = P.
+//! S, pressure and von Mises stress, which are derived on request: compared with the nine components of sigma of the same
+//! motion in three dimensions, and with F S = P.
 
 use serde_json::Value;
 
@@ -13,7 +13,7 @@ const MATERIALS: [&str; 4] = [
     "model = \"linear_elastic\"\nlambda = 3\nmu = 2",
 ];
 
-/// A motion of so many dimensions that does not depend on the others.
+/// A motion of `dimension` dimensions that does not depend on the others.
 fn field(dimension: usize, material: &str) -> String {
     let u = ["0.2*X*Y*t", "0.1*(X^2 - Y)*t", "0"];
     let u = if dimension == 1 { &["0.2*X^2*t"][..] } else { &u[..dimension] };
@@ -114,7 +114,7 @@ fn they_are_not_compiled() {
     assert_eq!(point(&document)["pressure"], Value::Null);
 }
 
-/// A result that is off by a thousandth of it is off by a thousandth of the exact one.
+/// A result scaled by 1.001 has an error of 0.001 times the exact one.
 #[test]
 fn they_are_judged() {
     let folder = Folder::new();

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::mms::{Folder, keys};
 
-/// The document of a run that ends well.
+/// The document of a run that succeeds.
 fn document(arguments: &str) -> Value {
     Folder::new().mms(&format!("run {arguments} --json")).exits(0).json()
 }
@@ -59,7 +59,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
     assert_eq!([&document["particles"], &document["steps"]], [32, 80]);
 }
 
-/// A run has the errors of that level of a study.
+/// A run has the same errors as this level of a study.
 #[test]
 fn a_run_is_a_level_of_a_study() {
     let options = "bar_1d --shape quadratic_bspline --formulation total --courant 0.2";
@@ -72,7 +72,7 @@ fn a_run_is_a_level_of_a_study() {
     assert_eq!(run["method"], study["method"]);
 }
 
-/// Every shape function, formulation and transfer that go together follow the bar.
+/// Every compatible combination of shape function, formulation and transfer follows the bar.
 #[test]
 fn methods_that_go_together_follow_the_bar() {
     let methods = [
@@ -162,19 +162,19 @@ fn a_run_that_is_not_started_has_a_document_too() {
     assert!(document["steps"].is_null() && document["cells"] == 1_000_000_000, "{document:#}");
     let failure = document["failure"].as_str().expect("a reason");
     assert!(failure.starts_with("not started: ") && failure.contains("use fewer cells"));
-    // On a page it is one that failed.
+    // On a page it is a failed run.
     folder.write("printed/run.json", &run.stdout);
     folder.mms("report printed").exits(1);
     assert!(folder.read("printed/report.html").contains("not started"));
     assert!(!folder.path("out/run.json").exists(), "nothing is written about a run that never ran");
 }
 
-/// What a field is proved to have bounds the time step: compiled or not, for the parameters that are set, and
-/// in the frame of the grid.
+/// The proved bounds of a field limit the time step: compiled or not, for the parameters that are set, and in the frame of
+/// the grid.
 #[test]
 fn a_time_step_above_the_stable_one_stops_the_run_unless_it_is_allowed() {
     let folder = Folder::with_bar("bar.toml");
-    // The number of steps is whole: that of 64 cells is within 1 % of what is asked for.
+    // The number of steps is whole: the Courant number of 64 cells is within 1 % of the requested one.
     // Waves are fastest where F = 1.4 in space, and where F = 0.6 in the reference configuration.
     let fastest = |f: f64, push: f64| ((1.0 + f.powi(-2)) / 2.0).sqrt() * push;
     let [updated, total] = [1.0 / fastest(1.4, 1.4), 1.0 / fastest(0.6, 1.0)];
@@ -193,7 +193,7 @@ fn a_time_step_above_the_stable_one_stops_the_run_unless_it_is_allowed() {
             assert!(!run.stderr.contains("stable one"), "{run}");
         }
     }
-    // A Courant number that is given up is one that is accepted.
+    // The Courant number in a refusal is accepted when given.
     let failure = folder.mms("run bar_1d --courant 2 --json").exits(3).json();
     let failure = failure["failure"].as_str().expect("a reason");
     let number = failure.split("a Courant number of ").nth(1).expect("a number");
@@ -201,7 +201,7 @@ fn a_time_step_above_the_stable_one_stops_the_run_unless_it_is_allowed() {
     folder.mms(&format!("run bar_1d --cells 8 --courant {number}")).exits(0);
 }
 
-/// What drove the bar is in the document: b does all the work that is done.
+/// The document names the work that drove the bar: b does all of it.
 #[test]
 fn the_balance_of_energy_closes() {
     let document = document("bar_1d --cells 64 --time 0.045");
@@ -212,8 +212,8 @@ fn the_balance_of_energy_closes() {
     assert!(number("strain_energy") > 0.0 && number("time") < 0.045, "{balance}");
 }
 
-/// On rollers, which do no work, the energy changes by the work of b and by that of the given temperature alone: what is missing
-/// is the error of the method, of second order.
+/// On rollers, which do no work, the energy changes only by the work of b and of the given temperature. The residual is the
+/// error of the method, of second order.
 #[test]
 fn the_balance_of_energy_closes_where_a_temperature_is_given() {
     let [coarse, fine] = [32, 64].map(|cells| {
@@ -226,7 +226,7 @@ fn the_balance_of_energy_closes_where_a_temperature_is_given() {
     assert!(fine < 1.0 && coarse / fine > 3.0, "{coarse} {fine}");
 }
 
-/// What could be measured before is still printed.
+/// Quantities measured before a stop are still printed.
 #[test]
 fn a_run_that_stops_says_where_and_why() {
     let folder = Folder::new();
@@ -239,7 +239,7 @@ fn a_run_that_stops_says_where_and_why() {
     assert!(document["failure"].as_str().is_some_and(|text| text.contains("stopped in step")));
 }
 
-/// The ends of a period are no faces: a grid that is moved by a fraction of a cell sees the same wave.
+/// The ends of a period are not faces: a grid that is moved by a fraction of a cell computes the same wave.
 #[test]
 fn a_periodic_axis_has_no_walls() {
     let walls = document("periodic_bar --cells 64");
@@ -277,7 +277,7 @@ fn what_cannot_be_written_is_said_before_the_run() {
     assert!(!folder.path("target").exists(), "nothing is stored of what did not begin");
 }
 
-/// Units in which single precision has no number for the acceleration: the run is not begun.
+/// In units where single precision has no number for the acceleration, the run does not start.
 #[test]
 fn numbers_that_a_precision_does_not_have_are_named() {
     let folder = Folder::new();

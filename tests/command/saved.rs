@@ -28,7 +28,7 @@ fn a_saved_scene_is_the_command_with_its_options() {
     let options = "--formulation total --shape linear --courant 0.2 --set young=1e3 --set length=2";
     assert_eq!(saved, strip(&format!("study bar_1d --cells 8,16 {options} --json")));
     assert_eq!(saved, strip("study --study=scene.toml"));
-    // The command line goes first, whatever the order.
+    // The command line goes first, in any order of options.
     for command in
         ["study --cells 16,32 --study scene.toml", "study --study scene.toml --cells=16,32"]
     {
@@ -79,7 +79,7 @@ fn mistakes_of_a_study_file_are_named_at_their_places() {
     }
 }
 
-/// Also in what excludes, or overrides, what the file says.
+/// Also for options that exclude or override options of the file.
 #[test]
 fn the_command_line_goes_first() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! A material of the small strain has one stress and one configuration, whatever writes them.
+//! A material of small strain has one stress and one configuration in the output of every command.
 
 use super::mms::{Folder, numbers};
 
@@ -77,7 +77,7 @@ fn a_state_has_the_reference_volume_twice() {
     }
 }
 
-/// Its small strain is a quantity too, and what a column `strain` holds. Where other strains are meant, only by name.
+/// The small strain is a quantity too, and the meaning of a column `strain`. Other strains are found only by their names.
 #[test]
 fn a_column_of_strains_holds_the_small_strain() {
     let folder = Folder::new();
@@ -103,7 +103,7 @@ fn a_column_of_strains_holds_the_small_strain() {
     assert_eq!(compared("travelling_wave_2d", "--quantity strain"), ["strain"]);
 }
 
-/// The solver's own results, of the updated formulation too: sigma is that of its F.
+/// The solver's own results, also of the updated formulation: sigma belongs to their F.
 #[test]
 fn a_run_writes_the_one_stress() {
     let folder = Folder::new();

@@ -1,10 +1,10 @@
-//! Whether a field is fit to verify with, as `mms check` and `mms show` say it; and windows that are moved.
+//! Whether a field is fit for verification, as `mms check` and `mms show` report it; and windows that are moved.
 
 use serde_json::Value;
 
 use super::mms::Folder;
 
-/// A square of lambda = 1.5 and mu = 1, with its u and what it claims.
+/// A square of lambda = 1.5 and mu = 1, with this u and these claims.
 fn square(u: &str, boundary: &str) -> Folder {
     let folder = Folder::new();
     let text = format!(
@@ -56,7 +56,7 @@ fn a_body_at_rest_is_stable() {
     assert!((number(&moduli["young"]) - 2.6).abs() < 1e-12, "{moduli}");
 }
 
-/// A square that dead loads compress to half its width: what grows is warned of, and the file still passes.
+/// A square that dead loads compress to half its width: growing modes cause a warning, and the file still passes.
 #[test]
 fn what_grows_is_a_warning_with_its_place() {
     let folder = square(
@@ -69,12 +69,12 @@ fn what_grows_is_a_warning_with_its_place() {
     let found = stability(&folder, "");
     assert!(number(&found["growth"]) > 10.0, "{found}");
     assert!(found["warnings"].as_array().expect("a list").len() >= 2, "{found}");
-    // Before that nothing grows.
+    // Before that time nothing grows.
     let found = stability(&folder, "--window 0,0.05");
     assert_eq!(found["warnings"], serde_json::json!([]), "{found}");
 }
 
-/// Dead pressure on two faces that each of them bears, and their corner does not.
+/// Dead pressure on two faces: each face alone is stable, and their corner is not.
 #[test]
 fn a_corner_that_grows_is_a_warning() {
     let folder = square(r#"["-0.1*X", "-0.1*Y"]"#, "x_max = \"traction\"\ny_max = \"traction\"");
@@ -87,8 +87,8 @@ fn a_corner_that_grows_is_a_warning() {
     assert_eq!(found["corners"][0]["faces"], serde_json::json!(["x_max", "y_max"]));
 }
 
-/// Saint Venant-Kirchhoff matter that is compressed along X: Q = (N.S N) I + (lambda + mu) F N (F N)^T + mu F F^T with
-/// S = lambda tr(E) I + 2 mu E, of which the direction that is named leaves a determinant that is not positive.
+/// Saint Venant-Kirchhoff material that is compressed along X: Q = (N.S N) I + (lambda + mu) F N (F N)^T + mu F F^T with
+/// S = lambda tr(E) I + 2 mu E. In the named direction the determinant of Q is not positive.
 #[test]
 fn where_ellipticity_is_lost_is_proved_and_named() {
     let folder = square(r#"["-0.5*t*X", "0"]"#, "");
@@ -111,7 +111,7 @@ fn where_ellipticity_is_lost_is_proved_and_named() {
     assert!(first * second - mixed * mixed <= 1e-12 && first + second > 0.0, "{lost}");
 }
 
-/// E + 4 r along fibres of which I4 - 1 costs r (I4 - 1)^2/2.
+/// E + 4 r along fibres with the energy r (I4 - 1)^2/2.
 #[test]
 fn fibres_have_moduli_at_rest() {
     let folder = square(r#"["0", "0"]"#, "");
@@ -130,7 +130,7 @@ fn fibres_have_moduli_at_rest() {
         .prints("along [0, 1, 0]");
 }
 
-/// x = X + A sin(2 pi X) reaches beyond the body by nothing, and its wavelength is 1.
+/// x = X + A sin(2 pi X) does not reach beyond the body, and its wavelength is 1.
 #[test]
 fn extent_and_wavelength_are_those_of_the_motion() {
     let folder = square(r#"["0.05*sin(2*pi*X)*t", "0.25*t"]"#, "");
@@ -150,7 +150,7 @@ fn newton_is_run_where_that_is_asked_for() {
     assert_eq!(stability(&folder, "--solve")["solve"], "comes");
 }
 
-/// A window that is given is that of all commands, and of what is emitted.
+/// A given window applies to all commands, and to emitted code.
 #[test]
 fn windows_can_be_moved() {
     let folder = Folder::with_bar("bar.toml");

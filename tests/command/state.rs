@@ -1,4 +1,4 @@
-//! `mms state`: exact states, held to formulas typed here, to differences of themselves, and to `mms judge`.
+//! `mms state`: exact states, compared with formulas typed here, with differences of themselves, and with `mms judge`.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -90,7 +90,7 @@ fn every_format_is_judged_exact_to_round_off() {
         for quantity in quantities {
             for norm in quantity["norms"].as_array().expect("norms") {
                 for level in norm["levels"].as_array().expect("levels") {
-                    // X, u, F and all others are read back to the bit.
+                    // X, u, F and all other quantities are read back to the bit.
                     assert_eq!(level["error"], 0.0, "{ending}, {}", quantity["name"]);
                 }
             }
@@ -194,7 +194,7 @@ fn tractions_are_those_of_the_faces_on_which_points_lie() {
         .complains("no point lies on a face");
 }
 
-/// Differences of an affine motion: u in X and in t, which the code does not take.
+/// Differences of an affine motion, by u in X and in t, a method that the code does not use.
 #[test]
 fn an_affine_part_is_linear_and_its_force_is_its_acceleration() {
     let folder = Folder::new();
@@ -236,7 +236,7 @@ fn an_affine_part_is_linear_and_its_force_is_its_acceleration() {
     }
 }
 
-/// A rigid motion turns the stress and leaves the rest.
+/// A rigid motion rotates the stress and changes nothing else.
 #[test]
 fn an_affine_part_takes_a_rigid_motion_on_top() {
     let folder = Folder::new();
@@ -271,7 +271,7 @@ fn cells_and_volumes_of_a_file_are_kept() {
          0.25\n0.25\n0.25\n0.25\n",
     );
     folder.mms("state axis_aligned_2d --points mesh.vtk --time 0.03 -o mesh.vtu").exits(0);
-    // Of a mesh norms are over its cells, which judge finds.
+    // For a mesh, norms are over its cells, which judge finds.
     let document = folder.mms("judge axis_aligned_2d mesh.vtu --json").json();
     assert_eq!(document["samplings"]["displacement"], "cells");
     folder.mms("state axis_aligned_2d --points mesh.vtu --time 0.03 -o again.csv").exits(0);
@@ -335,7 +335,7 @@ fn eval_takes_the_points_of_a_file() {
     folder.mms("eval bar_1d --time 0.01").exits(2).complains("--at <X,Y>");
 }
 
-/// The time window, the extent of the motion and the claims of faces stand in the file, or beside a table.
+/// The file, or a file beside a table, contains the time window, the extent of the motion and the claims of faces.
 #[test]
 fn states_tell_the_data_of_their_field() {
     let folder = Folder::new();

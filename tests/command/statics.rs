@@ -1,4 +1,4 @@
-//! Fields without time, through every command that takes them.
+//! Fields without time, in every command that accepts them.
 
 use super::mms::{Folder, Run, numbers};
 
@@ -120,16 +120,16 @@ fn a_relaxed_study_has_the_order_of_its_method() {
     for level in study["levels"].as_array().expect("levels") {
         let residual = level["residual_ratio"].as_f64().expect("a residual");
         assert!(residual > 0.0 && residual <= 1e-9, "{level}");
-        // It leaves less than the grid does.
+        // Its error is less than the error of the grid.
         let of = |key: &str| level[key].as_f64().expect("a number");
         assert!(of("round_off") < 1e-4 * of("l2"), "{level}");
     }
-    // Of hat functions P is of first order, and u of second.
+    // With hat functions, P is of first order, and u of second.
     let fine = &study["quantities"]["first_piola_kirchhoff"][3]["order_l2"];
     assert!((fine.as_f64().expect("an order") - 1.0).abs() < 0.1, "{fine}");
     let excluded = folder.mms(&format!("{command} --excluded --verbose")).exits(0);
     excluded.prints("mistakes, by what they add to the finest error").prints("excluded: ");
-    // Saved, and of several methods.
+    // A saved study, and a study of several methods.
     folder.write("s.toml", "field = \"static.toml\"\nrelax = true\ncells = [4, 8]\n");
     folder.mms("study --study s.toml --shape cpgimp,cpdi").complains("relaxed");
 }
@@ -145,7 +145,7 @@ fn a_relaxed_run_says_how_near_it_came() {
     assert!(run["residual_ratio"].as_f64().is_some_and(|it| it <= 1e-9), "{run}");
     let errors = &run["errors"]["displacement"];
     assert_eq!(errors["over_time"], errors["at_end"]);
-    // Twice the density is twice the mass, and the same equilibrium.
+    // Twice the density gives twice the mass, and the same equilibrium.
     let dense = STATIC.replace("a     =", "rho0 = { value = 4, unit = \"kg/m^3\" }\na     =");
     folder.write("dense.toml", &dense.replace("nu = \"nu\"", "nu = \"nu\"\ndensity = \"rho0\""));
     let dense = folder.mms("run dense.toml --relax --cells 8 --json").exits(0).json();
@@ -194,7 +194,7 @@ fn all_that_is_offered_leaves_out_what_needs_a_density() {
     for name in ["static__body_force(", "static__mass_density(", "_time_window(", "_density0"] {
         assert!(!header.contains(name), "{name}: {header}");
     }
-    // A density alone gives b.
+    // b is defined only with a density.
     let dense = STATIC.replace("a     =", "rho0 = { value = 1000, unit = \"kg/m^3\" }\na     =");
     folder.write("dense.toml", &dense.replace("nu = \"nu\"", "nu = \"nu\"\ndensity = \"rho0\""));
     let run = folder.mms("eval dense.toml --at 0.3,0.2 --quantity b,body_force_density --json");
@@ -228,7 +228,7 @@ fn results_are_judged_without_a_time_and_by_their_last_step() {
     folder.write("steps.csv", &format!("{header}\n{}{}", at_time("1", true), at_time("2", false)));
     judged("steps.csv").prints("exact to round-off").prints("left out: 1 result before the last");
     folder.mms("diagnose static.toml steps.csv").exits(0).prints("nothing");
-    // Without a time in the file.
+    // The file has no time.
     let bare: String = text
         .lines()
         .map(|line| line.split_once(',').expect("a time").1.to_owned() + "\n")
@@ -261,7 +261,7 @@ x_min = "fixed"
 x_max = "free"
 "#;
 
-/// Writes u with an error of second order; of first order at the whole load.
+/// Writes u with an error of second order; of first order at the full load.
 #[cfg(unix)]
 const SOLVER: &str = r#"
 awk -v n="$2" -v load="$3" 'BEGIN {
@@ -310,13 +310,13 @@ fn a_campaign_steps_a_load_and_judges_each_step() {
             (&study["runs"][0]["time_step"], &study["runs"][2]["level"]),
             (&serde_json::Value::Null, &3.into())
         );
-        // load/n^2, or at the whole load 1/n.
+        // load/n^2, or at the full load 1/n.
         let load = [0.25, 0.5, 1.0][steps.iter().position(|it| it.0 == name).expect("a step")];
         let error = if load < 1.0 { load / 64.0 } else { 1.0 / 8.0 };
         let found = study["judgement"]["levels"][0]["l2"].as_f64().expect("an error");
         assert!((found / error - 1.0).abs() < 1e-9, "{found} {error}");
     }
-    // What a pass excludes is told by what a mistake adds at equilibrium: b is none of this bar's loads with the other sign.
+    // A pass excludes mistakes by their effect at equilibrium: at no load does this bar balance b with the other sign.
     let shown = |study: usize, name: &str| {
         let all = studies[study]["judgement"]["excluded"].as_array();
         all.and_then(|all| all.iter().find(|it| it["hypothesis"] == name)).cloned()

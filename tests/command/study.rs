@@ -1,4 +1,4 @@
-//! `mms study`: its document, and how it ends.
+//! `mms study`: its document and exit codes.
 
 use serde_json::Value;
 
@@ -103,12 +103,12 @@ fn the_first_level_has_no_orders_and_the_next_have_theirs() {
     assert_eq!(document["verdict"], "pass");
 }
 
-/// Of v, F and P too; those of u are those of the levels.
-/// Orders are those between neighbours, and each is finer than the one before.
+/// Orders of v, F and P are in the document too; the orders of u are in its levels.
+/// Orders are between neighbours, and each level is finer than the one before.
 #[test]
 fn levels_stand_in_the_order_of_their_cells_however_they_are_given() {
     let study = "study axis_aligned_2d --cells 32,8,64x16,24x24 --json";
-    // Cells of another shape have another error.
+    // Cells of another shape give another error.
     let document = Folder::new().mms(study).json();
     let cells = array(&document["levels"]).iter().map(|level| level["cells"].to_string());
     assert_eq!(cells.collect::<Vec<_>>(), ["8", "\"64x16\"", "\"24x24\"", "32"]);
@@ -141,7 +141,7 @@ fn every_quantity_has_its_orders() {
     }
 }
 
-/// With the order, how sure it is, and the constant that a defect may change alone.
+/// The order comes with its uncertainty, and with the constant, which may be the only effect of a defect.
 #[test]
 fn the_order_comes_with_its_uncertainty_and_the_error_with_its_constant() {
     let document = document("--cells 16,32,64", 0);
@@ -151,7 +151,7 @@ fn the_order_comes_with_its_uncertainty_and_the_error_with_its_constant() {
     let uncertainty = number(&document["order_uncertainty"]);
     assert!((uncertainty - (orders[1] - orders[0]).abs()).abs() < 1e-6, "{document:#}");
     let interval = [0, 1].map(|end: usize| number(&document["order_interval"][end]));
-    // The drift of three levels is less than what is told apart.
+    // The drift of three levels is less than the smallest difference that is distinguished.
     for (end, away) in interval.into_iter().zip([-0.0375, 0.0375]) {
         assert!((end - (orders[1] + away)).abs() < 1e-6, "{document:#}");
     }
@@ -159,7 +159,7 @@ fn the_order_comes_with_its_uncertainty_and_the_error_with_its_constant() {
     assert!((number(&document["error_constant"]) / constant - 1.0).abs() < 1e-12);
 }
 
-/// The first line names the time steps of each run: those of the levels, and of a fit after these.
+/// The first line names the time steps of each run: first of the levels, then of a fit.
 #[test]
 fn what_a_study_will_take_is_said_before_it_runs() {
     let method = "study bar_1d --formulation total --shape linear --json";
@@ -183,12 +183,12 @@ fn what_a_study_will_take_is_said_before_it_runs() {
         assert_eq!(said.len(), runs, "{run}");
         assert_eq!(said[..taken.len()], taken, "{options}");
     }
-    // What cannot be started is not spoken of as if it were.
+    // A study that cannot be started is not announced.
     let run = Folder::new().mms("study bar_1d --cells 8,16 --courant 3");
     assert!(!run.stderr.contains("2 runs of"), "{run}");
 }
 
-/// Leapfrog is of second order in time, and USL of first; errors against the field stay those of the grid.
+/// Leapfrog is of second order in time, and USL of first; errors against the field are the errors of the grid.
 #[test]
 fn a_study_in_time_shows_the_order_of_the_integrator() {
     let options = "--refine time --cells 64 --formulation total --shape linear";
@@ -213,8 +213,8 @@ fn a_study_in_time_shows_the_order_of_the_integrator() {
     run.prints("(l2; 3 levels, dt ").prints("that these converge, and not to what");
 }
 
-/// Errors of space and of time, in runs that refine each by itself: both of second order with leapfrog, of
-/// opposite sign on the bar.
+/// Errors of space and of time, in runs that refine each separately: both of second order with leapfrog, of opposite sign
+/// on the bar.
 #[test]
 fn space_and_time_are_told_apart() {
     let options = "--cells 16,32,64 --formulation total --shape linear --fit";
@@ -230,12 +230,12 @@ fn space_and_time_are_told_apart() {
     folder.mms("study bar_1d --refine time --fit").exits(2).complains("leave `--refine` at both");
 }
 
-/// A standing wave of the linear bar, which nothing drives: b is of the order of its amplitude squared.
+/// A standing wave of the linear bar without a driving force: b is of the order of its amplitude squared.
 const WAVE: &str = "study axis_aligned_1d --set amplitude=1e-6 --set nu=0 --formulation total --shape linear --json";
 
-/// Leapfrog keeps a wave's amplitude, and makes it faster: sin(w dt/2) = w_h dt/2, w_h being the frequency of the
-/// grid, puts it ahead by 2 pi (n - 1/2) (w_h dt)^2/24 in the middle of period n. To a few percent, for apic adds an
-/// error of time of its own.
+/// Leapfrog keeps a wave's amplitude, and makes it faster: with sin(w dt/2) = w_h dt/2, where w_h is the frequency of the
+/// grid, it is ahead by 2 pi (n - 1/2) (w_h dt)^2/24 in the middle of period n. The tolerance is a few percent, because apic
+/// adds an error of time of its own.
 #[test]
 fn leapfrog_keeps_the_amplitude_and_its_phase_is_of_second_order() {
     let options = "--transfer apic --refine time --levels 4 --cells 16 --periods 1,10";
@@ -261,7 +261,7 @@ fn leapfrog_keeps_the_amplitude_and_its_phase_is_of_second_order() {
     }
 }
 
-/// The frequency of a grid is off by O(h^2), and the lag grows with it: as 9.5 to 99.5, in the middle of periods.
+/// The frequency of a grid is off by O(h^2), and the lag grows with it: by the ratio 9.5 to 99.5, in the middle of periods.
 #[test]
 fn a_wave_loses_its_phase_in_proportion_to_time() {
     let document = Folder::new().mms(&format!("{WAVE} --cells 8,16,32 --periods 10,1,100")).json();
@@ -297,7 +297,7 @@ fn periods_are_of_fields_that_repeat_themselves() {
     assert!(measured[1]["levels"][0]["phase_lag"].is_null(), "{stopped:#}");
 }
 
-/// All levels have a quarter of the time step of the finest.
+/// All levels have a quarter of the time step of the finest level.
 #[test]
 fn a_study_in_space_has_one_time_step() {
     let document = document("--refine space --cells 8,16,32 --formulation total --shape linear", 0);
@@ -306,13 +306,13 @@ fn a_study_in_space_has_one_time_step() {
     assert!(document["differences"].is_null());
 }
 
-/// Errors that are nothing but round-off are marked, and do not count.
+/// Errors that may be round-off alone are marked, and do not count.
 #[test]
 fn orders_below_the_floor_are_marked_as_noise() {
     let tiny = "--precision f32 --formulation total --shape linear --cells 64,128,256,1024";
     let folder = Folder::new();
     let run = folder.mms(&format!("study bar_1d {tiny} --output out")).exits(0);
-    run.prints("nothing but round-off").prints("~");
+    run.prints("round-off alone").prints("~");
     let document = folder.read("out/convergence.json");
     let document: Value = serde_json::from_str(&document).expect("JSON");
     let levels = document["levels"].as_array().expect("levels");
@@ -387,7 +387,7 @@ fn the_expected_order_may_be_given() {
     assert_eq!(document("--cells 8,16,32 --expected-order 3", 1)["verdict"], "fail");
 }
 
-/// A gate on the order alone passes what changes the constant, as another number of particles does here.
+/// A test of the order alone passes a change of the constant, for example another number of particles.
 #[test]
 fn the_error_constant_is_held_to_the_expected_one() {
     let found = document("--cells 16,32,64", 0);
@@ -440,14 +440,14 @@ fn bad_settings_exit_2_and_name_the_option() {
     }
 }
 
-/// The order of two levels is near the expected one, and nothing says whether it is settled.
+/// The order of two levels is near the expected one, but two levels do not show whether it has settled.
 #[test]
 fn two_levels_pass_by_their_order_alone_and_say_so() {
     let run = Folder::new().mms("study bar_1d --cells 32,64").exits(0);
     run.prints("pass: observed order 2.00 (l2; 2 levels, 32 cells to 64 cells), expected 2; two levels cannot show");
 }
 
-/// An order of l2 that is as expected is no reason to fail.
+/// An order of l2 as expected is no reason to fail.
 #[test]
 fn a_verdict_names_the_norm_and_the_levels_that_decide() {
     let study = "study sheared_block_2d --formulation total --shape linear --cells 8,16,32";
@@ -456,7 +456,7 @@ fn a_verdict_names_the_norm_and_the_levels_that_decide() {
         .prints("(linf; 3 levels, 8 cells to 32 cells), expected 2");
 }
 
-/// The same mistakes as of results in files: the bar has lambda = 0, and b makes its motion.
+/// A study excludes the same mistakes as results in files: the bar has lambda = 0, and b causes its motion.
 #[test]
 fn a_pass_says_on_request_what_it_excludes() {
     let excluding = document("--cells 8,16,32 --excluded", 0);
@@ -464,10 +464,10 @@ fn a_pass_says_on_request_what_it_excludes() {
     let mistake = |name: &str| excluded.iter().find(|it| it["hypothesis"] == name).expect("a name");
     assert_eq!(mistake("lambda_factor")["excluded"], false);
     assert_eq!(mistake("force_sign")["excluded"], true);
-    // No smaller a part of b than the error is of u, for resonance is far.
+    // The smallest detected factor of b is about the relative error of u, because resonance is far.
     let part = mistake("force_factor")["from"].as_f64().expect("a size");
     assert!((1e-4..1e-2).contains(&part), "{part}");
-    // What does not pass excludes nothing.
+    // A study that fails excludes nothing.
     let failed = document("--cells 8,16,32 --excluded --expected-order 3", 1);
     assert!(failed.get("excluded").is_none());
     let folder = Folder::new();

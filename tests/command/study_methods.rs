@@ -1,4 +1,4 @@
-//! `mms study`: what each method shows on the bar.
+//! `mms study`: the results of each method on the bar.
 
 use mms_exact::gallery::FIELDS;
 use mms_spec::PRECISIONS;
@@ -139,7 +139,7 @@ fn a_file_outside_the_gallery_gives_the_same_study() {
         for key in ["cells", "time_step", "steps", "particles"] {
             assert_eq!(column(&copied, key), column(&named, key), "{options}: {key}");
         }
-        // Compiled forcing is that of loops over many points, some eps away.
+        // Compiled forcing runs in loops over many points, and differs by some eps.
         let single = options.contains("f32");
         let eps = if single { f64::from(f32::EPSILON) } else { f64::EPSILON };
         for norm in ["l1", "l2", "linf"] {
@@ -153,7 +153,7 @@ fn a_file_outside_the_gallery_gives_the_same_study() {
 /// Methods as a figure names them.
 const WRITTEN: [&str; 4] = ["cpGIMP, leapfrog", "cpGIMP, USL", "linear, leapfrog", "linear, USL"];
 
-/// Each study of several is the one of its method alone.
+/// A study of several methods equals the studies of each method alone.
 #[test]
 fn several_methods_are_studied_one_after_the_other() {
     let folder = Folder::new();
@@ -234,7 +234,7 @@ fn lists_of_methods_that_make_no_sense_exit_2() {
     }
 }
 
-/// A pair of two lists that makes no sense is left out, and the others are studied.
+/// A combination of two lists that is not allowed is omitted, and the others are studied.
 #[test]
 fn a_pair_that_makes_no_sense_is_left_out_of_a_list() {
     let lists = "study bar_1d --cells 8,16 --formulation total,updated --shape linear,cpgimp";
@@ -244,7 +244,7 @@ fn a_pair_that_makes_no_sense_is_left_out_of_a_list() {
     run.prints("2 of 3 methods pass");
 }
 
-/// The method that is taken without options, by the body; one option leaves the other to the field.
+/// The default method depends on the body; if one option is given, the field still decides the other.
 #[test]
 fn the_method_fits_the_body_unless_it_is_given() {
     for (study, formulation, shape) in [
@@ -264,7 +264,7 @@ fn the_method_fits_the_body_unless_it_is_given() {
     }
 }
 
-/// One field of the gallery in so many is studied.
+/// One field of the gallery in `SHARE` is studied.
 const SHARE: usize = 6;
 
 #[test]
@@ -286,7 +286,7 @@ fn fields_pass_without_options_or_a_page_says_why_not() {
     }
 }
 
-/// A verdict that is no pass comes with its likely causes, and with the option that avoids the first of them.
+/// A verdict other than pass comes with its likely causes, and with the option that avoids the first of them.
 #[test]
 fn a_study_that_fails_says_why_and_what_to_type() {
     let folder = Folder::new();

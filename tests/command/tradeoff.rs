@@ -1,15 +1,15 @@
-//! `mms tradeoff`: what it recommends does what it says.
+//! `mms tradeoff`: its recommendation achieves the promised error.
 
 use serde_json::Value;
 
 use super::mms::{BAR, Folder, assert_close, keys};
 
-/// The document of a search that decides in the same way everywhere.
+/// The document of a search that decides in the same way on every machine.
 fn document(folder: &Folder, options: &str) -> Value {
     folder.mms(&format!("tradeoff bar_1d --cost particle-steps --json {options}")).exits(0).json()
 }
 
-/// Runs a command of a document; its largest error and its particle-steps.
+/// Runs a command of a document; returns its largest error and its particle-steps.
 fn run(folder: &Folder, command: &Value) -> (f64, f64) {
     let command = command.as_str().and_then(|command| command.strip_prefix("mms "));
     let run = folder.mms(&format!("{} --json", command.expect("a command"))).exits(0).json();
@@ -27,7 +27,7 @@ fn running_the_recommendation_meets_the_target_for_less() {
         assert!(error <= target, "{choice:#}");
         assert_eq!(choice["linf"].as_f64(), Some(error));
         assert_eq!(choice["particle_steps"].as_f64(), Some(work));
-        // The default is beaten, by what its power law says.
+        // With the predicted number of cells, the default method reaches the target at more than twice the work.
         let cells = found["default"]["cells"].as_f64().unwrap().ceil() + 2.0;
         let default = serde_json::json!(format!("mms run bar_1d --cells {cells}"));
         let (error, default_work) = run(&folder, &default);
@@ -68,7 +68,7 @@ fn the_front_is_one_and_holds_the_choice() {
         if one["front"] == true {
             assert!(!runs.iter().any(beaten), "{one:#}");
         }
-        // There is an error or a reason, and never both.
+        // A run has either an error or a reason.
         assert_ne!(one["linf"].is_null(), one["failure"].is_null(), "{one:#}");
     }
     assert!(
@@ -79,7 +79,7 @@ fn the_front_is_one_and_holds_the_choice() {
             .as_str()
             .is_some_and(|it| it.contains("above the stable one")))
     );
-    // Boxes that neither follow nor keep still lose their order, wherever the bar is solved.
+    // Boxes that neither deform nor stay fixed still lose their order, in both configurations of the bar.
     let dominated: Vec<_> =
         found["dominated"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
     for word in ["updated linear", "updated ugimp", "usl", "pic"] {
@@ -89,7 +89,7 @@ fn the_front_is_one_and_holds_the_choice() {
     assert_close(found["exponent"].as_f64().unwrap(), 1.0, 0.2);
 }
 
-/// The same command asks the store, and says the same to the last digit; times included.
+/// A search repeated with the same store prints every digit again, also of times.
 #[test]
 fn a_search_resumes_and_repeats_itself() {
     let folder = Folder::new();
@@ -98,7 +98,7 @@ fn a_search_resumes_and_repeats_itself() {
     let again = folder.mms(search).exits(0);
     assert_eq!(again.stdout, first.stdout);
     assert!(first.stderr.contains("steps done") && again.stderr.is_empty(), "{again}");
-    // Half of the results lost: the others stay as they are.
+    // Half of the results are lost: the others stay as they are.
     let results: Vec<_> =
         std::fs::read_dir(folder.path("store")).unwrap().map(|it| it.unwrap().path()).collect();
     for path in results.iter().step_by(2) {
@@ -118,7 +118,7 @@ fn a_budget_in_seconds_gives_an_error_and_a_command() {
     assert_eq!(found["choice"]["linf"].as_f64(), Some(error));
 }
 
-/// Beyond what may be run there is a prediction, and no promise.
+/// Beyond the allowed work the result is a prediction, not a promise.
 #[test]
 fn a_target_that_is_not_reached_is_said_to_be() {
     let folder = Folder::new();
@@ -129,7 +129,7 @@ fn a_target_that_is_not_reached_is_said_to_be() {
     assert!(found["choice"].is_null() && found["predicted"]["particle_steps"].as_f64() > Some(1e5));
 }
 
-/// Also none of the first, which all others are predicted from.
+/// No run starts beyond the limit, not even the first, from which all others are predicted.
 #[test]
 fn no_run_is_begun_that_takes_more_than_it_may() {
     let folder = Folder::new();
@@ -145,7 +145,7 @@ fn no_run_is_begun_that_takes_more_than_it_may() {
     run.complains("`--most-work 1e0`: the default method").prints_nothing();
 }
 
-/// Where there is no error, there is nothing to be had for a higher cost.
+/// Without an error, a higher cost gains nothing.
 #[test]
 fn a_field_that_is_met_exactly_is_said_to_be() {
     let folder = Folder::new();
@@ -155,7 +155,7 @@ fn a_field_that_is_met_exactly_is_said_to_be() {
     folder.write("still.toml", &format!("{before}u = [\"0\"]\n{after}"));
     let search = "tradeoff still.toml --cost particle-steps --target-linf 1e-3 --store store";
     let text = folder.mms(search).exits(0);
-    text.prints("make no error: nothing but their cost tells these apart");
+    text.prints("make no error: only their cost tells these apart");
     for wrong in ["0.0 times", "about 0 cells", "Dominated"] {
         assert!(!text.stdout.contains(wrong), "{text}");
     }
@@ -167,7 +167,7 @@ fn a_field_that_is_met_exactly_is_said_to_be() {
     assert!(folder.read("all/report.html").contains("It makes no error"));
 }
 
-/// Parameters and motions go with every run, and come back in the command.
+/// Parameters and motions are given to every run, and are repeated in the command.
 #[test]
 fn the_field_is_taken_as_it_is_asked_for() {
     let folder = Folder::with_bar("bar.toml");
@@ -206,7 +206,7 @@ fn what_makes_no_sense_is_refused_with_the_reason() {
     }
 }
 
-/// Of the same run, whatever ran before it, and however long it took.
+/// The memory of a run does not depend on the runs before it or on its duration.
 #[test]
 fn the_memory_of_a_run_is_the_same_each_time() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! `mms verify`: its document, how it ends, and what its store survives.
+//! `mms verify`: its document and exit codes, and damage to its store.
 
 use std::fs;
 use std::path::Path;
@@ -82,7 +82,7 @@ fn the_document_has_the_promised_keys_and_every_verdict_is_the_expected_one() {
     );
 }
 
-/// A level is what its command says.
+/// A level equals the result of its command.
 #[test]
 fn a_level_is_that_of_the_study_that_the_row_names() {
     let folder = Folder::new();
@@ -93,7 +93,7 @@ fn a_level_is_that_of_the_study_that_the_row_names() {
     for (level, same) in
         row["levels"].as_array().unwrap().iter().zip(study["levels"].as_array().unwrap())
     {
-        // A study says more of a level.
+        // A study has more keys for a level.
         for (key, value) in timeless(level).as_object().expect("an object") {
             assert_eq!(*value, same[key], "{key}");
         }
@@ -112,7 +112,7 @@ fn without_a_terminal_there_is_a_line_per_run_and_results_come_from_the_store_th
     assert_eq!(second.stdout, first.stdout);
 }
 
-/// What people use has no deliberate mistakes in it; whoever wants them is told how to build them.
+/// The program for users has no deliberate mistakes; the message says how to build a program that has them.
 #[cfg(not(feature = "defects"))]
 #[test]
 fn defects_take_a_build_of_their_own() {
@@ -125,13 +125,13 @@ fn defects_take_a_build_of_their_own() {
     assert!(!folder.path("target").exists(), "nothing is run or stored");
     let program = fs::read(env!("CARGO_BIN_EXE_mms")).expect("the program");
     let (program, what) = (String::from_utf8_lossy(&program), "from before dt a_i was added");
-    assert!(!program.contains(what), "what a defect is stands in the program");
+    assert!(!program.contains(what), "the program contains the description of a defect");
     let list = include_str!("../../mms-runtime/src/defect.rs");
-    assert!(list.contains(what), "no defect is that any more");
+    assert!(list.contains(what), "no defect has this description any more");
     folder.mms("verify --all-rows").exits(2).complains("--defects");
 }
 
-/// `.ci/run` builds a program that has some.
+/// `.ci/run` builds a program with some defects.
 #[cfg(feature = "defects")]
 #[test]
 fn a_defect_is_caught_and_nothing_of_it_is_trusted() {
@@ -149,7 +149,7 @@ fn a_defect_is_caught_and_nothing_of_it_is_trusted() {
     assert_eq!(keys(late), ["name", "place", "what", "rows", "pseudo"]);
     assert_eq!(late["rows"][0]["name"], "time/force_level");
     assert_eq!(late["rows"][0]["caught"], true);
-    // A run that is half as good as it should be looks as plausible.
+    // A run that is half as accurate as it should be looks as plausible.
     assert_eq!(late["pseudo"]["bounded"], false);
     assert_eq!(folder.read("out/defects.json").trim_end(), run.stdout.trim_end());
     folder.mms("report out").exits(0).prints("all 2 verdicts are as expected");
@@ -194,7 +194,7 @@ fn a_store_that_cannot_be_is_bad_input() {
         .complains("cannot make the folder `file`");
 }
 
-/// A process that works on the rows.
+/// A process that computes the rows.
 fn start(folder: &Folder) -> Child {
     Command::new(env!("CARGO_BIN_EXE_mms"))
         .args(["verify", "--json", "--store", "store", "--threads", "2"])
@@ -206,7 +206,7 @@ fn start(folder: &Folder) -> Child {
         .expect("the program starts")
 }
 
-/// Killed at any moment, it leaves results that are whole, and the same command goes on from them.
+/// After a kill at any moment, stored results are whole, and the same command continues from them.
 #[test]
 fn killed_again_and_again_it_ends_with_the_same_numbers() {
     let undisturbed = timeless(&document(&Folder::new(), "store"));
@@ -226,7 +226,7 @@ fn killed_again_and_again_it_ends_with_the_same_numbers() {
     }
 }
 
-/// Each run is made by one of them, and both have all.
+/// Two processes share the runs, and both have all results.
 #[test]
 fn two_processes_share_a_store() {
     let folder = Folder::new();
@@ -239,7 +239,7 @@ fn two_processes_share_a_store() {
     assert_eq!(both[0]["rows"], document(&folder, "store")["rows"]);
 }
 
-/// Truncated, changed, exchanged: each is named, kept, and computed again.
+/// Truncated, changed and exchanged files are named, kept, and computed again.
 #[test]
 fn files_that_are_not_what_they_were_are_set_aside_and_computed_again() {
     let folder = Folder::new();

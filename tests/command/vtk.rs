@@ -12,7 +12,7 @@ fn find<'a>(document: &'a Document<'a>, tag: &str) -> Node<'a, 'a> {
     found.unwrap_or_else(|| panic!("no <{tag}>"))
 }
 
-/// The numbers of an array, whose bytes are counted.
+/// The numbers of an array, whose byte count is checked.
 fn numbers(document: &Document, name: &str) -> Vec<f64> {
     let array = document.descendants().find(|node| node.attribute("Name") == Some(name));
     let array = array.unwrap_or_else(|| panic!("no array `{name}`"));
@@ -57,7 +57,7 @@ fn states_are_written_for_paraview() {
     assert!((largest - reported).abs() <= 1e-12 * reported, "{largest} and {reported}");
 }
 
-/// F by rows: here H_xy = A/L (1 + X/2L) and H_yx = - B Y^2/L^3, and out of the plane there is nothing.
+/// F by rows: here H_xy = A/L (1 + X/2L) and H_yx = - B Y^2/L^3, and the components out of the plane are 0.
 #[test]
 fn tensors_are_written_row_by_row() {
     let folder = Folder::new();
@@ -81,7 +81,7 @@ fn a_folder_that_cannot_be_is_refused_before_the_run() {
     folder.mms("run bar_1d --cells 8 --vtk out --frames 0").exits(2);
 }
 
-/// What a run cannot write stops it, and what it wrote stays.
+/// A state that cannot be written stops the run, and the files written before stay.
 #[test]
 #[cfg(unix)]
 fn a_state_that_cannot_be_written_stops_the_run() {

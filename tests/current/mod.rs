@@ -6,16 +6,15 @@ use mms_spec::quantity::Quantity;
 use super::support::kernel::{Kernel, compiled, sample};
 use super::{largest, rows, spreading};
 
-/// A correction of this part of the size of the body is the last: rounding, enlarged by F^-1, may
-/// leave no smaller one, and the next would be its square.
+/// The relative size of the last correction: rounding, enlarged by F^-1, may allow no smaller one, and the next would be its
+/// square.
 const NEGLIGIBLE: f64 = 1e-12;
 
-/// How often Newton's method may go on.
+/// The largest number of Newton iterations.
 const ITERATIONS: usize = 50;
 
-/// F = (I - grad_x u)^-1 and div sigma = dsigma_ij/dx_j, with central differences at fixed x of
-/// what is at the place X that moves to x: both must agree with the derivation like the square of
-/// the step.
+/// F = (I - grad_x u)^-1 and div sigma = dsigma_ij/dx_j, with central differences at fixed x, evaluated at the point X that
+/// moves to x: the difference from the derivation must fall with the square of the step.
 pub fn both_frames<K: Kernel>() {
     let points = sample(compiled(K::NAME), 16);
     let size = largest(points.iter().flat_map(|point| &point.coordinates).copied());
@@ -28,7 +27,7 @@ pub fn both_frames<K: Kernel>() {
     let (coarse, fine) = (errors(size / 1024.0), errors(size / 2048.0));
     for (what, name) in ["F = (I - grad_x u)^-1", "div sigma = Div P / J"].iter().enumerate() {
         let ([coarse, scale], [fine, _]) = (coarse[what], fine[what]);
-        // Rounding of the differences and of Newton's method is left where they are exact.
+        // If the differences are exact, only the rounding of them and of Newton's method is left.
         if coarse > 1e-9 * scale {
             let order = (coarse / fine).log2();
             assert!((order - 2.0).abs() < 0.3, "{name}: {coarse:e}, then {fine:e}: order {order}");
@@ -45,13 +44,13 @@ fn differences<K: Kernel>(at: &[f64], time: f64, step: f64) -> [[f64; 2]; 2] {
     let mut divergence = vec![0.0; dimension];
     let mut parts = Vec::new();
     if width > dimension {
-        // At small strain the radius is that of the reference configuration.
+        // At small strain the radius is in the reference configuration.
         let radius =
             if compiled(K::NAME).model.kind == Kind::SmallStrain { at[0] } else { place[0] };
         divergence = spreading(&K::quantity(Quantity::CauchyStress, time, at), radius).to_vec();
         parts.extend_from_slice(&divergence);
     }
-    // At small strain the divergence of sigma is that over X.
+    // At small strain the divergence of sigma is over X.
     let is_small = compiled(K::NAME).model.kind == Kind::SmallStrain;
     for axis in 0..dimension {
         let beside = |sign: f64| {
@@ -76,7 +75,7 @@ fn differences<K: Kernel>(at: &[f64], time: f64, step: f64) -> [[f64; 2]; 2] {
         }
     }
     let deformation = of_coordinates::<K>(&K::quantity(Quantity::DeformationGradient, time, at));
-    // F (I - grad_x u) - I, so that nothing needs to be inverted.
+    // F (I - grad_x u) - I, so that no matrix is inverted.
     let residual = (0..dimension * dimension).map(|k| {
         let (row, column) = (k / dimension, k % dimension);
         let product: f64 = (0..dimension)

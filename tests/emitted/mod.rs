@@ -1,5 +1,6 @@
-//! Files that `mms emit` writes, in a program that has them and `mms-math` alone: it compiles
-//! without a warning, and gives the bits of the interpreter.
+//! Files that `mms emit` writes, in a program that has only them and `mms-math`: it compiles without a warning, and computes
+//! the
+//! bits of the interpreter.
 
 use std::fs;
 use std::io::Write as _;
@@ -17,7 +18,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Around `program.rs`, which has no modules of its own: they are not there when it is formatted.
+/// The code around `program.rs`, which declares no modules of its own, because they do not exist when it is formatted.
 /// Nobody uses all quantities of a module.
 const MAIN: &str = "#![deny(warnings, unsafe_code)]
 #![allow(dead_code)]
@@ -25,7 +26,7 @@ mod bar_1d;
 mod odd_names;
 mod plain;
 mod standing_wave_3d;
-// As `field!` has it: the file names a given field T.
+// Like in `field!`: the file names a given field T.
 #[allow(non_snake_case, unused_variables)]
 mod units_axisymmetric;
 include!(\"program.rs\");
@@ -68,7 +69,7 @@ fn emit(field: &str, folder: &Path, options: &[&str]) {
     assert!(emit.status.success(), "{}", String::from_utf8_lossy(&emit.stderr));
 }
 
-/// The answers of the compiled program, a line each.
+/// The answers of the compiled program, one line each.
 fn answers(scratch: &Path, questions: &str) -> Vec<Vec<u64>> {
     let mut program = Command::new(env!("CARGO"))
         .args(["run", "--offline", "--quiet", "--target-dir"])
@@ -95,7 +96,7 @@ fn compiled(path: &str, selection: Selection) -> Compiled {
     compile_with("field", path, &text, &missing, &selection.into()).expect("a right file")
 }
 
-/// Questions, and the answers that are expected.
+/// Questions, and their expected answers.
 #[derive(Default)]
 struct Expected {
     questions: String,
@@ -110,7 +111,7 @@ impl Expected {
         self.answers.push(answer.iter().map(|value| value.to_bits()).collect());
     }
 
-    /// What the interpreter says at the points of a field.
+    /// Adds the interpreter's results at the points of a field.
     fn interpreted(&mut self, compiled: &Compiled, quantity: Quantity, questions: &[&str]) {
         let output = Output::Quantity(quantity);
         let parameters = compiled.parameters::<f64>(&Default::default());
@@ -137,7 +138,7 @@ fn emitted_files_need_mms_math_alone_and_give_the_bits_of_the_interpreter() {
     // P = E/2 (F - 1/F), F = 2.
     expected.ask("bar_material", 0.0, &[1.0], &[0.5e6 * (2.0 - 0.5)]);
 
-    // As the command line says it.
+    // Written as on the command line.
     let part = Selection {
         quantities: Some([Quantity::BodyForce, Quantity::Velocity].into()),
         set: vec![("lambda".into(), "0".into())],

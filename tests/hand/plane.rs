@@ -1,5 +1,5 @@
-//! What the fields in plane strain have in common on paper: the algebra of a displacement gradient
-//! H and of its derivatives, entry by entry.
+//! The common part of the derivations of fields in plane strain: the algebra of a displacement gradient H and of its
+//! derivatives, entry by entry.
 //!
 //! F = I + H, J = F11 F22 - F12 F21, cof F = J F^-T. Derivatives are product rules:
 //!
@@ -64,7 +64,7 @@ impl Waves {
         strained.displacement.map(|u| -self.frequency * self.frequency * u)
     }
 
-    /// What a field is that has u alone.
+    /// The values of a field that is given by u alone.
     pub fn values(&self, strained: &Strained, solid: Solid, rho0: f64) -> Values {
         solid.values(strained.jacobian(), self.acceleration(strained), rho0)
     }
@@ -136,7 +136,7 @@ impl Strained {
         [0, 1].map(|i| self.second[i][0][0] + self.second[i][1][1])
     }
 
-    /// q = kappa (J - 1) - m I1/(3 J) and its gradient: what a volume apart adds to P = m F.
+    /// q = kappa (J - 1) - m I1/(3 J) and its gradient: the addition of a separate volume law to P = m F.
     pub fn isochoric_pressure(&self, kappa: f64, m: f64, m_slope: [f64; 2]) -> (f64, [f64; 2]) {
         let (j, i1) = (self.jacobian(), self.first_invariant());
         let (j_slope, i1_slope) = (self.jacobian_slope(), self.first_invariant_slope());

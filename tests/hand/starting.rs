@@ -27,7 +27,7 @@ pub struct Start {
 /// A factor of phi, with its first and second derivative.
 pub type Profile = [f64; 3];
 
-/// What phi does not depend on.
+/// A factor of phi for an axis that phi does not depend on.
 pub const CONSTANT: Profile = [1.0, 0.0, 0.0];
 
 /// a sin(k x) and its derivatives.
@@ -57,7 +57,7 @@ impl Start {
         Values::leading::<D>(motion.jacobian(), &motion.stress(&law), force.into())
     }
 
-    /// Asserts that generated functions are what is derived above, with the factors of phi at X.
+    /// Asserts that generated functions equal the derivation above, with the factors of phi at X.
     #[track_caller]
     pub fn assert_is<const D: usize>(
         &self,

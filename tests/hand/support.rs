@@ -1,4 +1,4 @@
-//! What the derivations share: points, the comparison, and the neo-Hookean law in three dimensions.
+//! The common parts of the derivations: points, the comparison, and the neo-Hookean law in three dimensions.
 
 use mms_runtime::Matrix;
 
@@ -11,7 +11,7 @@ pub struct Values {
 }
 
 impl Values {
-    /// Of a field of `D` dimensions, from P and b in three.
+    /// The values of a field of `D` dimensions, from P and b in three.
     pub fn leading<const D: usize>(
         jacobian: f64,
         stress: &Matrix<f64, 3>,
@@ -22,7 +22,7 @@ impl Values {
     }
 }
 
-/// What a prepared field of the gallery says, as a function of X and t.
+/// The values of a prepared field of the gallery, as a function of X and t.
 macro_rules! generated {
     ($field:expr) => {{
         let field = $field;
@@ -41,8 +41,8 @@ pub(crate) use generated;
 /// Both sides round some hundred operations, relative to the largest value over all points.
 pub const TOLERANCE: f64 = 1e-12;
 
-/// Asserts that two ways to J, P and b agree at all points: each differs by at most `tolerance` of
-/// the largest of its kind.
+/// Asserts that two derivations of J, P and b agree at all points: each differs by at most `tolerance` of the largest value of
+/// its kind.
 #[track_caller]
 pub fn assert_agree<const D: usize>(
     tolerance: f64,
@@ -116,7 +116,7 @@ pub struct NeoHookean {
 }
 
 impl NeoHookean {
-    /// Lame's parameters of Young's modulus and Poisson's ratio.
+    /// Lame's parameters from Young's modulus and Poisson's ratio.
     pub fn of(young: f64, nu: f64) -> Self {
         let lambda = young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
         Self { lambda, mu: young / (2.0 * (1.0 + nu)) }

@@ -7,19 +7,19 @@ use std::str::FromStr;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// A module, as the names that lead to it from the root of its crate, which has none.
+/// A module, as the names on its path from the root of its crate, which has none.
 pub type Module = Vec<String>;
 
-/// What the modules of a crate import from each other, file by file.
+/// The imports of a crate's modules from each other, file by file.
 #[derive(Default)]
 pub struct Imports {
     files: BTreeMap<Module, BTreeSet<Module>>,
-    /// What a module calls by a name of its own: `pub use body::Fill`.
+    /// The names under which a module exports others: `pub use body::Fill`.
     exports: BTreeMap<(Module, String), Module>,
 }
 
 impl Imports {
-    /// Those of all files below `src` of a crate, but for its tests.
+    /// The imports of all files below `src` of a crate, without its tests.
     pub fn of(src: &Path) -> Self {
         let mut imports = Imports::default();
         imports.read(src, &[]);
@@ -51,7 +51,7 @@ impl Imports {
         }
     }
 
-    /// Notes the paths in some tokens of a module.
+    /// Records the paths in some tokens of a module.
     fn scan(&mut self, module: &Module, tokens: TokenStream) {
         let tokens: Vec<TokenTree> = tokens.into_iter().collect();
         let mut at = 0;
@@ -111,7 +111,7 @@ impl Imports {
         }
     }
 
-    /// Which module of the root imports which other one.
+    /// The pairs of root modules of which the first imports the second.
     pub fn between_modules(&self) -> BTreeSet<(String, String)> {
         let pairs = self.files.iter().flat_map(|(from, to)| to.iter().map(move |to| (from, to)));
         let outer =
@@ -124,7 +124,7 @@ impl Imports {
         self.files.keys().filter_map(|module| module.first().cloned()).collect()
     }
 
-    /// Files that import each other, directly or through others: what each reaches, and is reached from.
+    /// Files that import each other, directly or through others: sets of files that reach each other.
     pub fn circles(&self) -> BTreeSet<BTreeSet<Module>> {
         let reached: BTreeMap<_, _> =
             self.files.keys().map(|module| (module, self.reached(module))).collect();
@@ -144,7 +144,7 @@ impl Imports {
     }
 }
 
-/// Whether an item begins here that only tests have.
+/// Whether the tokens begin an item that exists only in tests.
 fn is_test(tokens: &[TokenTree]) -> bool {
     let [first, TokenTree::Group(attribute), ..] = tokens else { return false };
     is_punct(first, '#') && attribute.stream().to_string().replace(' ', "") == "cfg(test)"
@@ -159,7 +159,7 @@ fn is_punct(token: &TokenTree, char: char) -> bool {
     matches!(token, TokenTree::Punct(punct) if punct.as_char() == char)
 }
 
-/// Where a path ends that begins at `start`.
+/// The end of a path that begins at `start`.
 fn path_end(tokens: &[TokenTree], start: usize) -> usize {
     let is_part = |token: &TokenTree| is_punct(token, ':') || matches!(token, TokenTree::Ident(_));
     // A word after a word belongs to something else.

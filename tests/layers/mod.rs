@@ -1,4 +1,4 @@
-//! Imports point one way: between crates, between the modules of a crate, and, but for small circles, between files.
+//! Imports point one way: between crates, between the modules of a crate, and, except for small circles, between files.
 
 mod crates;
 mod imports;
@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 use crates::CRATES;
 use imports::Imports;
 
-/// So many files may import each other.
+/// The largest number of files that may import each other.
 const LARGEST_CIRCLE: usize = 8;
 
-/// A crate: the crates of this workspace that it knows, and its modules in layers, the lowest first. A module knows those
-/// of its own layer and of lower ones.
+/// A crate: the crates of this workspace that it may import, and its modules in layers, the lowest first. A module may import
+/// modules of its own layer and of lower ones.
 struct Crate {
     name: &'static str,
     knows: &'static [&'static str],
@@ -87,7 +87,7 @@ fn circles_of_files_are_small() {
     }
 }
 
-/// What the other tests find nothing in is read.
+/// The imports are really read, although the other tests find nothing wrong in them.
 #[test]
 fn imports_are_found() {
     let imports = Imports::of(&folder("mms-codegen").join("src"));
@@ -139,7 +139,7 @@ fn has_example(text: &str) -> bool {
     fences.any(|opening| ["```", "```rust"].contains(&opening))
 }
 
-/// A crate without examples says so, and spares the time to look for them.
+/// A crate without examples declares this, which saves the time to look for them.
 #[test]
 fn no_example_in_documentation_is_left_out() {
     for Crate { name, .. } in CRATES {

@@ -1,5 +1,5 @@
-//! The macro as a crate meets it that uses it. Each file is a program of its own, but for the time
-//! it takes to link them; they allow no warning in what the macro writes.
+//! The macro in a crate that uses it. Each file would be a program of its own, but linking takes too long; they allow no
+//! warning in the macro's output.
 
 pub mod contract;
 pub mod no_parameters;

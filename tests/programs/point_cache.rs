@@ -1,4 +1,4 @@
-//! What is kept of a point gives the same bits as the point, in either precision.
+//! Cached values of a point give the same bits as the point, in either precision.
 #![deny(warnings)]
 
 mms_macros::field!("fields/bar_1d.toml");
@@ -58,7 +58,7 @@ fn what_is_kept_of_a_point_gives_the_same_bits() {
     let points = [[0.1, 0.2, 0.3], [0.9, 0.5, 0.7]];
     every_quantity!(standing_wave_3d, f32, points, [0.6, 0.0, 0.8]);
 
-    // A field at rest keeps the result itself.
+    // A field at rest caches the result itself.
     let field = static_3d::prepare(&static_3d::Parameters::<f64>::default());
     let point = field.at_point([0.1, 0.2, 0.3]);
     let b = field.at_time(0.0).body_force(point.reference_position);

@@ -1,5 +1,5 @@
-//! The JSON Schemas refuse what the reader refuses, and nothing else: on every file there is, and
-//! on every file that is one slip away from those with all keys.
+//! The JSON Schemas refuse exactly what the reader refuses: on every existing file, and on every file with one mistake in a
+//! file that has all keys.
 
 mod mutations;
 mod verdict;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use verdict::{Kind, json_of, reader_accepts};
 
-/// Files whose mistakes of form no JSON Schema can see.
+/// Files whose mistakes of form no JSON Schema can detect.
 const BEYOND: &[(&str, &str)] = &[
     ("duplicate_name", "parameters and definitions share one set of names"),
     ("study_orders", "studies of one method are compared"),
@@ -41,7 +41,7 @@ fn stem(path: &Path) -> String {
     path.file_stem().expect("a stem").to_string_lossy().into_owned()
 }
 
-/// The keys that a document of the schema may have, those of tables in it included.
+/// The keys that a document of the schema may have, also in its tables.
 fn keys(schema: &Value) -> Vec<&str> {
     let own = schema["properties"].as_object().into_iter().flatten();
     let mut found: Vec<&str> = own.clone().map(|(key, _)| key.as_str()).collect();
@@ -78,8 +78,7 @@ fn every_right_file_is_accepted() {
     }
 }
 
-/// Mistakes that the reader sees are seen by the schema; those that need names resolved and
-/// formulas parsed are not.
+/// The schema detects the mistakes that the reader detects, except mistakes that need names resolved and formulas parsed.
 #[test]
 fn the_wrong_files_are_refused_where_their_form_is_wrong() {
     let mut compared = 0;
@@ -102,7 +101,7 @@ fn what_is_said_to_be_beyond_a_schema_is() {
     }
 }
 
-/// Editors fall back to draft 7 where they do not know draft 2020-12; both must mean the same.
+/// Editors use draft 7 if they do not support draft 2020-12; both must mean the same.
 #[test]
 fn the_schemas_are_valid_and_use_keywords_of_both_drafts() {
     const KNOWN: &[&str] = &[

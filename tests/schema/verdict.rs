@@ -1,4 +1,4 @@
-//! What the reader and what the schema say about a text.
+//! The verdicts of the reader and of the schema on a text.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -20,7 +20,7 @@ static MATERIAL_SCHEMA: LazyLock<Validator> = LazyLock::new(|| {
     jsonschema::validator_for(&mms_command::schema::material()).expect("a schema")
 });
 
-/// What a file describes.
+/// The kind of object that a file describes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     Field,
@@ -34,7 +34,7 @@ impl Kind {
         if name.starts_with("material_") { Kind::Material } else { Kind::Field }
     }
 
-    /// What the schema refuses.
+    /// The refusals of the schema.
     pub fn refusals(self, document: &Value) -> Vec<String> {
         let validator: &Validator = match self {
             Kind::Field => &FIELD_SCHEMA,
@@ -45,7 +45,7 @@ impl Kind {
     }
 }
 
-/// A TOML text as an editor hands it to a schema; nothing for what is not TOML.
+/// A TOML text as an editor passes it to a schema; `None` for a text that is not TOML.
 pub fn json_of(text: &str) -> Option<Value> {
     text.parse::<toml::Table>().ok().map(|table| json(&toml::Value::Table(table)))
 }
@@ -66,7 +66,7 @@ pub fn json(value: &toml::Value) -> Value {
     }
 }
 
-/// Whether the reader finds nothing wrong: in form, and in the material that a field names.
+/// Whether the reader finds no mistake: in form, and in the material that a field names.
 pub fn reader_accepts(kind: Kind, text: &str) -> bool {
     let mut sources = Sources::default();
     let id = sources.add("x.toml", text);
@@ -78,8 +78,8 @@ pub fn reader_accepts(kind: Kind, text: &str) -> bool {
     diagnostics.is_empty() && (kind == Kind::Material || material_is_right(text))
 }
 
-/// Whether the model is one that there is, with the parameters that it has. That depends on the
-/// dimension and on [material] alone, which most slips leave as they are.
+/// Whether the model exists and has the given parameters. This depends only on the dimension and on [material], which most
+/// mistakes do not change.
 fn material_is_right(text: &str) -> bool {
     static KNOWN: Mutex<BTreeMap<String, bool>> = Mutex::new(BTreeMap::new());
     let field = json_of(text).unwrap_or_default();
@@ -92,10 +92,10 @@ fn material_is_right(text: &str) -> bool {
     found
 }
 
-/// The compiler says so, beside much that is not of form.
+/// Whether the compiler finds no mistake in the material; it also reports many mistakes that are not of form.
 fn compiler_accepts_material(text: &str) -> bool {
     let own = own_material(text);
-    // As little as can be asked for: what is sought comes before any derivation.
+    // The smallest selection: mistakes in the material are found before any derivation.
     let quantities = Some([Quantity::Displacement].into());
     let options = Options::from(Selection { quantities, ..Selection::default() });
     let load = |_: &str| Ok(own.clone());
@@ -112,8 +112,8 @@ fn compiler_accepts_material(text: &str) -> bool {
     })
 }
 
-/// A material of the user's own. It has the fibres and parameters that the field gives it, as far as
-/// there can be such: more the schema of the field cannot know of it.
+/// A user's own material. It has the fibres and parameters that the field gives it, as far as they are possible: the
+/// schema of the field cannot check more.
 fn own_material(text: &str) -> String {
     let field = json_of(text).unwrap_or_default();
     let given = field["material"].as_object().into_iter().flatten().map(|(name, _)| name.as_str());

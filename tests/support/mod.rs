@@ -1,4 +1,4 @@
-//! What the tests of every field share.
+//! The common parts of the tests of every field.
 
 pub mod dual;
 pub mod kernel;

@@ -39,7 +39,7 @@ impl Section for Run {
                     ("grid", parts.grid),
                     ("stress", parts.stress),
                 ];
-                (table("What it took", &[words("part"), numbers("time")], parts.into_iter().map(|(part, time)| {
+                (table("Time taken", &[words("part"), numbers("time")], parts.into_iter().map(|(part, time)| {
                     vec![html! { (part) }, seconds(Some(time))]
                 })))
             }

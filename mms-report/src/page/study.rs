@@ -203,7 +203,7 @@ fn caption(study: &StudyOfMethod, plot: &Plot) -> String {
     if highest > 0.0 {
         text += &match plot.shows_floor() {
             true => format!(
-                " Below the dashed line, at most {highest:.1e}, an error may be nothing but round-off."
+                " Below the dashed line, at most {highest:.1e}, an error may be round-off alone."
             ),
             false => format!(
                 " The predicted round-off floor, at most {highest:.1e}, lies far below the picture."

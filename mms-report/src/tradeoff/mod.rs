@@ -248,7 +248,7 @@ impl Report<'_> {
         let errors: Vec<_> = self.trials().iter().filter_map(|it| it.error.clone().ok()).collect();
         let exact = errors.iter().filter(|error| **error == 0.0).count();
         format!(
-            "{exact} of the {} runs that came to their end make no error: nothing but their cost tells these apart.",
+            "{exact} of the {} runs that came to their end make no error: only their cost tells these apart.",
             errors.len()
         )
     }
