@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::history::Mark;
 
-/// What the first key of every file says.
+/// The value of the first key of every file.
 const FORMAT: &str = "mms checkpoint 2";
 
 /// Bytes of the checksum.
@@ -33,25 +33,25 @@ const SUM: u64 = 4;
 /// The first line has at most as many bytes: a state that was written for ParaView takes some tens of them.
 const MOST_OF_HEAD: u64 = 64 << 20;
 
-/// What a checkpoint is of.
+/// The head of a checkpoint: the run and the step that it belongs to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Head {
     format: Foreign,
-    /// What tells the program and the scene from all others.
+    /// The identity of the program and the scene.
     pub key: String,
     /// The command of the run.
     pub command: Foreign,
-    /// After this step.
+    /// The last step before the checkpoint.
     pub step: usize,
     /// The states for ParaView that were written before: times and files.
     pub states: Vec<(f64, String)>,
-    /// What of the history was written before.
+    /// The length and checksum of the history written before.
     pub history: Option<Mark>,
 }
 
 impl Head {
-    /// Of a scene and a command.
+    /// The head of a scene and a command, before the first step.
     pub fn new(key: String, command: String) -> Self {
         let (format, command) = (FORMAT.into(), command.into());
         Head { format, key, command, step: 0, states: Vec::new(), history: None }
@@ -80,7 +80,7 @@ pub fn write(path: &Path, head: &Head, checkpoint: &dyn Checkpoint) -> anyhow::R
 /// A checkpoint that is whole.
 #[derive(Debug)]
 pub struct Found {
-    /// What it is of.
+    /// The head of the checkpoint.
     pub head: Head,
     state: BufReader<std::io::Take<File>>,
 }
@@ -134,7 +134,7 @@ impl Found {
     }
 }
 
-/// What the first line says; otherwise what is wrong with it.
+/// Reads the first line. An error describes the mistake.
 fn head_of(line: &[u8]) -> Result<Head, String> {
     #[derive(Deserialize)]
     struct Format {
@@ -157,12 +157,12 @@ pub struct Keeper {
 }
 
 impl Keeper {
-    /// After every so many steps, to a file in a folder that is there.
+    /// A keeper that writes after every `every` steps, to a file in an existing folder.
     ///
     /// # Errors
     /// A folder that cannot be written to.
     pub fn new(path: &Path, every: usize, head: Head) -> anyhow::Result<Self> {
-        // Said before any work is done.
+        // Fails before any work is done.
         let option = format!("`--checkpoint {}`", foreign::path(path));
         if path.is_dir() {
             bail!("{option}: expected a file, and it is a folder");
@@ -182,12 +182,12 @@ impl Keeper {
         format!("{command} --resume {}", quoted(&self.path.to_string_lossy()))
     }
 
-    /// Whether there is one after this step.
+    /// Whether a checkpoint follows this step.
     pub fn wants(&self, step: usize) -> bool {
         step.is_multiple_of(self.every)
     }
 
-    /// Writes one.
+    /// Writes a checkpoint.
     ///
     /// # Errors
     /// A file that cannot be written.

@@ -1,7 +1,7 @@
-//! What every step of a run led to, as a CSV file.
+//! The quantities of every step of a run, as a CSV file.
 //!
-//! Rows are kept until a checkpoint or the end, and the file is replaced as a whole then. What is no plain file, as a FIFO,
-//! gets them at the end alone.
+//! Rows are kept until a checkpoint or the end; then the whole file is replaced. A file that is not plain, such as a FIFO, gets
+//! them only at the end.
 
 use std::path::{Path, PathBuf};
 
@@ -23,13 +23,13 @@ pub struct History {
     text: String,
 }
 
-/// What tells the rows that were written from others.
+/// The identity of the rows that were written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mark {
-    /// How long they are.
+    /// The length of the rows.
     bytes: u64,
-    /// Their CRC-32.
+    /// The CRC-32 of the rows.
     checksum: u32,
 }
 
@@ -94,7 +94,7 @@ impl History {
         self.text += &line(&row);
     }
 
-    /// What tells the rows so far from others.
+    /// The identity of the rows so far.
     pub fn mark(&self) -> Mark {
         Mark { bytes: self.text.len() as u64, checksum: crc32fast::hash(self.text.as_bytes()) }
     }
@@ -117,7 +117,7 @@ impl History {
     }
 }
 
-/// How the file was asked for.
+/// The option that names the file.
 fn option(path: &Path) -> String {
     format!("`--history {}`", foreign::path(path))
 }

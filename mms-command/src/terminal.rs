@@ -1,4 +1,4 @@
-//! What goes to the terminal: nothing foreign in it steers it.
+//! Output to the terminal: escapes foreign texts, so that they cannot steer the terminal.
 
 use std::io::{self, ErrorKind, Write as _};
 

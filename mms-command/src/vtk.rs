@@ -1,8 +1,9 @@
 //! States of a run for ParaView: one `.vtu` file each, and a `.pvd` file that says when they were.
 //!
-//! The XML formats of "VTK File Formats" (Kitware, 2023), particles as vertices, numbers in base64. A file appears
-//! under its name when it is whole, and the list is written anew with each state: so whatever stops a run, what is
-//! there can be opened. `.ci/states.py` reads them with meshio.
+//! The XML formats of "VTK File Formats" (Kitware, 2023), particles as vertices, numbers in base64. A file appears under its
+//! name
+//! when it is whole, and the list is written anew with each state: after any stop of a run, its files can be opened.
+//! `.ci/states.py` reads them with meshio.
 
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
@@ -105,7 +106,7 @@ fn write_state(path: &Path, state: &State, position: &[f64], cells: &Cells) -> a
     })
 }
 
-/// What is written of a frame.
+/// The columns of a frame.
 fn state(frame: &Frame) -> State {
     let count = frame.position.len() / frame.dimension;
     let column = |name: &str, shape, values: &[f64]| Column {
@@ -113,7 +114,7 @@ fn state(frame: &Frame) -> State {
         shape,
         values: values.to_vec(),
     };
-    // Of a body of revolution all nine components, in the order R, Z, hoop.
+    // A body of revolution has all nine components, in the order R, Z, hoop.
     let tensor = |name: &str, meridian: &[f64], around: &[f64]| match around {
         [] => column(name, Shape::Tensor, meridian),
         around => {

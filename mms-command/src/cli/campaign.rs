@@ -41,8 +41,8 @@ use crate::provenance::{Input, Provenance};
 /// results can be read. No run is made twice unless something changes that it depends on: the command, the program that it
 /// starts, a file that it names or that `sources` lists, the field, a version, or the results themselves.
 ///
-/// Processes that a solver leaves behind are ended and named. Ctrl-C, Ctrl-\ and whatever else ends the campaign end its
-/// runs; the same command goes on with what is left. A run that fails is named with the last lines that it printed, ends no
+/// Processes that a solver leaves behind are ended and named. Ctrl-C, Ctrl-\ and any other end of the campaign end its runs;
+/// the same command continues with the remaining ones. A run that fails is named with the last lines that it printed, ends no
 /// other, and is tried again the next time.
 ///
 /// Exit codes: 0 all studies pass; 1 another verdict, or a pass with a wrong b; 2 bad usage, or a bad file; 3 a run failed, or has no results that can be judged.
@@ -51,7 +51,7 @@ pub struct Campaign {
     /// The campaign file.
     file: PathBuf,
     /// Only this study, or this level of it, as in bar_1d/3; may be repeated. A study is judged if all of its levels are
-    /// asked for.
+    /// selected.
     #[arg(long, value_name = "STUDY[/LEVEL]")]
     only: Vec<String>,
     /// How many runs go side by side; by default as many as there are processors for `threads` each.
@@ -64,8 +64,9 @@ pub struct Campaign {
     /// Show what would be run, and what is done already; run nothing.
     #[arg(long, conflicts_with = "figure")]
     dry_run: bool,
-    /// Print a command for each run that is not done yet, which makes it and keeps its result, for whatever runs commands on
-    /// other machines; run nothing. They share the folder of --store.
+    /// Print a command for each run that is not done yet, which makes it and keeps its result, for a scheduler that runs
+    /// commands
+    /// on other machines; run nothing. They share the folder of --store.
     #[arg(long, conflicts_with_all = ["dry_run", "figure"])]
     list: bool,
     /// Propose studies from what the solver says that it `can`: the fewest fields of the gallery that show all which any
@@ -217,7 +218,7 @@ impl Campaign {
         })
     }
 
-    /// Prints what is said of each run; or `none`, if nothing is.
+    /// Prints a line for each run; or `none`, if no run has one.
     fn each(
         &self,
         work: &Work<'_>,

@@ -19,13 +19,13 @@ use super::{Outcome, print, print_json, say, say_styled};
 
 /// Check field files: mistakes, boundary claims, J > 0, and closed forms.
 ///
-/// Proofs cover the whole body, time window and parameter ranges; they are symbolic, or use intervals. A claim is `proved`; `enclosed`, where all that is certain is that it is within
-/// 1e-12 of what it should be, relative to the size of the body or the modulus; `refuted` at a point
-/// that is named; or `unproved`. The last two exit 1, as do J <= 0, a function that ends or jumps within the domain, a
-/// quantity without a finite value or that f64 does not compute as one, and a closed form that differs or was compared
-/// nowhere. A proof that takes more steps than its budget is said not to be made. The numbers of f32 have a line of their own. A
-/// stress at rest (P not 0 at F = I) is a warning. Bounds are given of J, the principal stretch, the strain rate, the wave
-/// speed, and the time step that waves allow, of x, and of the digits that sums such as X + c*t leave of angles.
+/// Proofs cover the whole body, time window and parameter ranges; they are symbolic, or use intervals. A claim is `proved`;
+/// `enclosed`, if it is only certain to hold within 1e-12, relative to the size of the body or the modulus; `refuted` at a
+/// named point; or `unproved`. The last two exit 1, as do J <= 0, a function that ends or jumps within the domain, a quantity
+/// without a finite value or that f64 does not compute as one, and a closed form that differs or was compared nowhere. A proof
+/// that needs more steps than its budget is reported as not made. The numbers of f32 have a line of their own. A stress at rest
+/// (P not 0 at F = I) is a warning. Bounds are given of J, the principal stretch, the strain rate, the wave speed, and the time
+/// step that waves allow, of x, and of the digits that sums such as X + c*t leave of angles.
 ///
 /// Whether a solver can follow the motion is looked at on a sample, for the defaults of the parameters: waves in the body
 /// (acoustic tensor), waves on faces that are loaded, free or on rollers (surface impedance, loads dead), their corners
@@ -36,8 +36,9 @@ pub struct Check {
     /// Field files, or names of fields of the gallery.
     #[arg(value_name = "FIELD", required = true)]
     files: Vec<String>,
-    /// Fix a parameter at a value: a number, or a formula in the parameters above it. What holds is then proved for it
-    /// alone, not for the parameter's range; may be repeated.
+    /// Fix a parameter at a value: a number, or a formula in the parameters above it. Proofs then cover this value only, not
+    /// the
+    /// parameter's range; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Run Newton's method on static fields, on a coarse mesh: does it stay at the exact state, and come to it from zero?
@@ -66,7 +67,7 @@ impl Check {
             let (outcome, document) = match open(file).map(|source| source.compile(&options)) {
                 Ok(Ok(compiled)) => self.report(&path, &Arc::new(compiled))?,
                 Ok(Err(mut failure)) => {
-                    // What is frozen here is what is set, and its mistakes are said of that.
+                    // A parameter that is set is frozen here; its mistakes are reported for the setting.
                     let entry = |it: &Diagnostic| options.selection.entry(it.span);
                     failure.diagnostics.retain(|it| !matches!(entry(it), Some(Entry::Freeze(_))));
                     self.report_failure(&path, &failure)?

@@ -37,7 +37,7 @@ use super::{Outcome, hold_output, print, replaced, say, this_command};
 
 /// Name the mistake of a solver by the error that it makes.
 ///
-/// Results of a FIELD are one FILE for each mesh, as for `mms judge`. What is in them decides what is looked at:
+/// Results of a FIELD are one FILE for each mesh, as for `mms judge`. Their content decides which comparison is made:
 ///
 /// F and a stress, with --quantity stress, or F and its tangent, with --quantity tangent: the law alone, to round-off,
 /// without a solver. Accelerations `a` or residuals `r` at an exact state, paired with smooth functions. u, v, F at some times:
@@ -90,18 +90,20 @@ pub struct Diagnose {
     /// The time step of the solver: one for all FILEs, or one for each in their order; without it, about the Courant number 0.4.
     #[arg(long, value_name = "DT,..", value_delimiter = ',', value_parser = positive)]
     time_step: Vec<f64>,
-    /// A term that the solver was told to leave out, in accelerations or residuals. May be repeated.
+    /// A term that was switched off in the solver, in accelerations or residuals. May be repeated.
     #[arg(long, value_name = "body_force|stress|traction")]
     without: Vec<Term>,
     /// The sign of residuals: `+` is r = rho0 a - Div P - rho0 b, per reference volume.
     #[arg(long, value_name = "+|-", default_value = "+", allow_hyphen_values = true, value_parser = sign)]
     residual_sign: f64,
-    /// What residuals are: `density` is per reference volume, `nodal` is integrated with the shape function of each node, forces that
-    /// hold the tractions too.
+    /// The kind of residuals: `density` is per reference volume, `nodal` is integrated with the shape function of each node,
+    /// forces
+    /// that hold the tractions too.
     #[arg(long, value_name = "density|nodal", default_value = "density")]
     residual: Residual,
-    /// Compare with a method of this project's own solver, as in `shape=linear,integrator=usl`: any options of `mms study`
-    /// that say how to solve. The expected order is then that of this method on this field. Without it, with some methods.
+    /// Compare with a method of this project's own solver, as in `shape=linear,integrator=usl`: any options of `mms study` that
+    /// say
+    /// how to solve. The expected order is then the order of this method on this field. Without it, with some methods.
     #[arg(long, value_name = "OPTION=VALUE,..")]
     like: Option<Alike>,
     /// The order that results of two meshes and more are held to, as for `mms judge`.
@@ -128,7 +130,7 @@ pub struct Diagnose {
     output: Option<PathBuf>,
 }
 
-/// What residuals are.
+/// The kind of residuals.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Residual {
     Density,
@@ -304,7 +306,7 @@ impl Diagnose {
         })
     }
 
-    /// The orders that results of meshes are held to: as given, or those of the method that they are compared with.
+    /// The expected orders of results on meshes: as given, or the orders of the method that results are compared with.
     fn orders(
         &self,
         scene: &Scene<f64>,

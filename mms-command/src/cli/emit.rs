@@ -202,7 +202,7 @@ impl Emit {
         Ok(folder)
     }
 
-    /// What goes to stdout: the one file that a solver needs.
+    /// The text for stdout: the one file that a solver needs.
     fn printed(&self, target: &Target, bundle: &Bundle) -> anyhow::Result<Delivered> {
         if bundle.sources().len() > 1 && !self.json {
             let names: Vec<_> = bundle.files.iter().map(|file| file.name.as_str()).collect();
@@ -234,7 +234,7 @@ impl Emit {
     }
 }
 
-/// Where the files of a bundle went, or how they compare with those of a folder.
+/// The paths of the written files of a bundle, or their comparison with the files of a folder.
 #[derive(Default)]
 struct Delivered {
     texts: Option<Vec<String>>,

@@ -119,7 +119,7 @@ impl Digits for f64 {
 impl Digits for Double {
     fn read(text: &str) -> anyhow::Result<Self> {
         let near: f64 = text.parse()?;
-        // What `f64` takes and a formula does not, such as `+1` or `1.`, is read as one.
+        // Texts such as `+1` or `1.`, which `f64` parses and a formula does not, are read by `f64`.
         Ok(constant(text).map_or(Double::from(near), |exact| Double::from_rational(&exact)))
     }
 
@@ -168,8 +168,9 @@ struct Document<'a> {
     outside: Outside,
 }
 
-/// What is outside the domain that a field's claims and proofs are about: points of the body, by position, and the time. What is
-/// inside has no key.
+/// The points and times outside the domain of a field's claims and proofs: positions of points outside the body, and whether
+/// the
+/// time is outside the window. The keys are absent if nothing is outside.
 #[derive(Serialize)]
 struct Outside {
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -258,7 +259,7 @@ impl Eval {
         Ok(Outcome::AsExpected)
     }
 
-    /// What of a tensor is beyond the dimension of the field, if that was asked for.
+    /// The components of a tensor beyond the dimension of the field, if they were requested.
     fn beyond(&self, quantity: Quantity, compiled: &Compiled) -> Option<Beyond> {
         let is_asked = self.all_components && compiled.field.space.rows() < SPACE;
         Beyond::of(quantity, &compiled.model.kind).filter(|_| is_asked)
@@ -313,7 +314,7 @@ impl Eval {
         Outside { outside_body, outside_time }
     }
 
-    /// The points that are asked for.
+    /// The requested points.
     fn places<T: Digits>(&self, input: &Input, body: &Extent<f64>) -> anyhow::Result<Vec<Vec<T>>> {
         let dimension = input.compiled.field.dimension;
         let Some(path) = &self.points else {
@@ -328,7 +329,7 @@ impl Eval {
         Ok(points.reference.chunks(dimension).map(point).collect())
     }
 
-    /// Warns of each point outside the body; of those of a file once.
+    /// Warns of each point outside the body; once for all points of a file.
     fn warn_of_points(&self, input: &Input, outside: &[usize]) {
         let claims = format!(
             "outside the body: nothing is claimed or proved of `{}` there",
@@ -337,7 +338,7 @@ impl Eval {
         match (&self.points, outside) {
             (_, []) => {}
             (Some(path), [first, ..]) => say(format_args!(
-                "warning: `--points {}`: {} of its points, the first of them that of number {first}, counted from 0, \
+                "warning: `--points {}`: {} of its points, the first with the number {first}, counted from 0, \
                  lie {claims}",
                 shown(path),
                 outside.len()
@@ -424,7 +425,7 @@ fn all_components<T: Digits>(
     Ok(nine(&of(quantity)?, dimension, &value))
 }
 
-/// The programs of some quantities: one of all that the field was compiled with, and those of each on request.
+/// The programs of some quantities: one of all that the field was compiled with, and one of each that is derived on request.
 fn programs<'a>(
     input: &'a Input,
     quantities: &[Quantity],

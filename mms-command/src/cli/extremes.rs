@@ -38,7 +38,8 @@ use crate::session::progress::Progress;
 /// inverted is `unresolved`: a cell of it may hold a thousand times the material, and nothing bounds its error.
 ///
 /// Then the largest stable Courant number of each shape function, formulation, transfer and integrator, by bisection, beside
-/// that of von Neumann's analysis of the interior.
+/// the
+/// value from von Neumann's analysis of the interior.
 #[derive(Args)]
 pub struct Extremes {
     /// A gallery name, or a path to a TOML file.
@@ -78,10 +79,10 @@ impl Extremes {
             Err(reason) => bail!("{reason}"),
         };
         let dimension = declared.input.compiled.field.dimension;
-        // What is set is a default already.
+        // Values that are set became defaults already.
         let (mut method, note) = self.method.method_for(&declared.input, &[])?;
         note.iter().for_each(say);
-        // What is too large for the solver is so on any machine.
+        // A run that is too large for the solver is too large on any machine.
         method.setup.memory = None;
         let progress = Progress::new();
         let usual = Division::Uniform(usual_cells(dimension));
@@ -144,7 +145,7 @@ impl Extremes {
         self.row.is_empty() || self.row.iter().any(|row| row == name)
     }
 
-    /// The rows that were asked for.
+    /// The selected rows.
     fn select<'a>(&self, all: &'a [Row]) -> anyhow::Result<Vec<&'a Row>> {
         let names =
             || all.iter().flat_map(|row| [row.name.as_str(), row.group()]).chain([STABILITY]);
@@ -263,7 +264,7 @@ impl Extremes {
     }
 }
 
-/// What is extreme about a run.
+/// Describes the extreme setting of a run.
 fn describe(method: &Method, cells: Division, arithmetic: Arithmetic, settings: &str) -> String {
     let setup = &method.setup;
     let mut words = vec![format!("{cells} cells")];

@@ -47,14 +47,14 @@ fn drawn() -> impl TypedValueParser<Value = PathBuf> {
 }
 
 impl FigureFile {
-    /// Asks whether the file can be written: what is wrong with it is said before any work is done.
+    /// Checks that the file can be written; fails before any work is done.
     pub fn hold(&self) -> anyhow::Result<()> {
         let Some(path) = &self.figure else { return Ok(()) };
         try_to_write(path)
             .with_context(|| format!("cannot write `--figure {}`", foreign::path(path)))
     }
 
-    /// Draws a figure as wide as a page, if that was asked for, and returns its path.
+    /// Draws a figure as wide as a page, if an option requests one, and returns its path.
     pub fn write(&self, figure: impl FnOnce() -> Figure) -> anyhow::Result<Option<String>> {
         let Some(path) = &self.figure else { return Ok(None) };
         let (figure, shown) = (figure(), foreign::path(path));

@@ -1,9 +1,9 @@
 //! The observers of a run of `mms run`: its progress, what it writes (`--vtk`, `--history`, `--checkpoint`), and
 //! where it goes on from.
 //!
-//! What an observer cannot do stops the run, with exit code 3. Files appear under their names when they are whole.
-//! The first Ctrl-C, or Ctrl-\, ends the step, keeps a checkpoint and stops with exit code 3; the second one ends the
-//! process.
+//! An observer that fails stops the run, with exit code 3. Files appear under their names when they are whole. The first
+//! Ctrl-C,
+//! or Ctrl-\, ends the step, keeps a checkpoint and stops with exit code 3; the second one ends the process.
 
 use std::io::Read;
 use std::path::PathBuf;
@@ -59,7 +59,7 @@ pub struct Followers<'a> {
 }
 
 impl Followers<'_> {
-    /// Writes what is left to write.
+    /// Writes the rest of the history.
     pub fn end(&self) -> anyhow::Result<()> {
         self.history.as_ref().map_or(Ok(()), History::write)
     }
@@ -122,7 +122,7 @@ impl Observer for Followers<'_> {
         }
         Err(match &self.keeper {
             Some(keeper) => format!("interrupted; `{}` goes on from here", keeper.resuming()),
-            None => "interrupted, and no checkpoint was asked for (`--checkpoint FILE`)".into(),
+            None => "interrupted, without a checkpoint (`--checkpoint FILE` keeps one)".into(),
         })
     }
 }

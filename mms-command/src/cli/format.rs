@@ -59,7 +59,7 @@ impl Printing {
         }
     }
 
-    /// Prints a result; as text in full where that is asked for.
+    /// Prints a result; in full if `--verbose` requests it and the format is text.
     pub fn print_in(self, detail: Detail, result: &impl Shown) -> anyhow::Result<()> {
         match detail.verbose && self.is_text() {
             true => print(&result.full_text()),

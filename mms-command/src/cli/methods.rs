@@ -31,7 +31,7 @@ const LISTS: [&str; 6] = ["formulation", "shape", "integrator", "transfer", "pre
 const FROM_FIELD: [&str; 2] = ["formulation", "shape"];
 
 impl Methods {
-    /// The methods, those of the first word of each list first.
+    /// The methods, in the order of the words of each list.
     pub fn each(&self) -> &[MethodOptions] {
         &self.all
     }

@@ -67,8 +67,8 @@ use crate::terminal::{print, print_json, printed_to_the_end, say, say_styled};
 /// Exit codes: 0 done and as expected; 1 done, but a claim, check or order failed; 2 bad usage or
 /// bad input; 3 the run itself failed.
 ///
-/// The environment variable MMS_INSTRUCTIONS limits what the processor is asked for: baseline, avx2 or
-/// avx512. By default it is the most that the processor has.
+/// The environment variable MMS_INSTRUCTIONS limits the instruction set: baseline, avx2 or avx512. By
+/// default all instructions of the processor are used.
 #[derive(Parser)]
 #[command(name = "mms", version)]
 struct Arguments {
@@ -101,7 +101,7 @@ enum Command {
     Schema(schema::Schema),
 }
 
-/// How a command ended that did what it was asked to.
+/// The outcome of a command that did its work.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Outcome {
     /// Everything is as expected.
@@ -220,20 +220,19 @@ fn refused(arguments: &[OsString], error: &clap::Error) -> anyhow::Result<Outcom
     Ok(Outcome::BadInput)
 }
 
-/// Lets the value of an option begin with a sign, as in `--jitter -1`: what is wrong with it is said of it, then, and not
-/// of an unknown option `-1`.
+/// Lets the value of an option begin with a sign, as in `--jitter -1`: a wrong value is then reported as such, and not as an
+/// unknown option `-1`.
 fn with_signs(argument: Arg) -> Arg {
     let takes_one = !argument.is_positional() && argument.get_action().takes_values();
     if takes_one { argument.allow_negative_numbers(true) } else { argument }
 }
 
-/// What this command line makes of an input.
+/// The provenance of a document that this command line makes from an input.
 fn this_command(kind: &str, input: Input) -> Provenance {
     provenance::new(kind, &words(arguments()), input)
 }
 
-/// Asks whether the folder of `--output` can be made and written to: what is wrong with it is said before any work is
-/// done. Nothing is left there.
+/// Checks that the folder of `--output` can be made and written to, and fails before any work is done. Leaves nothing there.
 fn hold_output(folder: &Path) -> anyhow::Result<()> {
     let shown = foreign::path(folder);
     if folder.exists() && !folder.is_dir() {
@@ -261,7 +260,7 @@ fn spare<'a>(
     Ok(())
 }
 
-/// Where to write what is said of a field; see [`hold_output`].
+/// The output folder of a field; see [`hold_output`].
 fn output_folder(given: Option<&Path>, name: &str) -> anyhow::Result<PathBuf> {
     let own = name.trim_start_matches('.');
     let own = if own.is_empty() { "field" } else { own };

@@ -120,7 +120,7 @@ impl Run {
                 return Ok(Outcome::RunFailed);
             }
         };
-        // What cannot be written loses nothing of what can be printed.
+        // A failure to write files comes after printing, and loses no printed result.
         let states = followers.list_of_states().map(|list| foreign::path(&list));
         let mut written: Vec<String> = states.into_iter().collect();
         if self.json {
@@ -176,7 +176,7 @@ impl Run {
         Ok(())
     }
 
-    /// Who follows the run: what it writes, and where it goes on from.
+    /// The observers of the run: its outputs, and the checkpoint that it continues from.
     fn followers<'a>(
         &self,
         input: &Input,
@@ -214,7 +214,7 @@ impl Run {
         Ok(Followers { progress: progress.of(cells), vtk, history, keeper, resumed, interrupted })
     }
 
-    /// What tells this run from all others, as far as its numbers depend on it.
+    /// The identity of this run: everything that its numbers depend on.
     fn key(&self, input: &Input, method: &Method, cells: Division) -> anyhow::Result<String> {
         let mut method = method.clone();
         (method.setup.threads, method.setup.memory) = (1, None);

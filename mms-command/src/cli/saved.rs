@@ -16,8 +16,9 @@ use toml::de::{DeTable, DeValue};
 
 use super::study::Study;
 
-/// The arguments of a command line, with those of a study file in front of the others. What is also given on
-/// the command line is not taken from the file, nor what that excludes; parameters are set by both.
+/// The arguments of a command line, preceded by the arguments of its study file. An option of the file is dropped if the
+/// command
+/// line has it or excludes it; parameters are set by both.
 pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<OsString>> {
     let mut arguments: Vec<OsString> = arguments.collect();
     if arguments.get(1).is_none_or(|command| command != "study") {
@@ -71,7 +72,7 @@ impl Given {
         Self { command, options, parameters }
     }
 
-    /// Whether an option of a file is that of the command line, or excluded by one of these.
+    /// Whether an option of a file is given on the command line, or excluded by one of its options.
     fn replaces(&self, name: &str) -> bool {
         let option = |name: &str| self.command.get_opts().find(|it| it.get_long() == Some(name));
         let excludes = |one: &Arg, other: &Arg| {
@@ -104,7 +105,7 @@ fn is_option(argument: &str, name: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
 }
 
-/// The arguments that a study file stands for, but for the options that are given.
+/// The arguments of a study file, without the options that are given.
 fn options(path: &str, text: &str, given: &Given) -> anyhow::Result<Vec<OsString>> {
     let options: Vec<&str> = given.command.get_opts().filter_map(|it| it.get_long()).collect();
     let known = || options.iter().copied().filter(|name| *name != "study").chain(["field"]);

@@ -34,8 +34,9 @@ use super::{Outcome, print, print_json, say};
 ///
 /// A material with a stress at rest (P not 0 at F = I) is warned of on stderr; rest_stress in --json has the components.
 ///
-/// A comma means a derivative: F_11,X is that of F_11 by X. Long formulas are put together from
-/// parts k1, k2, ..., which are listed before they are used.
+/// A comma means a derivative: F_11,X is dF_11/dX. Long formulas are put together from parts k1, k2, ..., which are listed
+/// before
+/// they are used.
 #[derive(Args)]
 pub struct Show {
     /// A gallery name, or a path to a TOML file.
@@ -228,7 +229,7 @@ fn quantity(compiled: &Compiled, document: &Document, section: &Section) -> Show
     }
 }
 
-/// Names and what they stand for, in the order in which they are needed.
+/// Names and their formulas, in the order in which they are needed.
 fn formulas(document: &Document, lines: &[Line]) -> impl Iterator<Item = (String, String)> {
     lines.iter().flat_map(|line| {
         let formula = document.formula(line.value, &Language);

@@ -29,14 +29,17 @@ use super::{Outcome, print, print_json, spare};
 /// Write exact states: to start a solver in the middle of a motion, to look at, or to feed a solver that reads tables.
 ///
 /// A state holds X, x, u, v, F, P, sigma, the density and b at points and times; tractions P N per reference area at the points
-/// of each face, as traction_FACE, which is 0 at all others; and, where volumes are known, present and reference volume and the
-/// mass, which is density times volume. Of an axisymmetric field a point stands for a ring, whose volume and mass are per radian.
-/// `mms judge` reads it as it is. Tables and NumPy have symbols for names (X, u, F), VTK
-/// has words (reference_position, displacement), and its points are x.
+/// of
+/// each face, as traction_FACE, which is 0 at all others; and, where volumes are known, present and reference volume and the
+/// mass,
+/// which is density times volume. In an axisymmetric field a point represents a ring, whose volume and mass are per radian.
+/// `mms judge` reads it as it is. Tables and NumPy have symbols for names (X, u, F), VTK has words (reference_position,
+/// displacement), and its points are x.
 ///
-/// The data of the field that a solver needs once stand in the file, and of a table beside it, in FILE.json: the time window,
-/// how far the motion goes, and what is claimed on each face. In VTK they are field data and in NumPy arrays, called
-/// time_window, motion_lower, motion_upper and face_x_min.
+/// The file, or FILE.json beside a table, contains the data of the field that a solver needs once: the time window, the extent
+/// of
+/// the motion, and the claim on each face. In VTK they are field data and in NumPy arrays, called time_window, motion_lower,
+/// motion_upper and face_x_min.
 #[derive(Args)]
 #[command(group = ArgGroup::new("where").required(true))]
 pub struct State {
@@ -69,9 +72,11 @@ pub struct State {
     /// the stress out of the plane.
     #[arg(long)]
     all_components: bool,
-    /// Leave a term out of what the solver is given, so that its order must suffer: body_force (b = 0), stress (P, sigma and
-    /// their like 0: a solver that starts from stored stress starts without), traction (P N = 0 on every face). The motion
-    /// stays what it is: u, v and F are those of the field.
+    /// Leave a term out of the solver's input, so that its order must suffer: body_force (b = 0), stress (P, sigma and their
+    /// like 0: a
+    /// solver that starts from stored stress starts without), traction (P N = 0 on every face). The motion is unchanged: u, v
+    /// and F
+    /// are the field's.
     #[arg(long, value_name = "TERM,..", value_delimiter = ',', value_parser = terms())]
     without: Vec<Term>,
     /// Take the affine part of the motion about the middle c of the body, u(c, t) + H(c, t) (X - c). Where the material is
@@ -245,7 +250,7 @@ impl State {
     }
 }
 
-/// Refuses tractions that were asked for by name where no point has one.
+/// Refuses tractions that are requested by name if no point has one.
 fn hold_faces(quantities: &[Quantity], points: &Points, exact: &Exact) -> anyhow::Result<()> {
     let wanted = quantities.iter().find(|quantity| quantity.takes_normal());
     ensure!(

@@ -42,14 +42,15 @@ use crate::session::progress::Progress;
 ///
 /// `mms judge` and `mms campaign` judge the results of your solver.
 ///
-/// A study in time runs on one grid, 128 cells in one dimension, 32 in two and 8 in three by default. Its
-/// orders are those of the differences between a level and the next, from which the error of space is gone.
+/// A study in time runs on one grid, 128 cells in one dimension, 32 in two and 8 in three by default. Its orders are computed
+/// from
+/// the differences between a level and the next, from which the error of space is gone.
 ///
 /// Several methods, as of `--shape linear,cpgimp`, are studied one after the other and set beside each other: every
 /// combination of what is listed. Exit code 0: all pass.
 ///
-/// How many time steps it takes is said on stderr before it runs and, where that is more than a second or so, for how long, by a
-/// few steps of one run; minutes are a warning.
+/// Before it runs, stderr shows the number of time steps and, if it takes more than a second or so, an estimate of the duration
+/// from a few steps of one run; minutes are a warning.
 ///
 /// Writes convergence.svg, .csv and .json.
 #[derive(Args)]
@@ -64,8 +65,9 @@ pub struct Study {
     /// dimension, 8,16,32,64 in two and 4,8,16 in three.
     #[arg(long, value_name = "N[xN..],..", value_delimiter = ',')]
     cells: Vec<Division>,
-    /// What is refined: both, the time step with the cells by the Courant number; space, the cells alone, at a
-    /// quarter of the time step of the finest; time, the time step alone.
+    /// The refinement: both, the time step with the cells by the Courant number; space, the cells alone, at a quarter of the
+    /// time step
+    /// of the finest; time, the time step alone.
     #[arg(long, value_name = "both|space|time", default_value_t)]
     refine: Refinement,
     /// How many levels a study in time has, each with half the time step of the one before; 4 by default.
@@ -82,8 +84,7 @@ pub struct Study {
     periods: Vec<u32>,
     #[command(flatten)]
     methods: Methods,
-    /// The order to judge against. By default that of the field's [[study]] entry for the method,
-    /// else 2.
+    /// The order to judge against. By default the order of the field's [[study]] entry for the method, else 2.
     #[arg(long, value_name = "P", value_parser = finite)]
     expected_order: Option<f64>,
     /// The error constant C of l2 = C h^P, or C dt^P in time, on the finest level, to hold the verdict to as well,
@@ -131,7 +132,7 @@ struct Case {
     method: Method,
 }
 
-/// What `mms` does without arguments: the slides' bar with contiguous-particle GIMP.
+/// Runs `mms` without arguments: the slides' bar with contiguous-particle GIMP.
 pub(super) fn main_job() -> anyhow::Result<Outcome> {
     Alone::parse_from(["mms", "bar_1d"]).study.run(&["mms".to_owned()])
 }
@@ -156,7 +157,7 @@ pub fn studies(
 }
 
 impl Study {
-    /// Runs it, by these words of a command line; those of a study file among them.
+    /// Runs the study, with these words of a command line, including the words of a study file.
     pub(super) fn run(self, words: &[String]) -> anyhow::Result<Outcome> {
         self.validate()?;
         let progress = Progress::new();
@@ -191,7 +192,7 @@ impl Study {
         Ok(report.studies.into_iter().next().filter(Report::is_started))
     }
 
-    /// What is studied, one case at least: what cannot be is said before anything runs.
+    /// The cases to study, one at least; reports impossible ones before anything runs.
     fn cases(&self, open: Open<'_>, progress: &dyn Follow) -> anyhow::Result<Vec<Case>> {
         let mut inputs = BTreeMap::new();
         let mut cases = Vec::new();
@@ -430,7 +431,7 @@ impl Study {
         Ok(())
     }
 
-    /// The levels, and the fit of space and time if it is asked for.
+    /// The levels, and the fit of space and time if an option requests it.
     fn solve<T: Solvable>(
         &self,
         scene: &Scene<T>,
@@ -482,7 +483,7 @@ impl Study {
         (levels, found)
     }
 
-    /// What will be run, unless a level is refused; in space with time steps that are still to be those of the finest.
+    /// The planned runs, unless a level is refused; in space, their time steps are still to be replaced by the finest level's.
     fn planned<T: Real>(
         &self,
         scene: &Scene<T>,

@@ -44,14 +44,15 @@ pub struct Tradeoff {
     /// A gallery name, or a path to a TOML file.
     #[arg(required_unless_present = "page")]
     field: Option<String>,
-    /// The largest error to be met at the least cost; by default that of `mms run` without options.
+    /// The largest error to be met at the least cost; by default the error of `mms run` without options.
     #[arg(long, value_name = "E", value_parser = positive)]
     target_linf: Option<f64>,
     /// The time in which to have the least error.
     #[arg(long, value_name = "S", conflicts_with = "target_linf", value_parser = positive)]
     budget_seconds: Option<f64>,
-    /// What is to be small: seconds are particle-steps times what one takes with the method here; particle-steps
-    /// and memory decide in the same way on every machine.
+    /// The cost to minimise: seconds are particle-steps times the time of one with the method here; particle-steps and memory
+    /// decide in
+    /// the same way on every machine.
     #[arg(long, value_enum, default_value_t)]
     cost: Cost,
     /// Begin no run that is predicted to take more particle-steps.
@@ -99,7 +100,7 @@ impl Tradeoff {
         let mut bench = Bench { trials: &mut trials, field, set: &self.set, motion: &self.motion };
         let target = self.target_linf.map(Goal::Error);
         let goal = target.or_else(|| self.budget_seconds.map(Goal::Cost));
-        // Without a goal, any error will do until that of the default is known.
+        // Without a goal, any error is accepted until the error of the default is known.
         let mut plan = self.plan(&input, goal.unwrap_or(Goal::Error(f64::INFINITY)))?;
         if goal.is_none() {
             plan.goal = bench.usual(&plan)?;

@@ -135,7 +135,7 @@ impl Verify {
         )
     }
 
-    /// The rows that were asked for.
+    /// The selected rows.
     fn select<'a>(&self, all: &'a [Row]) -> anyhow::Result<Vec<&'a Row>> {
         let is = |row: &Row, name: &str| row.name == name || row.group() == name;
         for name in &self.row {
@@ -215,7 +215,7 @@ impl Progress {
 impl Watcher for Progress {
     fn found(&self, job: &Job) {
         self.count();
-        // What was there takes no time, and says nothing of what is left.
+        // A stored result takes no time, and does not change the estimate for the remaining runs.
         self.bar.dec_length(self.units(job, 1, 1));
     }
 

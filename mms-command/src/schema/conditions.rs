@@ -1,5 +1,4 @@
-//! What one value of a field file says about others: how many components there are, which faces,
-//! which parameters of a material.
+//! Conditions between values of a field file: the number of components, the faces, the parameters of a material.
 
 use mms_exact::gallery;
 use mms_spec::format;
@@ -12,7 +11,7 @@ use serde_json::{Map, Value, json};
 
 use super::holds::{count, extend};
 
-/// All of them.
+/// All conditions.
 pub fn of_field() -> Value {
     let dimensions = (1..=3).flat_map(|dimension| {
         [in_dimension(dimension), in_cartesian(dimension), box_faces(dimension)]
@@ -28,8 +27,8 @@ fn if_then(condition: Value, consequence: Value) -> Value {
     json!({ "if": condition, "then": consequence })
 }
 
-/// What is true of a file in which all these keys (of a path such as `field.dimension`) are there
-/// and of these schemas. Without the keys nothing would be asked, and anything true.
+/// A schema of files that have all these keys (each with a path such as `field.dimension`), with values of these schemas. It
+/// requires the keys, because a schema without them holds for any file.
 fn has(values: &[(&str, Value)]) -> Value {
     let mut all: Vec<Value> = Vec::new();
     for (path, schema) in values {
@@ -45,12 +44,12 @@ fn has(values: &[(&str, Value)]) -> Value {
     }
 }
 
-/// What is asked of the value at a path, if it is there.
+/// A schema of the value at a path, if it is there.
 fn at(path: &str, schema: Value) -> Value {
     path.rsplit('.').fold(schema, |nested, key| json!({ "properties": { key: nested } }))
 }
 
-/// All of what is asked.
+/// A schema that requires all of the schemas.
 fn all(schemas: impl IntoIterator<Item = Value>) -> Value {
     json!({ "allOf": schemas.into_iter().collect::<Vec<_>>() })
 }

@@ -1,4 +1,4 @@
-//! What a key holds, as a schema of its value.
+//! The schema of the value of a key.
 
 use mms_codegen::materials::MATERIALS;
 use mms_spec::format::{self, Holds, Key, Length, quantities};

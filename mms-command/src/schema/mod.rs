@@ -1,9 +1,9 @@
-//! The JSON Schemas of field files and of material files, for editors, and those of documents.
+//! The JSON Schemas of field files, of material files and of documents, for editors.
 //!
-//! Schemas of files are made of the table that the reader takes its keys from
-//! ([`mms_spec::format`]) and of the reader's own lists of words. What JSON Schema can
-//! say, they say as the reader does; what it cannot (what a formula means, whether a name is
-//! defined, whether cells increase) is left to `mms check`.
+//! Schemas of files are made from the table of keys that the reader uses ([`mms_spec::format`]) and from the reader's own lists
+//! of
+//! words. They agree with the reader in everything that JSON Schema can express; the rest (the meaning of a formula, whether a
+//! name is defined, whether cells increase) is left to `mms check`.
 //!
 //! The dialect is draft 2020-12. Since editors lag behind, only keywords are used that meant the
 //! same in draft 7, and no references.

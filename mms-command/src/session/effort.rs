@@ -1,4 +1,4 @@
-//! What runs will take: how many steps, said before them, and how long, by a few steps of one of them.
+//! The effort of runs: the number of steps, and the duration estimated from a few steps of one run.
 
 use std::time::{Duration, Instant};
 
@@ -11,7 +11,7 @@ const WORTH_A_TRIAL: f64 = 5e6;
 const PARTICLES: usize = 4000;
 const STEPS: usize = 6;
 
-/// What takes longer is warned of.
+/// The duration above which a warning is printed.
 const LONG: Duration = Duration::from_secs(120);
 
 /// Follows a run to some step, at which it ends.
@@ -60,8 +60,8 @@ impl Observer for Trial {
     }
 }
 
-/// The effort of runs in a sentence, coarse to fine or fine to coarse, of which each begins as `begin` begins it. With `in_step`
-/// all take the time step of the finest. Nothing where one cannot be started, which is said where it is.
+/// The effort of runs in a sentence, coarse to fine or fine to coarse; `begin` begins each run. With `in_step` all runs use the
+/// time step of the finest. `None` if a run cannot be started, which is reported when it is run.
 pub fn estimate(count: usize, in_step: bool, begin: impl Fn(usize, &mut Trial)) -> Option<String> {
     let sizes: Option<Vec<_>> = (0..count)
         .map(|run| {
@@ -110,7 +110,7 @@ fn sentence(sizes: &[Size], took: Option<Duration>) -> String {
     }
 }
 
-/// A time as it is said.
+/// A duration in words.
 fn words(time: Duration) -> String {
     match time.as_secs() {
         0 => "a second".into(),

@@ -1,5 +1,5 @@
-//! What commands have in common: the field that is given and its variants, its values at many points, the options of a
-//! method, the time steps that are stable, what runs will take, and progress.
+//! The common parts of commands: the given field and its variants, its values at many points, the options of a method, stable
+//! time steps, the effort of runs, and progress.
 
 pub(crate) mod effort;
 pub(crate) mod progress;

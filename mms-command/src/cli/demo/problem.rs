@@ -1,4 +1,4 @@
-// What the solver is given, at a time t and a reference position X.
+// The inputs of the solver, at a time t and a reference position X.
 
 /// The exact motion, which is taken at the start, and the loads that follow from it.
 pub trait Problem {

@@ -69,7 +69,7 @@ pub fn solve(problem: &impl Problem, cells: usize, end: f64) -> Vec<[[f64; 2]; 2
                 }
             }
         }
-        // All nodes but those of the base.
+        // All nodes above the base.
         let kick = if step == 0 { dt / 2.0 } else { dt };
         for node in row..row * row {
             for i in 0..2 {

@@ -23,11 +23,11 @@ pub fn write(folder: &Path, file: &File) -> anyhow::Result<Foreign> {
 /// How a file in a folder compares with what would be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
-    /// The same bytes.
+    /// A file with the same bytes.
     Current,
-    /// Other bytes.
+    /// A file with other bytes.
     Stale,
-    /// No such file.
+    /// A missing file.
     Missing,
 }
 
@@ -45,7 +45,7 @@ impl State {
 /// Compares a file with that in a folder.
 pub fn compare(folder: &Path, file: &File) -> anyhow::Result<(Foreign, State)> {
     let path = folder.join(&file.name);
-    // What is longer is not the same.
+    // One more byte is read, so that a longer file differs.
     let state = match read::first(&path, file.text.len() as u64 + 1) {
         Ok(bytes) if bytes == file.text.as_bytes() => State::Current,
         Ok(_) => State::Stale,

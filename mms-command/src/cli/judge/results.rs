@@ -52,11 +52,12 @@ pub struct Options {
     #[arg(long, value_name = "points|cells", requires = "field", value_parser = Over::of)]
     over: Option<Over>,
     /// Print how each FILE is read and why, and judge nothing: its format, times, points and cells, the array of each quantity,
-    /// the order of components, and what is left out.
+    /// the order of components, and the omitted content.
     #[arg(long, requires = "field", conflicts_with = "figure")]
     explain: bool,
-    /// The times to judge at, also in place of those that files print with fewer digits; or those of the results, where files
-    /// have none.
+    /// The times to judge at, also in place of times that files print with fewer digits; or the times of the results, if files
+    /// have
+    /// none.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
     time: Vec<f64>,
     /// Judge all nine components of tensors, of plane strain in two dimensions and of uniaxial strain in one: F_33 = 1, and
@@ -78,13 +79,16 @@ pub struct Options {
     set: Vec<String>,
     #[command(flatten)]
     variant: Variant,
-    /// Compare the errors with those of the same meshes in a judgement that --output wrote: they may change by 1 %. One coarse
+    /// Compare the errors with the errors on the same meshes in a judgement that --output wrote: they may change by 1 %. One
+    /// coarse
     /// mesh takes seconds, and shows that nothing has changed.
     #[arg(long, value_name = "JSON", conflicts_with = "figure")]
     baseline: Option<PathBuf>,
-    /// Compare two results of one run, as of other ranks, precision or after a restart: the largest differences, and where
-    /// they are. Points are paired by the numbers that both files give them (`id`, `GlobalNodeIds`, ..), or by X, else in their
-    /// order; several in one place may stand for one. Takes no FIELD.
+    /// Compare two results of one run, as of other ranks, precision or after a restart: the largest differences, and where they
+    /// are.
+    /// Points are paired by the numbers that both files give them (`id`, `GlobalNodeIds`, ..), or by X, else in their order;
+    /// several
+    /// points in one place may be paired with one. Takes no FIELD.
     #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with_all = ["field", "files", "errors", "figure"])]
     same: Vec<String>,
 }
@@ -159,7 +163,7 @@ impl Judge {
         Ok(Outcome::AsExpected)
     }
 
-    /// The names of arrays, and the quantities that are asked for.
+    /// The names of arrays, and the requested quantities.
     fn asked(&self, exact: &Exact) -> anyhow::Result<(Names, Vec<Quantity>)> {
         let wanted = match self.results.quantity.as_slice() {
             [] => Vec::new(),

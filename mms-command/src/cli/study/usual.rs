@@ -7,8 +7,8 @@ use mms_spec::{Body, FieldSpec};
 
 use super::super::methods::Given;
 
-/// The formulation and the shape function for a field: on a box of two or three dimensions nothing crosses cells of the
-/// reference body; a bar and a round body have those of the file's first `[[study]]`, if it has one.
+/// The formulation and the shape function for a field: on a box of two or three dimensions particles stay in their cells of the
+/// reference body; for a bar or a round body, the file's first `[[study]]` decides, if it has one.
 fn usual(field: &FieldSpec) -> (FormulationName, ShapeName) {
     let is_box = is_box(field);
     let named = field.studies.first().filter(|_| !is_box || field.dimension == 1);
