@@ -1,8 +1,7 @@
 //! States of a run for ParaView: one `.vtu` file each, and a `.pvd` file that says when they were.
 //!
 //! The XML formats of "VTK File Formats" (Kitware, 2023), particles as vertices, numbers in base64. A file appears under its
-//! name
-//! when it is whole, and the list is written anew with each state: after any stop of a run, its files can be opened.
+//! name when it is whole, and the list is written anew with each state: after any stop of a run, its files can be opened.
 //! `.ci/states.py` reads them with meshio.
 
 use std::io::{BufWriter, Write as _};

@@ -103,8 +103,8 @@ fn the_first_level_has_no_orders_and_the_next_have_theirs() {
     assert_eq!(document["verdict"], "pass");
 }
 
-/// Orders of v, F and P are in the document too; the orders of u are in its levels.
-/// Orders are between neighbours, and each level is finer than the one before.
+/// Orders of v, F and P are in the document too; the orders of u are in its levels. Orders are between neighbours, and each
+/// level is finer than the one before.
 #[test]
 fn levels_stand_in_the_order_of_their_cells_however_they_are_given() {
     let study = "study axis_aligned_2d --cells 32,8,64x16,24x24 --json";

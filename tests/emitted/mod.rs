@@ -1,6 +1,5 @@
 //! Files that `mms emit` writes, in a program that has only them and `mms-math`: it compiles without a warning, and computes
-//! the
-//! bits of the interpreter.
+//! the bits of the interpreter.
 
 use std::fs;
 use std::io::Write as _;

@@ -26,11 +26,10 @@ use super::{Outcome, hold_output, say, this_command};
 /// twice double precision, in the stable and the fast form, as declared and at extremes.
 ///
 /// The table shows, for each quantity, precision and form, the regime with the largest error. Errors are in eps of the
-/// precision
-/// (2^-23, 2^-52, 2^-104): the median, the bound for 99 of 100 components, and the largest |error|/|value|; then the largest
-/// |error| over the largest |value| of the quantity. Components that are not finite are counted separately, and excluded from
-/// errors. A field takes about a minute of processor time, a few at most, nearly all of it for the functions of the reference;
-/// --quantity, --regime, --precision and --points shorten that.
+/// precision (2^-23, 2^-52, 2^-104): the median, the bound for 99 of 100 components, and the largest |error|/|value|; then the
+/// largest |error| over the largest |value| of the quantity. Components that are not finite are counted separately, and
+/// excluded from errors. A field takes about a minute of processor time, a few at most, nearly all of it for the functions of
+/// the reference; --quantity, --regime, --precision and --points shorten that.
 ///
 /// Exit code 1 if the stable form exceeds 64 eps of the largest value where it promises not to: as declared, and at
 /// displacements down to 1e-12 of the size; and if that cannot be measured, or nothing can. Numbers that were not measured are

@@ -65,8 +65,7 @@ pub struct Campaign {
     #[arg(long, conflicts_with = "figure")]
     dry_run: bool,
     /// Print a command for each run that is not done yet, which makes it and keeps its result, for a scheduler that runs
-    /// commands
-    /// on other machines; run nothing. They share the folder of --store.
+    /// commands on other machines; run nothing. They share the folder of --store.
     #[arg(long, conflicts_with_all = ["dry_run", "figure"])]
     list: bool,
     /// Propose studies from what the solver says that it `can`: the fewest fields of the gallery that show all which any

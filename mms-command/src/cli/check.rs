@@ -37,8 +37,7 @@ pub struct Check {
     #[arg(value_name = "FIELD", required = true)]
     files: Vec<String>,
     /// Fix a parameter at a value: a number, or a formula in the parameters above it. Proofs then cover this value only, not
-    /// the
-    /// parameter's range; may be repeated.
+    /// the parameter's range; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Run Newton's method on static fields, on a coarse mesh: does it stay at the exact state, and come to it from zero?

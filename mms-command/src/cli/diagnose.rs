@@ -97,13 +97,11 @@ pub struct Diagnose {
     #[arg(long, value_name = "+|-", default_value = "+", allow_hyphen_values = true, value_parser = sign)]
     residual_sign: f64,
     /// The kind of residuals: `density` is per reference volume, `nodal` is integrated with the shape function of each node,
-    /// forces
-    /// that hold the tractions too.
+    /// forces that hold the tractions too.
     #[arg(long, value_name = "density|nodal", default_value = "density")]
     residual: Residual,
     /// Compare with a method of this project's own solver, as in `shape=linear,integrator=usl`: any options of `mms study` that
-    /// say
-    /// how to solve. The expected order is then the order of this method on this field. Without it, with some methods.
+    /// say how to solve. The expected order is then the order of this method on this field. Without it, with some methods.
     #[arg(long, value_name = "OPTION=VALUE,..")]
     like: Option<Alike>,
     /// The order that results of two meshes and more are held to, as for `mms judge`.

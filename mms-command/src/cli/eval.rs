@@ -169,8 +169,7 @@ struct Document<'a> {
 }
 
 /// The points and times outside the domain of a field's claims and proofs: positions of points outside the body, and whether
-/// the
-/// time is outside the window. The keys are absent if nothing is outside.
+/// the time is outside the window. The keys are absent if nothing is outside.
 #[derive(Serialize)]
 struct Outside {
     #[serde(skip_serializing_if = "Vec::is_empty")]

@@ -38,8 +38,7 @@ use crate::session::progress::Progress;
 /// inverted is `unresolved`: a cell of it may hold a thousand times the material, and nothing bounds its error.
 ///
 /// Then the largest stable Courant number of each shape function, formulation, transfer and integrator, by bisection, beside
-/// the
-/// value from von Neumann's analysis of the interior.
+/// the value from von Neumann's analysis of the interior.
 #[derive(Args)]
 pub struct Extremes {
     /// A gallery name, or a path to a TOML file.

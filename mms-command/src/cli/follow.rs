@@ -2,8 +2,7 @@
 //! where it goes on from.
 //!
 //! An observer that fails stops the run, with exit code 3. Files appear under their names when they are whole. The first
-//! Ctrl-C,
-//! or Ctrl-\, ends the step, keeps a checkpoint and stops with exit code 3; the second one ends the process.
+//! Ctrl-C, or Ctrl-\, ends the step, keeps a checkpoint and stops with exit code 3; the second one ends the process.
 
 use std::io::Read;
 use std::path::PathBuf;

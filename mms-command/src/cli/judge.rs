@@ -25,8 +25,7 @@ use crate::provenance::Input;
 ///
 /// Results of a FIELD are one FILE for each mesh. Their errors are measured over cells if there are any, otherwise over points.
 /// Two of X, x and u give the third; --map gives the meaning of unknown names. Tractions P N belong to a face, as
-/// traction_x_max,
-/// or come with unit normals N.
+/// traction_x_max, or come with unit normals N.
 ///
 /// The table of --errors has a header and a row for each run: `h`, `dt` where it is known, and errors in columns of any names. Several
 /// rows of one h are replicates, of other grid offsets or seeds. l1, l2, linf, H1, and what people call them (mean, rms,
@@ -63,12 +62,10 @@ pub struct Judge {
     #[command(flatten)]
     results: results::Options,
     /// The order to judge against: without it 2, and for results one more than the degree of their cells. H1 has the degree of
-    /// the
-    /// cells at most, or one less than this order in a table. Stresses and strains in cells have at least the order of H1;
-    /// --start
-    /// determines the orders of v and a. NAME is a norm, a quantity, QUANTITY:NORM or a column, whose order is then this one;
-    /// H1 of a
-    /// quantity follows from it as above. `time` is the order in dt where h and dt are refined each by itself.
+    /// the cells at most, or one less than this order in a table. Stresses and strains in cells have at least the order of H1;
+    /// --start determines the orders of v and a. NAME is a norm, a quantity, QUANTITY:NORM or a column, whose order is then
+    /// this one; H1 of a quantity follows from it as above. `time` is the order in dt where h and dt are refined each by
+    /// itself.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',')]
     expected_order: Vec<Order>,
     /// How far the observed order may be from the expected one.

@@ -18,8 +18,7 @@ pub fn typed() -> Words {
 }
 
 /// The words of a command with other values of some options: old options of the same names are removed, but an old `set` only
-/// if
-/// it sets the same parameter.
+/// if it sets the same parameter.
 pub fn changed(words: &[String], options: &[(&str, String)]) -> Words {
     let replaces = |name: &str, value: Option<&String>| {
         let parameter = |it: &str| it.split_once('=').map(|(name, _)| name.trim().to_owned());
@@ -95,8 +94,7 @@ pub fn after_search(
 }
 
 /// Sets the next command of each judgement of a campaign, and returns the next command of the campaign, whose command so far
-/// has
-/// these words: a diagnosis, or the commands of runs that failed.
+/// has these words: a diagnosis, or the commands of runs that failed.
 pub fn after_campaign(studies: &mut [Judged<'_>], here: &Path, words: &[String]) -> Option<Words> {
     for study in studies.iter_mut() {
         let Some(judgements) = &study.judgements else { continue };

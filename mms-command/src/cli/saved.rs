@@ -17,8 +17,7 @@ use toml::de::{DeTable, DeValue};
 use super::study::Study;
 
 /// The arguments of a command line, preceded by the arguments of its study file. An option of the file is dropped if the
-/// command
-/// line has it or excludes it; parameters are set by both.
+/// command line has it or excludes it; parameters are set by both.
 pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<OsString>> {
     let mut arguments: Vec<OsString> = arguments.collect();
     if arguments.get(1).is_none_or(|command| command != "study") {

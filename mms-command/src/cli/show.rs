@@ -35,8 +35,7 @@ use super::{Outcome, print, print_json, say};
 /// A material with a stress at rest (P not 0 at F = I) is warned of on stderr; rest_stress in --json has the components.
 ///
 /// A comma means a derivative: F_11,X is dF_11/dX. Long formulas are put together from parts k1, k2, ..., which are listed
-/// before
-/// they are used.
+/// before they are used.
 #[derive(Args)]
 pub struct Show {
     /// A gallery name, or a path to a TOML file.

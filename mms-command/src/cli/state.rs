@@ -29,16 +29,14 @@ use super::{Outcome, print, print_json, spare};
 /// Write exact states: to start a solver in the middle of a motion, to look at, or to feed a solver that reads tables.
 ///
 /// A state holds X, x, u, v, F, P, sigma, the density and b at points and times; tractions P N per reference area at the points
-/// of
-/// each face, as traction_FACE, which is 0 at all others; and, where volumes are known, present and reference volume and the
-/// mass,
-/// which is density times volume. In an axisymmetric field a point represents a ring, whose volume and mass are per radian.
+/// of each face, as traction_FACE, which is 0 at all others; and, where volumes are known, present and reference volume and the
+/// mass, which is density times volume. In an axisymmetric field a point represents a ring, whose volume and mass are per
+/// radian.
 /// `mms judge` reads it as it is. Tables and NumPy have symbols for names (X, u, F), VTK has words (reference_position,
 /// displacement), and its points are x.
 ///
 /// The file, or FILE.json beside a table, contains the data of the field that a solver needs once: the time window, the extent
-/// of
-/// the motion, and the claim on each face. In VTK they are field data and in NumPy arrays, called time_window, motion_lower,
+/// of the motion, and the claim on each face. In VTK they are field data and in NumPy arrays, called time_window, motion_lower,
 /// motion_upper and face_x_min.
 #[derive(Args)]
 #[command(group = ArgGroup::new("where").required(true))]
@@ -73,10 +71,8 @@ pub struct State {
     #[arg(long)]
     all_components: bool,
     /// Leave a term out of the solver's input, so that its order must suffer: body_force (b = 0), stress (P, sigma and their
-    /// like 0: a
-    /// solver that starts from stored stress starts without), traction (P N = 0 on every face). The motion is unchanged: u, v
-    /// and F
-    /// are the field's.
+    /// like 0: a solver that starts from stored stress starts without), traction (P N = 0 on every face). The motion is
+    /// unchanged: u, v and F are the field's.
     #[arg(long, value_name = "TERM,..", value_delimiter = ',', value_parser = terms())]
     without: Vec<Term>,
     /// Take the affine part of the motion about the middle c of the body, u(c, t) + H(c, t) (X - c). Where the material is

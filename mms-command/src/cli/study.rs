@@ -43,8 +43,7 @@ use crate::session::progress::Progress;
 /// `mms judge` and `mms campaign` judge the results of your solver.
 ///
 /// A study in time runs on one grid, 128 cells in one dimension, 32 in two and 8 in three by default. Its orders are computed
-/// from
-/// the differences between a level and the next, from which the error of space is gone.
+/// from the differences between a level and the next, from which the error of space is gone.
 ///
 /// Several methods, as of `--shape linear,cpgimp`, are studied one after the other and set beside each other: every
 /// combination of what is listed. Exit code 0: all pass.
@@ -66,8 +65,7 @@ pub struct Study {
     #[arg(long, value_name = "N[xN..],..", value_delimiter = ',')]
     cells: Vec<Division>,
     /// The refinement: both, the time step with the cells by the Courant number; space, the cells alone, at a quarter of the
-    /// time step
-    /// of the finest; time, the time step alone.
+    /// time step of the finest; time, the time step alone.
     #[arg(long, value_name = "both|space|time", default_value_t)]
     refine: Refinement,
     /// How many levels a study in time has, each with half the time step of the one before; 4 by default.

@@ -51,8 +51,7 @@ pub struct Tradeoff {
     #[arg(long, value_name = "S", conflicts_with = "target_linf", value_parser = positive)]
     budget_seconds: Option<f64>,
     /// The cost to minimise: seconds are particle-steps times the time of one with the method here; particle-steps and memory
-    /// decide in
-    /// the same way on every machine.
+    /// decide in the same way on every machine.
     #[arg(long, value_enum, default_value_t)]
     cost: Cost,
     /// Begin no run that is predicted to take more particle-steps.

@@ -1,9 +1,8 @@
 //! The JSON Schemas of field files, of material files and of documents, for editors.
 //!
 //! Schemas of files are made from the table of keys that the reader uses ([`mms_spec::format`]) and from the reader's own lists
-//! of
-//! words. They agree with the reader in everything that JSON Schema can express; the rest (the meaning of a formula, whether a
-//! name is defined, whether cells increase) is left to `mms check`.
+//! of words. They agree with the reader in everything that JSON Schema can express; the rest (the meaning of a formula, whether
+//! a name is defined, whether cells increase) is left to `mms check`.
 //!
 //! The dialect is draft 2020-12. Since editors lag behind, only keywords are used that meant the
 //! same in draft 7, and no references.

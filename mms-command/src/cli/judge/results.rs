@@ -56,8 +56,7 @@ pub struct Options {
     #[arg(long, requires = "field", conflicts_with = "figure")]
     explain: bool,
     /// The times to judge at, also in place of times that files print with fewer digits; or the times of the results, if files
-    /// have
-    /// none.
+    /// have none.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
     time: Vec<f64>,
     /// Judge all nine components of tensors, of plane strain in two dimensions and of uniaxial strain in one: F_33 = 1, and
@@ -85,10 +84,8 @@ pub struct Options {
     #[arg(long, value_name = "JSON", conflicts_with = "figure")]
     baseline: Option<PathBuf>,
     /// Compare two results of one run, as of other ranks, precision or after a restart: the largest differences, and where they
-    /// are.
-    /// Points are paired by the numbers that both files give them (`id`, `GlobalNodeIds`, ..), or by X, else in their order;
-    /// several
-    /// points in one place may be paired with one. Takes no FIELD.
+    /// are. Points are paired by the numbers that both files give them (`id`, `GlobalNodeIds`, ..), or by X, else in their
+    /// order; several points in one place may be paired with one. Takes no FIELD.
     #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with_all = ["field", "files", "errors", "figure"])]
     same: Vec<String>,
 }
