@@ -20,10 +20,10 @@ use mms_symbolic::sorted::SortedMap;
 use crate::Input;
 use crate::plane::{Beyond, NEEDED, SPACE, nine};
 
-/// What part of the time window two times may differ by that are one: sums of time steps round.
+/// The part of the time window by which two equal times may differ, because sums of time steps round.
 pub const SAME: f64 = 1e-9;
 
-/// The distance beyond the body that a point may have, as a part of the distance of points.
+/// The largest distance of a point beyond the body, as a part of the distance between points.
 const BEYOND: f64 = 1.0 / 32.0;
 
 /// A field with numbers for its parameters.
@@ -34,17 +34,17 @@ pub struct Exact {
     parameters: Vec<f64>,
     /// The coordinates of a point.
     pub dimension: usize,
-    /// Its time window.
+    /// The time window of the field.
     pub window: [f64; 2],
-    /// Its body.
+    /// The body of the field.
     pub body: Extent<f64>,
-    /// Rows of tensors: those of the field's coordinates, or three.
+    /// The number of rows of tensors: one per coordinate of the field, or three.
     tensors: usize,
     prepared: BTreeMap<Output, AtPoints>,
 }
 
 impl Exact {
-    /// Of a field with `name=value` settings.
+    /// The solution of a field with `name=value` settings.
     ///
     /// # Errors
     /// Settings that it does not have.
@@ -72,7 +72,7 @@ impl Exact {
         self.input.scene_with(&self.set, |code| code.double)
     }
 
-    /// The same, whose tensors have all nine components if that is asked for.
+    /// The solution, whose tensors have all nine components if `is_asked`.
     pub fn in_space_if(self, is_asked: bool) -> Self {
         let tensors = if is_asked { SPACE } else { self.tensors };
         Exact { tensors, ..self }
@@ -93,8 +93,8 @@ impl Exact {
         self.space() == Space::Axisymmetric { swirl: true }
     }
 
-    /// The factor by which each of these places counts in a mean over the body: its radius, where each stands for a ring. None
-    /// if all count alike.
+    /// The factor by which each point counts in a mean over the body: its radius, if points represent rings. `None` if all
+    /// count alike.
     pub fn radii(&self, points: &[f64]) -> Option<Vec<f64>> {
         let is_ring = self.space().is_axisymmetric();
         is_ring.then(|| points.chunks(self.dimension).map(|point| point[0]).collect())
@@ -105,13 +105,13 @@ impl Exact {
         &self.input
     }
 
-    /// The edge of a cube (square, length) that each of so many points has of the body.
+    /// The edge of the cube (square, length) that each of `points` points has of the body.
     pub fn spacing(&self, points: usize) -> f64 {
         (self.body.measure() / points as f64).powf(1.0 / self.dimension as f64)
     }
 
-    /// X of what is at x at a time, by the inverse of the motion: none if no point of the body is there. Of so many points,
-    /// one may be beyond the body by a small part of their distance, and is on its boundary then.
+    /// X of the point that is at x at a time, by the inverse of the motion: `None` if no point of the body is there. A point
+    /// may be beyond the body by a small part of the distance between `points` points, and is then moved to its boundary.
     pub fn back(
         &self,
         time: f64,
@@ -133,17 +133,17 @@ impl Exact {
         }
     }
 
-    /// Its name and its title, for a person.
+    /// The name and the title of the field, for a person.
     pub fn title(&self) -> String {
         format!("{}: {}", self.input.name.shown(), self.input.compiled.field.title.shown())
     }
 
-    /// Whether the material is one of the small strain, with one stress and one configuration.
+    /// Whether the material is of small strain, with one stress and one configuration.
     pub fn is_small_strain(&self) -> bool {
         self.input.compiled.model.kind == Kind::SmallStrain
     }
 
-    /// The numbers of a quantity in a point.
+    /// The number of components of a quantity at a point.
     pub fn components(&self, quantity: Quantity) -> usize {
         match quantity.shape() {
             Shape::Tensor => self.tensors * self.tensors,
@@ -151,7 +151,7 @@ impl Exact {
         }
     }
 
-    /// A quantity at points X, whose coordinates stand one after the other.
+    /// A quantity at points X, whose coordinates follow one after the other.
     ///
     /// # Errors
     /// A quantity on request that is too large to derive.
@@ -184,7 +184,7 @@ impl Exact {
         self.output(Output::Quantity(quantity), components, time, [points, &[]])
     }
 
-    /// Tensors with what is beyond the dimension of the field.
+    /// Tensors with the components beyond the dimension of the field.
     fn with_all_components(
         &mut self,
         own: &[f64],
@@ -268,7 +268,7 @@ impl Exact {
         self.output(Output::Quantity(quantity), components, time, [points, normals])
     }
 
-    /// The points on each face that has such, by position; how far each coordinate may be from what was meant.
+    /// The points on each face that has any, by position; `rounding` is the largest error of a coordinate.
     pub fn faces(&self, points: &[f64], rounding: f64) -> Vec<(Face, Vec<usize>)> {
         let (dimension, near) = (self.dimension, near(points, rounding));
         let on = |face: &Face| -> Vec<usize> {
@@ -289,7 +289,7 @@ impl Exact {
         parts
     }
 
-    /// Whether a point lies on a face; how far each coordinate may be from what was meant.
+    /// Whether a point lies on a face; `rounding` is the largest error of a coordinate.
     pub fn is_on_face(&self, point: &[f64], rounding: f64) -> bool {
         let near = near(point, rounding);
         let field = &self.input.compiled.field;
@@ -297,7 +297,7 @@ impl Exact {
         faces.into_iter().any(|face| self.body.distance_to(face, point) <= near)
     }
 
-    /// Whether all points lie on faces with one of these claims; how far each coordinate may be from what was meant.
+    /// Whether all points lie on faces with one of these claims; `rounding` is the largest error of a coordinate.
     pub fn are_on(&self, claims: &[Claim], points: &[f64], rounding: f64) -> bool {
         let near = near(points, rounding);
         let boundary = self.input.compiled.field.boundary.iter();
@@ -328,7 +328,7 @@ impl Exact {
 static THREADS: LazyLock<usize> =
     LazyLock::new(|| std::thread::available_parallelism().map_or(1, usize::from));
 
-/// Why X of a place is not known.
+/// The reason why X of a point is not known.
 pub fn says(why: &Unplaced) -> String {
     match why {
         Unplaced::Outside => "no point of the body is there at that time".into(),
@@ -341,11 +341,11 @@ pub fn says(why: &Unplaced) -> String {
     }
 }
 
-/// Why x of a field with a swirl tells no X.
+/// The reason why x of a field with a swirl does not determine X.
 pub const TURNS: &str =
     "points of the body move along the hoop, and R and Z of x do not tell which of them is there";
 
-/// How far points may be from a face that are on it.
+/// The largest distance from a face of points that are on it.
 fn near(points: &[f64], rounding: f64) -> f64 {
     let size = points.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
     4.0 * rounding + 8.0 * f64::EPSILON * size

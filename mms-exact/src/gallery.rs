@@ -28,7 +28,7 @@ pub struct Entry {
 pub const FIELDS: &[Entry] = include!(concat!(env!("OUT_DIR"), "/fields.rs"));
 
 impl Entry {
-    /// Compiles the text again, for what the generated module does not hold.
+    /// Compiles the text again, for data that the generated module does not contain.
     pub fn compile(&self) -> Result<Compiled, Failure> {
         self.compile_with(&Options::default())
     }
@@ -50,7 +50,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     FIELDS.iter().find(|entry| entry.name == name)
 }
 
-/// What the files of the shipped fields say, in the order of their names. Nothing is derived.
+/// The parsed files of the shipped fields, in the order of their names. Nothing is derived.
 pub fn fields() -> Vec<FieldSpec> {
     let mut sources = Sources::default();
     let fields = FIELDS.iter().filter_map(|entry| {
@@ -60,8 +60,8 @@ pub fn fields() -> Vec<FieldSpec> {
     fields.collect()
 }
 
-/// How a motion starts, in a few words: where no formula says that u or v is 0 at the first time, it is not. `None` of a field
-/// with mistakes.
+/// The start of a motion, in a few words: unless a formula says that u or v is 0 at the first time, it is not. `None` for a
+/// field with mistakes.
 pub fn start(field: &FieldSpec, material: &MaterialSpec) -> Option<&'static str> {
     let mut graph = Graph::default();
     let model = Model::resolve(&mut graph, field, Some(material), &mut Vec::new())?;

@@ -29,11 +29,11 @@ use crate::source::{Compile, Source};
 /// A field that a user named, compiled.
 #[derive(Clone)]
 pub struct Input {
-    /// Its name.
+    /// The name.
     pub name: Foreign,
     /// Everything that follows from its text, or the part that was selected.
     pub compiled: Arc<Compiled>,
-    /// Its compiled code, where the program has it and no variant of the field was asked for.
+    /// The compiled code, if the program has it and no variant of the field was requested.
     code: Option<Code>,
     source: Arc<Source>,
     options: Options,
@@ -116,7 +116,7 @@ impl Input {
         self.source.compile(options)
     }
 
-    /// Its text, to be compiled in another way.
+    /// The text, to be compiled in another way.
     pub fn source(&self) -> &Source {
         &self.source
     }
@@ -126,12 +126,12 @@ impl Input {
         Input { options: Options { stop, ..self.options.clone() }, ..self.clone() }
     }
 
-    /// How it was compiled.
+    /// The options with which it was compiled.
     pub fn options(&self) -> &Options {
         &self.options
     }
 
-    /// The files that it was read from; none for a field of the gallery.
+    /// The files from which it was read; none for a field of the gallery.
     pub fn files(&self) -> Vec<PathBuf> {
         let Some(field) = self.source.path() else { return Vec::new() };
         let material = self.compiled.own_material();
@@ -170,7 +170,7 @@ impl Input {
         }
     }
 
-    /// The program of a quantity on request; none of one that the field was compiled with.
+    /// The program of a quantity on request; `None` for a quantity that the field was compiled with.
     ///
     /// # Errors
     /// One that is too large.
@@ -241,7 +241,7 @@ fn not_allowed(settings: &[String], failure: &Failure) -> Error {
     anyhow!("{}: not what the field file allows\n{failure}", settings.join(" "))
 }
 
-/// How a parameter was set.
+/// The setting of a parameter, as the user gave it.
 fn given(setting: &str) -> String {
     format!("`--set {}`", shown(setting))
 }
@@ -256,7 +256,7 @@ pub fn settings(settings: &[String]) -> anyhow::Result<Vec<(String, String)>> {
 }
 
 impl Input {
-    /// The quantities that the field offers, of those of some names: `all` leaves out what it does not offer.
+    /// The quantities that the field offers among these names: `all` leaves out quantities that it does not offer.
     ///
     /// # Errors
     /// A quantity by name that the field does not offer.

@@ -1,9 +1,8 @@
-//! Tensors with all nine components: what a field of one or two dimensions leaves out is that of plane strain, or of
-//! uniaxial strain.
+//! Tensors with all nine components: a field of one or two dimensions omits the components of uniaxial or plane strain.
 //!
-//! F_33 = 1 there, shears out of the plane are 0, and the normal stress follows from the pressure, in which it is: with D
-//! dimensions, sigma_33 = (-3 p - tr sigma)/(3 - D), tr being that of the D x D components. P_33 = S_33 = tau_33 = J sigma_33,
-//! without J at small strain.
+//! F_33 = 1, shears out of the plane are 0, and the normal stress follows from the pressure, which includes it: with D
+//! dimensions, sigma_33 = (-3 p - tr sigma)/(3 - D), where tr is the trace of the D x D components. P_33 = S_33 = tau_33 = J
+//! sigma_33, without J at small strain.
 
 use mms_mechanics::invariant::Kind;
 use mms_runtime::math::Scalar;
@@ -12,10 +11,10 @@ use mms_spec::quantity::{Quantity, Shape};
 /// Rows and columns in space.
 pub const SPACE: usize = 3;
 
-/// What stresses out of the plane follow from.
+/// The quantities from which stresses out of the plane follow.
 pub const NEEDED: [Quantity; 3] = [Quantity::CauchyStress, Quantity::Pressure, Quantity::Jacobian];
 
-/// What stands on the diagonal of a tensor beyond the dimensions of the field.
+/// The diagonal component of a tensor beyond the dimensions of the field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beyond {
     /// 1, as in F.
@@ -29,7 +28,7 @@ pub enum Beyond {
 }
 
 impl Beyond {
-    /// That of a quantity; none where it is no tensor. At small strain all stresses are one.
+    /// The diagonal component of a quantity; `None` if it is no tensor. At small strain all stresses are the same.
     pub fn of(quantity: Quantity, kind: &Kind) -> Option<Beyond> {
         let is_small = *kind == Kind::SmallStrain;
         match quantity {
@@ -48,12 +47,12 @@ impl Beyond {
         }
     }
 
-    /// Whether it takes stresses to know it.
+    /// Whether the component is computed from stresses.
     pub fn is_stress(self) -> bool {
         matches!(self, Beyond::Cauchy | Beyond::Kirchhoff)
     }
 
-    /// Its value, with the stress in the plane, the pressure and J where it is a stress.
+    /// The value; stresses are computed from the stress in the plane, the pressure and J.
     pub fn value<T: Scalar>(self, stress: &[T], pressure: &T, jacobian: &T) -> T {
         let number = T::from_f64;
         let cauchy = || {
@@ -72,7 +71,7 @@ impl Beyond {
     }
 }
 
-/// All nine components, by rows, of those that a field of so many dimensions has.
+/// All nine components, by rows, of a tensor of a field of `dimension` dimensions.
 pub fn nine<T: Scalar>(own: &[T], dimension: usize, beyond: &T) -> Vec<T> {
     let entry = |at: usize| {
         let (row, column) = (at / SPACE, at % SPACE);

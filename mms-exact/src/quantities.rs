@@ -5,8 +5,8 @@ use mms_codegen::selection::{self, quantity};
 use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 
-/// The quantities of some names or aliases that a field with these of its own is compiled with, each once; `all` stands for those of a point and a
-/// time.
+/// The compiled quantities with these names or aliases, each once, of a field with its `own` quantities; `all` means all
+/// quantities of a point and a time.
 pub fn quantities(own: &[Own], names: &[String]) -> anyhow::Result<Vec<Quantity>> {
     named(own, names, quantity)
 }

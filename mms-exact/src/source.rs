@@ -12,7 +12,7 @@ use mms_spec::own::Own;
 
 use crate::gallery::Entry;
 
-/// Reads the text of a material file that stands beside a field file; otherwise says why it cannot.
+/// Reads the text of a material file beside a field file; an error says why it cannot.
 type Load = Arc<dyn Fn(&str) -> Result<String, String> + Send + Sync>;
 
 /// Opens the field that a user named: one of the gallery, or a file.

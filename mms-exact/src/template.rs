@@ -1,9 +1,8 @@
 //! The text of a new field file.
 //!
-//! `template.toml` is one text for all of them. A line `1| ...` is for bodies of one dimension
-//! only, `23| ...` for those of two and three, `o| ...` for the annulus, and with an `n`, as in
-//! `2n| ...`, for the neo-Hookean material only. Words such as `@name@` are filled in, those that
-//! list something from the very list that the reader of field files uses.
+//! `template.toml` is one text for all field files. A line `1| ...` is for bodies of one dimension only, `23| ...` for bodies
+//! of two and three, `o| ...` for the annulus, and with an `n`, as in `2n| ...`, for the neo-Hookean material only. Words such
+//! as `@name@` are filled in; lists come from the lists that the reader of field files uses.
 
 use anyhow::bail;
 use mms_codegen::materials::MATERIALS;
@@ -76,7 +75,7 @@ impl Body {
     }
 }
 
-/// What a new field file is made of.
+/// The choices for a new field file.
 pub struct Template<'a> {
     /// The field's name.
     pub name: &'a str,
@@ -119,14 +118,14 @@ impl Template<'_> {
             text.push_str(&self.filled(line));
             text.push('\n');
         }
-        // Where a variant has no line, the blank ones around it meet.
+        // If a variant has no line, the blank lines around it become neighbours.
         while text.contains("\n\n\n") {
             text = text.replace("\n\n\n", "\n\n");
         }
         text
     }
 
-    /// Whether a line with these tags is for this file.
+    /// Whether a line with these tags belongs in this file.
     fn is_meant(&self, tags: &str) -> bool {
         let body = match (self.body, self.dimension) {
             (Body::Annulus, _) => 'o',
@@ -215,7 +214,7 @@ impl Template<'_> {
     }
 }
 
-/// How much of the displacement there is in time.
+/// The time factor of the displacement.
 fn motion(is_undeformed: bool) -> &'static str {
     match is_undeformed {
         true => "amplitude*(1 - cos(2*pi*t/period))/2",
@@ -238,7 +237,7 @@ fn tagged(line: &str) -> Option<(&str, &str)> {
     is_tags.then(|| (tags, rest.strip_prefix(' ').unwrap_or(rest)))
 }
 
-/// A name for a parameter of the field that stands for one of the material.
+/// A name for the field's parameter that sets a parameter of the material.
 fn renamed(name: &str) -> String {
     if TAKEN.contains(&name) { format!("material_{name}") } else { name.into() }
 }

@@ -4,8 +4,8 @@ use mms_codegen::Compiled;
 use mms_documents::Names;
 use mms_spec::units::Unit;
 
-/// The units of h, dt and the quantities of these names; nothing if no parameter states a unit. A unit that does not follow from
-/// those of the parameters is left out.
+/// The units of h, dt and the quantities of these names; `None` if no parameter states a unit. A unit that does not follow from
+/// the units of the parameters is left out.
 pub fn units<'a>(
     compiled: &Compiled,
     quantities: impl IntoIterator<Item = &'a str>,

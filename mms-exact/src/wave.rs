@@ -1,8 +1,8 @@
-//! The fastest wave of a field, which the time step of a run is held to.
+//! The fastest wave of a field, which limits the time step of a run.
 //!
-//! Where a wave that the field is proved to have may cross an edge of a cell in a step, the run stops before it
-//! begins, unless `--allow-unstable` is given. The certificate is asked for the wave speed in the frame of the
-//! grid, for the parameters of the run, and no sharper than it takes to decide; compiled fields and others alike.
+//! If a wave that the field is proved to allow may cross an edge of a cell in a step, the run stops before it begins, unless
+//! `--allow-unstable` is given. The certificate bounds the wave speed in the frame of the grid, for the parameters of the run,
+//! and only as sharply as the decision needs; for compiled and interpreted fields.
 
 use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::wave_speed;
@@ -17,11 +17,11 @@ use mms_symbolic::sorted::SortedMap;
 
 use crate::Input;
 
-/// At how many points c0 is sampled.
+/// The number of points at which c0 is sampled.
 const POINTS: usize = 16;
 
-/// Bounds the speed of waves in the frame of the method's grid, for parameters that are set by position; no sharper than the
-/// time step of the method asks for. `None` if no bound is proved: [`without_bound`] says so.
+/// Bounds the speed of waves in the frame of the method's grid, for parameters that are set by position; only as sharply as the
+/// time step of the method needs. `None` if no bound is proved: [`without_bound`] says so.
 pub fn fastest_wave(
     input: &Input,
     set: &SortedMap<usize, Rational>,

@@ -1,8 +1,8 @@
-//! "Pseudo verification": how runs are looked at where no exact solution is known, or where its picture alone is.
+//! "Pseudo verification": checks of runs for which no exact solution is known, or only its picture.
 //!
-//! The checks are those of Wallstedt, Guilkey, slide "Pseudo Verification": plausibility, symmetry, and what goes
-//! with them. They are real checks, of the runs that rows judge. Their thresholds are those that people use, not
-//! the sharpest ones possible. A check counts where it has no objection without the defect:
+//! The checks are from Wallstedt, Guilkey, slide "Pseudo Verification": plausibility, symmetry, and related ones. They are real
+//! checks, of the runs that rows judge. Their thresholds are common practice, not the sharpest ones possible. A check counts if
+//! it has no objection without the defect:
 //!
 //! | check | objects if |
 //! |---|---|
@@ -20,15 +20,15 @@ use serde::{Deserialize, Serialize};
 /// A check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Check {
-    /// Beside the picture of the exact solution it looks like it: u is off by less than a tenth.
+    /// Beside the picture of the exact solution it looks the same: u is off by less than 1/10.
     Picture,
-    /// The run ends, and nothing moves further than the body is long.
+    /// The run ends, and no displacement exceeds the length of the body.
     Bounded,
-    /// A motion that is its own mirror image stays it, to a millionth.
+    /// A motion that is its own mirror image stays so, to 1e-6.
     Symmetric,
-    /// The energy is that which b has put in, to a twentieth, on the coarsest grid.
+    /// The energy equals the work of b, to 1/20, on the coarsest grid.
     Energy,
-    /// Half the cell size changes the size of the motion by less than a twentieth.
+    /// Half the cell size changes the size of the motion by less than 1/20.
     Settles,
 }
 
@@ -48,7 +48,7 @@ impl Check {
         }
     }
 
-    /// Whether it objects to the levels of a row, coarse to fine; nothing, if it cannot tell.
+    /// Whether the check objects to the levels of a row, coarse to fine; `None`, if it cannot decide.
     fn objects(self, levels: &[Option<&Seen>]) -> Option<bool> {
         let seen: Vec<&Seen> = levels.iter().copied().flatten().collect();
         let all_ended = seen.len() == levels.len();
@@ -79,12 +79,12 @@ impl Check {
 pub struct Looks(pub [Option<bool>; Check::ALL.len()]);
 
 impl Looks {
-    /// Of the levels of a row, coarse to fine; of those that did not end there is nothing to see.
+    /// The objections to the levels of a row, coarse to fine; a level that did not end shows nothing.
     pub fn of(levels: &[Option<&Seen>]) -> Self {
         Looks(Check::ALL.map(|check| check.objects(levels)))
     }
 
-    /// What these say of a defect, where `without` it they had no objection.
+    /// The objections to a defect, of the checks that had no objection `without` it.
     pub fn beside(self, without: Self) -> Self {
         let fair = |at: usize| if without.0[at] == Some(false) { self.0[at] } else { None };
         Looks(std::array::from_fn(fair))
@@ -100,7 +100,7 @@ impl Looks {
     }
 }
 
-/// What people look at.
+/// The data that people look at.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seen {
@@ -110,16 +110,17 @@ pub struct Seen {
     extent: f64,
     /// The root mean square of all displacements.
     motion: f64,
-    /// The same of their errors, over that of the field's displacements; 0 where the field rests.
+    /// The root mean square of the errors of all displacements, over the root mean square of the field's; 0 where the field
+    /// rests.
     misfit: f64,
-    /// How far displacements are from their mirror images, over the field's largest, if the field has a symmetry.
+    /// The largest difference of displacements from their mirror images, over the field's largest, if the field has a symmetry.
     asymmetry: Option<f64>,
-    /// What is left of the energy when the work of b is taken off, over the energy.
+    /// The energy minus the work of b, over the energy.
     energy: Option<f64>,
 }
 
 impl Seen {
-    /// Of some states of a run, and of what is left of its energy.
+    /// The data of some states of a run, and of its energy residual.
     pub fn of(frames: &[Frame], energy: Option<f64>) -> Self {
         let all = |of: fn(&Frame) -> Vec<f64>| frames.iter().flat_map(of);
         let mean_square = |of: fn(&Frame) -> Vec<f64>| {
@@ -168,8 +169,8 @@ fn bounds(frame: &Frame) -> Vec<[f64; 2]> {
     (0..frame.dimension).map(both).collect()
 }
 
-/// How far displacements are from their images in the middle planes of the body, over the size of the field's;
-/// nothing, if the field or the particles are not their own images.
+/// The largest difference of displacements from their images in the middle planes of the body, over the size of the field's;
+/// `None`, if the field or the particles are not their own images.
 fn asymmetry(frame: &Frame, size: f64) -> Option<f64> {
     let (dimension, bounds) = (frame.dimension, bounds(frame));
     let (reference, exact) = (reference(frame), field(frame));
@@ -273,7 +274,7 @@ mod tests {
         assert_eq!(looks(None), [None, Some(true), None, None, None]);
         let stopped = Looks::of(&[None, None]);
         assert_eq!(stopped.0, [None, Some(true), None, None, None]);
-        // What objects without the defect says nothing of it.
+        // An objection without the defect is no evidence.
         let unfair = Looks([Some(true); 5]).beside(stopped);
         assert_eq!(unfair, Looks([None; 5]));
         assert_eq!(unfair.or(stopped), stopped);

@@ -9,22 +9,22 @@ pub trait Named: DeserializeOwned {
     /// `group/mode`.
     fn name(&self) -> &str;
 
-    /// What stands before the slash.
+    /// The part of the name before the slash.
     fn group(&self) -> &str {
         self.name().split('/').next().unwrap_or_default()
     }
 
-    /// Refuses what means nothing.
+    /// Refuses a row without a meaning.
     ///
     /// # Errors
-    /// What is wrong.
+    /// The mistake.
     fn validate(&self) -> anyhow::Result<()>;
 }
 
 /// The rows of a text, in its order.
 ///
 /// # Errors
-/// A row that means nothing, by its name, or one that is there twice.
+/// A row without a meaning, by its name, or one that is there twice.
 pub fn read<R: Named>(text: &str) -> anyhow::Result<Vec<R>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]

@@ -1,5 +1,5 @@
-//! Runs in the words of `mms run`, one after the other: each from the store if it is there, and into it if it is
-//! not. Searches are made of them, and what they find can be run again as it is.
+//! Runs in the words of `mms run`, one after the other: each is read from the store if it is there, and stored if it is not.
+//! Searches consist of these runs, and their results can be run again as they are.
 
 use std::collections::BTreeMap;
 
@@ -21,13 +21,13 @@ use crate::outcome::Key;
 use crate::outcome::Quantity;
 use crate::outcome::{Outcome, outcome};
 
-/// What came of a run, and what it took.
+/// The result of a run, and its memory.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Trial {
-    /// Errors of the displacement, or why there are none.
+    /// Errors of the displacement, or the reason why there are none.
     pub outcome: Outcome,
-    /// The most bytes that it held at a time.
+    /// The largest memory in use at a time, in bytes.
     pub memory: usize,
 }
 
@@ -50,7 +50,7 @@ pub struct Trials {
     progress: Box<dyn Progress>,
     /// Fields with everything derived, by name and variant.
     inputs: BTreeMap<String, Input>,
-    /// Bounds of the speed of waves, by what they depend on.
+    /// Bounds of the speed of waves, by the variant and parameters.
     waves: BTreeMap<String, Option<f64>>,
 }
 
@@ -69,10 +69,10 @@ impl Trials {
         })
     }
 
-    /// What comes of `mms run` with these arguments, on one thread.
+    /// Makes the run of `mms run` with these arguments, on one thread.
     ///
     /// # Errors
-    /// Arguments that mean nothing, a field that does not compile, a store that cannot be read or written.
+    /// Arguments without a meaning, a field that does not compile, a store that cannot be read or written.
     pub fn run(&mut self, arguments: &[String]) -> anyhow::Result<Trial> {
         let study = Study::of_words(arguments)?;
         let [cells] = *study.cells.as_slice() else { anyhow::bail!("a run has one grid") };
@@ -135,10 +135,10 @@ impl Trials {
     }
 }
 
-/// Runs that take less are repeated, and the least that one took is what counts: others may use the processor.
+/// Runs that take less are repeated, and the shortest time counts: others may use the processor.
 const SHORT: f64 = 0.05;
 
-/// How often they are repeated, at most.
+/// The largest number of repetitions.
 const REPEATS: usize = 4;
 
 fn measure<T: Solvable>(
@@ -163,10 +163,10 @@ fn measure<T: Solvable>(
     best
 }
 
-/// An observer whose own memory is not that of the run: what it says depends on the terminal, and on the runs before.
+/// An observer whose own memory is not counted for the run: its output depends on the terminal, and on the runs before.
 struct Apart<'a> {
     observer: &'a mut dyn Observer,
-    /// The most that was in use, but while it was heard.
+    /// The peak memory, without the memory in use while the observer ran.
     peak: usize,
 }
 

@@ -20,7 +20,7 @@ use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
 
-/// Which motion is taken, and within which limits.
+/// The selected motion, and its limits.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Motion {
     /// Take another time window: two numbers, or formulas in the parameters, as in '0,length/c'. Everything is of it: claims,
@@ -46,7 +46,7 @@ impl Default for Motion {
 }
 
 impl Motion {
-    /// The arguments that ask for it.
+    /// The arguments that select it.
     pub fn arguments(&self) -> Vec<String> {
         let mut arguments = Vec::new();
         if self.max_nodes != Motion::default().max_nodes {
@@ -76,7 +76,7 @@ impl Motion {
     }
 }
 
-/// How a field is taken.
+/// The variant of a field.
 #[derive(Clone, Debug, Default, PartialEq, Args)]
 pub struct Variant {
     #[command(flatten)]
@@ -88,12 +88,12 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// With a motion and a form.
+    /// The variant with a motion and a form.
     pub fn new(motion: Motion, form: Form) -> Self {
         Variant { motion, form }
     }
 
-    /// The arguments that ask for it.
+    /// The arguments that select it.
     pub fn arguments(&self) -> Vec<String> {
         let mut arguments = self.motion.arguments();
         if self.form != Form::default() {
@@ -102,7 +102,7 @@ impl Variant {
         arguments
     }
 
-    /// Its form.
+    /// The form.
     pub fn form(&self) -> Form {
         self.form
     }
@@ -113,8 +113,7 @@ impl Variant {
     }
 }
 
-/// The keys of a rigid motion, as far as can be told from a distance: an option that may stand
-/// without a value takes the name of a field for one.
+/// Checks the keys of a rigid motion roughly: an option that may have no value would read the name of a field as one.
 fn motion(text: &str) -> Result<String, String> {
     if text.is_empty() || text.contains('=') {
         return Ok(text.to_string());
@@ -126,7 +125,7 @@ fn motion(text: &str) -> Result<String, String> {
 #[derive(Clone, Debug, PartialEq)]
 struct Window([String; 2]);
 
-/// Two formulas, parted by the comma that stands in no parentheses.
+/// Reads two formulas, separated by the comma outside of parentheses.
 fn window(text: &str) -> Result<Window, String> {
     let mut depth = 0;
     let commas = text.char_indices().filter(|(_, char)| {

@@ -1,9 +1,9 @@
 //! The options of a method, the same in every command that runs one.
 //!
-//! Precision and form are one value, `Arithmetic`, beside the runtime's `Method`, which knows neither: its numbers
-//! are a type, and its field is whatever it is given. Wherever a method is written, in words, as keys, or in the
-//! key of a result or a checkpoint, `Arithmetic` is written with it. A document that lacks one of the two is of an
-//! older version, and `mms report` sets it aside.
+//! Precision and form are one value, `Arithmetic`, beside the runtime's `Method`, which contains neither: its numbers are a
+//! type parameter, and it runs any given field. Every text of a method, in words, as keys, or in the key of a result or a
+//! checkpoint, includes `Arithmetic`. A document that lacks one of the two is of an older version, and `mms report` sets it
+//! aside.
 
 use std::fmt;
 use std::str::FromStr;
@@ -43,7 +43,7 @@ impl Precision {
     }
 }
 
-/// How numbers are computed, whatever is computed with them.
+/// The arithmetic of a computation: its precision and its form.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Arithmetic {
     /// The precision to compute in.
@@ -56,7 +56,7 @@ pub struct Arithmetic {
 }
 
 impl fmt::Display for Arithmetic {
-    /// In words; the usual form is left out.
+    /// Writes the arithmetic in words; the default form is left out.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.precision.name())?;
         match self.form {
@@ -66,7 +66,7 @@ impl fmt::Display for Arithmetic {
     }
 }
 
-/// What an option is, and its words.
+/// The help of an option, with its words.
 fn listed(what: &str, words: &[&str]) -> String {
     format!("{what}: {}", words.join(", "))
 }
@@ -104,7 +104,7 @@ pub struct MethodOptions {
     /// Move each particle at random by up to this part of half its domain, from 0 to 1.
     #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
     jitter: f64,
-    /// What the random numbers follow from.
+    /// The seed of the random numbers.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     /// Move the grid against the body by this part of a cell, from 0 to 1; one for all axes or one for
@@ -117,11 +117,11 @@ pub struct MethodOptions {
     /// time_step * c0 / shortest edge of a cell, c0 being the fastest wave speed at F = I.
     #[arg(long, default_value_t = 0.4, value_parser = positive)]
     courant: f64,
-    /// The time step, shortened to fill the time window, instead of that of the Courant number.
+    /// The time step, shortened to fill the time window, instead of the one from the Courant number.
     #[arg(long, value_name = "DT", conflicts_with = "courant", value_parser = positive)]
     time_step: Option<f64>,
     /// Take a static field to its equilibrium, by dynamic relaxation: from rest along a ramp of its loads, with a fictitious
-    /// mass and kinetic damping, until what is out of balance at the nodes is below 1e-9 of the forces. Errors are those of the end.
+    /// mass and kinetic damping, until the residual at the nodes is below 1e-9 of the forces. Errors are measured at the end.
     #[arg(long, conflicts_with = "end_time")]
     pub relax: bool,
     /// Run with a time step above the stable one, in which a wave may cross a cell.
@@ -185,7 +185,7 @@ impl FromStr for Axis {
 }
 
 impl MethodOptions {
-    /// How a field is taken, with a motion on top.
+    /// The variant of the field, with a motion on top.
     pub fn variant(&self, motion: &Motion) -> Variant {
         Variant::new(motion.clone(), self.arithmetic.form)
     }

@@ -1,4 +1,4 @@
-//! The rows of the matrix: what is run, what theory expects, and why.
+//! The rows of the matrix: the run, the expectation of theory, and its reason.
 
 use anyhow::{Context as _, bail, ensure};
 use mms_convergence::TOLERANCE;
@@ -20,52 +20,52 @@ pub struct Row {
     pub name: String,
     /// The arguments of `mms study`, with all levels.
     pub study: String,
-    /// How many levels, from the coarsest on, `--quick` runs; of 0 it leaves the row out.
+    /// The number of levels, from the coarsest on, that `--quick` runs; if it is 0, `--quick` leaves the row out.
     #[serde(default)]
     pub quick: usize,
     /// Refine the time step alone: the levels have the cells of the study, and its Courant number halved this
     /// many times, one after the other.
     #[serde(default)]
     pub halvings: usize,
-    /// What the error is of.
+    /// The quantity whose error is measured.
     #[serde(default)]
     pub quantity: Quantity,
-    /// What theory expects.
+    /// The order that theory expects.
     pub order: Expected,
     /// The expected order of linf, where it is lower.
     pub linf: Option<f64>,
-    /// How far the observed order may be from it.
+    /// The tolerance of the observed order.
     #[serde(default = "tolerance")]
     pub tolerance: f64,
     /// l2 over h^order, or over dt^order, at the finest level that `--quick` runs, or of all if it runs none; in
     /// the units of the field.
     pub constant: Option<f64>,
-    /// Why, and who says so.
+    /// The reason, and its source.
     pub theory: String,
     /// The deliberate mistakes that `--defects` shows this row.
     #[serde(default)]
     pub catches: Vec<String>,
-    /// What no other row looks at.
+    /// A property that no other row tests.
     pub witness: Option<String>,
 }
 
-/// What theory expects of the error.
+/// The expectation of theory on the error.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub enum Expected {
-    /// That it is of this order.
+    /// An error of this order.
     Order(f64),
-    /// That it is not of any.
+    /// An error without an order.
     Word(Word),
 }
 
-/// What there is instead of an order.
+/// The cases without an order.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Word {
     /// The error does not shrink, or the run stops.
     None,
-    /// There is no error but that of rounding.
+    /// The only error is rounding.
     Exact,
 }
 
@@ -84,7 +84,7 @@ fn tolerance() -> f64 {
 }
 
 impl Row {
-    /// Its study, understood.
+    /// The study, parsed.
     ///
     /// # Errors
     /// Arguments that `mms study` does not have, a field that is not of the gallery.
@@ -95,7 +95,7 @@ impl Row {
         Ok((study, entry))
     }
 
-    /// How many levels are run.
+    /// The number of levels that are run.
     pub fn levels(&self, quick: bool) -> usize {
         let all = match self.halvings {
             0 => self.study().map_or(0, |(study, _)| study.cells.len()),
@@ -104,7 +104,7 @@ impl Row {
         if quick { self.quick.min(all) } else { all }
     }
 
-    /// The arguments of `mms run` for a level, as they are written and understood.
+    /// The arguments of `mms run` for a level, as text and parsed.
     ///
     /// # Errors
     /// As [`Row::study`]; cells that are no word of their own behind `--cells`.
@@ -127,13 +127,13 @@ impl Row {
 }
 
 impl Row {
-    /// The length that the row refines, of a run: h or dt.
+    /// The length that the row refines, for a run: h or dt.
     pub fn size(&self, outcome: &Outcome) -> Option<f64> {
         let time_alone = self.halvings > 0;
         outcome.run().map(|run| if time_alone { run.time_step } else { run.cell_size })
     }
 
-    /// The errors of a run that the row looks at, if it reached its end.
+    /// The errors of a run that the row judges, if the run reached its end.
     pub fn errors(&self, outcome: &Outcome) -> Option<Norms> {
         let Outcome::Finished { errors, mean_velocity, .. } = outcome else { return None };
         let Quantity::MeanVelocity(exact) = &self.quantity else { return Some(*errors) };
@@ -179,7 +179,7 @@ impl Named for Row {
 /// The rows of the matrix.
 ///
 /// # Errors
-/// A row that means nothing; a test reads them all.
+/// A row without a meaning; a test reads them all.
 pub fn rows() -> anyhow::Result<Vec<Row>> {
     read(MATRIX)
 }

@@ -1,4 +1,4 @@
-//! Which runs the rows take: each once, whoever shares it.
+//! The runs of the rows: each is made once, even if rows share it.
 
 use std::collections::BTreeMap;
 
@@ -14,19 +14,19 @@ use super::matrix::Row;
 /// A run: a level of a row, or of several.
 #[derive(Clone, Debug)]
 pub struct Job {
-    /// What its result depends on.
+    /// The inputs on which the result depends.
     pub key: Key,
-    /// The command that does the same.
+    /// The command that makes the same run.
     pub command: String,
-    /// Its field.
+    /// The field.
     pub entry: &'static Entry,
     /// Cells, precision, form, parameters and motion.
     pub study: Study,
     /// The method.
     pub method: Method,
-    /// Of what errors are measured.
+    /// The quantity whose errors are measured.
     pub quantity: Quantity,
-    /// About what it takes, in some unit.
+    /// The approximate work, in some unit.
     pub work: f64,
 }
 
@@ -43,7 +43,7 @@ impl Plan {
     /// The runs of rows, in full or quickly.
     ///
     /// # Errors
-    /// A row that means nothing.
+    /// A row without a meaning.
     pub fn new(rows: &[&Row], quick: bool, program: &str) -> anyhow::Result<Self> {
         let fields = gallery::fields();
         let dimensions: BTreeMap<_, _> =
@@ -89,9 +89,9 @@ fn job(
     let (arguments, study) = row.level(level)?;
     let dimension = *dimensions.get(entry.name).context("the gallery cannot be read")?;
     let mut method = study.method.method(dimension)?;
-    // Runs go side by side.
+    // Several runs are made at the same time.
     method.setup.threads = 1;
-    // A run knows its momentum, whatever else is measured.
+    // A run records its momentum, also if displacements are measured.
     let quantity = match row.quantity.clone() {
         Quantity::MeanVelocity(_) => Quantity::Displacement,
         other => other,
@@ -110,7 +110,7 @@ fn job(
     Ok(Job { key, command, entry, study, method, quantity, work })
 }
 
-/// Particles times steps, about; and what is not compiled takes longer.
+/// Approximately particles times steps; interpreted fields take longer.
 fn work(study: &Study, method: &Method, cells: &Division, dimension: usize) -> f64 {
     const INTERPRETED: f64 = 30.0;
     let per_axis = |division: &Division| match *division {

@@ -1,7 +1,7 @@
 //! The verdict of a row of the matrix, from its levels.
 //!
-//! Where time alone is refined (`halvings`), the field must leave no error in space, or the order would be that of
-//! the rest: a body without strain that b(t) carries along is such a field. The verdict is the first that holds:
+//! If only time is refined (`halvings`), the field must have no error in space, or the order would be spoilt by it: a body
+//! without strain that b(t) moves is such a field. The verdict is the first that holds:
 //!
 //! 1. `fail`: a level was not started; or the row expects an exact solution, and an error exceeds 5e-12.
 //! 2. `does not converge`: a level stopped, or the order of `l2` on the finest pair is below 1/2. Some rows expect
@@ -21,16 +21,16 @@ use mms_lab::outcome::Outcome;
 
 use super::matrix::{Expected, Row, Word};
 
-/// An observed order below this is none: the theory knows orders from 1 on.
+/// An observed order below this counts as none: orders in theory are 1 or more.
 const LEAST_ORDER: f64 = 0.5;
 
 /// Errors of rounding, relative to the natural size of a quantity: 20,000 eps, for some thousand steps.
 const ROUNDING: f64 = 5e-12;
 
-/// What is seen.
+/// The verdict of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// What theory expects: the order and its error constant, or no error at all.
+    /// The result that theory expects: the order and its error constant, or no error at all.
     Pass,
     /// A lower order, another constant, an error where there is none, or a run that was not started.
     Fail,
@@ -51,18 +51,18 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// A row's outcome, and what it rests on.
+/// A row's outcome, and its basis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
     /// The orders of l1, l2 and linf between each level and the one before; the first has none, nor has rounding.
     pub orders: Vec<[Option<f64>; 3]>,
     /// l2 over h^order or dt^order.
     pub constant: Option<f64>,
-    /// What is seen.
+    /// The observed verdict.
     pub verdict: Verdict,
-    /// What should be.
+    /// The expected verdict.
     pub expected: Verdict,
-    /// Why it is not what should be.
+    /// The reason why the verdict is not the expected one.
     pub reason: Option<String>,
 }
 
@@ -72,20 +72,19 @@ impl Judgement {
         self.orders.last().and_then(|orders| orders[1])
     }
 
-    /// Whether theory is right.
+    /// Whether the result agrees with theory.
     pub fn as_expected(&self) -> bool {
         self.verdict == self.expected
     }
 }
 
-/// Judges a row by its levels, coarse to fine. The first that holds:
+/// Judges a row by its levels, coarse to fine. The verdict is the first that holds:
 ///
-/// * `fail`: a level was not started; or, if the row expects an exact solution, an error is not of rounding.
+/// * `fail`: a level was not started; or, if the row expects an exact solution, an error exceeds rounding.
 /// * `does not converge`: a level stopped, or the order of l2 between the two finest levels is below 1/2.
-/// * `fail`: l2 or linf is below its expected order by more than the tolerance there; or the constant is not
-///   the one that is written.
-/// * `not asymptotic`: l2 is above it by more than the tolerance; or its order differs by more than the tolerance
-///   from that of the pair before, if there is one.
+/// * `fail`: l2 or linf is below its expected order by more than the tolerance there; or the constant differs from the row's.
+/// * `not asymptotic`: l2 is above its expected order by more than the tolerance; or its order differs by more than the
+///   tolerance from the order of the pair before, if there is one.
 /// * `pass`.
 pub fn judge(row: &Row, levels: &[Outcome]) -> Judgement {
     let orders = match row.order {
@@ -112,7 +111,7 @@ fn orders(row: &Row, levels: &[Outcome]) -> Vec<[Option<f64>; 3]> {
     std::iter::once([None; 3]).chain(pairs).take(levels.len()).collect()
 }
 
-/// The error constant at the level that the row's is of.
+/// The error constant at the level for which the row states one.
 fn constant(row: &Row, levels: &[Outcome]) -> Option<f64> {
     let Expected::Order(order) = row.order else { return None };
     let at = if row.quick > 0 { row.quick } else { levels.len() };
@@ -168,7 +167,7 @@ fn see(
     (Verdict::Pass, seen)
 }
 
-/// A solution that the method holds exactly.
+/// A solution that the method represents exactly.
 fn exact(row: &Row, levels: &[Outcome]) -> (Verdict, String) {
     if levels.is_empty() {
         return (Verdict::NotAsymptotic, "there is no level".into());

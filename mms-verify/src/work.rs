@@ -1,4 +1,4 @@
-//! Runs, side by side, each from the store if it is there and into it if it is not.
+//! Runs, several at the same time: each is read from the store if it is there, and stored if it is not.
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -16,12 +16,12 @@ use serde::de::DeserializeOwned;
 
 use super::plan::Job;
 
-/// Hears of every step of a run, and of how many there are.
+/// A function that is called after every step of a run, with the step and the number of steps.
 pub type Step<'a> = dyn FnMut(usize, usize) + Send + 'a;
 
-/// What makes runs.
+/// A maker of runs.
 pub trait Bench: Sync {
-    /// What comes of one, and is stored.
+    /// The result of a run, which is stored.
     type Result: AsRef<Outcome> + Clone + Serialize + DeserializeOwned + Send;
 
     /// Makes a run, and calls `step` after each of its steps.
@@ -31,7 +31,7 @@ pub trait Bench: Sync {
     fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Self::Result>;
 }
 
-/// What is said while runs go on. All of it may come from several threads.
+/// Receives messages while runs go on. Several threads may call it.
 pub trait Watcher: Sync {
     /// A run was taken from the store.
     fn found(&self, job: &Job);
@@ -43,7 +43,7 @@ pub trait Watcher: Sync {
     fn set_aside(&self, what: &str);
 }
 
-/// What comes of runs, in their order.
+/// The results of runs, in their order.
 ///
 /// # Errors
 /// The store cannot be read or written, a field of the gallery does not compile.
@@ -65,13 +65,13 @@ struct Work<'a, B> {
 }
 
 impl<B: Bench> Work<'_, B> {
-    /// The outcome of a run; nothing, if another process has claimed it and there is to be no waiting.
+    /// The outcome of a run; `None`, if another process has claimed it and `wait` is false.
     fn outcome(&self, job: &Job, wait: bool) -> anyhow::Result<Option<B::Result>> {
         if let Some(outcome) = self.stored(job)? {
             return Ok(Some(outcome));
         }
         let Some(_claim) = self.store.claim(&job.key, wait)? else { return Ok(None) };
-        // Whoever held the claim before may have finished.
+        // The process that held the claim before may have finished.
         if let Some(outcome) = self.stored(job)? {
             return Ok(Some(outcome));
         }
@@ -97,7 +97,7 @@ impl<B: Bench> Work<'_, B> {
     }
 }
 
-/// How a field is found.
+/// A function that finds a field.
 type Find = fn(&str, &Variant) -> anyhow::Result<Input>;
 
 /// Fields with everything derived.
@@ -107,7 +107,7 @@ pub struct Fields {
     inputs: Mutex<BTreeMap<String, Arc<Input>>>,
 }
 
-/// Measures what the row of a run looks at.
+/// Measures the quantity that the row of a run judges.
 impl Bench for Fields {
     type Result = Outcome;
 
@@ -116,7 +116,7 @@ impl Bench for Fields {
     }
 }
 
-/// What has to be watched for the errors of a quantity.
+/// The quantities to watch for the errors of a quantity.
 pub fn watch_of(quantity: &Quantity) -> Watch {
     match quantity {
         Quantity::Displacement => Watch::Displacement,
@@ -132,7 +132,7 @@ fn solve<T: Solvable>(job: &Job, scene: &Scene<T>, mut step: &mut Step<'_>) -> O
 }
 
 impl Fields {
-    /// What `single` or `double` makes of the scene of a run, whichever its precision is.
+    /// The result of `single` or `double` for the scene of a run, according to its precision.
     ///
     /// # Errors
     /// The field does not compile.
@@ -151,7 +151,7 @@ impl Fields {
         })
     }
 
-    /// None yet.
+    /// A collection without fields.
     pub fn new(find: Find) -> Self {
         Fields { find, inputs: Mutex::default() }
     }
@@ -163,7 +163,7 @@ impl Fields {
     pub fn input(&self, job: &Job) -> anyhow::Result<Arc<Input>> {
         let variant = job.study.variant();
         let name = format!("{} {variant:?}", job.entry.name);
-        // Whoever else needs a field has to wait for it anyway.
+        // Other threads that need a field have to wait for it anyway.
         let mut inputs = self.inputs.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some(input) = inputs.get(&name) {
             return Ok(input.clone());

@@ -1,4 +1,4 @@
-//! The rows: what is extreme, what is expected of it, and why.
+//! The rows: the extreme, the expectation, and the reason.
 
 use anyhow::ensure;
 use mms_analysis::accuracy::regime;
@@ -23,35 +23,35 @@ pub struct Row {
     pub regime: Option<String>,
     /// The material has this ratio of lambda to mu.
     pub lambda_over_mu: Option<String>,
-    /// Cells along the longest edge, instead of those of `mms run`.
+    /// Cells along the longest edge, instead of the default of `mms run`.
     pub cells: Option<PerDimension>,
     /// Particles per cell along each axis.
     pub particles: Option<PerDimension>,
     /// The Courant number.
     pub courant: Option<f64>,
-    /// How many steps the time window takes; with `--quick`, and without.
+    /// The number of steps in the time window; with `--quick`, and without.
     pub steps: Option<[usize; 2]>,
-    /// After how many steps of the Courant number the run ends.
+    /// The number of steps of the Courant number after which the run ends.
     pub end: Option<usize>,
     /// Whether steps above the stable one are allowed.
     #[serde(default)]
     pub allow_unstable: bool,
-    /// Whether it is run in single precision.
+    /// Whether the row runs in single precision.
     #[serde(default)]
     pub single: bool,
-    /// The largest l2, over that of the field as declared on the grid of `mms run`, scaled with h^2 where the grid is
+    /// The largest l2, relative to the l2 of the field as declared on the grid of `mms run`, scaled with h^2 if the grid is
     /// coarser; both over the largest displacement. Without it the row has to stop.
     pub l2: Option<f64>,
-    /// With which diagnoses it may stop.
+    /// The diagnoses with which the row may stop.
     #[serde(default)]
     pub stops: Vec<Diagnosis>,
-    /// Why.
+    /// The reason.
     pub theory: String,
 }
 
 impl Row {
-    /// Whether its steps may be above the stable one, where that is `allowed` for the method's own: a row that has a
-    /// Courant number says so itself.
+    /// Whether the row's steps may be above the stable one, if that is `allowed` for the method's own: a row that has a Courant
+    /// number decides itself.
     pub fn allows_unstable(&self, allowed: bool) -> bool {
         self.allow_unstable || allowed && self.courant.is_none()
     }
@@ -77,7 +77,7 @@ impl Named for Row {
 /// The rows.
 ///
 /// # Errors
-/// A row that means nothing; a test reads them all.
+/// A row without a meaning; a test reads them all.
 pub fn rows() -> anyhow::Result<Vec<Row>> {
     read(ROWS)
 }

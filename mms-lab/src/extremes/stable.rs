@@ -7,26 +7,25 @@ use mms_runtime::{Division, Method};
 use super::subject::Subject;
 use super::verdict::Seen;
 
-/// Between these, numbers are looked for.
+/// The range in which the number is searched.
 pub const RANGE: [f64; 2] = [0.02, 4.0];
 
-/// How often the range is halved: to a part in two hundred.
+/// The number of halvings of the range: to 1/200.
 const HALVINGS: usize = 10;
 
-/// How many cells along the longest edge, in one, two and three dimensions.
+/// The number of cells along the longest edge, in one, two and three dimensions.
 const CELLS: [usize; 3] = [32, 8, 4];
 
-/// Steps. A mode that grows by a part in ten thousand in each is not seen; one that is one percent above the limit grows
-/// by a quarter.
+/// The number of steps. A mode that grows by 1e-4 in each is not detected; a mode 1 % above the limit grows by a quarter.
 const STEPS: usize = 400;
 
-/// An error that is this part of the displacement has outgrown it: before, it was that of the method.
+/// The error, as a part of the displacement, above which a mode has outgrown the motion: below, the error is the method's.
 const GROWN: f64 = 0.5;
 
 /// The largest stable Courant number of a method; the lower end of the range if none is.
 ///
 /// # Errors
-/// The gallery is not that of its files.
+/// The gallery differs from its files.
 pub fn courant(subject: &Subject, method: &Method) -> anyhow::Result<f64> {
     let [mut stable, mut unstable] = RANGE;
     if is_stable(subject, method, unstable)? {

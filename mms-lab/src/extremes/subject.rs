@@ -1,4 +1,4 @@
-//! A field at an extreme, and what comes of running it there.
+//! A field at an extreme, and the results of running it there.
 
 use mms_analysis::accuracy::{Varied, regime, vary};
 use mms_codegen::variation::Variation;
@@ -21,7 +21,7 @@ use super::rows::Row;
 use super::theory::Elasticity;
 use super::verdict::{Diagnosis, Seen};
 
-/// At how many points and times the largest displacement and the least J are looked for.
+/// The number of points and times at which the largest displacement and the least J are searched.
 const POINTS: usize = 256;
 
 /// A field at an extreme.
@@ -30,7 +30,7 @@ pub struct Subject {
     pub input: Input,
     /// The parameters that are set, by position.
     pub set: SortedMap<usize, Rational>,
-    /// What is extreme about the field, in words; nothing, if it is as declared.
+    /// The extreme settings of the field, in words; empty if it is as declared.
     pub settings: String,
     /// The largest displacement.
     pub size: f64,
@@ -38,12 +38,12 @@ pub struct Subject {
     least_jacobian: f64,
     /// The longest edge of the body, or its diameter.
     edge: f64,
-    /// When its time window begins and ends.
+    /// The begin and the end of the time window.
     window: [f64; 2],
 }
 
 impl Subject {
-    /// A field as it is taken, in a regime or with another material; why it cannot be, where it cannot.
+    /// A field in a regime or with another material; or the reason why it cannot be there.
     ///
     /// # Errors
     /// A field that cannot be read, or does not compile as it is.
@@ -77,7 +77,7 @@ impl Subject {
         }
         let varied = options != *declared;
         let input = match Input::new(source, &options) {
-            // The field holds as it is: it is the extreme that it does not claim anything about.
+            // The field compiles as it is: it makes no claim about the extreme.
             Err(error) if varied => return Ok(Err(first_line(&error))),
             input => input?,
         };
@@ -124,17 +124,17 @@ impl Subject {
         (method, Division::Uniform(cells))
     }
 
-    /// Ends a run after so many steps of its Courant number.
+    /// Ends a run after `steps` steps of its Courant number.
     pub fn end_after(&self, method: &mut Method, cells: usize, steps: usize) {
         let [_, speed] = sound(&self.input.compiled, &self.set);
         let time_step = method.setup.courant * self.edge / cells as f64 / speed;
         method.setup.end_time = Some(self.window[0] + steps as f64 * time_step);
     }
 
-    /// The material of a box in its middle; none of a body whose particles lie along its faces.
+    /// The material of a box in its middle; `None` for a body whose particles lie along its faces.
     ///
     /// # Errors
-    /// The gallery is not that of its files.
+    /// The gallery differs from its files.
     pub fn elasticity(&self) -> anyhow::Result<Option<Elasticity>> {
         let compiled = &self.input.compiled;
         let (extent, _) = domain(&compiled.program, &compiled.parameters::<f64>(&self.set));
@@ -147,7 +147,7 @@ impl Subject {
     /// Runs a method.
     ///
     /// # Errors
-    /// The gallery is not that of its files.
+    /// The gallery differs from its files.
     pub fn run(
         &self,
         method: &Method,
@@ -199,8 +199,8 @@ impl Subject {
     }
 }
 
-/// What is compiled, and set behind it: values of the field's own parameters become its defaults, so that its claims are
-/// looked at with them.
+/// The options to compile with, and the parameters to set afterwards: values of the field's own parameters become its defaults,
+/// so that its claims are checked with them.
 fn take(
     compiled: &Compiled,
     varied: Varied,

@@ -1,9 +1,9 @@
 //! The largest stable Courant number of a method on an endless grid of cubes, full of particles at rest.
 //!
-//! A mode v_j = V exp(i k.x_j) of the grid gives a particle the velocity sigma_p V and the velocity gradient
-//! V (x) gamma_p, with sigma_p = sum_j w_jp exp(i k.(x_j - x_p)) and gamma_p likewise of grad w. Maps to the particles and
-//! back multiply it by s = mean |sigma_p|^2, and elastic forces by -omega^2, the eigenvalues of
-//! mean conj(gamma_p) C gamma_p / rho. What remains of V in a step is r V + s dt a, with
+//! A mode v_j = V exp(i k.x_j) of the grid gives a particle the velocity sigma_p V and the velocity gradient V (x) gamma_p,
+//! with sigma_p = sum_j w_jp exp(i k.(x_j - x_p)) and gamma_p likewise of grad w. Maps to the particles and back multiply it by
+//! s = mean |sigma_p|^2, and elastic forces by -omega^2, the eigenvalues of mean conj(gamma_p) C gamma_p / rho. In a step V
+//! becomes r V + s dt a, with
 //!
 //! | transfer | r |
 //! |---|---|
@@ -28,23 +28,23 @@ use mms_runtime::nalgebra::{Complex, DMatrix};
 use mms_runtime::scene::Scene;
 use mms_runtime::{ManufacturedField, Matrix, Method, ShapeName, Transfer, Vector};
 
-/// How many wave numbers from 0 to pi along an axis.
+/// The number of wave numbers from 0 to pi along an axis.
 const WAVES: i32 = 8;
 
-/// A step of the difference quotient of stresses.
+/// The step of the difference quotient of stresses.
 const STRAIN: f64 = 1e-6;
 
 /// A linear elastic material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elasticity {
-    /// Of space.
+    /// The dimension of space.
     pub dimension: usize,
     /// dP_ab/dH_cd at F = I over rho c0^2, the last index running first.
     pub stiffness: Vec<f64>,
 }
 
 impl Elasticity {
-    /// That of a field's material at F = I, at a point of the body.
+    /// The elasticity of a field's material at F = I, at a point of the body.
     pub fn of(scene: &Scene<f64>, point: &[f64]) -> Self {
         match scene {
             Scene::Line(field) => stiffness(field.as_ref(), point),
@@ -77,11 +77,11 @@ fn stiffness<const D: usize>(field: &dyn ManufacturedField<f64, D>, point: &[f64
     Elasticity { dimension: D, stiffness: all }
 }
 
-/// A node's place less the particle's, w and dw/dx, cells being of length 1.
+/// The position of a node relative to the particle, w and dw/dx; cells have length 1.
 type Weight = [f64; 3];
 
-/// The weights of a particle at x, from node 0, with a domain of half the width `half`; none of a shape function that
-/// is not known here.
+/// The weights of a particle at x, from node 0, with a domain of half the width `half`; `None` for a shape function that is not
+/// implemented here.
 fn weights(shape: ShapeName, x: f64, half: f64) -> Option<Vec<Weight>> {
     let hat = |x: f64| (1.0 - x.abs()).max(0.0);
     let weight = |node: f64| {
@@ -130,7 +130,7 @@ fn cubic(x: f64) -> [f64; 2] {
     }
 }
 
-/// What a mode is at a particle, along one axis: value, slope, and sum w (x_j - x_p) exp(i k (x_j - x_p)).
+/// A mode at a particle, along one axis: value, slope, and sum w (x_j - x_p) exp(i k (x_j - x_p)).
 type Along = [Complex<f64>; 3];
 
 fn along(weights: &[Weight], wave: f64) -> Along {
@@ -140,14 +140,14 @@ fn along(weights: &[Weight], wave: f64) -> Along {
     })
 }
 
-/// A mode: what remains of it after maps to the particles and back, without its linear part and with it, and omega^2.
+/// A mode: the factors r after maps to the particles and back, without its linear part and with it, and omega^2.
 struct Mode {
     kept: f64,
     kept_linear: f64,
     squared: f64,
 }
 
-/// The mode of a wave, given what it is along each axis at each of the particles along it.
+/// The mode of a wave, given its values along each axis at each of the particles along it.
 fn mode(elasticity: &Elasticity, axes: &[Vec<Along>]) -> Mode {
     let (dimension, per_axis) = (elasticity.dimension, axes[0].len());
     let count = per_axis.pow(dimension as u32);
@@ -175,7 +175,7 @@ fn mode(elasticity: &Elasticity, axes: &[Vec<Along>]) -> Mode {
             operator[(a, c)] += gradient[b].conj() * gradient[d] * (part * stiffness);
         }
     }
-    // The eigenvalues of A + i B are those of [A -B; B A].
+    // A + i B has the eigenvalues of [A -B; B A].
     let real = DMatrix::from_fn(2 * dimension, 2 * dimension, |row, column| {
         let entry = operator[(row % dimension, column % dimension)];
         match (row < dimension, column < dimension) {
@@ -298,7 +298,7 @@ mod tests {
         }
     }
 
-    /// Waves along an axis are those of the bar.
+    /// Waves along an axis are the waves of the bar.
     #[test]
     fn a_plane_without_shear_is_as_stable_as_a_bar_or_less() {
         let mut stiffness = vec![0.0; 16];

@@ -1,18 +1,17 @@
-//! The verdict of a row: what is seen of it, and whether it is what is expected.
+//! The verdict of a row: its result, and whether it is expected.
 //!
-//! A bound is a factor on l2 of the declared field, both over the largest displacement, times h^2 where the grid
-//! is coarser, plus five times what round-off is predicted to leave. A run that ends beyond its bound, or stops
-//! for a reason that the row does not name, is what the command looks for. Where J is small, a cell of a grid in
-//! space holds 1/J times the material, as a cell of h/J would with J = 1; times (1/J)^2 the bound is more than the
-//! motion itself, and says nothing: a run beyond it is `unresolved`. The same motion in the total formulation, in
-//! a stable step, is followed in second order.
+//! A bound is a factor on l2 of the declared field, both over the largest displacement, times h^2 if the grid is coarser, plus
+//! five times the predicted round-off. The command searches for runs that end beyond their bound, or stop for a reason that the
+//! row does not name. If J is small, a cell of a grid in space holds 1/J times the material, like a cell of h/J with J = 1. If
+//! the bound times (1/J)^2 exceeds the motion itself, it bounds nothing: a run beyond it is `unresolved`. The total formulation
+//! follows the same motion in second order, in a stable step.
 
 use mms_runtime::{Cause, Refusal};
 use serde::Deserialize;
 
 use super::rows::Row;
 
-/// Why there are no errors, in a word.
+/// The reason for missing errors, in a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Diagnosis {
@@ -39,7 +38,7 @@ pub enum Diagnosis {
 }
 
 impl Diagnosis {
-    /// Of a run that stopped.
+    /// The diagnosis of a run that stopped.
     pub fn of_cause(cause: &Cause) -> Self {
         match cause {
             Cause::UnstableStep { .. } => Diagnosis::UnstableStep,
@@ -53,7 +52,7 @@ impl Diagnosis {
         }
     }
 
-    /// Of a run that was not started.
+    /// The diagnosis of a run that was not started.
     pub fn of_refusal(refusal: &Refusal) -> Self {
         match refusal {
             Refusal::TooLarge { .. } => Diagnosis::TooLarge,
@@ -78,62 +77,62 @@ impl Diagnosis {
     }
 }
 
-/// What came of a run. Errors are over the largest displacement of the field.
+/// The result of a run. Errors are over the largest displacement of the field.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Seen {
-    /// It came to its end.
+    /// The run ended.
     Ended {
         /// The largest over time of the root mean square over particles.
         l2: f64,
-        /// What round-off is predicted to leave of it.
+        /// The predicted part of round-off in the error.
         round_off: f64,
         /// h over the body's longest edge.
         cell_size: f64,
-        /// The least J of the field, where the grid is in space; 1, where it moves with the material.
+        /// The least J of the field, if the grid is in space; 1, if it moves with the material.
         least_jacobian: f64,
     },
-    /// It did not.
+    /// The run stopped.
     Stopped {
-        /// Why, in a word.
+        /// The reason, in a word.
         diagnosis: Diagnosis,
-        /// And in full.
+        /// The reason, in full.
         reason: String,
     },
-    /// The field cannot be put there.
+    /// The field cannot be put into the regime.
     LeftOut {
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
 
-/// The field as declared: what rows are compared with.
+/// The field as declared, to which rows are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Declared {
-    /// Its l2 over the largest displacement.
+    /// The l2 of the error over the largest displacement.
     pub l2: f64,
     /// h over the body's longest edge.
     pub cell_size: f64,
-    /// The least J of the field, as of a run.
+    /// The least J of the field, as for a run.
     pub least_jacobian: f64,
 }
 
-/// How a row ends.
+/// The end of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It is within its bound.
+    /// The error is within its bound.
     WithinBound,
-    /// It stops, as it may.
+    /// The run stops with an allowed diagnosis.
     Stops,
-    /// It is beyond its bound, on a grid in space whose cells hold so much material, where J is small, that their error may
-    /// be as large as the motion: nothing bounds it.
+    /// The error is beyond its bound, on a grid in space whose cells hold so much material, because J is small, that their
+    /// error may be as large as the motion: nothing bounds it.
     Unresolved,
-    /// It is beyond its bound, and does not say so.
+    /// The error is beyond its bound, and no diagnosis reports it.
     BeyondBound,
-    /// It stops for a reason that is not among those expected.
+    /// The run stops with a diagnosis that is not expected.
     WrongDiagnosis,
-    /// It runs where it has to stop.
+    /// The run does not stop, although it has to.
     DoesNotStop,
-    /// The field cannot be put there.
+    /// The field cannot be put into the regime.
     LeftOut,
 }
 
@@ -151,13 +150,13 @@ impl Verdict {
         }
     }
 
-    /// Whether it is what theory says.
+    /// Whether the verdict agrees with theory.
     pub fn is_expected(self) -> bool {
         !matches!(self, Verdict::BeyondBound | Verdict::WrongDiagnosis | Verdict::DoesNotStop)
     }
 }
 
-/// Noise of rounding is within this factor of what is predicted of it.
+/// Noise of rounding is within this factor of its prediction.
 const NOISE: f64 = 5.0;
 
 /// The largest l2 that a row allows, over the largest displacement, on a grid and with round-off.
@@ -166,14 +165,14 @@ pub fn bound(row: &Row, declared: Declared, cell_size: f64, round_off: f64) -> O
     row.l2.map(|factor| factor * declared.l2 * coarser.powi(2) + NOISE * round_off)
 }
 
-/// Whether a bound of the error says nothing, since it is that of the motion or more: for cells in space of `h` hold as
-/// much material as cells of h/J hold where J = 1, and errors are those of these cells, squared.
+/// Whether a bound of the error is useless, because it is as large as the motion or larger: cells in space of size `h` hold as
+/// much material as cells of size h/J hold at J = 1, and errors grow with the square of this size.
 fn is_vacuous(bound: f64, declared: Declared, least_jacobian: f64) -> bool {
     let crowded = (declared.least_jacobian / least_jacobian).max(1.0);
     crowded > 1.0 && bound * crowded.powi(2) >= 1.0
 }
 
-/// The verdict on what is seen.
+/// The verdict on the result of a row.
 pub fn judge(row: &Row, declared: Declared, seen: &Seen) -> Verdict {
     match seen {
         Seen::LeftOut { .. } => Verdict::LeftOut,
@@ -214,7 +213,7 @@ mod tests {
         assert_eq!(judge(&bounded, declared, &ended(2e-3)), Verdict::WithinBound);
         assert_eq!(judge(&bounded, declared, &ended(2.1e-3)), Verdict::BeyondBound);
         assert_eq!(judge(&bounded, declared, &ended(f64::NAN)), Verdict::BeyondBound);
-        // Cells that hold thirty times the material may err as much as there is; those with ten times may not.
+        // Cells with 30 times the material may have errors as large as the motion; cells with 10 times may not.
         assert_eq!(judge(&bounded, declared, &crowded(0.9, 0.5 / 30.0)), Verdict::Unresolved);
         assert_eq!(judge(&bounded, declared, &crowded(1e-3, 0.5 / 30.0)), Verdict::WithinBound);
         assert_eq!(judge(&bounded, declared, &crowded(0.9, 0.5 / 10.0)), Verdict::BeyondBound);

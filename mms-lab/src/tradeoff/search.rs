@@ -1,4 +1,4 @@
-//! The search: from a few coarse runs of everything to a few fine runs of what is best.
+//! The search: from a few coarse runs of everything to a few fine runs of the best.
 //!
 //! | step | runs |
 //! |---|---|
@@ -16,10 +16,10 @@ use mms_files::words::{bytes, duration};
 
 use super::setting::{Axis, Setting};
 
-/// What is to be as small as can be.
+/// The cost to minimise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Cost {
-    /// Particle-steps times what one takes in the longest runs with the same method.
+    /// Particle-steps times the time of one in the longest runs with the same method.
     #[default]
     Seconds,
     /// Particles times steps: the same on every machine.
@@ -48,7 +48,7 @@ impl Cost {
     }
 }
 
-/// What the choice has to meet.
+/// The goal that the choice has to meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
     /// An error of at most this, at the least cost.
@@ -57,10 +57,10 @@ pub enum Goal {
     Cost(f64),
 }
 
-/// A run and what came of it.
+/// A run and its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// How.
+    /// The setting.
     pub setting: Setting,
     /// Cells along the longest edge of the body.
     pub cells: usize,
@@ -72,7 +72,7 @@ pub struct Trial {
     pub error: Result<f64, String>,
     /// Wall-clock seconds.
     pub seconds: f64,
-    /// The most bytes that it held at a time.
+    /// The largest memory in use at a time, in bytes.
     pub memory: f64,
 }
 
@@ -88,24 +88,24 @@ pub trait Runner {
     /// The outcome of a run.
     ///
     /// # Errors
-    /// It could not be tried.
+    /// The run could not be tried.
     fn run(&mut self, setting: &Setting, cells: usize) -> anyhow::Result<Trial>;
 }
 
-/// What is searched, and how far.
+/// The scope of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Of the body.
+    /// The dimension of the body.
     pub dimension: usize,
     /// Numbers of cells are multiples of this.
     pub grain: usize,
-    /// What the choice has to meet.
+    /// The goal that the choice has to meet.
     pub goal: Goal,
-    /// What is to be small.
+    /// The cost to minimise.
     pub cost: Cost,
     /// No run is begun that is predicted to take more particle-steps.
     pub most_work: f64,
-    /// About how many those are on one cell, with one particle in it and a Courant number of 1.
+    /// The approximate number of particle-steps on one cell, with one particle in it and a Courant number of 1.
     pub unit_work: f64,
 }
 
@@ -117,7 +117,7 @@ impl Plan {
         [coarse, 2 * coarse]
     }
 
-    /// How many particle-steps a setting is predicted to take on a grid, before any run.
+    /// The predicted number of particle-steps of a setting on a grid, before any run.
     pub fn work(&self, setting: &Setting, cells: usize) -> f64 {
         let dimension = self.dimension as i32;
         let particles = (setting.particles as f64).powi(dimension);
@@ -129,7 +129,7 @@ impl Plan {
         ((cells / self.grain as f64).ceil().max(1.0) as usize).saturating_mul(self.grain)
     }
 
-    /// By which power of the number of cells the cost grows.
+    /// The power of the number of cells with which the cost grows.
     fn growth(&self) -> f64 {
         let dimension = self.dimension as f64;
         if self.cost == Cost::Memory { dimension } else { dimension + 1.0 }
@@ -141,20 +141,20 @@ impl Plan {
 pub struct Line {
     /// Cells of the run.
     pub cells: f64,
-    /// Its error.
+    /// The error of the run.
     pub error: f64,
-    /// Its cost.
+    /// The cost of the run.
     pub cost: f64,
-    /// Its particle-steps.
+    /// The particle-steps of the run.
     pub work: f64,
-    /// The order of the error; none if it does not shrink.
+    /// The order of the error; `None` if it does not shrink.
     pub order: Option<f64>,
 }
 
-/// What a power law says of another grid.
+/// The prediction of a power law for another grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
-    /// Its cells.
+    /// The number of cells.
     pub cells: f64,
     /// The error there.
     pub error: f64,
@@ -164,23 +164,23 @@ pub struct Prediction {
     pub work: f64,
 }
 
-/// Orders below this are none, and none above the other is believed of coarse grids.
+/// Observed orders below the first count as none, and orders above the second are not believed on coarse grids.
 const ORDERS: [f64; 2] = [0.5, 2.2];
 
-/// The order of what has a single run, since coarser ones stopped: what the methods are made for.
+/// The order that is assumed for a setting with a single run, because coarser ones stopped: the methods are made for it.
 const ASSUMED: f64 = 2.0;
 
-/// What another setting has to gain to be preferred: times are not known better than that.
+/// The factor by which another setting has to be better to be preferred: times are not known more accurately.
 const GAIN: f64 = 0.9;
 
-/// How many settings are tuned, at most, and by what factor their predictions may be worse than the best.
+/// The largest number of settings that are tuned, and the factor by which their predictions may be worse than the best.
 const TUNED: (usize, f64) = (3, 4.0);
 
 /// Runs of the longest's particle-steps over this are long, too; the quickest of them says what a particle takes in a step,
 /// since others may use the processor.
 const LONG: f64 = 8.0;
 
-/// How many runs a setting is given to meet the goal.
+/// The number of runs of a setting to meet the goal.
 const TRIES: usize = 8;
 
 impl Line {
@@ -194,7 +194,7 @@ impl Line {
         }
     }
 
-    /// The grid that just meets a goal; none where nothing does.
+    /// The grid that just meets a goal; `None` if no grid does.
     pub fn meet(&self, plan: &Plan) -> Option<Prediction> {
         let growth = plan.growth();
         let ratio = match (plan.goal, self.order) {
@@ -202,7 +202,7 @@ impl Line {
                 let coarsest = plan.grain as f64 / self.cells;
                 (self.error / target).powf(1.0 / order).max(coarsest)
             }
-            // What does not shrink does not grow: coarser grids are not looked at.
+            // An error that does not shrink on finer grids does not grow on coarser ones: they are not searched.
             (Goal::Error(target), None) => (self.error <= target).then_some(1.0)?,
             (Goal::Cost(budget), _) => (budget / self.cost).powf(1.0 / growth),
         };
@@ -218,16 +218,16 @@ pub struct Search<'a> {
     pub trials: Vec<Trial>,
 }
 
-/// What came of a search.
+/// The result of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// All runs, in the order in which they were made.
     pub trials: Vec<Trial>,
     /// The run that meets the goal best, by position.
     pub choice: Option<usize>,
-    /// The setting that is predicted to be best, and what is predicted, where nothing that was run meets the goal.
+    /// The setting with the best prediction, and the prediction, if no run meets the goal.
     pub predicted: Option<(Setting, Prediction)>,
-    /// What the default would take to meet the goal, or what it would leave, in the cost that was searched for.
+    /// The predicted cost of the default to meet the goal, or its predicted error at the given cost.
     pub default: Option<Prediction>,
 }
 
@@ -255,7 +255,7 @@ impl<'a> Search<'a> {
         Ok(Found { choice: search.choice(), predicted, default, trials: search.trials })
     }
 
-    /// Makes a run that has not been made, unless it is predicted to take too much.
+    /// Makes a run that has not been made, unless its predicted work is too large.
     fn trial(&mut self, setting: &Setting, cells: usize) -> anyhow::Result<()> {
         let same = |trial: &Trial| trial.setting == *setting && trial.cells == cells;
         if !self.trials.iter().any(same) && self.work(setting, cells) <= self.plan.most_work {
@@ -265,7 +265,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// How many particle-steps a setting is predicted to take on a grid: by its finest run, if there is one.
+    /// The predicted number of particle-steps of a setting on a grid: by its finest run, if there is one.
     fn work(&self, setting: &Setting, cells: usize) -> f64 {
         match self.finished(setting).last() {
             Some(run) => {
@@ -276,12 +276,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// What a run costs.
+    /// The cost of a run.
     fn cost(&self, trial: &Trial) -> f64 {
         cost(&self.trials, trial, self.plan.cost)
     }
 
-    /// The settings that are worth to be tuned, the best first.
+    /// The settings that are worth tuning, the best first.
     fn screen(&mut self) -> anyhow::Result<Vec<Setting>> {
         let mut predicted = Vec::new();
         for kind in Setting::kinds() {
@@ -299,14 +299,14 @@ impl<'a> Search<'a> {
         Ok(good.take(most).map(|(_, setting)| setting).collect())
     }
 
-    /// The best settings around one: in the precision and form that are best, and in those of the default.
+    /// The best settings around one: in the best precision and form, and in the default precision and form.
     fn tune(&mut self, start: Setting) -> anyhow::Result<Vec<Setting>> {
         let [coarse, fine] = self.plan.screen();
         let mut best = start;
         for round in 0..2 {
             let before = best;
             for axis in [Axis::Transfer, Axis::Integrator, Axis::Courant, Axis::Particles] {
-                // What a method is made of is tried once.
+                // The parts of a method are tried only once.
                 if round == 0 || matches!(axis, Axis::Courant | Axis::Particles) {
                     best = self.improve(best, axis, fine)?;
                 }
@@ -381,7 +381,7 @@ impl<'a> Search<'a> {
         runs
     }
 
-    /// The order between the finest run and the finest that is coarser by a quarter; nothing where there are none.
+    /// The order between the finest run and the finest that is coarser by a quarter; `None` if there are not both.
     fn order(&self, setting: &Setting) -> Option<f64> {
         let runs = self.finished(setting);
         let fine = runs.last()?;
@@ -392,7 +392,7 @@ impl<'a> Search<'a> {
         order.is_finite().then_some(order)
     }
 
-    /// How far from the goal a power law ends: the cost that meets an error, or the error that meets a cost.
+    /// The distance of a power law from the goal: the cost that meets an error, or the error that meets a cost.
     fn loss_of(&self, line: &Line) -> Option<f64> {
         let met = line.meet(&self.plan)?;
         Some(match self.plan.goal {
@@ -431,7 +431,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// While nothing meets the goal: what is predicted to, of all that was run.
+    /// While nothing meets the goal: runs the setting of all tried ones that is predicted to meet it.
     fn reach_others(&mut self) -> anyhow::Result<()> {
         while self.choice().is_none() {
             let Some((setting, _)) = self.best_prediction() else { break };
@@ -452,7 +452,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// The next grid for a setting; none where the goal is met with little to spare, or cannot be met.
+    /// The next grid for a setting; `None` if the goal is met with little to spare, or cannot be met.
     fn next(&self, setting: &Setting) -> Option<usize> {
         let line = self.line_near(setting)?;
         let met = line.meet(&self.plan)?;
@@ -461,7 +461,7 @@ impl<'a> Search<'a> {
         let [good, bad] =
             [good, bad].map(|runs| runs.into_iter().map(|it| it.cells).collect::<Vec<_>>());
         let grain = self.plan.grain;
-        // Between what is known to be too coarse and too fine.
+        // The grid must be between the grids known to be too coarse and too fine.
         let (low, high) = match self.plan.goal {
             Goal::Error(_) => {
                 let high = good.iter().copied().min();
@@ -472,7 +472,7 @@ impl<'a> Search<'a> {
                 (low, bad.into_iter().filter(|&it| low.is_none_or(|low| it > low)).min())
             }
         };
-        // What is predicted with nothing to spare is missed by a hair.
+        // A grid that is predicted to meet the goal exactly often misses it slightly.
         let cells = match self.plan.goal {
             Goal::Error(_) => self.plan.whole(met.cells * 1.01),
             Goal::Cost(_) => self.plan.whole(met.cells * 0.99).saturating_sub(grain).max(grain),
@@ -512,7 +512,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The best run that meets the goal; of equals the first.
+    /// The best run that meets the goal; the first of equal ones.
     fn choice(&self) -> Option<usize> {
         let loss = |at: &usize| match (self.plan.goal, &self.trials[*at].error) {
             (Goal::Error(_), _) => self.cost(&self.trials[*at]),
@@ -523,7 +523,7 @@ impl<'a> Search<'a> {
         met.min_by(|a, b| loss(a).total_cmp(&loss(b)))
     }
 
-    /// Runs that say what lies around the choice.
+    /// Makes runs around the choice.
     fn surround(&mut self) -> anyhow::Result<()> {
         if let Some(choice) = self.choice().map(|at| self.trials[at].clone()) {
             for part in [2f64.sqrt(), 2.0] {
@@ -560,7 +560,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// What one of some runs costs.
+/// The cost of one of some runs.
 pub fn cost(trials: &[Trial], trial: &Trial, cost: Cost) -> f64 {
     match cost {
         Cost::Memory => trial.memory,

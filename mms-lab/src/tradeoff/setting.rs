@@ -1,4 +1,4 @@
-//! What a search chooses from: everything of a run but its field and its grid.
+//! Settings that a search chooses from: everything of a run except its field and its grid.
 
 use std::fmt;
 
@@ -36,7 +36,7 @@ pub struct Setting {
 }
 
 impl Default for Setting {
-    /// What `mms run` does without options.
+    /// The setting of `mms run` without options.
     fn default() -> Self {
         let Method { shape, integrator, formulation, setup } = Method::default();
         let Setup { transfer, courant, .. } = setup;
@@ -45,10 +45,10 @@ impl Default for Setting {
     }
 }
 
-/// What settings differ in.
+/// The axes in which settings differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
-    /// Formulation and shape function, which do not all go together.
+    /// Formulation and shape function, of which not all combinations are possible.
     Kind,
     /// The transfer.
     Transfer,
@@ -94,8 +94,7 @@ impl Setting {
         kinds
     }
 
-    /// The rows of settings that differ from this one along an axis, each to be followed as long as it gets
-    /// better.
+    /// The rows of settings that differ from this one along an axis; each row is followed as long as it improves.
     pub fn neighbours(&self, axis: Axis) -> Vec<Vec<Setting>> {
         let one = |setting| vec![setting];
         match axis {
@@ -136,22 +135,22 @@ impl Setting {
         }
     }
 
-    /// The same with another formulation and shape function.
+    /// The setting with another formulation and shape function.
     fn of_kind(&self, kind: &Setting) -> Setting {
         Setting { formulation: kind.formulation, shape: kind.shape, ..*self }
     }
 
-    /// The same, computed in another way.
+    /// The setting with another precision and form.
     fn computed(&self, arithmetic: Arithmetic) -> Setting {
         Setting { arithmetic, ..*self }
     }
 
-    /// Whether only the Courant number differs: then a particle takes the same in a step.
+    /// Whether only the Courant number differs: then a step takes the same time per particle.
     pub fn same_step(&self, other: &Setting) -> bool {
         *self == Setting { courant: self.courant, ..*other }
     }
 
-    /// The options of `mms run`, those of the default left out.
+    /// The options of `mms run`, without defaults.
     pub fn options(&self) -> Vec<String> {
         let default = Setting::default();
         let mut options = Vec::new();
@@ -172,7 +171,7 @@ impl Setting {
         options
     }
 
-    /// Its value on an axis, in words.
+    /// The value on an axis, in words.
     pub fn word(&self, axis: Axis) -> String {
         match axis {
             Axis::Kind => format!("{} {}", self.formulation, self.shape),
@@ -188,7 +187,7 @@ impl Setting {
 }
 
 impl fmt::Display for Setting {
-    /// In words; what is as always is left out.
+    /// Writes the setting in words, without its defaults.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let default = Setting::default();
         let [kind, integrator] = [Axis::Kind, Axis::Integrator].map(|axis| self.word(axis));
@@ -201,7 +200,7 @@ impl fmt::Display for Setting {
     }
 }
 
-/// What lies above some value, nearest first, and what lies below it.
+/// The values above a value, nearest first, and the values below it.
 fn both_ways<T: Copy>(
     ladder: &[T],
     order: impl Fn(&T) -> std::cmp::Ordering,
@@ -217,7 +216,7 @@ mod tests {
     use super::*;
     use mms_options::Study;
 
-    /// Whatever is searched can be run: options are understood, and go together.
+    /// Every searched setting can be run: its options are understood, and compatible.
     #[test]
     fn options_are_those_of_a_run() {
         for kind in Setting::kinds() {

@@ -6,7 +6,7 @@ use mms_runtime::ShapeName;
 use super::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
 use super::setting::Setting;
 
-/// Errors and times by formula, and how often they were asked for.
+/// Errors and times by formula, and the number of requests.
 struct Known<E> {
     error: E,
     runs: usize,
@@ -23,7 +23,7 @@ impl<E: Fn(&Setting, f64) -> Result<f64, String>> Runner for Known<E> {
             particles,
             steps,
             error: (self.error)(setting, cells as f64),
-            // With 10 % of a noise that follows from nothing.
+            // With 10 % of a deterministic noise.
             seconds: 1e-7 * (particles * steps) as f64 * (1.0 + 0.1 * (cells as f64).sin()),
             memory: 200.0 * particles as f64,
         })
@@ -40,7 +40,7 @@ fn search(plan: Plan, error: impl Fn(&Setting, f64) -> Result<f64, String>) -> (
     (found, known.runs)
 }
 
-/// Cpdi is best, with 3 particles per cell and as large a step as goes; all else converges, too.
+/// CPDI is best, with 3 particles per cell and the largest possible step; all others converge, too.
 fn smooth(setting: &Setting, cells: f64) -> Result<f64, String> {
     if setting.courant > 0.75 {
         return Err("unstable".into());
@@ -87,7 +87,7 @@ fn a_budget_is_kept_and_used() {
     }
 }
 
-/// Memory does not grow with the steps: more, smaller ones are better, as far as they gain anything.
+/// Memory does not grow with the steps: more, smaller ones are better, as long as they reduce the error.
 #[test]
 fn what_is_to_be_small_decides() {
     let memory = search(plan(Goal::Error(1e-5), Cost::Memory), smooth).0;
@@ -126,7 +126,7 @@ fn what_is_out_of_reach_is_predicted_and_not_run() {
     assert!(found.trials.iter().all(|trial| trial.particle_steps() <= 1e6));
 }
 
-/// Also none of those that come before there is anything to predict from.
+/// The limit also holds for the first runs, before there is anything to predict from.
 #[test]
 fn no_run_takes_more_than_it_may() {
     for (most_work, is_run) in [(1.0, false), (2e4, true)] {
@@ -137,7 +137,7 @@ fn no_run_takes_more_than_it_may() {
     }
 }
 
-/// There is no grid of no cells, however small the error.
+/// A grid has at least one cell, for any error.
 #[test]
 fn an_error_of_nothing_is_met_on_the_coarsest_grid() {
     let (found, _) = search(plan(Goal::Error(1e-3), Cost::ParticleSteps), |_, _| Ok(0.0));
@@ -156,7 +156,7 @@ fn where_nothing_converges_there_is_no_choice_and_no_prediction() {
     assert_eq!(runs, 2 * Setting::kinds().len());
 }
 
-/// Of a body whose edges are as 3 to 1, numbers of cells are multiples of 3.
+/// If the edges of a body are as 3 to 1, numbers of cells are multiples of 3.
 #[test]
 fn numbers_of_cells_divide_the_edges() {
     let grained = Plan { grain: 3, ..plan(Goal::Error(1e-4), Cost::ParticleSteps) };

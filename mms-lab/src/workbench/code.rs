@@ -1,4 +1,4 @@
-//! The machine code of what is emitted.
+//! The machine code of emitted code.
 
 use mms_files::read::{self, Kind};
 use mms_program::precision::Precision;
@@ -6,9 +6,9 @@ use mms_program::precision::Precision;
 use super::Workbench;
 use super::module::{Call, Module, Way, scalar};
 
-/// An object file with what is called on the way from parameters, time and position to every quantity
-/// of a module: `prepare`, `at_time`, what keeps points where they are kept, a function for each
-/// quantity, and whatever the compiler makes for these and does not find in `mms-math`.
+/// An object file with every function called from parameters, time and position to every quantity of a module: `prepare`,
+/// `at_time`, the functions that keep points if points are kept, a function for each quantity, and every function that the
+/// compiler adds for these and does not find in `mms-math`.
 pub fn object(
     bench: &Workbench,
     module: &Module<'_>,

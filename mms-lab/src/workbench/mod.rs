@@ -1,9 +1,9 @@
-//! Compiles emitted code and runs it, to see what it costs on this machine.
+//! Compiles emitted code and runs it, to measure its cost on this machine.
 //!
-//! The workbench is a temporary folder with `mms-math`, whose sources are embedded, compiled by the `rustc` of the
-//! user; all contenders take turns. Nothing else is needed, and nothing is fetched. Where there is no `rustc`,
-//! times are null, and a word on stderr says why. It also compiles what is called for a quantity to an object file
-//! of its own, whose instructions `examples/scene/` counts.
+//! The workbench is a temporary folder with `mms-math`, whose sources are embedded, compiled by the user's `rustc`; all
+//! contenders take turns. Nothing else is needed, and nothing is downloaded. Without a `rustc`, times are null, and a message
+//! on stderr says why. The workbench also compiles the functions called for a quantity to an object file of its own, whose
+//! instructions `examples/scene/` counts.
 
 mod code;
 mod module;
@@ -74,7 +74,7 @@ impl Workbench {
         written.with_context(|| format!("cannot write `{}`", foreign::path(&path)))
     }
 
-    /// Compiles a crate of this folder as a release is.
+    /// Compiles a crate of this folder in release mode.
     fn compile(&self, source: &str, output: &str, options: &[&str]) -> anyhow::Result<PathBuf> {
         let output = self.folder.path().join(output);
         let mut command = Command::new(RUSTC);

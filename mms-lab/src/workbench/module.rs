@@ -26,7 +26,7 @@ impl Module<'_> {
         self.compiled.field.dimension
     }
 
-    /// The quantities that its program computes.
+    /// The quantities that the module's program computes.
     fn quantities(&self) -> impl Iterator<Item = Quantity> {
         let outputs = &self.compiled.program.outputs;
         let known = |quantity: &Quantity| outputs.contains_key(&Output::Quantity(*quantity));
@@ -34,7 +34,7 @@ impl Module<'_> {
     }
 }
 
-/// How code is called.
+/// The way in which code is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     /// Point by point.
@@ -63,7 +63,7 @@ pub(super) struct Call<'a> {
 }
 
 impl<'a> Call<'a> {
-    /// Those of all quantities.
+    /// The calls of all quantities.
     pub fn all(
         module: &'a Module<'a>,
         precision: Precision,
@@ -83,12 +83,12 @@ impl<'a> Call<'a> {
         format!("{}{suffix}", self.quantity.name())
     }
 
-    /// How many columns the results are.
+    /// The number of columns of the results.
     pub fn components(&self) -> usize {
         self.module.compiled.field.space.components(self.quantity.shape())
     }
 
-    /// Whether it takes normals beside positions.
+    /// Whether the function takes normals beside positions.
     pub fn takes_normals(&self) -> bool {
         self.quantity.takes_normal()
     }

@@ -1,5 +1,4 @@
-//! How long emitted code takes: medians of rounds in which all contenders take turns, so that all see
-//! the same machine.
+//! The time of emitted code: medians of rounds in which all contenders take turns, so that all see the same machine.
 
 use std::fmt::Write as _;
 
@@ -12,13 +11,13 @@ use mms_spec::quantity::Quantity;
 use super::Workbench;
 use super::module::{Call, Module, Way, scalar};
 
-/// How many points an evaluation of a batch has.
+/// The number of points in an evaluation of a batch.
 const POINTS: usize = 4096;
 
-/// How often every contender takes a turn.
+/// The number of turns of every contender.
 const ROUNDS: usize = 21;
 
-/// What the program that is compiled has beside the contenders.
+/// The source text of the timing program before the modules and contenders.
 const HEAD: &str = include_str!("timing_head.rs");
 
 /// The time of one contender.
@@ -36,7 +35,7 @@ pub struct Time {
     pub ns_per_point: f64,
 }
 
-/// The times of every quantity of some modules, in each precision and way that is asked for.
+/// The times of every quantity of some modules, in each of the given precisions and ways.
 pub fn time(
     bench: &Workbench,
     modules: &[Module<'_>],
@@ -118,8 +117,7 @@ fn contender(call: &Call<'_>) -> String {
     )
 }
 
-/// A time in the middle of the window, and as many points as a batch has: a line for each,
-/// and an empty one.
+/// A time in the middle of the window, and as many points as a batch has: a line for each, and an empty line.
 fn points(compiled: &Compiled) -> String {
     let parameters = compiled.parameters::<f64>(&Default::default());
     let all = inputs(compiled, &parameters, Place::Body, POINTS);

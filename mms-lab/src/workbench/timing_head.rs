@@ -1,5 +1,4 @@
-// The program that times emitted code. What follows this text: the modules, and a `main` that lists
-// the contenders.
+// The program that times emitted code. After this text follow the modules, and a `main` that lists the contenders.
 #![allow(warnings)]
 
 use std::hint::black_box;
@@ -10,7 +9,7 @@ use mms_math::{Double, Scalar};
 /// A contender: how many points it evaluates in a turn, and a turn.
 type Turn = (usize, Box<dyn FnMut()>);
 
-/// How many points are evaluated in a turn one by one.
+/// The number of points that are evaluated one by one in a turn.
 const FEW: usize = 256;
 
 struct Input {
@@ -19,7 +18,7 @@ struct Input {
 }
 
 impl Input {
-    /// Those of all modules, an empty line after each.
+    /// Reads the inputs of all modules, with an empty line after each.
     fn read() -> Vec<Self> {
         let text = std::io::read_to_string(std::io::stdin()).expect("input");
         text.split_terminator("\n\n").map(Input::of).collect()

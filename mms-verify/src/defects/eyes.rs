@@ -9,20 +9,20 @@ use serde::{Deserialize, Serialize};
 use crate::plan::Job;
 use crate::work::{Bench, Fields, Step, watch_of};
 
-/// What the key of a run ends with whose energy is measured. Where fields are interpreted it takes as long as all the
-/// rest; so it is the coarsest run of each row.
+/// The end of the key of a run whose energy is measured. If fields are interpreted, this takes as long as all other work, so
+/// only the coarsest run of each row is measured.
 pub const WEIGHED: &str = ", with its energy";
 
-/// How often a run is looked at, the end included.
+/// The number of looks at a run, including one at the end.
 const LOOKS: usize = 4;
 
-/// A run, and what is to be seen of it.
+/// A run, and the data that people see of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Watched {
-    /// What the row judges.
+    /// The outcome that the row judges.
     pub outcome: Outcome,
-    /// What people look at; of a run that did not end, nothing.
+    /// The data that people look at; `None` if the run did not end.
     pub seen: Option<Seen>,
 }
 

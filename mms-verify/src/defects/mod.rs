@@ -1,12 +1,11 @@
 //! Deliberate mistakes (fault injection), and the rows that must catch them.
 //!
-//! A suite that does not fail for a seeded defect is no verification suite. Each defect is switched on for the
-//! whole process and shown to the quick levels of the rows that list it under `catches`; to all rows, if none
-//! does, or with `--all-rows`. First the rows are run without any, in the same way: a verdict that is not the
-//! expected one ends the command. It expects that every defect is caught, by each row that says so, and, if all
-//! rows were shown all defects, that each row catches one of those that at most six rows catch, or has a
-//! `witness`: what no other row looks at. Results are kept in a folder of their own in the store. Beside the
-//! verdicts, each run is looked at as people look at runs ([`pictures`](mms_lab::pictures)).
+//! A suite that does not fail for a seeded defect is no verification suite. Each defect is switched on for the whole process
+//! and shown to the quick levels of the rows that list it under `catches`; to all rows, if none does, or with `--all-rows`.
+//! First the rows are run without any defect, in the same way: an unexpected verdict ends the command. The command expects that
+//! every defect is caught, by each row that lists it, and, if all rows were shown all defects, that each row catches a defect
+//! that at most six rows catch, or has a `witness`: a property that no other row tests. Results are kept in a folder of their
+//! own in the store. Beside the verdicts, each run is looked at as people look at runs ([`pictures`](mms_lab::pictures)).
 
 mod eyes;
 
@@ -30,9 +29,9 @@ use super::work::{Fields, Watcher, outcomes};
 /// A deliberate mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Defect {
-    /// Of `mms-runtime`.
+    /// A defect of `mms-runtime`.
     Solver(solver::Defect),
-    /// Of `mms-codegen`: fields are compiled anew, and interpreted.
+    /// A defect of `mms-codegen`: fields are compiled anew, and interpreted.
     Compiler(compiler::Defect),
 }
 
@@ -51,7 +50,7 @@ impl Defect {
         }
     }
 
-    /// What is wrong.
+    /// A description of the mistake.
     pub fn what(self) -> &'static str {
         match self {
             Defect::Solver(defect) => defect.what(),
@@ -59,7 +58,7 @@ impl Defect {
         }
     }
 
-    /// Where it is.
+    /// The place of the mistake.
     pub fn place(self) -> &'static str {
         match self {
             Defect::Solver(_) => "solver",
@@ -67,7 +66,7 @@ impl Defect {
         }
     }
 
-    /// Those of some names; all, if there are none.
+    /// The defects with these names; all, if there are none.
     ///
     /// # Errors
     /// A name that no defect has.
@@ -83,7 +82,7 @@ impl Defect {
     }
 }
 
-/// Refuses rows that catch what there is not.
+/// Refuses rows that list a defect that does not exist.
 ///
 /// # Errors
 /// The row, and the name.
@@ -122,21 +121,21 @@ impl Drop for Made {
 pub struct Shown<'a> {
     /// The row.
     pub row: &'a Row,
-    /// Its verdict.
+    /// The verdict.
     pub judgement: Judgement,
-    /// What people would say of its runs.
+    /// The objections of people to the runs of the row.
     pub looks: Looks,
 }
 
-/// Where rows are shown defects.
+/// The setup in which rows are shown defects.
 pub struct Stage<'a> {
-    /// What tells this program from any other.
+    /// The identity of this program.
     pub program: String,
-    /// Results with defects, and none that is trusted without.
+    /// The results of this command, with and without a defect; other commands do not use them.
     pub store: Store,
-    /// How many runs go side by side.
+    /// The number of runs at the same time.
     pub threads: NonZero<usize>,
-    /// Who is told.
+    /// The receiver of messages.
     pub watcher: &'a dyn Watcher,
 }
 
