@@ -15,7 +15,7 @@ use crate::shown::Shown;
 use crate::table::Table;
 use crate::text::next;
 
-/// How many hypotheses a text shows.
+/// The number of hypotheses that a text shows.
 const SHOWN: usize = 5;
 
 /// A diagnosis of results of a field.
@@ -28,7 +28,7 @@ pub struct Diagnosed<'a> {
     pub diagnosis: &'a Diagnosis,
     /// The words of the command to type next, if something is wrong.
     pub next: Option<Vec<String>>,
-    /// Where it is from.
+    /// The provenance.
     pub provenance: Provenance,
 }
 
@@ -155,13 +155,13 @@ fn ordinary([least, most]: [f64; 2]) -> String {
         true => format!("a right solver would be at about {most:.1e}"),
         false => {
             format!(
-                "from {least:.1e} to {most:.1e} is taken for that of a right method on such a grid"
+                "from {least:.1e} to {most:.1e} is accepted as the error of a right method on such a grid"
             )
         }
     }
 }
 
-/// How the error falls from mesh to mesh, and where to look.
+/// The decrease of the error from mesh to mesh, and where to look.
 fn order(it: &Falls, of_order: Option<&OfOrder>) -> String {
     let observed = it.observed.map_or("no order".into(), |order| format!("order {order:.2}"));
     let mut lines = vec![format!(
@@ -178,7 +178,7 @@ fn order(it: &Falls, of_order: Option<&OfOrder>) -> String {
     lines.join("\n")
 }
 
-/// The sentence about the mistake that is named.
+/// The sentence about the named mistake.
 fn named(best: &Ranked) -> String {
     let mut lines =
         vec![format!("named: {} ({})", best.title(), best.kind.name()), best.says.clone()];
@@ -195,17 +195,17 @@ fn named(best: &Ranked) -> String {
     lines.join("\n")
 }
 
-/// The method whose error is such a one.
+/// The right method with a similar error.
 fn alike(it: &Like) -> String {
     format!(
-        "like {}: the error is {:.2} times that of this right method on such a grid, {:.0} % apart",
+        "like {}: the error is {:.2} times the error of this right method on such a grid, {:.0} % apart",
         it.method,
         it.factor,
         100.0 * it.apart
     )
 }
 
-/// Says where an error sits that nothing explains, and its order if that was not said.
+/// The place of an unexplained error, and its order if no other line has it.
 fn place(it: &Place, has_order: bool) -> String {
     let at: Vec<String> = it.at.iter().map(|x| format!("{x:.4}")).collect();
     let mut lines = vec![format!("it is largest at X = [{}], t = {:.4e}", at.join(", "), it.time)];
@@ -233,7 +233,7 @@ fn place(it: &Place, has_order: bool) -> String {
 
 /// The names of the axes of X.
 const AXES: [&str; 3] = ["X", "Y", "Z"];
-/// Less of an error than this is smooth: it is called noise.
+/// An error with a smaller smooth part than this is called noise.
 const SMOOTH: f64 = 0.5;
 
 fn fields(it: &Fields) -> documents::ErrorFields {

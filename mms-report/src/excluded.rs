@@ -4,10 +4,10 @@ use mms_diagnosis::excluded::{Excluded, Shown};
 use mms_judge::Together;
 use mms_judge::results::Exclusions;
 
-/// How many names a line shows.
+/// The number of names that a line shows.
 const SHOWN: usize = 12;
 
-/// How many mistakes of all are excluded, and the first names of those that are still open.
+/// The number of excluded mistakes among all, and the first names of the open ones.
 fn counted(excluded: usize, all: usize, open: &[String]) -> String {
     let more = open.len().saturating_sub(SHOWN);
     let names = listed(open.iter().take(SHOWN).cloned());
@@ -48,7 +48,7 @@ pub fn together(of: &Together) -> String {
 /// The head of a line, and the text of each mistake in it.
 type Says = (&'static str, fn(&Excluded) -> Option<String>);
 
-/// The lines of a text: what is excluded, from which size on, what is not, and what the field does not see.
+/// The lines of a text: excluded mistakes, mistakes excluded from a size on, open ones, and ones that the field does not see.
 const LINES: [Says; 4] = [
     ("excluded", |it| matches!(it.shown, Shown::Always(_)).then(|| it.title.clone())),
     ("excluded from a size on", |it| match it.shown {
@@ -66,7 +66,7 @@ const LINES: [Says; 4] = [
     }),
 ];
 
-/// The size from which a mistake is shown: of a factor as a part of it.
+/// The size from which a mistake is excluded: for a factor, as a part of it.
 pub fn size(right: f64, least: f64) -> String {
     if right == 1.0 { format!("{:.2} %", 100.0 * least) } else { format!("{least:.2e}") }
 }
@@ -74,7 +74,7 @@ pub fn size(right: f64, least: f64) -> String {
 /// The largest part of an error that counts as none, because of rounding.
 const UNSEEN: f64 = 1e-6;
 
-/// Names between commas: what they are of is said once, as in `material [hencky, ogden]`.
+/// Names separated by commas; a common subject is written once, as in `material [hencky, ogden]`.
 fn listed(names: impl IntoIterator<Item = String>) -> String {
     names.into_iter().fold(String::new(), |all, name| {
         let open = all.rfind('[').map(|at| all[..at].rsplit(", ").next().unwrap_or_default());

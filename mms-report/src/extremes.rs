@@ -21,9 +21,9 @@ pub struct Report {
     pub title: Foreign,
     /// The method.
     pub method: Method,
-    /// How numbers were computed.
+    /// The arithmetic of the runs.
     pub arithmetic: Arithmetic,
-    /// Whether `--quick` was asked for.
+    /// Whether `--quick` was given.
     pub quick: bool,
     /// The field as declared.
     pub declared: Declared,
@@ -31,11 +31,11 @@ pub struct Report {
     pub rows: Vec<Judged>,
     /// The largest stable Courant numbers.
     pub stability: Vec<Stability>,
-    /// Where it is from.
+    /// The provenance.
     pub provenance: Provenance,
 }
 
-/// A row, with what came of it.
+/// A row with its result.
 pub struct Judged {
     /// The row.
     pub row: Row,
@@ -43,7 +43,7 @@ pub struct Judged {
     pub setting: String,
     /// The result of the run.
     pub seen: Seen,
-    /// Whether that is expected.
+    /// The verdict on the result.
     pub verdict: Verdict,
 }
 
@@ -51,22 +51,22 @@ pub struct Judged {
 pub struct Stability {
     /// The method.
     pub method: Method,
-    /// On an endless grid, where that is known.
+    /// The limit on an endless grid, if it is known.
     pub theory: Option<f64>,
-    /// On the body.
+    /// The limit on the body.
     pub measured: f64,
-    /// Whether it is the method of the other rows, which the Courant number of these has to be stable for.
+    /// Whether it is the method of the other rows, whose Courant number has to be stable for it.
     pub is_own: bool,
 }
 
-/// How far a measured limit may be above that of theory: the number of steps is finite.
+/// The factor by which a measured limit may exceed the theoretical limit: the number of steps is finite.
 const ABOVE: f64 = 1.05;
 
-/// A limit below this part of that of theory is one of the faces.
+/// A limit below this part of the theoretical limit is set by the faces.
 const BELOW: f64 = 0.95;
 
 impl Stability {
-    /// Which part of the body sets the limit; or what is not expected.
+    /// The part of the body that sets the limit; or a word for an unexpected limit.
     pub fn verdict(&self) -> &'static str {
         match self.theory {
             _ if self.is_own && self.measured < self.method.setup.courant => {
@@ -79,14 +79,14 @@ impl Stability {
         }
     }
 
-    /// Whether that is expected.
+    /// Whether the limit is expected.
     pub fn is_expected(&self) -> bool {
         !matches!(self.verdict(), "unstable as it is run" | "above theory")
     }
 }
 
 impl Judged {
-    /// The largest l2 that is allowed, where it is known: a run that stops has no round-off.
+    /// The largest allowed l2, if it is known: a run that stops has no round-off.
     fn bound(&self, declared: Declared) -> Option<f64> {
         match self.seen {
             Seen::Ended { round_off, cell_size, .. } => {
@@ -148,13 +148,13 @@ impl Judged {
 const UNMEASURED: &str = "nothing was measured";
 
 impl Report {
-    /// Whether the field could be put at no extreme that was asked for.
+    /// Whether the field could be put at none of the selected extremes.
     fn is_unmeasured(&self) -> bool {
         let is_left_out = |row: &Judged| row.verdict == Verdict::LeftOut;
         self.rows.iter().all(is_left_out) && self.stability.is_empty()
     }
 
-    /// The names of rows that are not as theory says.
+    /// The names of rows that disagree with theory.
     pub fn unexpected(&self) -> Vec<String> {
         let rows = self.rows.iter().filter(|row| !row.verdict.is_expected());
         let rows = rows.map(|row| row.row.name.clone());

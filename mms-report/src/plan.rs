@@ -1,4 +1,4 @@
-//! The ladder of a diagnosis: what each step needs of a solver, and what it can see.
+//! The ladder of a diagnosis: the input of a solver that each step needs, and the mistakes that it detects.
 
 use clap::ValueEnum;
 use mms_diagnosis::list::Listed;
@@ -8,7 +8,7 @@ use mms_spec::foreign::Foreign;
 use super::shown::Shown;
 use super::table::Table;
 
-/// A step of the ladder; each takes for granted what the one before it shows.
+/// A step of the ladder; each step assumes that the one before passed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
 pub enum Step {
     /// F and a stress, without a solver.
@@ -22,7 +22,7 @@ pub enum Step {
 }
 
 impl Step {
-    /// Its name on the command line.
+    /// The name on the command line.
     fn name(self) -> &'static str {
         match self {
             Step::Law => "law",
@@ -32,7 +32,7 @@ impl Step {
         }
     }
 
-    /// The input that it needs.
+    /// The input that the step needs.
     fn needs(self) -> &'static str {
         match self {
             Step::Law => {
@@ -52,7 +52,7 @@ impl Step {
         }
     }
 
-    /// Its cost.
+    /// The cost of the step.
     fn costs(self) -> &'static str {
         match self {
             Step::Law => "no run",
@@ -63,7 +63,7 @@ impl Step {
         }
     }
 
-    /// The command, of a field.
+    /// The command for a field.
     fn command(self, field: &str) -> String {
         let rest = match self {
             Step::Law => "law.csv --quantity stress",
@@ -74,7 +74,7 @@ impl Step {
         format!("mms diagnose {field} {rest}")
     }
 
-    /// Whether it shows a hypothesis.
+    /// Whether the step detects a hypothesis.
     fn shows(self, hypothesis: &Listed) -> bool {
         let word = match self {
             Step::Law => "law",
@@ -85,7 +85,7 @@ impl Step {
     }
 }
 
-/// The steps that a code can take.
+/// The steps that are possible with a code.
 pub struct Plan<'a> {
     /// The field.
     pub field: &'a Foreign,
@@ -96,14 +96,14 @@ pub struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// In the order of the ladder; without steps, all of them.
+    /// The steps in the order of the ladder; all of them if none is given.
     pub fn new(field: &'a Foreign, asked: &[Step], hypotheses: Vec<Listed>) -> Self {
         let all = Step::value_variants().iter().copied();
         let steps = all.filter(|it| asked.is_empty() || asked.contains(it)).collect();
         Plan { field, steps, hypotheses }
     }
 
-    /// The names of hypotheses that a step shows, each once.
+    /// The names of the hypotheses that a step detects, each once.
     fn seen(&self, step: Step) -> Vec<&str> {
         let shown = self.hypotheses.iter().filter(|it| step.shows(it));
         let mut names: Vec<&str> = shown.map(|it| it.title.as_str()).collect();

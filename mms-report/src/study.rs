@@ -34,15 +34,15 @@ pub struct Study {
     pub units: Option<Names<String>>,
     /// The method.
     pub method: Method,
-    /// How numbers were computed.
+    /// The arithmetic of the runs.
     pub arithmetic: Arithmetic,
     /// The refined lengths.
     pub refinement: Refinement,
     /// The levels, from coarse to fine.
     pub levels: Vec<Result<Run, Refused>>,
-    /// In a study in time, how far each level is from the next.
+    /// The difference of each level from the next, in a study in time.
     pub differences: Option<Series>,
-    /// The order that theory says, and how narrow its interval must be.
+    /// The order of theory, and the largest width of its interval.
     pub expected: Expected,
     /// The judgement of the errors.
     pub judgement: Judgement,
@@ -54,17 +54,17 @@ pub struct Study {
     pub error_constant: Option<f64>,
     /// The expected error constant, if it is known.
     pub expected_error_constant: Option<f64>,
-    /// Space and time in one formula, where that was asked for, and found.
+    /// The fit of space and time in one formula, if it was requested, and found.
     pub fit: Option<Fit>,
-    /// Amplitude and phase, where that was asked for.
+    /// Amplitude and phase, if they were requested.
     pub phases: Option<Phases>,
-    /// The mistakes that a pass excludes, if they were asked for.
+    /// The mistakes that a pass excludes, if they were requested.
     pub exclusions: Option<Exclusions>,
     /// The likely causes of a verdict that is no pass.
     pub causes: Vec<String>,
     /// The words of the command to type next after such a verdict.
     pub next: Option<Vec<String>>,
-    /// Where it is from.
+    /// The provenance.
     pub provenance: Provenance,
 }
 
@@ -137,7 +137,7 @@ fn refused_row(refused: &Refused) -> documents::Level {
     }
 }
 
-/// Whether the error of a level may be nothing but round-off.
+/// Whether the error of a level may be round-off alone.
 fn is_noise(row: &documents::Level) -> bool {
     row.errors.l2.zip(row.round_off.flatten()).is_some_and(|(error, floor)| error < floor)
 }
@@ -231,7 +231,7 @@ impl Study {
         })
     }
 
-    /// How far each level is from the next, and the orders that led to it.
+    /// The difference of each level from the next, and the orders between them.
     fn steps(&self) -> Option<Vec<(Point, Orders)>> {
         let points = self.differences.as_ref()?.points();
         let before = std::iter::once(None).chain(points.iter().copied().map(Some));
@@ -244,7 +244,7 @@ impl Study {
         )
     }
 
-    /// The errors that are judged: those of the levels that were started, or in time the differences of successive levels.
+    /// The judged errors: of the levels that were started, or in time the differences of successive levels.
     pub(super) fn points(&self) -> Vec<Point> {
         match &self.differences {
             Some(differences) => differences.points().to_vec(),
@@ -252,7 +252,7 @@ impl Study {
         }
     }
 
-    /// The levels that are judged, by their cells or time steps; in time the last is no such level.
+    /// The judged levels, by their cells or time steps; in time the last one is not among them.
     pub(super) fn names_of_levels(&self) -> Vec<String> {
         let name = |level: &Result<Run, Refused>| match (level, self.refinement) {
             (Ok(run), Refinement::Time) => format!("dt {:.2e}", run.level.time_step),
@@ -264,7 +264,7 @@ impl Study {
         self.levels[..judged].iter().map(name).collect()
     }
 
-    /// l2 of each of these, or why there is none.
+    /// l2 of each of these, or the reason why there is none.
     pub(super) fn errors_of_levels(&self) -> Vec<String> {
         let mut points = self.points().into_iter();
         let judged = self.levels.iter().take(self.names_of_levels().len());
@@ -277,7 +277,7 @@ impl Study {
             .collect()
     }
 
-    /// The document without its provenance. The list of excluded mistakes is there if it was asked for.
+    /// The document without its provenance. It has the list of excluded mistakes if that was requested.
     pub(super) fn content(&self) -> StudyOfMethod {
         let rows = self.rows();
         StudyOfMethod {
@@ -316,7 +316,7 @@ impl Study {
         StudyErrors { displacement, velocity, deformation_gradient, first_piola_kirchhoff }
     }
 
-    /// Amplitude and phase, where they were asked for.
+    /// Amplitude and phase, if they were requested.
     pub(super) fn phase_text(&self) -> Option<String> {
         let table = self.phase_table()?;
         Some(format!("{table}\n\na phase lag is in radians, and negative where the run is ahead"))
@@ -410,7 +410,7 @@ impl Study {
         format!("{}: {}{refused}", self.verdict, self.judgement.headline(&name))
     }
 
-    /// How a level is called; a length between levels is itself.
+    /// The name of a level; a length between levels names itself.
     fn name_of_level(&self, length: f64) -> String {
         let is_it = |run: &&Run| self.refinement.length(&run.level) == length;
         match (self.started().find(is_it), self.refinement) {
@@ -430,7 +430,7 @@ impl Study {
         if self.refinement == Refinement::Time { "dt" } else { "h" }
     }
 
-    /// The verdict, and what it rests on; in full also where the interval is from, and a constant that nobody expects.
+    /// The verdict and its basis; in full also the origin of the interval, and a constant that was not expected.
     fn conclusions(&self, is_full: bool) -> String {
         let mut lines = vec![self.conclusion()];
         let (symbol, name) = (self.symbol(), |length| self.name_of_level(length));
@@ -502,7 +502,7 @@ impl Study {
         parts.join("\n\n")
     }
 
-    /// The error constant, and what it was held to: a defect may leave the order and change it.
+    /// The error constant, and its expected value: a defect may keep the order and change it.
     fn constant(&self) -> String {
         let length = self.symbol();
         let found = match self.error_constant {

@@ -14,7 +14,7 @@ pub const FITTED: &str = "fitted order";
 /// A table of texts.
 #[derive(Clone)]
 pub struct Table {
-    /// The caption, which all views but that of a terminal show.
+    /// The caption, which all views except the terminal show.
     caption: String,
     header: Vec<String>,
     rows: Vec<Vec<String>>,

@@ -16,23 +16,23 @@ use crate::table::Table;
 use crate::tally;
 use crate::text::next;
 
-/// Rows, with what came of them.
+/// Rows with their results.
 pub struct Report<'a> {
-    /// Whether `--quick` was asked for.
+    /// Whether `--quick` was given.
     pub quick: bool,
     /// The rows that were run.
     pub rows: Vec<Judged<'a>>,
-    /// Where it is from.
+    /// The provenance.
     pub provenance: Provenance,
 }
 
-/// A row, with what came of it.
+/// A row with its result.
 pub struct Judged<'a> {
     /// The row.
     pub row: &'a Row,
-    /// Its study.
+    /// The study of the row.
     pub study: Study,
-    /// Its levels, coarse to fine.
+    /// The levels, coarse to fine.
     pub levels: Vec<Outcome>,
     /// The judgement of the levels.
     pub judgement: Judgement,
@@ -110,7 +110,7 @@ impl Report<'_> {
         table
     }
 
-    /// The page: what does not depend on a machine.
+    /// The page: all content that does not depend on a machine.
     pub fn page(&self) -> String {
         let mut page = String::from(INTRODUCTION);
         let mut group = "";
@@ -190,7 +190,7 @@ impl Shown for Report<'_> {
 pub struct List<'a> {
     /// The rows.
     pub rows: &'a [&'a Row],
-    /// Whether `--quick` was asked for.
+    /// Whether `--quick` was given.
     pub quick: bool,
 }
 
@@ -270,7 +270,7 @@ mod tests {
 
     use super::fixed;
 
-    /// The command writes the observed columns of the page; this test holds those that follow from the rows.
+    /// The command writes the observed columns of the page; this test checks the columns that follow from the rows.
     #[test]
     fn the_page_has_these_rows() {
         let page = include_str!("../../docs/verification.md");

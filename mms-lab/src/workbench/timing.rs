@@ -29,7 +29,7 @@ pub struct Time {
     pub quantity: Quantity,
     /// The precision.
     pub precision: Precision,
-    /// How it was called.
+    /// The way in which it was called.
     pub way: Way,
     /// The median, in nanoseconds.
     pub ns_per_point: f64,

@@ -20,7 +20,7 @@ use crate::table::Table;
 /// The bound of the stable form, in eps of the largest value of a quantity.
 pub const BOUND: f64 = 64.0;
 
-/// The regimes that the promise is about.
+/// The regimes in which the stable form promises its bound.
 const PROMISED: [&str; 4] =
     ["declared", "displacement_1e-4", "displacement_1e-8", "displacement_1e-12"];
 
@@ -28,7 +28,7 @@ const PROMISED: [&str; 4] =
 pub struct Report {
     /// The field's name.
     pub field: Foreign,
-    /// At how many points.
+    /// The number of points.
     pub points: usize,
     /// The errors.
     pub accuracy: Accuracy,
@@ -36,46 +36,45 @@ pub struct Report {
     pub times: Vec<(Form, Time)>,
     /// Whether all rows are shown, or the worst of each quantity.
     pub all: bool,
-    /// Where it is from.
+    /// The provenance.
     pub provenance: Provenance,
 }
 
-/// Whether something is promised of a form in a regime.
+/// Whether a form has a promised bound in a regime.
 pub fn is_promised(form: &str, regime: &str) -> bool {
     form == Form::Stable.name() && PROMISED.contains(&regime)
 }
 
-/// Whether something is promised of a row.
+/// Whether a row has a promised bound.
 fn has_promise(row: &Row) -> bool {
     is_promised(row.form.name(), row.regime.raw())
 }
 
-/// Whether a row is within what is promised of it; nothing is promised of some, and nothing is known of those without a
-/// component that could be compared.
+/// Whether a row is within its promised bound; `None` if it has no promise, or no component that could be compared.
 fn within_bound(row: &Row) -> Option<bool> {
     let Errors { max_scaled_eps, not_finite, compared, .. } = row.errors;
     let is_known = compared > 0 || not_finite > 0;
     (has_promise(row) && is_known).then_some(max_scaled_eps <= BOUND && not_finite == 0)
 }
 
-/// An error of a row, if there is one: what was not measured has none.
+/// An error of a row; `None` if it was not measured.
 fn measured(row: &Row, of: impl Fn(&Errors) -> f64) -> Option<f64> {
     (row.errors.compared > 0).then(|| of(&row.errors))
 }
 
 impl Report {
-    /// The rows that are beyond what is promised of them.
+    /// The rows that exceed their promised bound.
     pub fn broken(&self) -> Vec<&Row> {
         self.accuracy.rows.iter().filter(|row| within_bound(row) == Some(false)).collect()
     }
 
-    /// The rows of which something is promised, and nothing is known.
+    /// The rows with a promised bound that were not measured.
     pub fn unmeasured(&self) -> Vec<&Row> {
         let rows = self.accuracy.rows.iter();
         rows.filter(|row| has_promise(row) && within_bound(row).is_none()).collect()
     }
 
-    /// Whether nothing at all was measured, or nothing of the field as declared, although that was wanted.
+    /// Whether nothing at all was measured, or nothing of the field as declared, although that was selected.
     pub fn is_unmeasured(&self) -> bool {
         let rows = &self.accuracy.rows;
         self.is_declared_left_out() || rows.iter().all(|row| row.errors.compared == 0)
@@ -96,8 +95,7 @@ impl Report {
         self.times.iter().find(same).map(|(_, time)| time.ns_per_point)
     }
 
-    /// The rows that are shown: all, or of each quantity, precision and form that of the largest
-    /// error.
+    /// The rows that are shown: all, or the row of the largest error for each quantity, precision and form.
     fn shown(&self, all: bool) -> Vec<&Row> {
         let rows = self.accuracy.rows.iter();
         if all {
@@ -158,8 +156,7 @@ impl Report {
         table
     }
 
-    /// Writes accuracy.json and, where there are times, accuracy.svg into a folder; returns their
-    /// paths.
+    /// Writes accuracy.json and, if there are times, accuracy.svg into a folder; returns their paths.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
         let mut paths = write_files(folder, "accuracy", [("json", pretty(&self.document())?)])?;
         if !self.times.is_empty() {
@@ -253,7 +250,7 @@ impl Shown for Report {
     }
 }
 
-/// Whether a row says worse of a quantity: what was not measured says nothing.
+/// Whether a row has a larger error of a quantity; a row without a measured error has none.
 fn is_worse(row: &Row, other: &Row) -> bool {
     let [row, other] = [row, other].map(|it| measured(it, |errors| errors.max_scaled_eps));
     row > other

@@ -7,7 +7,7 @@ use super::mark::{number, numbers, table, words};
 use super::picture::{Moment, Scale, Shape, pictures, project};
 use super::{Section, Verdicts};
 
-/// Hypotheses that are shown.
+/// The number of hypotheses that are shown.
 const SHOWN: usize = 5;
 
 impl Section for Diagnose {
@@ -66,7 +66,7 @@ fn hypotheses(diagnosis: &Diagnose) -> Markup {
         ]
     });
     let columns = [words("hypothesis"), numbers("factor"), numbers("explains"), words("")];
-    table("What each hypothesis explains of the squared error", &columns, rows)
+    table("The part of the squared error that each hypothesis explains", &columns, rows)
 }
 
 fn title(it: &Hypothesis) -> String {
@@ -123,7 +123,7 @@ fn error_fields(diagnosis: &Diagnose, fields: &ErrorFields, id: &str) -> Markup 
     }
 }
 
-/// About how far points are apart.
+/// The approximate distance between points.
 fn spacing(fields: &ErrorFields) -> f64 {
     let dimension = fields.points.first().map_or(1, Vec::len);
     let extent = |axis: usize| {

@@ -19,7 +19,7 @@ impl Section for Extremes {
     fn verdicts(&self) -> Verdicts {
         let each = || {
             let limits = self.stability.iter().map(|it| it.expected);
-            // What the field could not be put at was not judged.
+            // Extremes that the field could not be put at were not judged.
             let judged = self.rows.iter().filter(|it| it.verdict != LEFT_OUT);
             judged.map(|it| it.expected).chain(limits)
         };
@@ -107,7 +107,7 @@ fn errors(extremes: &Extremes) -> Plot {
     )
 }
 
-/// Measured limits over those of theory.
+/// The ratio of measured to theoretical limits.
 fn limits(extremes: &Extremes) -> Plot {
     let points = extremes.stability.iter();
     compared(
@@ -118,7 +118,7 @@ fn limits(extremes: &Extremes) -> Plot {
     )
 }
 
-/// A number over the one that it is held to, and a line where both are the same.
+/// The ratio of a number to its reference, and a line where both are the same.
 fn compared(
     title: &str,
     axes: [&'static str; 2],

@@ -77,19 +77,19 @@ impl Shown {
         self.content.iter().flat_map(|content| &content.files)
     }
 
-    /// Its formulas, if they are known.
+    /// The formulas, if they are known.
     #[cfg(test)]
     pub fn formulas(&self) -> Option<&str> {
         self.content.as_ref().ok().map(|content| content.formulas.as_str())
     }
 
-    /// Its body, small and deformed.
+    /// The body of the field, small and deformed.
     pub fn thumbnail(&self) -> Option<Markup> {
         let content = self.content.as_ref().ok()?;
         Some(content.motion.as_ref()?.thumbnail(&content.name))
     }
 
-    /// Its section.
+    /// The section of the field.
     pub fn html(&self, id: &str) -> Markup {
         let given = self.input.field.as_deref().unwrap_or_default();
         let name = self.content.as_ref().map_or(given, |content| &content.name);

@@ -10,8 +10,8 @@ use serde_json::Value;
 use super::{Entry, KINDS, entry};
 use crate::plot::{Figure, Plot};
 
-/// The curves of some files. Those of several files share a panel if they share its axes, under the names of their methods or
-/// files.
+/// Reads the curves of some files. Curves of several files share a panel if they share its axes, under the names of their
+/// methods or files.
 ///
 /// # Errors
 /// A file that cannot be read, that is of another kind or version, or that has nothing to draw.

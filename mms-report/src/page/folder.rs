@@ -1,4 +1,4 @@
-//! What a folder holds: results, and files that are none.
+//! The contents of a folder: results, and other files.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use serde_json::Value;
 use super::{Entry, Page, entry, states};
 
 impl Page {
-    /// All results in a folder and in the folders in it. What is none is set aside; what a store holds is counted.
+    /// Reads all results in a folder and in the folders in it. Other files are set aside; results of a store are counted.
     ///
     /// # Errors
     /// A folder that is not there, cannot be read, or has no results.
@@ -55,12 +55,12 @@ impl Page {
     }
 }
 
-/// What a file is.
+/// The kind of a file.
 enum Found {
     Result(Box<Entry>),
     /// One run of a store.
     Stored,
-    /// None of these, and why.
+    /// Another file, and the reason.
     Other(String),
 }
 

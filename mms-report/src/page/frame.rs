@@ -1,4 +1,4 @@
-//! The page around the sections: verdict first, then what there is, then each of it.
+//! The page around the sections: the verdict first, then the list of results, then each result.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use mms_spec::foreign;
@@ -6,16 +6,16 @@ use mms_spec::foreign;
 use super::mark::{table, verdict, words};
 use super::{Entry, Page, Verdicts, origin};
 
-/// What a browser has to know before it draws.
+/// The metadata that a browser needs before it draws.
 const META: &str = "<meta charset=\"utf-8\"/>\
     <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\
     <meta name=\"color-scheme\" content=\"light dark\"/>";
 
-/// Colours for light and dark screens and for paper, and nothing from elsewhere.
+/// Colours for light and dark screens and for paper; nothing is loaded from elsewhere.
 const STYLE: &str = include_str!("style.css");
 
-/// A document around what its body holds. Empty elements are closed, so that it is XML too; what both forbid in texts is
-/// left out, wherever it came from.
+/// A document around its body. Empty elements are closed, so that it is XML too; characters that XML or HTML forbids in texts
+/// are removed.
 pub fn shell(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE) "\n"
@@ -93,7 +93,7 @@ fn contents(page: &Page) -> Markup {
     }
 }
 
-/// What was run, and what came of it.
+/// The table of runs and their results.
 fn summary(page: &Page) -> Markup {
     let columns = [words("result"), words("kind"), words("verdict")];
     let rows = page.entries.iter().map(|entry| {
@@ -112,7 +112,7 @@ fn summary(page: &Page) -> Markup {
     }
 }
 
-/// Verdicts; what has none is neither good nor bad.
+/// Verdicts; a result without one is neither good nor bad.
 pub fn said(verdicts: &Verdicts) -> Markup {
     match verdicts.all {
         0 => html! { (verdicts.word) },

@@ -58,17 +58,17 @@ fn command(field: &FieldSpec, study: &StudySpec) -> Vec<String> {
     head.into_iter().chain(given.flatten()).chain(relaxes).collect()
 }
 
-/// A field of the gallery, with what its page says.
+/// A field of the gallery, with the contents of its page.
 pub struct Listed {
     /// The field.
     pub field: FieldSpec,
     /// The verdicts on its studies.
     pub verdicts: Verdicts,
-    /// Its body, small and deformed.
+    /// The body of the field, small and deformed.
     pub thumbnail: Option<Markup>,
 }
 
-/// The page that lists all pages, each with what is said on it.
+/// The page that lists all pages, each with its verdicts.
 pub fn index(fields: &[Listed]) -> String {
     let columns =
         [words("field"), words("body"), words("dimension"), words("title"), words("studies")];

@@ -155,13 +155,13 @@ struct Errors {
     curve: Curve,
 }
 
-/// The symbol of a quantity; a name that has none stays, in words.
+/// The symbol of a quantity; a name without a symbol is written in words.
 fn symbol(name: &str) -> String {
     let known = Quantity::evaluated().find(|it| it.name() == name);
     known.map_or_else(|| name.replace('_', " "), |it| it.symbol().to_owned())
 }
 
-/// The unit of the errors of a quantity in a norm: H1 is that of its gradient.
+/// The unit of the errors of a quantity in a norm: H1 has the unit of the gradient.
 fn unit(judge: &Judge, quantity: &str, norm: &str) -> Option<String> {
     let units = judge.units.as_ref()?;
     let own = units.get(quantity)?;

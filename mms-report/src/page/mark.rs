@@ -1,4 +1,4 @@
-//! What all sections are made of: numbers, verdicts and tables.
+//! The common parts of all sections: numbers, verdicts and tables.
 
 use std::borrow::Cow;
 
@@ -6,10 +6,10 @@ use maud::{Markup, html};
 use mms_convergence::Verdict;
 use serde_json::{Map, Value};
 
-/// What stands for a number that there is not.
+/// The sign for a missing number.
 const NONE: &str = "\u{2013}";
 
-/// A number as a person reads it, with all its digits for who asks.
+/// A number as a person reads it, with all its digits in the source of the page.
 pub fn number(value: Option<f64>, shown: impl Fn(f64) -> String) -> Markup {
     html! {
         @match value {
@@ -29,7 +29,7 @@ pub fn order(value: Option<f64>) -> Markup {
     number(value, |value| format!("{value:.2}"))
 }
 
-/// How many.
+/// A count.
 pub fn count(value: Option<usize>) -> Markup {
     html! { @match value { Some(value) => (value), None => (NONE) } }
 }
@@ -39,7 +39,7 @@ pub fn seconds(value: Option<f64>) -> Markup {
     number(value, mms_files::words::duration)
 }
 
-/// A number or a text of a document, as it stands there.
+/// A number or a text of a document, unchanged.
 pub fn plain(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
@@ -48,18 +48,18 @@ pub fn plain(value: &Value) -> String {
     }
 }
 
-/// Whether the verdict on results speaks for their solver.
+/// Whether the verdict on results is good for their solver.
 pub fn is_good(verdict: &str) -> bool {
     [Verdict::Pass, Verdict::Exact].iter().any(|it| it.to_string() == verdict)
 }
 
-/// A verdict, told by its word and its sign, not by its colour alone.
+/// A verdict, shown by its word and its sign, not by its colour alone.
 pub fn verdict(word: &str, is_expected: bool) -> Markup {
     let (class, sign) = if is_expected { ("good", "\u{2713}") } else { ("bad", "\u{2717}") };
     html! { span class=(format!("verdict {class}")) { span aria-hidden="true" { (sign) " " } (word) } }
 }
 
-/// What an object of a document has, but for what is null or empty.
+/// The members of an object of a document, without null and empty ones.
 pub fn list(object: &Map<String, Value>) -> Markup {
     let is_there =
         |value: &Value| !value.is_null() && value.as_array().is_none_or(|it| !it.is_empty());
@@ -72,12 +72,12 @@ pub fn list(object: &Map<String, Value>) -> Markup {
     }
 }
 
-/// The head of a column, and how its cells are set.
+/// The head of a column, and the alignment of its cells.
 #[derive(Clone)]
 pub enum Column {
-    /// To the right.
+    /// Numbers, aligned to the right.
     Number(Cow<'static, str>),
-    /// To the left.
+    /// Texts, aligned to the left.
     Text(Cow<'static, str>),
 }
 
@@ -93,7 +93,7 @@ pub const fn words(name: &'static str) -> Column {
 
 use Column::{Number, Text};
 
-/// A table. The first cell of a row says what the row is of.
+/// A table. The first cell of a row names the row.
 pub fn table(
     caption: &str,
     columns: &[Column],

@@ -10,12 +10,12 @@ use super::mark::list;
 /// The keys that tell results from each other. Documents of older versions lack some.
 const NEEDED: [&str; 4] = ["shape", "integrator", "precision", "form"];
 
-/// Why a document is not shown: its method lacks a key that tells it from others.
+/// The reason why a document is not shown: its method lacks a key that distinguishes it from others.
 pub fn lack(document: &Value) -> Option<String> {
     let method = document.get("method")?.as_object()?;
     let key = NEEDED.into_iter().find(|&key| !method.get(key).is_some_and(Value::is_string))?;
     Some(format!(
-        "its method does not say its `{key}`, as those of older versions; its command makes it again"
+        "its method does not say its `{key}`, as in older versions; its command makes it again"
     ))
 }
 

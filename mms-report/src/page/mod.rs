@@ -1,11 +1,10 @@
 //! All results of a folder on one page of HTML: complete in itself, readable without a script, and well-formed
 //! XML.
 //!
-//! `mms report` reads documents, and runs nothing. What of a document the page says, it says with all digits
-//! behind the shown ones, `<data value="...">`, and tests compare every cell of every table with the document.
-//! Pictures are drawn from the documents anew, in colours that the style sheet owns, so that they are right on
-//! dark screens, light ones and paper; nothing is told by colour alone. Formulas and motions are those of the
-//! fields whose text is still the one of the hash.
+//! `mms report` reads documents, and runs nothing. Every number of a document on the page has all its digits behind the
+//! displayed ones, `<data value="...">`, and tests compare every cell of every table with the document. Pictures are drawn from
+//! the documents anew, in colours from the style sheet, so that they are right on dark screens, light ones and paper; no
+//! information is in colour alone. Formulas and motions are shown for fields whose text still has the recorded hash.
 //!
 //! A kind of result is one file that implements [`Section`], and one line in `KINDS`.
 
@@ -62,12 +61,12 @@ pub trait Section {
     fn body(&self, id: &str) -> Markup;
 }
 
-/// How many verdicts a result has, and how many of them are the expected ones.
+/// The number of verdicts of a result, and of the expected ones among them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Verdicts {
     /// The number of expected verdicts.
     pub expected: usize,
-    /// All.
+    /// The number of all verdicts.
     pub all: usize,
     /// The verdicts in a word or two.
     pub word: String,
@@ -79,7 +78,7 @@ impl Verdicts {
         Self { expected: is_expected.into(), all: 1, word: word.into() }
     }
 
-    /// Several verdicts. None at all is no good one: something was to be judged.
+    /// Several verdicts. No verdict at all is not good: something was to be judged.
     pub fn several(expected: usize, all: usize, word: &str) -> Self {
         match all {
             0 => Self::one("nothing was judged", false),
@@ -87,13 +86,13 @@ impl Verdicts {
         }
     }
 
-    /// Whether there is none that is not.
+    /// Whether all verdicts are expected.
     pub fn are_expected(&self) -> bool {
         self.expected == self.all
     }
 }
 
-/// How a kind of document is read.
+/// The way to read a kind of document.
 struct Kind {
     /// The `kind` of its provenance.
     name: &'static str,
@@ -134,15 +133,15 @@ const KINDS: &[Kind] = &[
     Kind::of::<mms_documents::run::Run>("run", "Single runs"),
 ];
 
-/// A result with what is known of it.
+/// A result on the page.
 struct Entry {
     /// The name of its place on the page.
     id: String,
     /// The heading above all results of its kind.
     heading: &'static str,
-    /// Its file, below the folder.
+    /// The path of its file, below the folder.
     file: String,
-    /// Where it is from, if that is written down.
+    /// The provenance, if the document has one.
     provenance: Option<Provenance>,
     section: Box<dyn Section>,
 }
@@ -156,7 +155,7 @@ pub struct Page {
     fields: Vec<Shown>,
     /// Files that are not shown, and why.
     set_aside: Vec<String>,
-    /// The files of the folder that it is made of.
+    /// The files of the folder from which the page is made.
     read: Vec<PathBuf>,
 }
 
@@ -176,7 +175,7 @@ impl Page {
         &self.set_aside
     }
 
-    /// The files that it is made of: results, and the fields that they are of.
+    /// The files from which the page is made: results, and the fields that they belong to.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
         self.read.iter().chain(self.fields.iter().flat_map(Shown::files))
     }
@@ -226,7 +225,7 @@ fn entry(file: &str, document: &Value) -> Result<Entry, String> {
     Ok(Entry { id, heading: kind.heading, file, provenance: Some(provenance), section })
 }
 
-/// Where a result is from.
+/// The provenance of a result.
 fn origin(entry: &Entry) -> Markup {
     let Some(Provenance { version, command, input, machine, .. }) = &entry.provenance else {
         return html! { dl.origin { dt { "file" } dd { code { (entry.file) } } } };

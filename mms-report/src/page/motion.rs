@@ -1,5 +1,4 @@
-//! The motion that a field prescribes: its body with a grid on it at some times, coloured by how far each
-//! place has moved.
+//! The motion that a field prescribes: its body with a grid on it at some times, coloured by the displacement of each place.
 
 use std::f64::consts::TAU;
 
@@ -21,23 +20,23 @@ use crate::plot::short;
 /// Times of a picture, from the first to the last of the window.
 const MOMENTS: usize = 6;
 
-/// Displacements are drawn larger, if the largest is less than this share of the size of the body.
+/// The share of the size of the body below which displacements are drawn larger.
 const SMALL: f64 = 0.05;
 
 /// The motion of a field.
 pub struct Motion {
     moments: Vec<Moment>,
     scale: Scale,
-    /// By which displacements are multiplied.
+    /// The factor by which displacements are multiplied.
     factor: f64,
     is_static: bool,
 }
 
-/// A cell of the grid: places in the reference configuration, around it.
+/// A cell of the grid: the reference positions of its corners, in order.
 type Cell = Vec<Vec<f64>>;
 
 impl Motion {
-    /// That of a field with some parameters set; nothing, where u is not finite.
+    /// The motion of a field with some parameters set; `None` if u is not finite.
     pub fn of(compiled: &Compiled, set: &SortedMap<usize, RBig>) -> Option<Self> {
         let parameters = compiled.parameters::<f64>(set);
         let mut interpreter = Interpreter::new(&compiled.program, &parameters);
@@ -83,14 +82,14 @@ impl Motion {
         Some(Self { moments, scale, factor, is_static })
     }
 
-    /// The body where it has moved most.
+    /// The body at its largest displacement.
     pub fn thumbnail(&self, name: &str) -> Markup {
         let moved = |it: &&Moment| it.shapes.iter().map(|shape| shape.step).sum::<usize>();
         let farthest = self.moments.iter().max_by_key(moved);
         html! { @if let Some(it) = farthest { (thumbnail(&format!("The body of {name}, deformed"), it)) } }
     }
 
-    /// The pictures, with what they are.
+    /// The pictures, with their captions.
     pub fn html(&self, id: &str, name: &str) -> Markup {
         html! {
             figure {
@@ -136,7 +135,7 @@ fn parts(from: f64, to: f64, count: usize) -> impl Iterator<Item = [f64; 2]> + C
     (0..count).map(move |part| [at(part), at(part + 1)])
 }
 
-/// Cells along an edge, so that those of the longest are `most`.
+/// The number of cells along an edge, such that the longest edge has `most`.
 fn divisions(edge: f64, longest: f64, most: usize) -> usize {
     ((edge / longest * most as f64).round() as usize).max(2)
 }
@@ -169,7 +168,7 @@ fn cells(body: &Extent<f64>) -> Vec<Cell> {
                 let corners = cell.iter().map(|at| place([at[0], at[1], at[2]]));
                 if is_mirrored { corners.rev().collect() } else { corners.collect() }
             });
-            // What is a point or a line is no cell, as at an inner radius of 0.
+            // Cells that are points or lines are left out, as at an inner radius of 0.
             all.filter(|cell: &Cell| spread(cell) > 0.0).collect()
         }
         Extent::Polygon(vertices) => {
@@ -188,7 +187,7 @@ fn cells(body: &Extent<f64>) -> Vec<Cell> {
     }
 }
 
-/// The least of what the diagonals of a cell extend.
+/// The least extent of the diagonals of a cell.
 fn spread(cell: &[Vec<f64>]) -> f64 {
     let between = |a: usize, b: usize| {
         cell[a].iter().zip(&cell[b]).map(|(a, b)| (a - b).powi(2)).sum::<f64>()
@@ -243,8 +242,7 @@ fn faces<P: Iterator<Item = [f64; 2]> + Clone>(
     of(0).chain(of(1)).collect()
 }
 
-/// The cells where they have moved to, on paper. Of a body in space those that face who looks, the farthest
-/// first.
+/// The displaced cells, on paper. For a body in space, the cells that face the viewer, the farthest first.
 fn shapes(cells: &[Cell], moved: &[Vec<Vec<f64>>], factor: f64, scale: &Scale) -> Vec<Shape> {
     let height = 0.06 * size(cells);
     let mut shapes = Vec::new();
@@ -281,7 +279,7 @@ fn outline(cells: &[Cell]) -> Vec<Vec<[f64; 2]>> {
     if cells[0][0].len() != 2 {
         return Vec::new();
     }
-    // Where an annulus closes, rounding is between what is one.
+    // Where an annulus closes, equal points differ by rounding.
     let unit = 1e-9 * size(cells);
     let key = |place: &[f64]| [(place[0] / unit).round() as i64, (place[1] / unit).round() as i64];
     let edges = || cells.iter().flat_map(|cell| cell.iter().zip(cell.iter().cycle().skip(1)));

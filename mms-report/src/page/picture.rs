@@ -15,17 +15,17 @@ const WIDTH: f64 = 1000.0;
 /// The width of a thumbnail.
 const SMALL_WIDTH: f64 = 200.0;
 
-/// A body is drawn as large as that, at least: a point has no size.
+/// The smallest size at which a body is drawn: a point has no size.
 const SMALLEST: f64 = 1e-150;
 
 /// A body at a time.
 #[derive(Clone, PartialEq)]
 pub struct Moment {
-    /// When.
+    /// The time.
     pub time: f64,
-    /// What is painted, one over the other.
+    /// The painted shapes, one over the other.
     pub shapes: Vec<Shape>,
-    /// Lines around it: where it was at rest.
+    /// Lines around it: its outline at rest.
     pub outline: Vec<Vec<[f64; 2]>>,
 }
 
@@ -34,15 +34,15 @@ pub struct Moment {
 pub struct Shape {
     /// To the right and upwards.
     pub corners: Vec<[f64; 2]>,
-    /// Its colour, less than [`STEPS`].
+    /// The colour, less than [`STEPS`].
     pub step: usize,
 }
 
-/// What the colours mean.
+/// The meaning of the colours.
 pub struct Scale {
     /// The quantity, with its unit where one is known.
     pub name: String,
-    /// Where the first colour begins and the last one ends.
+    /// The value where the first colour begins, and the value where the last one ends.
     pub range: [f64; 2],
     /// Whether equal steps are equal factors.
     pub is_logarithmic: bool,
@@ -88,7 +88,7 @@ pub fn project(point: &[f64]) -> [f64; 2] {
 /// The room for the numbers of axes, beside a picture and below it.
 const MARGIN: [i64; 2] = [170, 110];
 
-/// From the bounds of all moments to those of a picture.
+/// The map from the bounds of all moments to the bounds of a picture.
 struct Window {
     /// The width of the picture in its own units.
     width: f64,
@@ -175,7 +175,7 @@ impl Window {
     }
 }
 
-/// The pictures of some moments side by side, and what their colours mean. `dot` is the size of dots, in the units of the
+/// The pictures of some moments side by side, and the meaning of their colours. `dot` is the size of dots, in the units of the
 /// points; `axes` are the names to the right and upwards, or none.
 pub fn pictures(
     id: &str,
@@ -296,7 +296,7 @@ mod tests {
                 "0.1", "Y (mm)"
             ]
         );
-        // Equal lengths are equally long along both.
+        // Equal lengths are drawn equally long along both axes.
         assert!(
             (found[4].1 - found[0].1 - 2.0 * (found[6].1 - found[11].1)).abs() <= 2.0,
             "{found:?}"

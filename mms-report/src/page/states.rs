@@ -12,32 +12,32 @@ use roxmltree::Document;
 use super::picture::{Moment, Scale, Shape, pictures, project};
 use super::{Section, Verdicts};
 
-/// What stands above all of them.
+/// The heading above all states.
 pub const HEADING: &str = "States of runs";
 
-/// States on a page, at most.
+/// The largest number of states on a page.
 const MOMENTS: usize = 6;
 
-/// Particles in a picture, at most; of more every second, third, ... is drawn.
+/// The largest number of particles in a picture; if there are more, every second, third, ... is drawn.
 const PARTICLES: usize = 1000;
 
 /// The least error that has a colour of its own, as a share of the largest.
 const LEAST: f64 = 1e-4;
 
-/// The largest number that is drawn: a length made of such ones is finite.
+/// The largest number that is drawn: lengths computed from such numbers are finite.
 const LARGEST: f64 = 1e150;
 
 /// States of a run.
 pub struct States {
     name: String,
-    /// How many there are; some are drawn.
+    /// The number of states; some are drawn.
     count: usize,
     drawn: Vec<State>,
 }
 
 struct State {
     time: f64,
-    /// Of each particle the place, and how far that is from the exact one.
+    /// The position of each particle, and its distance from the exact position.
     particles: Vec<([f64; 3], f64)>,
 }
 
@@ -45,7 +45,7 @@ impl States {
     /// The states that a list names.
     ///
     /// # Errors
-    /// What is not as `mms run --vtk` writes it, by the name of the file.
+    /// A file that is not as `mms run --vtk` writes it, by its name.
     pub fn read(path: &Path, text: &str) -> anyhow::Result<Self> {
         let list = Document::parse(text).context("not XML")?;
         let named: Option<Vec<_>> = list
@@ -73,7 +73,7 @@ impl States {
         Ok(Self { name, count: named.len(), drawn })
     }
 
-    /// Axes along which there is something.
+    /// The number of axes along which the body extends.
     fn dimension(&self) -> usize {
         let is_used = |axis: usize| {
             self.drawn.iter().flat_map(|it| &it.particles).any(|(place, _)| place[axis] != 0.0)
@@ -81,7 +81,7 @@ impl States {
         (1..3).rev().find(|axis| is_used(*axis)).map_or(1, |axis| axis + 1)
     }
 
-    /// The size of dots that hardly touch: of the distances to the nearest other one, at first, that in the middle.
+    /// The size of dots that hardly touch: the median of the distances to the nearest neighbour in the first state.
     fn spacing(&self, step: usize) -> f64 {
         let first = self.drawn.first().map_or(&[][..], |state| &state.particles);
         let places: Vec<[f64; 3]> = first.iter().step_by(step).map(|it| it.0).collect();
@@ -97,7 +97,7 @@ impl States {
     }
 }
 
-/// Whether a name leads nowhere else.
+/// Whether a name leads to a file beside this one.
 fn is_beside(file: &str) -> bool {
     Path::new(file).file_name().is_some_and(|name| name == file)
 }
@@ -114,7 +114,7 @@ fn particles(path: &Path) -> anyhow::Result<Vec<([f64; 3], f64)>> {
     Ok(place.into_iter().zip(error.into_iter().map(norm)).collect())
 }
 
-/// An array of vectors, whose bytes are counted in front of them.
+/// An array of vectors, preceded by its byte count.
 fn vectors(document: &Document, name: &str) -> anyhow::Result<Vec<[f64; 3]>> {
     let array = document.descendants().find(|node| node.attribute("Name") == Some(name));
     let text = array.and_then(|array| array.text()).with_context(|| format!("no `{name}`"))?;

@@ -93,7 +93,7 @@ impl Section for StudyOfMethod {
     }
 }
 
-/// Reads a study, or that of several methods.
+/// Reads a study of one method or of several.
 pub fn read(document: &Value) -> serde_json::Result<Box<dyn Section>> {
     Ok(match document.get("studies") {
         Some(_) => Box::new(Studies::deserialize(document)?),
@@ -101,7 +101,7 @@ pub fn read(document: &Value) -> serde_json::Result<Box<dyn Section>> {
     })
 }
 
-/// h or dt, and l2 of what is judged.
+/// h or dt, and l2 of the judged errors.
 pub fn l2(study: &StudyOfMethod) -> Vec<(Option<f64>, Option<f64>)> {
     judged(study).into_iter().map(|(at, norms)| (at, norms.l2)).collect()
 }
@@ -136,7 +136,7 @@ fn refined(study: &StudyOfMethod, level: &Level) -> Option<f64> {
     if study.refinement == "time" { level.time_step } else { level.cell_size }
 }
 
-/// The errors that are judged: those of levels, or in time the differences to the next level.
+/// The judged errors: errors of levels, or in time the differences to the next level.
 pub fn judged(study: &StudyOfMethod) -> Vec<(Option<f64>, &LevelErrors)> {
     match &study.differences {
         Some(steps) => steps.iter().map(|it| (Some(it.time_step), &it.errors)).collect(),
@@ -226,7 +226,7 @@ fn in_phase(study: &StudyOfMethod, phases: &Phase) -> Markup {
 fn levels(study: &StudyOfMethod) -> Markup {
     let mut columns = vec![words("cells"), numbers("particles"), numbers("steps")];
     columns.extend(NORMS);
-    // A page that is the same everywhere has no times.
+    // A page that is the same on all machines has no times.
     let is_timed = study.levels.iter().any(|level| level.seconds.is_some());
     columns.push(numbers("round-off"));
     columns.extend(is_timed.then_some(numbers("time")));

@@ -65,7 +65,7 @@ impl Section for Tradeoff {
                     (svg)
                     figcaption {
                         "Down and left is better; both axes are logarithmic. No run is both cheaper and closer than one of the "
-                        "Pareto front. On the dashed line is what was asked for."
+                        "Pareto front. The dashed line is the goal."
                     }
                 }
             }
@@ -104,7 +104,7 @@ fn advice(tradeoff: &Tradeoff) -> Markup {
                 " It makes no error: only its cost tells it from other runs that make none."
             }
             @if let Some(next) = &tradeoff.predicted {
-                " What comes next is predicted to be " (next.setting) " on " (number(Some(next.cells), |it| format!("{it:.0}")))
+                " The best prediction is " (next.setting) " on " (number(Some(next.cells), |it| format!("{it:.0}")))
                 " cells, with " (small(Some(next.linf))) "."
             }
             @if let Some(gain) = tradeoff.gain {
@@ -118,7 +118,7 @@ fn advice(tradeoff: &Tradeoff) -> Markup {
         }
         @if let Some(choice) = &tradeoff.choice { p { code { (choice.command) } } }
         @if !tradeoff.dominated.is_empty() {
-            p { "Dominated in every run, whatever else was chosen: " (tradeoff.dominated.join(", ")) "." }
+            p { "Dominated in every run, for all other choices: " (tradeoff.dominated.join(", ")) "." }
         }
     }
 }

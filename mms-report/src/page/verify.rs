@@ -72,7 +72,7 @@ fn rows(group: &[VerifiedRow], id: &str) -> Markup {
         numbers("time"),
     ];
     let cells = group.iter().map(|row| {
-        // That of the finest pair is the one beside it.
+        // The order of the finest pair is in the column beside it.
         let before = row.levels.len().checked_sub(2).and_then(|at| row.levels[at].errors.order_l2);
         vec![
             html! {

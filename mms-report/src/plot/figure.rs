@@ -99,7 +99,7 @@ pub struct Drawing {
     pub title: String,
     /// The numbers in words.
     pub description: String,
-    /// The lines, marks and texts; each lies over those before it.
+    /// The lines, marks and texts; later ones are drawn over earlier ones.
     pub items: Vec<Item>,
 }
 
@@ -112,7 +112,7 @@ impl Figure {
         Figure { title, panels }
     }
 
-    /// Whether nothing has a place on its axes.
+    /// Whether no point has a place on its axes.
     pub fn is_empty(&self) -> bool {
         self.panels.iter().all(Plot::is_empty)
     }
@@ -176,7 +176,7 @@ fn panel(plot: &Plot, head: &str, [left, width]: [f64; 2], is_beside: bool) -> (
     let legend = plot.legend(true);
     let longest = legend.iter().map(|it| it.words.width() + 34.0);
     let longest = longest.chain([Words::plain(head).width()]).fold(0.0, f64::max);
-    // Bold letters, and those of a font in the place of Helvetica, are wider.
+    // Bold letters, and the letters of a substitute for Helvetica, are wider.
     let longest = 1.08 * longest;
     let beside = width - GAP - longest - GAP - left;
     let is_beside = is_beside && beside >= LEAST;

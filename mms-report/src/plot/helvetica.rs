@@ -1,6 +1,6 @@
-//! The font of figures: how wide its texts are, and where its characters lie in a PDF file.
+//! The font of figures: the widths of its texts, and the codes of its characters in a PDF file.
 //!
-//! Every reader of PDF has Helvetica and Symbol; in SVG files Arial, of the same widths, may stand for the first.
+//! Every reader of PDF has Helvetica and Symbol; in SVG files Arial, of the same widths, may replace Helvetica.
 
 /// The widths of the characters from the blank to the tilde, in thousandths of the size of the font.
 const WIDTHS: [u16; 95] = [

@@ -51,9 +51,9 @@ pub struct Plot {
 /// The quantity along an axis.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Axis {
-    /// Its name.
+    /// The name of the quantity.
     pub name: String,
-    /// Its unit, if one is known.
+    /// The unit of the quantity, if one is known.
     pub unit: Option<String>,
 }
 
@@ -75,13 +75,13 @@ impl Axis {
 /// Points and how they are drawn.
 #[derive(Clone, Default)]
 pub struct Curve {
-    /// Its name in the legend.
+    /// The name of the curve in the legend.
     pub name: String,
     /// The observed order, which the legend of a figure adds.
     pub order: Option<f64>,
     /// Points in any order; a logarithmic axis leaves out 0 and infinity.
     pub points: Vec<[f64; 2]>,
-    /// Its colour, mark and dashes, below [`STYLES`].
+    /// The colour, mark and dashes of the curve, below [`STYLES`].
     pub style: usize,
     /// Whether its marks are rings.
     pub is_hollow: bool,
@@ -160,7 +160,7 @@ struct Area {
 const ON_PAGE: [f64; 2] = [640.0, 400.0];
 const AREA_ON_PAGE: Area = Area { left: 76.0, right: 628.0, top: 12.0, bottom: 348.0 };
 
-/// Where numbers are on the picture.
+/// The positions of numbers on the picture.
 struct Frame {
     x: (f64, f64),
     y: (f64, f64),
@@ -211,7 +211,7 @@ impl Plot {
         }
         self.stopped.extend(other.stopped);
         self.slope = self.slope.filter(|_| self.slope == other.slope);
-        // A floor is that of one method.
+        // A floor belongs to one method.
         self.floor.clear();
     }
 
@@ -352,7 +352,7 @@ impl Plot {
         items
     }
 
-    /// The rows of the legend; those of a figure name observed orders.
+    /// The rows of the legend; with the observed orders in a figure.
     fn legend(&self, with_orders: bool) -> Vec<Entry> {
         let row = |sign: Vec<Item>, text: String| Entry { sign, words: Words::plain(text) };
         let mut entries: Vec<Entry> = self

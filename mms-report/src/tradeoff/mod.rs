@@ -31,17 +31,17 @@ pub struct Report<'a> {
     pub plan: Plan,
     /// The runs and predictions of the search.
     pub found: Found,
-    /// Whether all runs are shown, or those on the front, those of the default and those that stopped.
+    /// Whether all runs are shown, or only runs on the front, runs of the default and runs that stopped.
     pub all: bool,
     /// The command that runs a setting on a grid.
     pub command: &'a dyn Fn(&Setting, usize) -> String,
     /// The words of the command to type next.
     pub next: Option<Vec<String>>,
-    /// Where it is from.
+    /// The provenance.
     pub provenance: Provenance,
 }
 
-/// Errors within this factor of the choice's say what more accuracy costs there.
+/// The factor around the choice's error within which runs determine the cost of more accuracy.
 const NEAR: f64 = 10.0;
 
 /// A factor for a person.
@@ -78,7 +78,7 @@ impl Report<'_> {
         self.found.choice.map(|at| &self.trials()[at])
     }
 
-    /// Whether the choice makes no error at all.
+    /// Whether the choice has no error at all.
     fn is_exact(&self) -> bool {
         self.choice().is_some_and(|trial| trial.error == Ok(0.0))
     }
@@ -92,8 +92,8 @@ impl Report<'_> {
         slope(&logarithms).map(|slope| -slope)
     }
 
-    /// What was tried, and in no run was worth its cost; with the reason, where it never came to an end. Nothing is
-    /// said of it where there is no error to be had for more cost.
+    /// The values that were tried and were on the front in no run; with the reason, if no run of them ended. Empty if the
+    /// choice has no error, because a higher cost gains nothing then.
     pub fn dominated(&self) -> Vec<String> {
         if self.is_exact() {
             return Vec::new();
@@ -119,7 +119,7 @@ impl Report<'_> {
         dominated
     }
 
-    /// The cost of the default method over that of the choice, by their power laws.
+    /// The ratio of the cost of the default method to the cost of the choice, by their power laws.
     pub fn gain(&self) -> Option<f64> {
         let (default, choice) = (self.found.default?, self.choice()?);
         match self.plan.goal {
@@ -153,7 +153,7 @@ impl Report<'_> {
         }
     }
 
-    /// The runs from cheap to dear, and those that stopped.
+    /// The runs from cheap to expensive, and runs that stopped.
     fn table(&self) -> Table {
         let caption = format!("{}: error against cost", self.field.shown());
         let header = ["", "cells", "linf", "particle-steps", "time", "memory", "setting"];
@@ -236,14 +236,14 @@ impl Report<'_> {
         let dominated = self.dominated();
         if !dominated.is_empty() {
             sentences.push(format!(
-                "Dominated in every run, whatever else was chosen: {}.",
+                "Dominated in every run, for all other choices: {}.",
                 dominated.join(", ")
             ));
         }
         sentences.join("\n")
     }
 
-    /// How many runs are as exact as the choice.
+    /// The number of runs that are as exact as the choice.
     fn exact(&self) -> String {
         let errors: Vec<_> = self.trials().iter().filter_map(|it| it.error.clone().ok()).collect();
         let exact = errors.iter().filter(|error| **error == 0.0).count();
@@ -280,14 +280,14 @@ impl Report<'_> {
         }
     }
 
-    /// Why the default meets no goal.
+    /// The reason why the default meets no goal.
     pub fn why_not(&self) -> String {
         let own = self.trials().iter().filter(|trial| trial.setting == Setting::default());
         let reason = own.filter_map(|trial| trial.error.as_ref().err()).next();
         reason.cloned().unwrap_or_else(|| "its error does not shrink with the cells".into())
     }
 
-    /// Why no run meets a target.
+    /// The reason why no run meets a target.
     pub fn unreached(&self, target: f64) -> String {
         let least = self.front().last().and_then(|trial| Some((trial.error.clone().ok()?, *trial)));
         let least = least.map_or("no run came to its end".into(), |(error, trial)| {
@@ -304,7 +304,7 @@ impl Report<'_> {
         format!("An error of {target:e} is not reached: {least}; {more}.")
     }
 
-    /// Writes tradeoff.json and tradeoff.svg, and says where.
+    /// Writes tradeoff.json and tradeoff.svg, and returns their paths.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
         let files = [("json", pretty(&self.document())?), ("svg", self.figure().svg())];
         write_files(folder, "tradeoff", files)

@@ -6,7 +6,7 @@ use mms_spec::foreign::Foreign;
 
 use super::{Report, factor};
 
-/// What stands before the tables.
+/// The text before the tables.
 const INTRODUCTION: &str = "\
 # Speed against accuracy
 
@@ -42,7 +42,7 @@ impl Page {
     /// The targets.
     pub const TARGETS: [f64; 3] = [1e-3, 1e-4, 1e-5];
 
-    /// Adds what was found for a target.
+    /// Adds the result of a search for a target.
     pub fn add(&mut self, report: &Report) {
         if self.field != report.field {
             self.field = report.field.clone();
