@@ -11,8 +11,7 @@ pub(super) const LINE: usize = 72;
 const REPEATED: usize = 24;
 
 impl Reading {
-    /// The expressions with parts of them named `k1`, `k2`, ... such that each fits on a line. What
-    /// is short already stays as it is.
+    /// The expressions with parts named `k1`, `k2`, ... such that each fits on a line. Short expressions stay unchanged.
     pub fn abbreviated(&mut self, roots: &[Expr]) -> Vec<Expr> {
         let is_long = roots.iter().any(|root| self.length(*root) > LINE);
         if !is_long {
@@ -45,7 +44,7 @@ impl Reading {
         uses
     }
 
-    /// An expression whose operands fit on a line each, made to fit too.
+    /// An expression whose operands each fit on a line, shortened to fit too.
     fn fitted(&mut self, mut expr: Expr) -> Expr {
         while self.length(expr) > LINE {
             let Some(shorter) = self.with_longest_named(expr).or_else(|| self.halved(expr)) else {
@@ -111,7 +110,7 @@ impl Reading {
 
     /// Operands in groups that fit on a line each, in their order.
     fn groups(&self, operands: &[(Expr, Rational)]) -> Vec<Vec<(Expr, Rational)>> {
-        // What an operand brings along: its sign and blanks, its number, parentheses.
+        // The additional text of an operand: its sign and blanks, its number, parentheses.
         let length = |(operand, number): &(Expr, Rational)| {
             let digits = if number.is_one() { 0 } else { number.to_string().len() + 1 };
             self.length(*operand).saturating_add(digits + 5)

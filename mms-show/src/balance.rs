@@ -1,5 +1,5 @@
-//! What follows from P and Div P: the other measures of stress, the body force, what the present
-//! configuration has per volume, the traction.
+//! Quantities that follow from P and Div P: the other measures of stress, the body force, the quantities per volume of the
+//! present configuration, the traction.
 
 use super::abbreviate::LINE;
 use super::motion::{Formulas, Quantities, derivatives};

@@ -1,5 +1,5 @@
-//! What there is to show of a field, in the order in which a person would write it. It holds
-//! expressions and names; how they look is for the notations to say.
+//! The contents of the derivation of a field, in the order in which a person would write it. A document holds expressions and
+//! names; the notations decide how they look.
 
 use super::energy::energy_of_file;
 use super::motion::{Formulas, Quantities};
@@ -19,12 +19,12 @@ use mms_spec::{Formula, Space};
 use mms_symbolic::expr::{Expr, Graph};
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// Names that stand for one value.
+/// Names of one value.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// What stands on the left; several where they are equal.
+    /// The left-hand side; several names if they are equal.
     pub left: Vec<Name>,
-    /// What stands on the right.
+    /// The right-hand side.
     pub value: Expr,
 }
 
@@ -33,13 +33,13 @@ pub struct Line {
 pub struct Section {
     /// The quantity.
     pub quantity: Quantity,
-    /// How many operations its program has, by stage; stages without any are left out.
+    /// The number of operations of its program, by stage; stages without any are left out.
     pub operations: Vec<(Stage, usize)>,
-    /// What its formulas use that has not been listed above.
+    /// Definitions that its formulas use and that have not been listed above.
     pub whereby: Vec<Line>,
-    /// Its components, equal ones on one line.
+    /// The components, equal ones on one line.
     pub lines: Vec<Line>,
-    /// Its components one by one, row-major.
+    /// The components one by one, row-major.
     pub components: Vec<Line>,
 }
 
@@ -48,14 +48,14 @@ pub struct Section {
 pub struct Material {
     /// The stem of its file.
     pub name: Foreign,
-    /// What it is, in a few words.
+    /// A description in a few words.
     pub title: Foreign,
     /// Which invariants W is a function of.
     pub kind: Kind,
     /// W in the parameters of the material and in the invariants, after the parts that it is put
     /// together from.
     pub energy: Vec<Line>,
-    /// What the arguments and the density use that is no definition of the field.
+    /// Definitions that the arguments and the density use, and that are not definitions of the field.
     pub whereby: Vec<Line>,
     /// The values that the field gives to the parameters and the given fields of the material.
     pub arguments: Vec<Line>,
@@ -77,13 +77,13 @@ pub const DERIVATION: [Quantity; 6] = [
 pub struct Document {
     /// The name of the field.
     pub name: Foreign,
-    /// What it is, in a few words.
+    /// A description in a few words.
     pub title: Foreign,
-    /// Where it comes from.
+    /// The source of the field.
     pub reference: Option<Foreign>,
     /// The dimension of space.
     pub dimension: usize,
-    /// The coordinates, and how many components vectors and tensors have.
+    /// The coordinates, and the numbers of components of vectors and tensors.
     pub space: Space,
     /// Whether the field has no time.
     pub is_static: bool,
@@ -93,11 +93,11 @@ pub struct Document {
     pub material: Material,
     /// The definitions of the field file, in order.
     pub definitions: Vec<Line>,
-    /// The quantities asked for, in the order of derivation.
+    /// The requested quantities, in the order of derivation.
     pub sections: Vec<Section>,
-    /// Faces with what is claimed there.
+    /// Faces with their claims.
     pub claims: Vec<(&'static str, &'static str)>,
-    /// What the field can see of the equations, where that is to be shown.
+    /// The terms of the equations that the field can see, if they are to be shown.
     pub visibility: Option<Visibility>,
     reading: Reading,
 }
@@ -109,8 +109,7 @@ impl std::fmt::Debug for Document {
 }
 
 impl Document {
-    /// The derivation of a field, as far as the given quantities are concerned. An error where it
-    /// has more terms than a graph may hold.
+    /// The derivation of a field, restricted to the given quantities. An error if it has more terms than a graph may hold.
     pub fn new(compiled: &Compiled, asked: &[Quantity]) -> Result<Self, TooLarge> {
         let mut reading = Reading::new(compiled);
         let formulas = Formulas::new(&mut reading, compiled);
@@ -159,7 +158,7 @@ impl Document {
         &self.reading.graph
     }
 
-    /// Whether a line says that a name is itself.
+    /// Whether a line equates a name with itself.
     pub fn is_identity(&self, line: &Line) -> bool {
         let value = self.reading.identifier(line.value);
         line.left.iter().all(|name| value.as_deref() == Some(&name.identifier()))
@@ -171,7 +170,7 @@ impl Document {
     }
 }
 
-/// Puts down what has been derived, each thing before it is used and only once.
+/// The list of definitions: each comes before its first use, and only once.
 struct Listing {
     reading: Reading,
     listed: SortedSet<Id>,
@@ -207,7 +206,7 @@ impl Listing {
         }
     }
 
-    /// The line of something that is no entry, after what it uses.
+    /// The line of something that is no entry, after the lines that it uses.
     fn alone(&mut self, name: &str, value: Expr) -> Vec<Line> {
         let value = self.reading.abbreviated(&[value])[0];
         let mut lines = self.up_to(self.reading.entries_in(value));

@@ -13,7 +13,7 @@ use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::substitute;
 use mms_symbolic::sorted::SortedMap;
 
-/// What W is a function of, as leaves that stand for nothing else, in the order of [`INVARIANTS`].
+/// The arguments of W, as leaves used for nothing else, in the order of [`INVARIANTS`].
 struct Leaves {
     leaves: Vec<Expr>,
     symbols: Vec<Symbol>,
@@ -75,8 +75,8 @@ impl Leaves {
         substitute(graph, &[energy], &values)[0]
     }
 
-    /// W as it is typed, with the field's arguments as they are typed or by their names; `None`
-    /// where that is not what the model has.
+    /// W as it is typed, with the field's arguments as they are typed or by their names; `None` if this differs from the
+    /// model's W.
     fn typed(
         &self,
         reading: &mut Reading,
@@ -106,7 +106,7 @@ impl Leaves {
     }
 }
 
-/// What a material file may use: the invariants, and what is made of them.
+/// The names that a material file may use: the invariants, and functions of them.
 fn scope(reading: &mut Reading, invariants: &[Expr], symbols: &[Symbol]) -> Scope {
     let mut scope = Scope::default();
     let pi = reading.graph.pi();
@@ -136,7 +136,7 @@ fn energy_in(reading: &mut Reading, mut scope: Scope, compiled: &Compiled) -> Op
 pub(super) fn energy_of_file(reading: &mut Reading, compiled: &Compiled) -> Option<Expr> {
     let leaves = Leaves::new(reading);
     let mut scope = scope(reading, &leaves.leaves, &leaves.symbols);
-    // These names live in the material file: they may be those of the field as well.
+    // These names belong to the material file; the field may use the same ones.
     for name in compiled.material.names() {
         let nothing = reading.graph.number(0);
         let id = reading.push(Name::plain(name), nothing, Role::Given);

@@ -1,4 +1,4 @@
-//! The language of field files: what is written here can be parsed again.
+//! The language of field files: formulas written here can be parsed again.
 
 use mms_symbolic::expr::Function;
 

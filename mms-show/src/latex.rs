@@ -1,4 +1,4 @@
-//! LaTeX: a small document of its own, which needs nothing but amsmath, or a fragment to be put into one.
+//! LaTeX: a small document of its own, which needs only amsmath, or a fragment to be put into one.
 
 use super::document::{Document, Line};
 use super::language::signed;

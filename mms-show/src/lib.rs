@@ -1,12 +1,11 @@
 //! The derivation as a person would write it, in several notations.
 //!
-//! A [`Document`] is what there is to show, in order: the material, the definitions of the field, for each
-//! quantity its definition and its components in terms of names that have been listed before, and what the field
-//! sees of the equations, where that was asked for. It is derived anew with a leaf for each thing that has a name
-//! (F, J, P, definitions of the file, derivatives `A_t`, `F_11_X`), so that formulas stay as short as on paper.
-//! What is compiled is another, expanded derivation of the same quantities; tests evaluate every line and compare
-//! with the program, in 77 digits. No right-hand side is longer than a line: larger ones are put together from
-//! parts `k1`, `k2`, ...
+//! A [`Document`] has the contents in order: the material, the definitions of the field, for each quantity its definition and
+//! its components in terms of names that have been listed before, and, on request, the terms of the equations that the field
+//! sees. It is derived anew with a leaf for each thing that has a name (F, J, P, definitions of the file, derivatives `A_t`,
+//! `F_11_X`), so that formulas stay as short as on paper. The compiler uses another, expanded derivation of the same
+//! quantities; tests evaluate every line and compare with the program, in 77 digits. No right-hand side is longer than a line:
+//! larger ones are put together from parts `k1`, `k2`, ...
 //!
 //! There is one walk from expressions to formulas ([`walk`]). A new notation is one file that implements
 //! [`walk::Notation`], and its page. LaTeX is a whole document; MathML a page of well-formed XML with one `math`

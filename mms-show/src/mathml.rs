@@ -21,8 +21,7 @@ pub fn page(document: &Document) -> String {
     )
 }
 
-/// What follows the title on a page, for a page of the caller's: its headings are `h2` for a level of 2, and
-/// so on.
+/// The page without its title, for a page of the caller's: its headings are `h2` for a level of 2, and so on.
 pub fn part(document: &Document, level: u8) -> String {
     let mut text = String::new();
     for block in blocks(document) {
@@ -114,7 +113,7 @@ impl Notation for MathMl {
     fn product(&self, factors: &[String]) -> String {
         match factors {
             [single] => single.clone(),
-            // A thin blank keeps long names apart; the invisible sign is what is read aloud.
+            // A thin blank separates long names; screen readers read the invisible sign aloud.
             several => row(&several.join("<mo>&#x2062;</mo><mspace width=\"0.15em\"/>")),
         }
     }

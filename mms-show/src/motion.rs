@@ -14,17 +14,16 @@ use mms_symbolic::expr::{Expr, HALF, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 use mms_symbolic::sorted::SortedMap;
 
-/// The longest formula that is repeated in place of the name of what it says: F_11 is written out
-/// where it is short, and is 1 + H_11 where it is not.
+/// The longest formula that is repeated in place of its name: F_11 is written out if it is short, and is 1 + H_11 otherwise.
 const REPEATABLE: usize = 60;
 
-/// How the formulas of the field file are read.
+/// The formulas of the field file, parsed.
 pub(super) struct Formulas {
-    /// Names stand for their entries.
+    /// The scope in which names mean their entries.
     typed: Scope,
-    /// Names stand for what they are defined as.
+    /// The scope in which names mean their definitions.
     expanded: Scope,
-    /// What each entry of a definition stands for.
+    /// The definition of each entry.
     definitions: SortedMap<Symbol, Expr>,
 }
 
@@ -82,21 +81,20 @@ impl Formulas {
         self.definitions.insert(reading.symbol(id), expanded);
     }
 
-    /// A formula as it was typed; `derived` is what the model makes of it, and what is taken where
-    /// the two are not the same.
+    /// A formula as it was typed; `derived` is the model's expression, which is returned if the two differ.
     pub fn read(&self, reading: &mut Reading, formula: &Formula, derived: Expr) -> Expr {
         let Some(typed) = resolved(reading, &self.typed, formula) else { return derived };
         let expanded = substitute(&mut reading.graph, &[typed], &self.definitions)[0];
         if expanded == derived { typed } else { derived }
     }
 
-    /// A formula as it was typed, of which the model holds no expression of its own.
+    /// A formula as it was typed, for which the model has no expression of its own.
     pub fn read_alone(&self, reading: &mut Reading, formula: &Formula) -> Option<Expr> {
         resolved(reading, &self.typed, formula)
             .or_else(|| resolved(reading, &self.expanded, formula))
     }
 
-    /// The expression with every definition replaced by what it stands for.
+    /// The expression with every name replaced by its definition.
     pub fn expand(&self, reading: &mut Reading, expr: Expr) -> Expr {
         substitute(&mut reading.graph, &[expr], &self.definitions)[0]
     }
@@ -231,7 +229,7 @@ impl Quantities {
         self.ids.insert(quantity, ids);
     }
 
-    /// Sets what a reader is shown of a quantity, where that is not the value itself.
+    /// Sets the displayed form of a quantity, if it differs from the value itself.
     pub fn show(&self, reading: &mut Reading, quantity: Quantity, shown: &[Expr]) {
         for (id, shown) in self.ids(quantity).iter().zip(shown) {
             let is_number = reading.graph.as_number(reading.entries[*id].value).is_some();

@@ -1,4 +1,4 @@
-//! Names of what a derivation talks about, structured so that each notation can set them well.
+//! Names in a derivation, structured so that each notation can set them well.
 
 use mms_mechanics::invariant::INVARIANTS;
 use mms_spec::Space;
@@ -6,7 +6,7 @@ use mms_spec::quantity::{Quantity, Shape};
 use mms_symbolic::expr::Symbol;
 use mms_symbolic::sorted::SortedSet;
 
-/// What a derivative is taken by.
+/// The variable of a derivative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Along {
     /// The invariant of that position in [`INVARIANTS`].
@@ -28,7 +28,7 @@ impl Along {
         }
     }
 
-    /// Its name in the language of field files.
+    /// The name in the language of field files.
     pub fn label(self) -> &'static str {
         match self {
             Along::Coordinate(0) => "X",
@@ -50,7 +50,7 @@ impl Along {
     }
 }
 
-/// A name: a stem, the component it stands for, and what it was differentiated by.
+/// A name: a stem, the index of its component, and the variables of its derivatives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name {
     /// The word itself: an ASCII identifier.
@@ -108,8 +108,8 @@ impl Name {
         text
     }
 
-    /// What the name is a derivative of, and by what: F_12 and X, Y for F_12_XY. A derivative by an
-    /// invariant is a quantity of its own, as it is in W_JX.
+    /// The name that is differentiated, and the variables: F_12 and X, Y for F_12_XY. A derivative by an invariant is a
+    /// quantity of its own, as in W_JX.
     pub fn as_derivative(&self) -> Option<(Name, &[Along])> {
         let by_place = |along: &Along| along.leaf().is_some();
         let inner = self.along.iter().position(by_place).unwrap_or(0);

@@ -11,28 +11,28 @@ use mms_spec::quantity::Quantity;
 
 /// A part of a page, from top to bottom.
 pub(super) enum Block<'a> {
-    /// The name of the field, and what it is: as they are shown, as all texts of a page.
+    /// The name of the field, and its description: escaped like all texts of a page.
     Title(String),
     /// A sentence.
     Note(String),
-    /// What comes next.
+    /// The next heading.
     Heading {
         /// A word.
         name: &'a str,
-        /// What a quantity is.
+        /// The definition of a quantity.
         relation: Option<Vec<Part>>,
         /// More about it.
         note: Option<String>,
-        /// What it costs to compute, which belongs on a screen and not on paper.
+        /// The cost to compute it, which belongs on a screen and not on paper.
         operations: Option<String>,
     },
-    /// The word between a heading and what the formulas under it use.
+    /// The word between a heading and the definitions that the formulas under it use.
     Where,
     /// Formulas.
     Lines {
         /// The formulas; never none.
         lines: Cow<'a, [Line]>,
-        /// Whether they only serve those that follow.
+        /// Whether they are only definitions for the lines that follow.
         is_where: bool,
     },
 }
@@ -78,7 +78,7 @@ pub(super) fn derivation(document: &Document) -> Vec<Block<'_>> {
         blocks.push(formulas(&document.definitions));
     }
     let others: Vec<&Section> = document.sections.iter().filter(|it| !is_motion(it)).collect();
-    // The first quantity that is made of W.
+    // The first quantity that follows from W.
     let stress = others.iter().position(|it| it.quantity.unit().contains("Pa"));
     let (kinematics, kinetics) = others.split_at(stress.unwrap_or(others.len()));
     let has = |of| document.sections.iter().any(|it| it.quantity == of);
@@ -115,7 +115,7 @@ fn energy(document: &Document) -> [Block<'_>; 3] {
     [formulas(&material.energy), formulas(&material.whereby), arguments]
 }
 
-/// A quantity: what it is, and its formulas below those that they use.
+/// A quantity: its definition, and its formulas below the ones that they use.
 fn section<'a>(document: &'a Document, section: &'a Section, name: &'a str) -> Vec<Block<'a>> {
     let mut blocks = vec![Block::Heading {
         name,
@@ -131,12 +131,12 @@ fn section<'a>(document: &'a Document, section: &'a Section, name: &'a str) -> V
     blocks
 }
 
-/// The name of the field, and what it is.
+/// The name of the field, and its description.
 pub(super) fn title(document: &Document) -> String {
     format!("{}: {}", document.name.shown(), document.title.shown())
 }
 
-/// What a field sees, and what it does not, the latter by how that is known.
+/// The terms that a field sees, and the terms that it does not see, grouped by how that is known.
 fn visibility(visibility: &Visibility) -> Vec<Block<'_>> {
     let negligible = format!("no more than {NEGLIGIBLE:e} of its size at {POINTS} points");
     let absent = |status, why: &str| {
@@ -177,7 +177,7 @@ fn operations(section: &Section) -> String {
     format!("operations: {stages}")
 }
 
-/// The left-hand side of a line; that of a derivative says what it is a derivative of.
+/// The left-hand side of a line; for a derivative it includes the definition of the derivative.
 pub(super) fn left<N: Notation + Setting>(line: &Line, notation: &N, equals: &str) -> String {
     let mut sides = Vec::new();
     for name in &line.left {

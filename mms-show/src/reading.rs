@@ -1,8 +1,8 @@
 //! Expressions in which every quantity that a reader knows by name is a leaf.
 //!
-//! The derivation that is compiled is made of expanded expressions; a person writes F once, and then
-//! says F. So a reading keeps its own leaves: each stands for an [`Entry`], which holds its value in
-//! terms of earlier ones. Derivatives follow the chain rule through the entries.
+//! The compiled derivation consists of expanded expressions; a person writes F once, and then uses the name F. A reading
+//! therefore has its own leaves: each represents an [`Entry`], which holds its value in terms of earlier ones. Derivatives
+//! follow the chain rule through the entries.
 
 use super::name::{Along, Name, Taken};
 use super::text::Text;
@@ -14,7 +14,7 @@ use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// A formula of at most so many characters is said in place of a name of its own.
+/// The length in characters up to which a formula is written in place of a name of its own.
 const SHORT: usize = 16;
 
 /// Nodes of the tree beyond which a formula is long without being written.
@@ -23,7 +23,7 @@ const TREE: u64 = 400;
 /// The position of an entry in its reading. Values are made of earlier entries only.
 pub(super) type Id = usize;
 
-/// What an entry stands for.
+/// The kind of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     /// Supplied by the caller, such as the normal.
@@ -32,20 +32,20 @@ pub(super) enum Role {
     Definition,
     /// A component of a quantity.
     Component(Quantity),
-    /// What was named on the way.
+    /// A helper that was named during the derivation.
     Helper,
 }
 
 /// Something with a name.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
-    /// Its name.
+    /// The name.
     pub name: Name,
-    /// Its value, which derivatives are taken of.
+    /// The value, of which derivatives are computed.
     pub value: Expr,
-    /// Its value as a reader is shown it.
+    /// The value as displayed.
     pub shown: Expr,
-    /// What it stands for.
+    /// The kind.
     pub role: Role,
 }
 
@@ -53,7 +53,7 @@ pub(super) struct Entry {
 pub(super) struct Reading {
     pub graph: Graph,
     pub entries: Vec<Entry>,
-    /// The parameters of the field, whose leaves come before those of entries.
+    /// The parameters of the field, whose leaves come before the leaves of entries.
     pub parameters: Vec<String>,
     pub taken: Taken,
     /// The names of the reference coordinates.
@@ -103,7 +103,7 @@ impl Reading {
         }
     }
 
-    /// The leaf that stands for an entry.
+    /// The leaf of an entry.
     pub fn leaf(&mut self, id: Id) -> Expr {
         self.graph.symbol(self.symbol(id))
     }
@@ -113,7 +113,7 @@ impl Reading {
         Symbol::Local(id)
     }
 
-    /// The entry of a symbol, where it stands for one.
+    /// The entry of a symbol, if it has one.
     pub fn entry_of(&self, symbol: Symbol) -> Option<Id> {
         match symbol {
             Symbol::Local(id) => Some(id),
@@ -127,8 +127,8 @@ impl Reading {
         self.entries.len() - 1
     }
 
-    /// The leaf of a new helper, or the value itself where that says as much: a number, a name, and
-    /// what is not longer than a name.
+    /// The leaf of a new helper, or the value itself if it is as short as a name: a number, a name, or a formula that is no
+    /// longer.
     pub fn named(&mut self, name: Name, value: Expr, suffix: &str) -> Expr {
         if self.is_short(value) { value } else { self.helper(name, value, suffix) }
     }
@@ -144,7 +144,7 @@ impl Reading {
         self.leaf(id)
     }
 
-    /// A helper `k1`, `k2`, ... for what has no better name.
+    /// A helper `k1`, `k2`, ... for a value without a better name.
     pub fn numbered(&mut self, value: Expr) -> Expr {
         if let Some(id) = self.by_value.get(&value) {
             return self.leaf(*id);
@@ -170,7 +170,7 @@ impl Reading {
         self.length(expr) <= SHORT
     }
 
-    /// How many nodes the expression has where it is written out.
+    /// The number of nodes of the expression when it is written out.
     fn tree_size(&self, root: Expr) -> u64 {
         let mut sizes = SortedMap::<Expr, u64>::new();
         for expr in self.graph.reachable(&[root]) {

@@ -1,4 +1,4 @@
-//! What each quantity is, as a person writes it: declared once, set by every notation.
+//! The definition of each quantity, as a person writes it: declared once, set by every notation.
 
 use mms_mechanics::invariant::Kind;
 use mms_spec::own::Described;

@@ -9,7 +9,7 @@ use mms_mechanics::tensor::Tensor;
 use mms_spec::RigidSpec;
 use mms_symbolic::expr::{Expr, Function, Rational, Symbol};
 
-/// What the names of this module get where a field has taken them.
+/// The suffix for names of this module that a field already uses.
 const SUFFIX: &str = "rigid";
 
 /// u* = Q x + d - X, where x = X + u0 is the position that the field alone gives.

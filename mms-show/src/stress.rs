@@ -155,7 +155,7 @@ pub(super) fn slope(
     let slope = energy.slope(reading, invariant);
     let slope = energy.at(reading, slope, values);
     let name = Name::plain("W").derivative(Along::Invariant(invariant));
-    // W_J stands beside a cofactor in every component, and is differentiated.
+    // W_J multiplies a cofactor in every component, and is differentiated.
     if invariant == J && !reading.is_leaf(slope) {
         return reading.helper(name, slope, "derived");
     }

@@ -34,7 +34,7 @@ pub trait Notation {
     fn parentheses(&self, inside: &str) -> String;
 }
 
-/// What stands above a base.
+/// The exponent of a base.
 pub enum Exponent {
     /// A positive number; never 1.
     Number(Rational),
@@ -74,7 +74,7 @@ struct Term {
 /// The terms of a sum; one term is a product.
 type Piece = Vec<Term>;
 
-/// Where the names of symbols are known.
+/// A source of names of symbols.
 pub trait Names {
     /// The name of a leaf.
     fn name(&self, symbol: Symbol) -> Name;
@@ -205,8 +205,7 @@ impl Writer<'_> {
         term
     }
 
-    /// Where a factor stands in its product: constants, names, coordinates, and then what has
-    /// parentheses.
+    /// The position of a factor in its product: constants, names, coordinates, and then factors in parentheses.
     fn place(&self, base: Expr) -> u8 {
         match self.graph.node(base) {
             Node::Number(_) => 0,

@@ -1,5 +1,5 @@
-//! What is shown of a field: that it is right, that it can be read, and that every notation is well
-//! formed. The second route is the program that is compiled from the expanded derivation.
+//! Tests of the displayed derivation: it is right, it can be read, and every notation is well formed. The reference is the
+//! program that is compiled from the expanded derivation.
 
 use std::fs;
 use std::path::Path;
@@ -109,7 +109,7 @@ const OTHERS: [(&str, &str); 2] = [
 static FIELDS: LazyLock<Vec<Compiled>> =
     LazyLock::new(|| texts().iter().map(|(name, text)| compiled(name, text)).collect());
 
-/// The document of each, with what the field sees.
+/// The document of each field, with the terms that it sees.
 static WHOLE: LazyLock<Vec<Document>> = LazyLock::new(|| FIELDS.iter().map(whole).collect());
 
 /// The name and the text of each.
@@ -152,14 +152,14 @@ fn document(field: &Compiled) -> Document {
     Document::new(field, Quantity::ALL).expect("a derivation of usual size")
 }
 
-/// The same with what the field sees.
+/// The document with the terms that the field sees.
 fn whole(field: &Compiled) -> Document {
     let mut document = document(field);
     document.visibility = Some(Visibility::of(field).expect("terms of usual size"));
     document
 }
 
-/// Reads formulas one after the other; each name stands for a further parameter.
+/// Reads formulas one after the other; each name becomes a further parameter.
 struct Reader {
     graph: Graph,
     scope: Scope,
@@ -214,7 +214,7 @@ fn lines(document: &Document) -> Vec<(Option<(Quantity, usize)>, &Line)> {
     lines
 }
 
-/// A line that is shown, read as a user reads it.
+/// A displayed line, read as a user reads it.
 struct Reading {
     component: Option<(Quantity, usize)>,
     name: String,
@@ -222,8 +222,7 @@ struct Reading {
     program: Program,
 }
 
-/// The lines of a document, of which each may use the names of those before it; the components of the
-/// normal are names as well.
+/// The lines of a document; each may use the names before it, and the components of the normal are names as well.
 fn readings(field: &Compiled, document: &Document) -> Vec<Reading> {
     let mut reader = Reader::new(field);
     let dimension = field.field.dimension;
@@ -240,7 +239,7 @@ fn readings(field: &Compiled, document: &Document) -> Vec<Reading> {
     lines(document).into_iter().map(read).collect()
 }
 
-/// Everything that is shown evaluates to what the program computes, at so many points.
+/// Every displayed line evaluates to the program's value, at `points` points.
 fn assert_shown_is_computed(field: &Compiled, document: &Document, points: usize) {
     let readings = readings(field, document);
     let parameters = field.parameters::<Precise>(&Default::default());
@@ -270,7 +269,7 @@ fn assert_shown_is_computed(field: &Compiled, document: &Document, points: usize
 }
 
 impl Reading {
-    /// Asserts that a value is that component of what is computed.
+    /// Asserts that a value equals component `k` of a computed quantity.
     fn assert_is(&self, field: &str, value: &Precise, computed: &[Precise], k: usize) {
         let Reading { name, text, .. } = self;
         assert!(computed.iter().all(Precise::is_defined), "{field}: {name}");
@@ -332,7 +331,7 @@ fn lines_of_text_are_short() {
     }
 }
 
-/// What is derived of a heavy field.
+/// The quantities that are derived for a heavy field.
 const WANTED: [Quantity; 3] = [Quantity::Displacement, Quantity::Velocity, Quantity::BodyForce];
 
 /// A displacement of many terms, deep nesting, and long numbers.
@@ -361,7 +360,7 @@ fn heavy(displacement: &str) -> Compiled {
         .unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-/// A parameter of the material may have the name of the field's that it is.
+/// A parameter of the material may have the name of the field's parameter that it equals.
 #[test]
 fn no_line_says_that_a_name_is_itself() {
     let mut namesakes = 0;
@@ -482,7 +481,7 @@ fn latex_is_balanced_and_escaped() {
     }
 }
 
-/// A fragment goes from u to b, in the symbols that parameters declare, and has nothing of a document around it.
+/// A fragment goes from u to b, in the symbols that parameters declare, and has no document around it.
 #[test]
 fn fragments_of_latex_show_the_symbols_of_parameters() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields/sheared_block_2d.toml");
@@ -542,7 +541,7 @@ fn mathml_is_well_formed() {
     }
 }
 
-/// What a formula is made of, whatever the notation: its digits, bars, roots and powers.
+/// The parts of a formula are the same in both notations: digits, bars, roots and powers.
 #[test]
 fn mathml_has_the_structure_of_latex() {
     let digits = |text: &str| {
@@ -568,7 +567,7 @@ fn mathml_has_the_structure_of_latex() {
     }
 }
 
-/// On a page of others, headings are theirs; the formulas are those of the page.
+/// A part of another page has its heading levels; the formulas equal the formulas of the page.
 #[test]
 fn a_part_of_a_page_has_its_formulas_and_lower_headings() {
     let document = &WHOLE[0];

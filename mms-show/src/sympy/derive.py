@@ -32,7 +32,7 @@ def determinant(F):
 def response(X, t, arguments, fibre):
     """J, W, P = dW/dF, dP/dF and the explicit dP_iJ/dX_K as functions of X, t and F.
 
-    W is that of a body in space. The diagonal entries of F that the field lacks are 1.
+    W is evaluated for a body in space. The diagonal entries of F that the field lacks are 1.
     """
     D = len(X)
     F = [[Symbol(f"F{i + 1}{j + 1}", real=True) for j in range(D)] for i in range(D)]
@@ -66,7 +66,7 @@ def derived(dimension):
         F = [[H[i][j] + (i == j) for j in D] for i in D]
         C = [[sum(F[k][i] * F[k][j] for k in D) for j in D] for i in D]
         J, W, P, tangent, explicit = response_at(*X, t, *sum(F, []))
-        # What carries stresses and densities to the present configuration: at small strain there is one stress.
+        # F and J, which map stresses and densities to the present configuration: at small strain there is one stress.
         carrier, volume, bent = (eye(len(X)).tolist(), 1, [[[0] * 3] * 3] * 3) if SMALL_STRAIN else (F, J, second)
         tau = [[sum(P[i][k] * carrier[j][k] for k in D) for j in D] for i in D]
         # dP_iJ/dX_K = dP_iJ/dF_mN u_m,NK, and what depends on X by itself.

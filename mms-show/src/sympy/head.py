@@ -1,5 +1,5 @@
-# What mms computes for this field, derived a second time. The displacement u(X, t) and the
-# strain-energy density W stand below as they are typed in the field file and in the file of its
+# The quantities that mms computes for this field, derived a second time. The displacement u(X, t) and
+# the strain-energy density W follow below as they are typed in the field file and in the file of its
 # material, with exact numbers. From them SymPy derives
 #
 #     v = du/dt    a = dv/dt    H = du/dX    F = I + H    J = det F    P = dW/dF

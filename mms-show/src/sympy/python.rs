@@ -1,11 +1,11 @@
-//! From the tree of a formula to Python, as it was typed. Nothing is resolved, derived or simplified
-//! on the way, so that the script owes nothing to the compiler but its parser.
+//! Translates the tree of a formula to Python, as it was typed. Nothing is resolved, derived or simplified, so that the script
+//! depends on the compiler only for its parser.
 
 use mms_spec::syntax::{Ast, Kind, Operator};
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// What Python or the script itself means by a name.
+/// The names with a meaning in Python or in the script itself.
 const KEPT: &[&str] = &[
     "False",
     "None",
@@ -67,7 +67,7 @@ const KEPT: &[&str] = &[
     "pi",
 ];
 
-/// What the names of a file are called in the script.
+/// The names of a file in the script.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Renamed {
     names: SortedMap<String, String>,
@@ -96,7 +96,7 @@ impl Renamed {
         renamed
     }
 
-    /// What a name is called. What the file did not define means the same in the script.
+    /// The name in the script. A name that the file did not define means the same in the script.
     pub fn name<'a>(&'a self, name: &'a str) -> &'a str {
         self.names.get(name).map_or(name, String::as_str)
     }
@@ -115,7 +115,7 @@ enum Binding {
 struct Piece {
     text: String,
     binding: Binding,
-    /// Whether Python would compute it by itself, and round the quotient of two integers.
+    /// Whether Python would compute it itself, and round the quotient of two integers.
     is_plain: bool,
 }
 
@@ -124,7 +124,7 @@ impl Piece {
         if self.binding >= binding { self.text } else { format!("({})", self.text) }
     }
 
-    /// The same as a number of SymPy.
+    /// The piece as a number of SymPy.
     fn exact(self) -> Self {
         match self.is_plain {
             true => {
