@@ -28,7 +28,7 @@ fn unnamed() -> String {
 pub struct Attached {
     /// The name, whose ending tells the format.
     pub name: String,
-    /// Its bytes, which follow those of the files before it.
+    /// The number of bytes, which follow the bytes of the files before it.
     pub size: usize,
 }
 
@@ -38,13 +38,13 @@ pub struct Attached {
 pub struct JudgeOptions {
     /// Whether the file is a table of errors, and no result of the field.
     pub errors: bool,
-    /// h of each file; found from the files where it is empty.
+    /// h of each file; found from the files if it is empty.
     pub mesh_sizes: Vec<f64>,
     /// The time of each file, or one for all.
     pub times: Vec<f64>,
-    /// Names of quantities; all that are found where it is empty.
+    /// Names of quantities; all that are found if it is empty.
     pub quantities: Vec<String>,
-    /// The order that is expected; the solver's usual one where it is not given.
+    /// The expected order; the solver's usual one if it is not given.
     pub expected_order: Option<f64>,
 }
 
@@ -72,7 +72,7 @@ pub enum Request {
         /// The field.
         #[serde(flatten)]
         field: FieldText,
-        /// Their names; displacement and body force where there is none.
+        /// The names of the quantities; displacement and body force if there is none.
         #[serde(default)]
         quantities: Vec<String>,
     },

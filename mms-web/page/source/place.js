@@ -3,7 +3,7 @@
 /**
  * @typedef {object} Place
  * @property {"header"|"key"|"value"|"none"} kind  `none` is a comment, or behind a value
- * @property {string[]} path  the keys that lead there; "[]" stands for an entry of an array
+ * @property {string[]} path  the keys that lead there; "[]" is an entry of an array
  * @property {number} from  where the word begins that a completion replaces
  * @property {boolean} quoted  whether the position is inside a string
  */

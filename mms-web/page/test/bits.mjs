@@ -1,4 +1,4 @@
-// Asks the module for all quantities of three fields, and compares them with those of the command, bit for bit:
+// Asks the module for all quantities of three fields, and compares them with the command's values, bit for bit:
 //
 //     node bits.mjs MODULE.wasm MMS
 import { execFileSync } from "node:child_process";
@@ -28,7 +28,7 @@ function ask(header) {
   return reply.ok;
 }
 
-/** What the command says of the same point. */
+/** The values of the command at the same point. */
 function evaluated(name, at, time) {
   const words = ["eval", name, `--at=${at.join(",")}`, `--time=${time}`, "--json"];
   const printed = execFileSync(command, words, { stdio: ["ignore", "pipe", "ignore"] });

@@ -1,7 +1,7 @@
 """Uses the built page as a visitor does, in Chromium: python playground.py FILE.html MMS [--pictures FOLDER]
 
-MMS is the command of this project: it makes results to judge, and the numbers that the page must show bit for bit. What is
-shown needs gcc as well. Chromium is /usr/bin/chromium, or what the environment variable CHROMIUM names.
+MMS is the command of this project: it makes results to judge, and the numbers that the page must show bit for bit. Code that
+is shown needs gcc as well. Chromium is /usr/bin/chromium, or the path in the environment variable CHROMIUM.
 """
 
 import argparse
@@ -103,7 +103,7 @@ def derives(visit):
 
 
 def moves(visit, mms):
-    """Clicks the body, and compares each number with that of the command, on three fields."""
+    """Clicks the body, and compares each number with the command's, on three fields."""
     page = visit.page
     for name in ("bar_1d", "sheared_block_2d", "twisted_column"):
         visit.choose(name)
