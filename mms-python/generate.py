@@ -1,7 +1,8 @@
-"""Writes what follows from lists of the compiler and from the types of its documents, and with --check says what differs.
+"""Writes files from lists of the compiler and from the types of its documents, or with --check prints the differences.
 
 python/manufactured/documents.py has a class for each document that the library returns, made of docs/documents.schema.json.
-python/manufactured/_native.pyi has the signatures of the extension module: those of quantities follow from their list there.
+python/manufactured/_native.pyi has the signatures of the extension module: the methods for quantities follow from the list
+of quantities in it.
 """
 
 import argparse

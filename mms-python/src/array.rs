@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 use crate::evaluator::Precision;
 use crate::mistake::mistake;
 
-/// How many points are brought together, and evaluated before Python is asked whether to go on.
+/// The number of points that are gathered and evaluated before Python is polled for an interrupt.
 pub const STRETCH: usize = 1 << 18;
 
 /// Numbers at points, in the precision that they were given in.
@@ -100,9 +100,9 @@ fn not_real(name: &str, given: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("`{name}`: expected an array of real numbers, found {found}{of}"))
 }
 
-/// How the numbers of points stand in an array: so many in a row for each point.
+/// The layout of the numbers of points in an array: a fixed number in a row for each point.
 pub struct Layout {
-    /// The axes before those of one point.
+    /// The axes before the axes of one point.
     pub leading: Vec<usize>,
     /// Whether the array has no axis for the one coordinate of a point.
     pub is_flat: bool,
@@ -158,7 +158,8 @@ fn written(numbers: &[usize]) -> String {
     }
 }
 
-/// The points `start..end` of an array with so many numbers each, one after the other: those of the array where they lie so.
+/// The points `start..end` of an array with `numbers` numbers each, one after the other; borrows from the array if it is
+/// contiguous.
 pub fn stretch<'a, T: Precision>(
     array: &'a PyReadonlyArrayDyn<'_, T>,
     numbers: usize,
@@ -176,7 +177,7 @@ pub fn stretch<'a, T: Precision>(
     let Some((_, rest)) = view.shape().split_first() else {
         return Cow::Owned(view.iter().copied().collect());
     };
-    // What stands before the stretch is passed over by whole entries of the first axis.
+    // Numbers before the stretch are skipped in whole entries of the first axis.
     let entry: usize = rest.iter().product();
     let (first, passed) = (start * numbers / entry, start * numbers % entry);
     if entry == numbers {

@@ -11,8 +11,8 @@ use pyo3::prelude::*;
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
-/// Runs `mms` with arguments, once in a process, and returns its exit code. `file` is that of this module, and `words` start
-/// the same command in another process.
+/// Runs `mms` with arguments, once in a process, and returns its exit code. `file` is the path of this module, and `words`
+/// start the same command in another process.
 #[pyfunction]
 fn command(py: Python<'_>, file: PathBuf, words: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     program::set(Program { file, words, arguments });

@@ -190,7 +190,7 @@ impl Field {
         (!self.opened.input.is_static()).then_some((first, last))
     }
 
-    /// So many points spread evenly over the body (a Halton sequence): (count, D).
+    /// Points spread evenly over the body (a Halton sequence): (count, D).
     fn sample<'py>(&self, py: Python<'py>, count: usize) -> PyResult<Bound<'py, PyAny>> {
         let dimension = self.opened.dimension();
         let points = py.detach(|| {
@@ -222,14 +222,14 @@ impl Field {
         Now { opened: self.opened.clone(), time: t }
     }
 
-    /// The field at points that stay: `cache = field.points(X); cache.b(t)`. X is copied, and what it alone determines is kept
-    /// for each quantity that is asked for.
+    /// The field at fixed points: `cache = field.points(X); cache.b(t)`. X is copied, and values that depend on X alone are
+    /// kept for each quantity that is evaluated.
     fn points(&self, X: &Bound<'_, PyAny>) -> PyResult<AtPoints> {
         let stay = Stay::new(&Points::given(X, &self.opened)?)?;
         Ok(AtPoints { opened: self.opened.clone(), stay })
     }
 
-    /// The field with other values of some parameters: `field.set(amplitude=0.2)`. Those that were set before stay set.
+    /// The field with other values of some parameters: `field.set(amplitude=0.2)`. Parameters that were set before stay set.
     #[pyo3(signature = (**parameters))]
     fn set(&self, py: Python<'_>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Field> {
         let new = settings(parameters)?;
@@ -369,7 +369,7 @@ impl Material {
     }
 }
 
-/// Parameters as they were given: a number stands for its digits, as on the command line, and a text for a formula.
+/// Parameters as they were given: a number is taken by its digits, as on the command line, and a text as a formula.
 fn settings(parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, String)>> {
     let Some(parameters) = parameters else { return Ok(Vec::new()) };
     let setting = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {

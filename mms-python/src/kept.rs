@@ -13,7 +13,7 @@ use crate::array::{Numbers, STRETCH, room};
 use crate::evaluator::{KeptPoints, Odd};
 use crate::opened::{Asked, Evaluated, Opened, Points};
 
-/// Points, and what is kept there.
+/// Points, and the values that are kept there.
 pub struct Stay {
     /// An array of this library's own, which lies in memory as it is read.
     points: Py<PyAny>,

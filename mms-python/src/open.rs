@@ -16,10 +16,10 @@ use pyo3::prelude::*;
 
 use crate::mistake::{failure, mistake};
 
-/// The stack of such work: that of a main thread, for a thread of Python may have a small one.
+/// The stack size for such work, as large as for a main thread: a thread of Python may have a small one.
 const STACK: usize = 8 << 20;
 
-/// How often Python is asked whether to go on.
+/// The time between two polls for an interrupt of Python.
 const PAUSE: Duration = Duration::from_millis(50);
 
 /// The text of a field of the gallery.
@@ -45,7 +45,7 @@ pub fn file(path: &Path) -> PyResult<Source> {
     }))
 }
 
-/// A text that Python has, and that of its material where it brings one.
+/// A text from Python, and the text of its material if it has its own.
 pub fn text(name: &str, text: &str, material: Option<String>) -> Source {
     let path = PathBuf::from(format!("{name}.toml"));
     Source::file(path, text.into(), move |_| {

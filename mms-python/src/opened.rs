@@ -1,4 +1,4 @@
-//! A field with numbers for its parameters: all its outputs, each made ready when it is asked for.
+//! A field with numbers for its parameters: all its outputs, each prepared at its first use.
 
 use std::borrow::Cow;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -46,7 +46,7 @@ pub struct Ready<T: Precision> {
 
 /// A precision whose outputs a field has.
 pub trait Evaluated: Precision {
-    /// Its outputs.
+    /// The outputs in this precision.
     fn of(opened: &Opened) -> &Ready<Self>;
 }
 
@@ -62,11 +62,11 @@ impl Evaluated for f64 {
     }
 }
 
-/// Points of a field, with how they stand in an array.
+/// Points of a field, with their layout in an array.
 pub struct Points<'py> {
-    /// Their coordinates.
+    /// The coordinates.
     pub numbers: Numbers<'py>,
-    /// How they stand there.
+    /// The layout in the array.
     pub layout: Layout,
 }
 
@@ -92,7 +92,7 @@ impl<'py> Points<'py> {
 pub struct Asked<'a> {
     /// The output.
     pub output: Output,
-    /// Its name.
+    /// The name.
     pub name: &'a str,
     /// The axes of a value.
     pub own: &'a [usize],
@@ -114,7 +114,7 @@ impl<T: Evaluated + Number> Ready<T> {
         Ready { parameters: compiled.parameters(set), known: Mutex::new(Vec::new()) }
     }
 
-    /// The evaluator of an output, made when it is asked for first.
+    /// The evaluator of an output, made at its first use.
     pub fn evaluator(&self, input: &Input, output: Output) -> PyResult<Arc<Evaluator<T>>> {
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let find = |all: &[(Output, Arc<Evaluator<T>>)]| {
@@ -245,7 +245,7 @@ impl Opened {
         })
     }
 
-    /// Has `work` do what a quantity at a time is asked for.
+    /// Runs `work` with the request for a quantity at a time.
     pub fn asked<R>(
         &self,
         quantity: Quantity,

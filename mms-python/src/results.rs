@@ -91,7 +91,7 @@ impl Level {
     }
 }
 
-/// The numbers of an argument, those of a point together. The first argument says how points are counted.
+/// The numbers of an argument, grouped by point. The first argument determines how points are counted.
 fn of_points(
     name: &str,
     given: &Bound<'_, PyAny>,
@@ -168,7 +168,7 @@ impl Given {
         }
     }
 
-    /// The results; those of files by `find`.
+    /// The results; `find` reads the results of files.
     pub fn results(
         &self,
         at: usize,

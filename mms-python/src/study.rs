@@ -16,10 +16,10 @@ use crate::mistake::mistake;
 use crate::open::interruptible;
 use crate::verdict::Views;
 
-/// How often Python is told how far a run is.
+/// The time between two reports of progress to Python.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Follows runs: tells a function of Python how far they are, and ends them where a stop is asked for.
+/// Follows runs: reports their progress to a function of Python, and ends them if a stop is requested.
 struct Follower {
     stop: Stop,
     /// Takes a line.

@@ -1,4 +1,4 @@
-"""What the tests have in common: the command, and fields that are opened once."""
+"""The common parts of the tests: the command, and fields that are opened once."""
 
 import functools
 import os

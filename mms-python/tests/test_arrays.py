@@ -146,7 +146,7 @@ def test_a_shape_that_is_none(shape):
 
 
 def test_long_arrays_are_read_in_stretches():
-    """Arrays that lie in memory in another order than they are read, and are longer than what is read at a time."""
+    """Arrays whose order in memory differs from the order of reading, and which are longer than a stretch."""
     field = opened("travelling_wave_2d")
     x = field.sample(300_000)
     time = time_of(field)

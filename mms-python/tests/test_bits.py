@@ -13,7 +13,7 @@ POINTS = 5
 
 
 def evaluated(mms, name, dtype, quantities, points, options):
-    """What `mms eval` prints: for each quantity, an array of a row for each point."""
+    """The output of `mms eval`: for each quantity, an array of a row for each point."""
     at = ["--at=" + ",".join(repr(float(it)) for it in point) for point in points]
     field = opened(name)
     time = [] if field.window is None else [f"--time={time_of(field)!r}"]

@@ -57,7 +57,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Studies and verdicts, which are imported where they are asked for: who evaluates fields alone does not wait for them."""
+    """Studies and verdicts, which are imported at their first use: programs that only evaluate fields do not wait for them."""
     if name not in __all__:
         raise AttributeError(f"module `manufactured` has no `{name}`")
     from . import studies, verdicts

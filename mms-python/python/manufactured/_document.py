@@ -57,6 +57,6 @@ class Document:
         return made
 
     def to_dict(self) -> dict[str, Any]:
-        """What the command prints with --json."""
+        """The document that the command prints with --json."""
         document: dict[str, Any] = self.__dict__["_document"]
         return copy.deepcopy(document)

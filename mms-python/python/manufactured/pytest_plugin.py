@@ -29,7 +29,7 @@ def assert_order(
     order: float | None = None,
     **options: Any,
 ) -> Judgement:
-    """Fails unless the results of a solver on meshes of so many cells have the expected order; the options are those of `judge`.
+    """Fails unless the results of a solver on meshes of so many cells have the expected order; takes the options of `judge`.
 
     The message has the table, the norm that decided, and what the error acts as.
     """

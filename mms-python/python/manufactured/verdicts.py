@@ -126,7 +126,7 @@ class Diagnosis(Shown, Diagnose):
 
 
 def opened(field: Field | str) -> Field:
-    """A field, or that of the gallery with this name."""
+    """A field, or the field of the gallery with this name."""
     return _native.field(field) if isinstance(field, str) else field
 
 
@@ -161,7 +161,7 @@ def judge(
 
     No process is started, and no file is written. `results` are levels, paths as `mms judge` takes them, or meshes of meshio or
     PyVista. `expected_order` is a number, or numbers by names of norms, quantities or QUANTITY:NORM. `over` is "points" or
-    "cells". The other options are those of `mms judge`.
+    "cells". The other options have their meaning in `mms judge`.
 
     Raises MmsError where results are none of the field.
     """
@@ -201,7 +201,7 @@ def diagnose(
     """Names the mistake of a solver by the error that it makes, as `mms diagnose` does.
 
     `diagnose(field, X, a=a, t=t)` looks at accelerations, or at residuals `r`, at an exact state. `diagnose(field, results)`
-    looks at results as `judge` takes them. `time_step` is that of the solver, or one for each mesh.
+    looks at results as `judge` takes them. `time_step` is the solver's, or one for each mesh.
 
     Raises MmsError where there is nothing to look at.
     """
@@ -235,7 +235,7 @@ def judge_law(
     tau: ArrayLike | None = None,
     X: ArrayLike | None = None,
 ) -> Diagnosis:
-    """Compares a law of your own with that of the field, to round-off: is it the same material, and if not, what differs?
+    """Compares a law of your own with the law of the field, to round-off: is it the same material, and if not, what differs?
 
     F is (n, D, D), and so is the one stress that is given: P, S, sigma or tau. X is needed where the material depends on it.
 
