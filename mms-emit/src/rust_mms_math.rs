@@ -1,10 +1,10 @@
-//! Rust, as a module that the solver goes with.
+//! Rust: the module that this project's solver uses.
 
 use mms_codegen::rust::file;
 
 use crate::target::{Bundle, Target};
 
-/// Rust, as a module that the solver goes with.
+/// Rust: the module that this project's solver uses.
 pub const TARGET: Target = Target {
     name: "rust-mms-math",
     alias: None,

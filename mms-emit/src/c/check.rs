@@ -41,7 +41,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
         .replace("        FUNCTIONS\n", &calls)
 }
 
-/// The headers of what reads the test vectors.
+/// The headers of the code that reads the test vectors.
 pub(crate) const INCLUDED: &str = "#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\n";
 
 /// Writes the code that reads the test vectors of a field.
@@ -49,7 +49,7 @@ pub(crate) fn reader(port: &Port<'_>) -> String {
     VECTORS.replace("VECTORS", &port.vectors_name())
 }
 
-/// How many there are of what is checked.
+/// The sizes of the compared arrays.
 pub(crate) fn sizes(port: &Port<'_>) -> String {
     let (sets, points) = (port.subject.vectors().sets.len(), port.points());
     let (parameters, width, widest) = (port.parameters.len(), port.width(), port.widest());

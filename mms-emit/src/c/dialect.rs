@@ -1,4 +1,4 @@
-//! How C writes numbers, functions and names.
+//! The syntax of numbers, functions and names in C.
 
 use crate::port::body::{Arithmetic, Dialect, Owner, in_c_library};
 use crate::port::names::Rules;
@@ -41,7 +41,7 @@ pub const HEADERS: &str = "\
     assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdarg \
     stdbool stddef stdint stdio stdlib string tgmath time uchar wchar wctype std main";
 
-/// How statements are written in C.
+/// The syntax of statements in C.
 pub struct C;
 
 impl Dialect for C {

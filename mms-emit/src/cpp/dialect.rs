@@ -1,4 +1,4 @@
-//! How C++ writes numbers and functions.
+//! The syntax of numbers and functions in C++.
 
 use crate::port::body::{Dialect, Owner, in_c_library};
 use crate::port::number::{decimal, nearest};
@@ -6,7 +6,7 @@ use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational, Symbol};
 
-/// How statements are written in C++, for a field whose tensors have so many rows.
+/// The syntax of statements in C++, for a field whose tensors have this number of rows.
 pub struct Cpp(pub usize);
 
 impl Dialect for Cpp {
@@ -24,7 +24,7 @@ impl Dialect for Cpp {
         if wide { format!("{}()", calls.to("wide_pi")) } else { "T(3.141592653589793)".into() }
     }
 
-    /// Arguments are arrays: the coordinates are one, and so are the rows of H.
+    /// Inputs are arrays: one for the coordinates, one for the rows of H.
     fn input(&self, symbol: Symbol, name: &str) -> String {
         match symbol {
             Symbol::Coordinate(axis) => format!("X[{axis}]"),

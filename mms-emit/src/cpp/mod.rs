@@ -18,7 +18,7 @@ pub const TARGET: Target = Target {
     words: RULES.words,
 };
 
-/// Names that C++ takes.
+/// Rules of C++ for names.
 const RULES: Rules = Rules {
     words: &[C_KEYWORDS, CPP_KEYWORDS, MACROS, "T Parameters"],
     modules: &[C_KEYWORDS, CPP_KEYWORDS, MACROS, HEADERS],

@@ -1,4 +1,4 @@
-//! How Fortran writes numbers and functions.
+//! The syntax of numbers and functions in Fortran.
 
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::{decimal, nearest};
@@ -6,7 +6,7 @@ use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
-/// How statements are written in Fortran.
+/// The syntax of statements in Fortran.
 pub struct Fortran;
 
 impl Dialect for Fortran {

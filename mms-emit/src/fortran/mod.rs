@@ -19,8 +19,8 @@ pub const TARGET: Target = Target {
     words: RULES.words,
 };
 
-/// Names that Fortran takes: of 63 characters, in any case. It keeps no word for itself, but a module
-/// may not be called like what is in it.
+/// Rules of Fortran for names: up to 63 characters, in any case. No word is reserved, but a module must not have the name of an
+/// item in it.
 const RULES: Rules = Rules {
     words: &["none"],
     modules: &[
@@ -61,7 +61,7 @@ fn documented(text: &str, indent: &str) -> String {
     lines.iter().map(|line| format!("{indent}!> {line}\n")).collect()
 }
 
-/// Items in brackets behind a start, on as many lines as they need.
+/// Items in brackets after `start`, on as many lines as they need.
 fn continued(start: &str, items: &[String], end: &str) -> String {
     let line = format!("{start}({}){end}", items.join(", "));
     if line.len() <= 100 {

@@ -1,4 +1,4 @@
-//! How Julia writes numbers and functions.
+//! The syntax of numbers and functions in Julia.
 
 use crate::port::body::{Dialect, Owner, in_c_library};
 use crate::port::number::{decimal, nearest};
@@ -6,8 +6,7 @@ use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
-/// How statements are written in Julia. Its own numbers of any precision take the place of those with twice
-/// the digits of a double.
+/// The syntax of statements in Julia. Its own numbers of any precision replace numbers with twice the digits of a double.
 pub struct Julia;
 
 impl Dialect for Julia {

@@ -1,4 +1,4 @@
-//! How Karamelo writes numbers and functions.
+//! The syntax of numbers and functions in Karamelo.
 
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::nearest;
@@ -6,11 +6,11 @@ use crate::port::support::Calls;
 use mms_program::Value;
 use mms_symbolic::expr::{Function, Rational, Symbol};
 
-/// How variables are written, for a field of that name.
+/// The syntax of variables, for a field with this name.
 pub struct Karamelo<'a>(pub &'a str);
 
 impl Dialect for Karamelo<'_> {
-    /// Without an exponent, which not all versions read.
+    /// A number without an exponent, which not all versions read.
     fn literal(&self, number: &Rational, _wide: bool, _calls: &mut Calls) -> String {
         match nearest(number) {
             value if value < 0.0 => format!("(0-{})", -value),

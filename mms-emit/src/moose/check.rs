@@ -24,13 +24,13 @@ pub(super) fn text(port: &Port<'_>) -> String {
     text + include_str!("support/check.py")
 }
 
-/// The names of the parameters with their defaults, and what is checked.
+/// The names of the parameters with their defaults, and the list of functions to check.
 pub(crate) fn functions(port: &Port<'_>, accepted: Vec<Option<u32>>) -> String {
     let names: Vec<_> = port.parameters.values().collect();
     let (axes, _) = "txyz".split_at(1 + port.dimension());
     let mut text = format!(
         "\n# The parameters and their defaults.\nDEFAULTS = dict(zip({names:?}, FIRST[\"defaults\"][0]))\n\n\
-         # What the numbers of a point are called that functions take.\nAXES = \"{axes}\"\n\n\
+         # The names of the numbers of a point that functions take.\nAXES = \"{axes}\"\n\n\
          # Name, whether it is of points, its components, and the accepted error.\nFUNCTIONS = [\n"
     );
     let mut unchecked = Vec::new();

@@ -1,11 +1,11 @@
-//! How the Function Parser writes numbers and functions.
+//! The syntax of numbers and functions of the Function Parser.
 
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::{decimal, nearest};
 use crate::port::support::Calls;
 use mms_symbolic::expr::{Function, Rational, Symbol};
 
-/// How statements are written in a ParsedFunction.
+/// The syntax of statements in a ParsedFunction.
 pub struct Moose;
 
 impl Dialect for Moose {
@@ -50,7 +50,7 @@ impl Dialect for Moose {
         }
     }
 
-    /// Half turns are taken off without error, each of which changes the sign.
+    /// A call; sin(pi x) and cos(pi x) subtract half turns without error, each of which changes the sign.
     fn call(&self, function: Function, arguments: &[String]) -> String {
         let (x, pi) = (&arguments[0], decimal(std::f64::consts::PI));
         let turns = format!("floor({x} + 0.5)");

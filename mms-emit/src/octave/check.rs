@@ -11,7 +11,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     let names: Vec<String> = port.parameters.values().map(|name| format!("'{name}'")).collect();
     let mut text = format!(
         "function {name}_check()\n{}\n  names = {{{}}};\n\n  \
-         % Name, function, what it is of, and columns of its inputs.\n  functions = {{ ...\n",
+         % Name, function, its owner, and columns of its inputs.\n  functions = {{ ...\n",
         comment(&port.check_header(&format!("{name}.m")), "  "),
         names.join(", ")
     );

@@ -1,4 +1,4 @@
-//! How Octave and MATLAB write numbers and functions.
+//! The syntax of numbers and functions in Octave and MATLAB.
 
 use crate::port::body::{Arithmetic, Dialect, Owner, in_c_library};
 use crate::port::number::{decimal, nearest};
@@ -6,7 +6,7 @@ use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
-/// How statements are written in Octave.
+/// The syntax of statements in Octave.
 pub struct Octave;
 
 impl Dialect for Octave {

@@ -18,7 +18,7 @@ pub const TARGET: Target = Target {
     words: RULES.words,
 };
 
-/// Names that the language takes; a file of a function's stem would hide it.
+/// Rules of the language for names; a file named after a function would hide it.
 const RULES: Rules =
     Rules { words: &[KEYWORDS], modules: &[KEYWORDS, FUNCTIONS], folds_case: false, longest: 63 };
 
@@ -30,7 +30,7 @@ const KEYWORDS: &str = "\
     global if methods otherwise parfor persistent properties return spmd switch try until unwind_protect \
     unwind_protect_cleanup while";
 
-/// Functions that the files call, and others that one would rather not hide.
+/// Functions that the files call, and others that should not be hidden.
 const FUNCTIONS: &str = "\
     all any angle area axis bar box cat columns cross cylinder date diff disp dot ellipsoid error eval eye \
     fill filter find gamma grid hist image inv kron length line lower upper mean median mesh mode norm \

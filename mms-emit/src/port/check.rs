@@ -49,13 +49,13 @@ impl Port<'_> {
         self.callables.iter().enumerate().filter_map(check).collect()
     }
 
-    /// How many points each set of parameters has.
+    /// The number of points of each set of parameters.
     pub fn points(&self) -> usize {
         let vectors = self.subject.vectors();
         vectors.samples.len() / vectors.sets.len()
     }
 
-    /// How many numbers a point has: t, X, N and H.
+    /// The number of numbers of a point: t, X, N and H.
     pub fn width(&self) -> usize {
         1 + 2 * self.dimension() + self.rows().pow(2)
     }

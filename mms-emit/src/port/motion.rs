@@ -1,4 +1,4 @@
-//! How far the motion goes, which a background grid has to hold.
+//! The extent of the motion, which a background grid has to contain.
 
 use super::Port;
 use super::number::decimal;

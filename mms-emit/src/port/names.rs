@@ -8,7 +8,7 @@ pub struct Rules {
     pub modules: &'static [&'static str],
     /// Whether names that differ in case alone are one.
     pub folds_case: bool,
-    /// How long a name may be.
+    /// The largest length of a name.
     pub longest: usize,
 }
 

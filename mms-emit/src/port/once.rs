@@ -1,4 +1,4 @@
-//! Numbers that are computed with no more digits than they have.
+//! Numbers that are computed in one precision throughout.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -29,7 +29,7 @@ pub const TOLERANCE: u32 = 64;
 /// times as much.
 const MARGIN: f64 = 4.0;
 
-/// How many points of the inner body each set of parameters is evaluated at.
+/// The number of points of the inner body at which each set of parameters is evaluated.
 const POINTS: usize = 16;
 
 /// The number of parameters among which an amplitude is searched.

@@ -1,4 +1,4 @@
-//! How Python writes numbers and functions.
+//! The syntax of numbers and functions in Python.
 
 use crate::port::body::{Dialect, Owner, in_c_library};
 use crate::port::number::{decimal, nearest};
@@ -20,13 +20,13 @@ pub enum Library {
 }
 
 impl Library {
-    /// Whether it makes expressions: there is nothing to be gained by computing some of them before.
+    /// Whether the library builds expressions: then nothing is gained by computing parts of them in advance.
     pub fn is_of_expressions(self) -> bool {
         matches!(self, Library::SymPy | Library::Ufl)
     }
 }
 
-/// A name of SymPy for which there is a function, and one to be written out otherwise.
+/// The name of a function in SymPy, or the written-out formula of a function that SymPy lacks.
 fn in_sympy(function: Function, arguments: &[String]) -> String {
     let argument = &arguments[0];
     match function {

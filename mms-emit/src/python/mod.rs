@@ -10,7 +10,7 @@ use crate::port::names::Rules;
 use crate::target::{Bundle, Subject, Target};
 use mms_symbolic::expr::Function;
 
-/// Python.
+/// Python with `math`.
 pub const TARGET: Target = Target {
     name: "python",
     alias: None,
@@ -19,7 +19,7 @@ pub const TARGET: Target = Target {
     words: RULES.words,
 };
 
-/// Names that Python takes.
+/// Rules of Python for names.
 const RULES: Rules = Rules {
     words: &[KEYWORDS, "self float sp print match case type"],
     modules: &[KEYWORDS, MODULES],

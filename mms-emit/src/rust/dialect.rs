@@ -1,4 +1,4 @@
-//! How Rust writes numbers and functions.
+//! The syntax of numbers and functions in Rust.
 
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::{decimal, nearest};
@@ -6,7 +6,7 @@ use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
-/// How statements are written in Rust.
+/// The syntax of statements in Rust.
 pub struct Rust;
 
 impl Dialect for Rust {

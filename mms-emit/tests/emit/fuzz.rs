@@ -11,7 +11,7 @@ use proptest::test_runner::Config;
 
 use super::build::{can_build, prove, quick};
 
-/// A quarter of what is accepted, in eps.
+/// A quarter of the accepted error, in eps.
 const LOST: f64 = 16.0;
 
 /// A formula in X, t and two parameters, with a value everywhere.
@@ -61,7 +61,7 @@ fn field(formula: &str, options: &Options) -> Result<Compiled, Failure> {
     compile_unproved("field", "x.toml", &text, &|path| Err(path.into()), options)
 }
 
-/// The largest error of any quantity, in eps of its largest value; infinite where one could not be measured.
+/// The largest error of any quantity, in eps of its largest value; infinite if one could not be measured.
 fn error(formula: &str) -> f64 {
     let request = Request {
         precisions: vec![Precision::F64],
@@ -87,9 +87,9 @@ fn random_fields_prove_themselves() {
     let config = Config { cases, failure_persistence: None, ..Config::default() };
     proptest!(config, |(formula in formula())| {
         let field = field(&formula, &Options::default());
-        // One that turns the body inside out is refused.
+        // A field that turns the body inside out is refused.
         prop_assume!(field.is_ok());
-        // In other languages numbers are rounded elsewhere: what loses digits by itself may lose more of them there.
+        // Other languages round at other places: formulas that lose digits by themselves may lose more of them there.
         prop_assume!(error(&formula) < LOST);
         let field = field.expect("it compiles");
         let subject = Subject::new(&field);

@@ -50,7 +50,7 @@ fn with_options(path: &Path, options: &Options) -> Compiled {
         .unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-/// Languages that compute in one precision lose the digits of such angles.
+/// Languages that compute in one precision lose digits of the large angles of some fields.
 const ONE_PRECISION: [&str; 3] = ["ufl", "moose", "karamelo"];
 
 #[test]

@@ -5,8 +5,8 @@ use mms_emit::port::callable::callables;
 
 use super::gallery::field;
 
-/// Every check program compares b with these numbers. Without the gradient of the pressure, rho0 b would lack cof F grad p: by
-/// millions of times the error that is accepted.
+/// Every check program compares b with these numbers. Without the gradient of the pressure, rho0 b would lack cof F grad p, an
+/// error of millions of times the accepted one.
 #[test]
 fn the_checks_of_every_target_see_the_gradient_of_a_given_pressure() {
     let compiled = &field("given_pressure_2d");

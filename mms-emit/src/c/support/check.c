@@ -3,7 +3,7 @@ static const double least = sizeof(real) < sizeof(double) ? (double)FLT_MIN : DB
 static double worst = 0.0;
 static int failures = 0;
 
-/* Compares what a function gives with a set of parameters. */
+/* Compares the results of a function with a set of parameters. */
 static void check(const char *name, int n, const double *expected, const real *found)
 {
     const int limit = accepted[sizeof(real) < sizeof(double)];
@@ -21,7 +21,7 @@ static void check(const char *name, int n, const double *expected, const real *f
     }
 }
 
-/* Calls a function, which puts COUNT numbers into `out`, at each of so many points. */
+/* Calls a function, which writes COUNT numbers into `out`, at each of ROWS points. */
 #define CHECK(NAME, ROWS, COUNT, CALL)                                        \
     table(#NAME, ROWS, COUNT);                                                \
     for (int p = 0; p < ROWS; p++) {                                          \

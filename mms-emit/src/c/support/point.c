@@ -4,7 +4,7 @@ typedef double real;
 #define MATH(function) function
 #define REAL(number) number
 
-/* sin(pi x): whole turns, and then quarters, are taken off without error. */
+/* sin(pi x): whole turns, and then quarter turns, are subtracted without error. */
 static real sin_pi(real x)
 {
     const real turn = x - REAL(2.0) * MATH(rint)(REAL(0.5) * x);
@@ -19,7 +19,7 @@ static real sin_pi(real x)
     return MATH(sin)(angle);
 }
 
-/* cos(pi x), in the same way. */
+/* cos(pi x): as sin(pi x). */
 static real cos_pi(real x)
 {
     const real turn = MATH(fabs)(x - REAL(2.0) * MATH(rint)(REAL(0.5) * x));

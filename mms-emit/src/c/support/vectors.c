@@ -2,7 +2,7 @@ static FILE *vectors;
 static double numbers[LARGEST];
 static int accepted[2];
 
-/* Opens the test vectors: in this folder, or where the first argument says. */
+/* Opens the test vectors: in this folder, or at the path in the first argument. */
 static void open_vectors(int count, char **arguments)
 {
     const char *const path = count > 1 ? arguments[1] : "VECTORS";
@@ -13,7 +13,7 @@ static void open_vectors(int count, char **arguments)
     }
 }
 
-/* Reads the next table of a name: its numbers, and the errors that are accepted. */
+/* Reads the next table with a name: its numbers, and the accepted errors. */
 static void table(const char *name, int rows, int columns)
 {
     char line[LINE], word[LINE];

@@ -23,7 +23,7 @@
 
 contains
 
-  ! Opens the test vectors: in this folder, or where the first argument says.
+  ! Opens the test vectors: in this folder, or at the path in the first argument.
   subroutine check_open()
     character(1024) :: path
     integer :: status
@@ -35,7 +35,7 @@ contains
     error stop 2
   end subroutine check_open
 
-  ! Reads the next table of a name.
+  ! Reads the next table with a name.
   subroutine check_table(name, numbers)
     character(*), intent(in) :: name
     real(real64), intent(out) :: numbers(:, :)
@@ -57,7 +57,7 @@ contains
     error stop 2
   end subroutine check_table
 
-  ! Compares what a function gives with a set of parameters.
+  ! Compares the results of a function with a set of parameters.
   subroutine compare(name, expected, found)
     character(*), intent(in) :: name
     real(real64), intent(in) :: expected(:, :)

@@ -57,7 +57,7 @@ contains
     y = s * (x - 2.0_wp * (s * s) * y)
   end function ln_1p_rest
 
-  ! sin(pi x): whole turns, and then quarters, are taken off without error.
+  ! sin(pi x): whole turns, and then quarter turns, are subtracted without error.
   elemental function sin_pi(x) result(y)
     real(wp), intent(in) :: x
     real(wp) :: y, turn, quarters, angle
@@ -73,7 +73,7 @@ contains
     end if
   end function sin_pi
 
-  ! cos(pi x), in the same way.
+  ! cos(pi x): as sin(pi x).
   elemental function cos_pi(x) result(y)
     real(wp), intent(in) :: x
     real(wp) :: y, turn, quarters, angle

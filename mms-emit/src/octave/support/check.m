@@ -15,7 +15,7 @@
     end
     prepared = f.prepare(parameters);
     points = table_of(file, 'at');
-    % All points at once, each at a time of its own; the first of them by itself, too.
+    % All points at once, each at its own time; also the first of them alone.
     now = cell(size(points, 1), 1);
     for k = 1:numel(now)
       now{k} = f.at_time(prepared, points(k, 1));
@@ -58,7 +58,7 @@ function most = eps_between(found, expected, precision)
 end
 
 function is = refused(name, most, accepted)
-  % Whether an error is not accepted, which is printed.
+  % Whether an error is too large; prints it in that case.
   is = ~(most <= accepted);
   if is
     fprintf('%s: %.3g eps, accepted %d\n', name, most, accepted);
@@ -66,7 +66,7 @@ function is = refused(name, most, accepted)
 end
 
 function [values, accepted] = table_of(file, name)
-  % The next table of the test vectors of a name: its numbers, and the errors that it accepts.
+  % The next table of the test vectors with a name: its numbers, and the accepted errors.
   line = '';
   while ~strncmp(line, [name, ' '], numel(name) + 1)
     line = fgetl(file);
@@ -83,7 +83,7 @@ function [values, accepted] = table_of(file, name)
 end
 
 function now = stacked(times)
-  % What is known at each of some times, as columns.
+  % The field at several times; its values are columns.
   now = struct();
   names = fieldnames(times{1});
   for k = 1:numel(names)
@@ -92,7 +92,7 @@ function now = stacked(times)
 end
 
 function found = at_arrays(evaluate, subject, inputs, count)
-  % The components at arrays of other shapes, which make one of two rows and three columns.
+  % The components at arrays of other shapes, which broadcast to two rows and three columns.
   shapes = {[2, 1], [1, 3], [2, 3]};
   arrays = cell(1, numel(inputs));
   for k = 1:numel(inputs)

@@ -10,13 +10,13 @@ function y = sign_after(half_turns)
 end
 
 function y = sin_pi(x)
-  % sin(pi x): half turns are taken off without error, each of which changes the sign.
+  % sin(pi x): half turns are subtracted without error, each of which changes the sign.
   half_turns = floor(x + 0.5);
   y = sin(pi * (x - half_turns)) .* sign_after(half_turns);
 end
 
 function y = cos_pi(x)
-  % cos(pi x), in the same way: of the rest r it is sin(pi (1/2 - |r|)).
+  % cos(pi x): half turns are subtracted likewise; for the remainder r it is sin(pi (1/2 - |r|)).
   half_turns = floor(x + 0.5);
   y = sin(pi * (0.5 - abs(x - half_turns))) .* sign_after(half_turns);
 end
@@ -35,6 +35,6 @@ function y = ln_1p_rest(x)
 end
 
 function y = shaped(value, like)
-  % A value that may be the same everywhere, for each of the points.
+  % A value that may be constant, expanded to each of the points.
   y = value + zeros(size(like), class(like));
 end

@@ -1,6 +1,6 @@
 
 
-# More digits than any cancellation takes away.
+# More digits than any cancellation loses.
 DIGITS = 100
 field.PI = sp.pi.evalf(DIGITS)
 

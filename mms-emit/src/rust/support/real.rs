@@ -38,7 +38,7 @@ pub trait Real:
         if self < Self::of(0.0) { -self } else { self }
     }
 
-    /// sin(pi x): half turns are taken off without error, each of which changes the sign.
+    /// sin(pi x): half turns are subtracted without error, each of which changes the sign.
     #[inline]
     fn sin_pi(self) -> Self {
         let half_turns = Self::floor(self + Self::of(0.5));
@@ -46,7 +46,7 @@ pub trait Real:
         sine * sign_after(half_turns)
     }
 
-    /// cos(pi x), in the same way: of the rest r it is sin(pi (1/2 - |r|)).
+    /// cos(pi x): half turns are subtracted likewise; for the remainder r it is sin(pi (1/2 - |r|)).
     #[inline]
     fn cos_pi(self) -> Self {
         let half_turns = Self::floor(self + Self::of(0.5));
