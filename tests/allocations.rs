@@ -38,11 +38,11 @@ fn no_evaluation_allocates() {
     assert!(out[0][500] != 0.0 && rows[500][0] != 0.0);
     no_evaluation_in_blocks_allocates(&points, &mut rows);
 
-    // The count sees what is allocated and given back.
+    // The count includes memory that is allocated and freed.
     assert_eq!(measure(|| drop(std::hint::black_box(vec![0_u8; 4096]))).bytes_max, 4096);
 }
 
-/// Once a room has been used, for however few points: neither do other times, nor other parameters.
+/// Once a cache has been used, with any number of points, neither other times nor other parameters allocate.
 fn no_evaluation_in_blocks_allocates(points: &[[f64; 3]], rows: &mut [[f64; 3]]) {
     let entry = find("axis_aligned_3d").expect("a field of the gallery");
     let compiled = entry.compile().expect("a right field");

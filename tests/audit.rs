@@ -1,8 +1,8 @@
-//! The scripts that `mms show --script sympy` writes: run by Python, they agree with the field they
-//! were written for, and a single wrong digit is found.
+//! The scripts that `mms show --script sympy` writes: run by Python, they agree with the field that they were written for, and
+//! detect a single wrong digit.
 //!
-//! Python is `python3`, or what `MMS_PYTHON` names. Where it has no SymPy these tests are skipped,
-//! and say so; `MMS_REQUIRE_SYMPY=1` forbids that.
+//! Python is `python3`, or the path in `MMS_PYTHON`. Without SymPy these tests are skipped with a message;
+//! `MMS_REQUIRE_SYMPY=1` forbids that.
 
 use std::fs;
 use std::io::Write as _;
@@ -114,7 +114,7 @@ fn a_wrong_formula_is_found() {
     if !can_run("a_wrong_formula_is_found") {
         return;
     }
-    // The sign that the slides have.
+    // The sign on the slides.
     let script = script("bar_1d");
     let wrong = script.replace("a[i] - div_p[i] / density", "a[i] + div_p[i] / density");
     assert_ne!(wrong, script);

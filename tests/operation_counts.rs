@@ -1,4 +1,4 @@
-//! The page of operation counts is what its command writes.
+//! The page of operation counts equals the output of its command.
 
 #[path = "../examples/operation_counts/table.rs"]
 mod table;

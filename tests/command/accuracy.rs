@@ -1,4 +1,4 @@
-//! `mms accuracy`: the errors, how they are printed, and what is refused.
+//! `mms accuracy`: the errors, their printed form, and refusals.
 
 use serde_json::Value;
 
@@ -57,7 +57,7 @@ fn only_what_is_wanted_is_measured() {
     let ways = |row: &Value| [row["precision"].clone(), row["form"].clone()];
     let found: Vec<_> = rows(&document).iter().map(ways).collect();
     assert_eq!(found, [["f32", "stable"], ["wide", "stable"]]);
-    // They are the rows of all.
+    // They are the rows of `all`.
     for row in rows(&document) {
         let same = rows(&all).iter().find(|it| ways(it) == ways(row)).expect("the same row");
         assert_eq!(row["max_scaled_eps"], same["max_scaled_eps"]);
@@ -87,7 +87,7 @@ fn what_cannot_be_made_is_left_out_with_the_reason() {
     assert!(stdout.contains("\nnothing was measured"), "{stdout}");
 }
 
-/// Div P of this shear is 0, since its u is the real part of an analytic function, which no formula shows.
+/// Div P of this shear is 0, because its u is the real part of an analytic function, but no formula shows it.
 const HARMONIC: &str = r#"
 [field]
 title = "t"
@@ -124,7 +124,7 @@ fn a_quantity_that_cannot_be_measured_hides_no_other() {
     assert_eq!(document["left_out"].as_array().map(Vec::len), Some(1));
     let left_out = &document["left_out"][0];
     assert!(left_out["reason"].as_str().is_some_and(|it| it.contains("1233 digits")), "{left_out}");
-    // A promise of which nothing was looked at is not kept.
+    // A promise that was not tested is not kept.
     let command = command.replace("--json", "--quantity div_p");
     folder.mms(&command).exits(1).prints("nothing was measured of the field as declared");
 }
@@ -166,7 +166,7 @@ fn the_picture_needs_times_and_they_a_compiler() {
     }
 }
 
-/// Nowhere in the body has the root a value.
+/// The root has no value anywhere in the body.
 #[test]
 fn what_has_no_value_anywhere_is_not_measured_and_is_no_pass() {
     let folder = Folder::new();

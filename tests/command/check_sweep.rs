@@ -3,7 +3,7 @@
 use super::mms::Folder;
 use crate::sampled::sampled;
 
-/// One in so many combinations is tried.
+/// One combination in `SHARE` is tried.
 const SHARE: usize = 24;
 
 /// The shipped materials with stable moduli; the last twice, for fibres along an axis and oblique to all.
@@ -22,7 +22,7 @@ const MATERIALS: [(&str, &str, bool); 8] = [
 const FACES: [&[&str]; 4] =
     [&[], &["traction"], &["prescribed"], &["free", "fixed", "roller", "traction"]];
 
-/// u, of which a field takes as many components as it has: a stretch, a shear, a wave and a twist.
+/// u, whose first components a field uses: a stretch, a shear, a wave and a twist.
 const MOTIONS: [[&str; 3]; 4] = [
     ["0.1*X", "0", "0"],
     ["0.05*Y", "0.02*X", "0.03*X"],
@@ -37,7 +37,7 @@ fn field(
     faces: &[&str],
     motion: &[&str],
 ) -> String {
-    // Coordinates that a field lacks become its last one.
+    // Coordinates that a field lacks are replaced by its last one.
     let last = ["X", "X", "Y", "Z"][dimension];
     let lacking = &["X", "Y", "Z"][dimension..];
     let component = |it: &&str| {

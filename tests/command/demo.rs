@@ -1,10 +1,10 @@
-//! `mms demo`: a broken solver that is named, and the same solver to break elsewhere.
+//! `mms demo`: a broken solver whose mistake is named, and the same solver to break elsewhere.
 
 use std::process::Command;
 
 use super::mms::Folder;
 
-/// Lines of the kept solver, the lines that take their places, and the mistakes that these are.
+/// Lines of the kept solver, the lines that replace them, and the mistakes that result.
 const BROKEN: [(&str, &str, &str); 3] = [
     ("= 1e6 * 0.3 / (1.3 * 0.4);", "= 1e6 / (3.0 * 0.4);", "lambda_bulk"),
     ("let y_max = [p[2][0][1], p[2][1][1]];", "let y_max = [0.0, 0.0];", "traction_missing"),
@@ -29,7 +29,7 @@ fn the_broken_line_is_named_and_the_repaired_solver_passes() {
     assert!(run.stdout.lines().count() <= 25, "{run}");
 }
 
-/// The files hold what was judged in memory; another program that is built of them gets the same verdict.
+/// The files contain the results judged in memory; another program that is built from them gets the same verdict.
 #[test]
 fn another_broken_line_of_the_kept_solver_gets_another_name() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! Mistakes about rings, made in bilinear finite elements that share nothing with the solver of this project: each is named.
+//! Mistakes about rings, in bilinear finite elements that share nothing with the solver of this project: each is named.
 
 use mms_codegen::Options;
 use mms_diagnosis::answer::{Diagnosis, Finding};
@@ -24,9 +24,9 @@ struct Solid {
     has_force: bool,
     /// Whether F_tt is 1 + u_R/R in the law.
     has_strain: bool,
-    /// The weight of a place, by R and h.
+    /// The weight of a point, by R and h.
     weight: fn(f64, f64) -> f64,
-    /// Whether u_Z is held on the axis.
+    /// Whether u_Z is fixed on the axis.
     axis_is_wall: bool,
 }
 
@@ -37,15 +37,15 @@ const RIGHT: Solid =
 const YOUNG: f64 = 1e6;
 const DENSITY: f64 = 1000.0;
 
-/// Half of the time window, almost.
+/// Almost half of the time window.
 const END: f64 = 0.0158;
 
-/// A point of Gauss in the element that it is in.
+/// A Gauss point in its element.
 struct Point {
     nodes: [usize; 4],
     values: [f64; 4],
     slopes: [[f64; 2]; 4],
-    /// The area about it.
+    /// The area around it.
     area: f64,
 }
 
@@ -123,7 +123,7 @@ impl Solid {
         Mesh { cell_size: h, time_step: None, snapshots: vec![snapshot] }
     }
 
-    /// Adds rho0 b less Div P about a point of Gauss: neo-Hookean, P = mu (F - F^-T) + lambda ln J F^-T.
+    /// Adds rho0 b less Div P at a Gauss point: neo-Hookean, P = mu (F - F^-T) + lambda ln J F^-T.
     fn add(
         self,
         point: &Point,

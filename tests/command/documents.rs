@@ -1,6 +1,6 @@
-//! docs/reference/json.md lists the keys of all documents. Here documents are made, and compared with its tables, key by
-//! key and type by type; and each key of a table must occur in one of them. Each document is read as its type of
-//! `mms-documents`, and written again: not a byte may change.
+//! docs/reference/json.md lists the keys of all documents. These tests make documents, and compare them with its tables, key by
+//! key and type by type; each key of a table must occur in a document. Each document is read as its type of `mms-documents`,
+//! and written again: not a byte may change.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,10 +13,10 @@ use super::mms::{BAR, Folder};
 
 const PAGE: &str = include_str!("../../docs/reference/json.md");
 
-/// Tables of what only some errors have.
+/// Tables of keys that only some errors have.
 const OF_RARE_ERRORS: [&str; 2] = ["pair", "plane"];
 
-/// Keys that stand only where a row of the matrix fails, which a right solver does not show.
+/// Keys that occur only if a row of the matrix fails, which a right solver does not show.
 const OF_FAILURES: [(&str, &str); 1] = [("verify", "next_command")];
 
 /// Tables that only a program with the feature `defects` fills.
@@ -61,7 +61,7 @@ const TYPES: [(&str, Again); 27] = [
     ("extremes", again::<types::extremes::Extremes>),
 ];
 
-/// A key of a table, and what the page says that it holds.
+/// A key of a table, and the content that the page states for it.
 struct Key {
     name: &'static str,
     holds: &'static str,
@@ -96,7 +96,7 @@ impl Tables {
     }
 }
 
-/// Compares documents with the tables, and notes which keys it met.
+/// Compares documents with the tables, and records the keys that occurred.
 struct Reader<'a> {
     tables: &'a Tables,
     met: BTreeSet<(String, &'static str)>,
@@ -172,8 +172,8 @@ fn fits(value: &Value, kind: &str) -> bool {
     }
 }
 
-/// A file with much that `mms check` may find: a claim that is refuted, one that is enclosed, a closed form that differs, and
-/// a formula that has no value as it is written.
+/// A file with much that `mms check` may find: a refuted claim, an enclosed one, a closed form that differs, and a formula that
+/// has no value as it is written.
 const FAULTY: &str = r#"
 [field]
 title = "Faulty"
@@ -201,7 +201,7 @@ equals = ["1"]
 /// A body that is a polygon.
 const POLYGON: &str = include_str!("../../mms-codegen/tests/data/pass/units_polygon.toml");
 
-/// A solver that copies a table, and fails on another mesh than that.
+/// A solver that copies a table, and fails on a mesh without one.
 const CAMPAIGN: &str = r#"
 [solver]
 run = "cp a.csv {output}/{cells}.csv"
@@ -213,7 +213,7 @@ cells = [8, 16]
 time = [0.001]
 "#;
 
-/// One that copies what `mms run` wrote.
+/// A solver that copies the output of `mms run`.
 const PASSES: &str = r#"
 [solver]
 run = "cp -r states{cells} {output}"

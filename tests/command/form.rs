@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::mms::{Folder, numbers};
 
-/// P of a bar that is stretched by next to nothing, by `eval` with these options.
+/// P of a bar with a tiny strain, by `eval` with these options.
 fn stress(options: &str) -> f64 {
     let folder = Folder::new();
     let place = "--at 0.37 --time 0.013 --quantity P --set amplitude=1e-10 --json";
@@ -21,7 +21,7 @@ fn the_stable_form_keeps_what_the_fast_one_cancels() {
     let eps = |value: f64| ((value - truth) / truth).abs() / f64::EPSILON;
     assert!(eps(stress("")) <= 8.0, "{} eps", eps(stress("")));
     assert_eq!(stress(""), stress("--form stable"));
-    // F - 1/F loses what F = 1 + H does not hold of H: some 1e-16 of 1e-10.
+    // F - 1/F loses the digits of H that F = 1 + H rounds off: some 1e-16 of 1e-10.
     let fast = eps(stress("--form fast"));
     assert!((1e4..1e11).contains(&fast), "{fast} eps");
 }
@@ -66,7 +66,7 @@ fn errors(study: &Value) -> &Value {
 #[test]
 fn a_study_of_both_forms_sets_them_beside_each_other() {
     let folder = Folder::new();
-    // Interpreted in either form, so that nothing else differs; and Div P does, where moduli depend on X.
+    // The field is interpreted in either form, so that nothing else differs; Div P differs if moduli depend on X.
     folder.write("bar.toml", include_str!("../../fields/graded_bar.toml"));
     let study = "study bar.toml --cells 4,8 --precision f32";
     let run = folder.mms(&format!("{study} --form stable,fast --json --output both")).exits(0);

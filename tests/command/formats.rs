@@ -1,4 +1,4 @@
-//! Formats of what is printed: text, JSON, CSV, Markdown and LaTeX hold the same numbers.
+//! Output formats: text, JSON, CSV, Markdown and LaTeX contain the same numbers.
 
 use super::mms::Folder;
 

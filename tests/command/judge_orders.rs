@@ -1,4 +1,4 @@
-//! `mms judge FIELD FILE..`: which orders are expected, by element, mesh and start.
+//! `mms judge FIELD FILE..`: the expected orders by element, mesh and start.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::mms::Folder;
 use crate::sampled::sampled;
 
-/// One in so many runs is tried.
+/// One run in `SHARE` is tried.
 const SHARE: usize = 10;
 
 /// Right runs of scikit-fem on four meshes each, as `examples/solvers/scikit_fem/stored.py` makes them: the field's name
@@ -53,7 +53,7 @@ fn judge(run: (&str, &str, &str, &str)) -> String {
     format!("judge {field} {} --time 0.012 --map X=points --json", files.join(" "))
 }
 
-/// The range of orders that is expected of l2 of a quantity; none if it is not judged.
+/// The range of expected orders of l2 of a quantity; `None` if it is not judged.
 fn expected(document: &Value, quantity: &str) -> Option<[f64; 2]> {
     let all = document["quantities"].as_array().expect("quantities");
     let norms = all.iter().find(|it| it["name"] == quantity)?["norms"].as_array();
@@ -95,7 +95,7 @@ fn an_option_says_how_a_run_started() {
     folder.mms(&format!("{run} --start middle")).exits(2).complains("interpolation, projection");
 }
 
-/// Points show no mesh, so that only the option lowers an order.
+/// Points do not show a mesh, so that only the option lowers an order.
 #[test]
 fn velocities_at_points_have_the_order_of_u_unless_an_option_says_less() {
     let folder = Folder::new();

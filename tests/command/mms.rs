@@ -51,7 +51,7 @@ impl Folder {
         self.run_with(arguments, |command| command)
     }
 
-    /// Runs `mms` with these arguments, in surroundings that `change` makes.
+    /// Runs `mms` with these arguments, in an environment that `change` prepares.
     pub fn run_with(
         &self,
         arguments: &[impl AsRef<OsStr>],
@@ -72,8 +72,8 @@ impl Folder {
         run
     }
 
-    /// Types the command that a run prints as the next one, in a copy of the folder: a shell has to read it, and the program to
-    /// understand it.
+    /// Types the next command that a run prints, in a copy of the folder: a shell has to read it, and the program to understand
+    /// it.
     fn follow(&self, run: &Run) {
         let document: Option<Value> = serde_json::from_str(&run.stdout).ok();
         let words = document.as_ref().and_then(|it| it["next_command"].as_array());

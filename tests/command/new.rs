@@ -36,7 +36,7 @@ fn each_kind_passes_its_check_and_is_shown_and_evaluated() {
     }
 }
 
-/// The claims are not taken from the file's word: u vanishes on the whole boundary.
+/// The claims are not taken from the file: u vanishes on the whole boundary.
 #[test]
 fn the_claims_of_each_kind_hold_and_nothing_is_turned_inside_out() {
     for (arguments, boundary, inside) in KINDS {

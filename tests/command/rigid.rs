@@ -32,7 +32,7 @@ fn point(run: &super::mms::Run) -> Value {
     run.json()["points"][0].clone()
 }
 
-/// In one dimension a translation 3 L s^2, s being the part of the time window that has passed.
+/// In one dimension the motion is a translation 3 L s^2, where s is the elapsed part of the time window.
 #[test]
 fn the_standard_motion_accelerates_the_bar() {
     let folder = Folder::new();
@@ -52,7 +52,7 @@ fn the_standard_motion_accelerates_the_bar() {
     }
 }
 
-/// b* = Q b + Q'' x + 2 Q' v + d'' with Q a rotation by pi t/2, at t = 1: a quarter turn.
+/// b* = Q b + Q'' x + 2 Q' v + d'' where Q is a rotation by pi t/2, at t = 1: a quarter turn.
 #[test]
 fn a_given_motion_turns_the_square() {
     let folder = Folder::new();

@@ -163,7 +163,7 @@ fn operations_are_counted_before_and_after_by_stage_and_by_kind() {
             operations["by_stage"].as_object().expect("an object").keys().collect();
         assert_eq!(stages, ["parameter", "point", "point_time", "time"]);
     }
-    // One quantity costs what its own program does.
+    // The cost of one quantity is the cost of its own program.
     let run = folder.mms("show bar_1d --quantity b --json").exits(0);
     let document = run.json();
     let alone = &document["quantities"]["body_force"]["operations"]["total"];

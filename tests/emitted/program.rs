@@ -1,5 +1,5 @@
-// Evaluates the emitted modules beside it. A line `QUANTITY TIME COORDINATES..` on stdin is answered by
-// the bits of its components.
+// Evaluates the emitted modules beside it. For a line `QUANTITY TIME COORDINATES..` on stdin it prints the bits of the
+// components.
 
 use std::io::{Read as _, stdin};
 

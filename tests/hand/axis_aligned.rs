@@ -45,7 +45,7 @@ impl Waves {
         Values { jacobian, stress, force }
     }
 
-    /// Asserts that generated functions are what is derived above, over one period.
+    /// Asserts that generated functions equal the derivation above, over one period.
     #[track_caller]
     pub fn assert_are<const D: usize>(&self, generated: impl Fn([f64; D], f64) -> Values) {
         let period = 2.0 * self.length / (self.young / self.rho0).sqrt();

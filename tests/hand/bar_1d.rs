@@ -89,14 +89,14 @@ fn cases() -> impl Iterator<Item = (Bar, f64, f64)> {
     })
 }
 
-/// Both sides round a dozen operations, and the cosine of an angle of up to 2 pi turns the
-/// rounding of its argument into an error of 2 pi eps.
+/// Both sides round a dozen operations, and the cosine of an angle of up to 2 pi turns the rounding of its argument into an
+/// error of 2 pi eps.
 const TOLERANCE: f64 = 64.0 * f64::EPSILON;
 
-/// The largest 1 + F^-2, for |A| <= L/5 gives F >= 3/5.
+/// The largest 1 + F^-2: |A| <= L/5 gives F >= 3/5.
 const STIFFNESS: f64 = 1.0 + 25.0 / 9.0;
 
-/// The largest X (2L - X) (pi/L)^2: what A'' adds to b, in units of E A/(rho0 L^2).
+/// The largest X (2L - X) (pi/L)^2: the part of A'' in b, in units of E A/(rho0 L^2).
 const INERTIA: f64 = std::f64::consts::PI * std::f64::consts::PI;
 
 #[track_caller]
@@ -147,7 +147,7 @@ fn the_printed_sign_of_b_is_wrong() {
     }
 }
 
-/// 60 digits by numerical differentiation of x(X, t), which needs no formula for b.
+/// 60 digits by numerical differentiation of x(X, t), which uses no formula for b.
 #[test]
 fn j_and_b_have_the_values_that_differentiation_in_60_digits_gives() {
     let field = prepare(&Parameters::<f64> { young: 1e7, ..Parameters::default() });

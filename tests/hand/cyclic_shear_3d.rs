@@ -50,8 +50,8 @@ fn the_generated_shear_is_the_shear_on_paper() {
     }
 }
 
-/// A code that takes P for its transpose, or sums over the wrong index, is off by more than a quarter
-/// of Div P here. For the published fields, whose P is symmetric or nearly so, it is off by nothing.
+/// A code that uses P for its transpose, or sums over the wrong index, has an error of more than a quarter of Div P here. For
+/// the published fields, whose P is symmetric or nearly so, it has none.
 #[test]
 fn the_divergence_over_the_wrong_index_is_another() {
     let field = prepare(&Parameters::<f64>::default());

@@ -23,7 +23,7 @@ fn the_generated_vortex_is_the_vortex_on_paper() {
     }
 }
 
-/// 60 digits by numerical differentiation of x(X, t), which needs no formula for b.
+/// 60 digits by numerical differentiation of x(X, t), which uses no formula for b.
 #[test]
 fn b_has_the_value_that_differentiation_in_60_digits_gives() {
     let field = prepare(&Parameters::<f64>::default());
@@ -34,7 +34,7 @@ fn b_has_the_value_that_differentiation_in_60_digits_gives() {
     }
 }
 
-/// a - Div P/rho0 from central differences of x(X, t), by which no formula for F or b is used.
+/// a - Div P/rho0 from central differences of x(X, t), without a formula for F or b.
 fn force_by_differences(vortex: &Vortex, at: [f64; 2], t: f64) -> [f64; 2] {
     let step = 1e-4;
     let shifted = |axes: &[(usize, f64)]| {
@@ -63,8 +63,7 @@ fn force_by_differences(vortex: &Vortex, at: [f64; 2], t: f64) -> [f64; 2] {
     })
 }
 
-/// With E = 1e6 and rho0 = 1000 the misprint hides: it is 1e-4 of b. Here it is 15 % of
-/// the largest b.
+/// The misprint hides with E = 1e6 and rho0 = 1000: it is 1e-4 of b. Here it is 15 % of the largest b.
 #[test]
 fn the_printed_sign_of_b_breaks_the_balance_of_momentum() {
     let vortex = vortex(Parameters::default());
@@ -79,7 +78,7 @@ fn the_printed_sign_of_b_breaks_the_balance_of_momentum() {
             printed = printed.max((misprinted[i] - balanced[i]).abs());
         }
     }
-    // Of the differences: step^2 times some (pi/0.25)^2, and eps/step^2.
+    // Errors of the differences: step^2 times some (pi/0.25)^2, and eps/step^2.
     assert!(right < 1e-5 * size, "derived b is off by {right:e} of {size:e}");
     assert!(printed > 0.1 * size, "printed b is off by {printed:e} of {size:e}");
 }

@@ -33,7 +33,7 @@ fn the_generated_sphere_is_the_sphere_on_paper() {
             ([across * theta.cos(), across * theta.sin(), r * phi.cos()], t)
         };
         let points: Vec<_> = round.into_iter().map(place).collect();
-        // b is 0 on paper, and what rounding leaves of stresses over a length in the code.
+        // b is 0 on paper; in the code it is the rounding of stresses over a length.
         let generated = |x, t| {
             let values: Values = generated!(prepare(&parameters))(x, t);
             let rounding = 1e-12 * pressure / (inner * parameters.rho0);

@@ -33,7 +33,7 @@ fn the_generated_tube_is_the_tube_on_paper() {
         let round = in_box([inner, 0.0, 0.0], [outer, quarter, height], [0.0, 0.1]).into_iter();
         let points: Vec<_> =
             round.map(|([r, theta, z], t)| ([r * theta.cos(), r * theta.sin(), z], t)).collect();
-        // b is 0 on paper, and what rounding leaves of stresses over a length in the code.
+        // b is 0 on paper; in the code it is the rounding of stresses over a length.
         let generated = |x, t| {
             let values: Values = generated!(prepare(&parameters))(x, t);
             let rounding = 1e-12 * pressure / (inner * parameters.rho0);

@@ -1,6 +1,5 @@
-//! Derivations on paper, in plain Rust: a second opinion on every generated quantity that shares
-//! nothing with the compiler of field files. One file per field; what several derivations share has
-//! a file of its own.
+//! Derivations on paper, in plain Rust: independent references for every generated quantity, which share nothing with the
+//! compiler of field files. One file per field; common parts of several derivations have a file of their own.
 
 mod axis_aligned;
 mod axis_aligned_1d;

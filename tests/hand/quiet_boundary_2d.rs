@@ -1,4 +1,4 @@
-//! A bump that no boundary feels, derived by hand: of rank one, see `rank_one.rs`.
+//! A bump that no boundary affects, derived by hand: of rank one, see `rank_one.rs`.
 //!
 //! ```text
 //! u   = d(t) s(X) s(Y),  s(X) = (4 X (L - X)/L^2)^4

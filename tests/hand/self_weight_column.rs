@@ -1,7 +1,7 @@
 //! A column at rest under its own weight, derived by hand.
 //!
 //! ```text
-//! Div P = -rho0 b = rho0 g and P(height) = 0:  P = rho0 g (X - height), whatever the material
+//! Div P = -rho0 b = rho0 g and P(height) = 0:  P = rho0 g (X - height), for every material
 //! mu (F - 1/F) = P  (nu = 0: lambda = 0, mu = E/2):  F = (P + sqrt(P^2 + 4 mu^2))/(2 mu)
 //! u(X) = the integral of F - 1 from 0 to X
 //! ```

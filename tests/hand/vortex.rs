@@ -76,8 +76,8 @@ impl Vortex {
         }
     }
 
-    /// b as printed in inputs of several MPM codes, in the polar basis at Theta: in its component
-    /// around the axis the centripetal term, R (g' h)^2 sin(alpha), has a plus sign.
+    /// b as printed in inputs of several MPM codes, in the polar basis at Theta: in the component around the axis, the
+    /// centripetal term R (g' h)^2 sin(alpha) has a plus sign.
     pub fn printed_force(&self, at: [f64; 2], t: f64) -> [f64; 2] {
         let [x, y] = at;
         let r = x.hypot(y);

@@ -1,8 +1,8 @@
-//! The crates, in the order in which they know each other, and the layers of each.
+//! The crates, in the order of their dependencies, and the layers of each.
 
 use super::Crate;
 
-/// All of them.
+/// All crates.
 pub const CRATES: &[Crate] = &[
     Crate {
         name: "mms-math",

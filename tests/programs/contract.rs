@@ -1,4 +1,4 @@
-//! A field behind the contract that a solver takes, in either precision.
+//! A field behind the interface that a solver uses, in either precision.
 #![deny(warnings)]
 
 mms_macros::field!("fields/bar_1d.toml");

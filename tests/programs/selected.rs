@@ -22,7 +22,7 @@ mms_macros::field!("fields/bar_1d.toml", quantities = [P], form = "stable", name
 
 use mms_math::{Double, Real};
 
-/// Compiles where the trait is implemented: the modules need it, and nothing of the solver.
+/// A function that compiles if the trait is implemented: the modules need `mms-math`, and nothing of the solver.
 fn needs_math_only<T: Real>(x: T) -> [T; 1] {
     let field = standing_wave_1d::prepare(&standing_wave_1d::Parameters::default());
     field.at_time(x).velocity([x])
@@ -50,7 +50,7 @@ fn parts_of_one_field_stand_side_by_side() {
     let size = (pi * speed).powi(2) * amplitude.abs();
     assert!((b - expected).abs() < 1e-14 * size, "{b}, by hand {expected}");
 
-    // With its lambda the field has another force, and the parameters change it.
+    // With its own lambda the field has another force, and the parameters change it.
     let other = standing_wave_1d::prepare(&standing_wave_1d::Parameters::default());
     assert_ne!(other.at_time(t).body_force([x]), [b]);
     let parameters = standing_wave_1d::Parameters { length: 1.0, lambda: 0.0, mu, rho0, amplitude };
@@ -67,7 +67,7 @@ fn parts_of_one_field_stand_side_by_side() {
     assert_eq!(moved.at_time(0.5).velocity([0.1, 0.2, 0.3]), [0.0, 1.0, 0.0]);
 }
 
-/// P over its true value, in the stable and the fast form, where a bar is stretched by 1e-13.
+/// The ratio of P to its true value, in the stable and the fast form, where a bar is stretched by 1e-13.
 fn stress<T: Real>(to_f64: fn(T) -> f64) -> [f64; 2] {
     let [length, young, rho0, amplitude] = [1.0, 1e6, 1e3, 1e-13].map(T::from_f64);
     let fast = fast::prepare(&fast::Parameters { length, young, rho0, amplitude });
@@ -78,7 +78,7 @@ fn stress<T: Real>(to_f64: fn(T) -> f64) -> [f64; 2] {
     [stable, fast].map(|stress| to_f64(stress) / 1e-7)
 }
 
-/// F = 1 + H keeps of H what is above eps, and the fast form of P = E H no more.
+/// F = 1 + H rounds H to eps, and so does the fast form of P = E H.
 #[test]
 fn every_precision_computes_in_either_form() {
     for ([stable, fast], eps, is_kept) in [

@@ -1,4 +1,4 @@
-//! Files that are one slip away from a right one.
+//! Files with one mistake in a right one.
 
 use mms_spec::quantity::Quantity;
 use toml::{Table, Value};
@@ -6,10 +6,10 @@ use toml::{Table, Value};
 use super::verdict::{Kind, json, reader_accepts};
 use crate::sampled::{all_is_tried, sampled};
 
-/// The share of places: one in so many of each file gets its slips.
+/// One position in `SHARE` of each file gets its mistakes.
 const SHARE: usize = 4;
 
-/// Files with all keys, between them.
+/// Files that have all keys between them.
 const FULL: &[(Kind, &str)] = &[
     (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/every_key_2d.toml")),
     (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/every_key_3d.toml")),
@@ -25,25 +25,25 @@ const FULL: &[(Kind, &str)] = &[
     (Kind::Material, include_str!("../../mms-codegen/materials/neo_hookean.toml")),
 ];
 
-/// One step into a file.
+/// A step into a file.
 #[derive(Clone, Debug, PartialEq)]
 enum Step {
     Key(String),
     Item(usize),
 }
 
-/// One slip.
+/// A mistake.
 #[derive(Clone, Debug)]
 enum Slip {
-    /// Another value.
+    /// Replaces the value by another one.
     Replace(Value),
-    /// A key or an item less.
+    /// Removes a key or an item.
     Remove,
-    /// Another key for the same value.
+    /// Renames a key, with the same value.
     Rename(String),
-    /// A key more.
+    /// Adds a key.
     Add(String),
-    /// The last item twice.
+    /// Repeats the last item.
     Repeat,
 }
 
@@ -65,7 +65,7 @@ fn values() -> Vec<Value> {
 const KEYS: &[&str] =
     &["zzz", "a b", "", "X", "sin", "I1", "lambda", "nu", "outer", "let", "x_min", "z_min"];
 
-/// Every place in a file, the whole included.
+/// Every position in a file, including the whole.
 fn places(file: &Value) -> Vec<Vec<Step>> {
     let mut places = vec![Vec::new()];
     let mut next = 0;
@@ -96,7 +96,7 @@ fn at_mut<'a>(file: &'a mut Value, place: &[Step]) -> &'a mut Value {
     })
 }
 
-/// The slips that can happen at a place.
+/// The mistakes that are possible at a position.
 fn slips(file: &Value, place: &[Step]) -> Vec<Slip> {
     let mut slips = Vec::new();
     if !place.is_empty() {
@@ -114,7 +114,7 @@ fn slips(file: &Value, place: &[Step]) -> Vec<Slip> {
     slips
 }
 
-/// The file with the slip, unless that changes nothing.
+/// The file with the mistake, unless it changes nothing.
 fn changed(file: &Value, place: &[Step], slip: &Slip) -> Option<Value> {
     let mut changed = file.clone();
     match (slip, place.split_last()) {
@@ -147,7 +147,7 @@ fn changed(file: &Value, place: &[Step], slip: &Slip) -> Option<Value> {
     (changed != *file).then_some(changed)
 }
 
-/// Why the reader refuses a file that no schema can refuse, if that is so.
+/// The reason why the reader refuses a file that no schema can refuse, if there is one.
 fn beyond(changed: &Value) -> Option<&'static str> {
     let set = |changed: &Value| -> Vec<String> {
         let extremes = changed.get("extreme").and_then(Value::as_array);

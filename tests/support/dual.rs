@@ -1,5 +1,5 @@
-//! Hyper-dual numbers as a scalar of generated code: first and second derivatives exact to
-//! round-off, by arithmetic that knows nothing of symbolic differentiation.
+//! Hyper-dual numbers as a scalar of generated code: first and second derivatives exact to round-off, by arithmetic that uses
+//! no symbolic differentiation.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -1,4 +1,4 @@
-//! Generated modules behind one face, so that a property is written once for all fields.
+//! Generated modules behind one trait, so that a property is written once for all fields.
 
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, OnceLock};
@@ -132,7 +132,7 @@ pub fn rows<T: Copy, const D: usize>(components: &[T]) -> [[T; D]; D] {
     std::array::from_fn(|row| std::array::from_fn(|column| components[row * D + column]))
 }
 
-/// The compiled text of a gallery field, of which each is compiled once.
+/// The compiled text of a gallery field; each is compiled once.
 pub fn compiled(name: &str) -> &'static Compiled {
     static COMPILED: LazyLock<BTreeMap<&str, OnceLock<Compiled>>> =
         LazyLock::new(|| FIELDS.iter().map(|entry| (entry.name, OnceLock::new())).collect());

@@ -1,19 +1,19 @@
-//! Long sweeps are tried in part.
+//! Selects parts of long sweeps.
 //!
-//! `MMS_SWEEPS=all` tries everything, as `.ci/long` does. Any other text chooses a part: `.ci/run` sets the hash of the
-//! tree, so that one commit always gets one answer. Without the variable the part is always the same.
+//! `MMS_SWEEPS=all` tries everything, as `.ci/long` does. Any other text selects a part: `.ci/run` sets the hash of the tree,
+//! so that one commit always gets one answer. Without the variable the part is always the same.
 
-// Each program uses a part of it.
+// Each program uses some of these functions.
 #![allow(dead_code)]
 
 use std::path::Path;
 
-/// The variable that chooses the part.
+/// The variable that selects the part.
 const VARIABLE: &str = "MMS_SWEEPS";
 
-/// The fields of the gallery that are measured in depth: the bar of the slides, one of each material, one of each kind of
-/// body, and of graded moduli, tractions, moving walls and P without symmetry. Others pass the cheaper tests, so that a
-/// new field costs little.
+/// The fields of the gallery that are measured in depth: the bar of the slides, one of each material, one of each kind of body,
+/// and fields with graded moduli, tractions, moving walls and P without symmetry. Others pass the cheaper tests, so that a new
+/// field costs little.
 const IN_DEPTH: [&str; 12] = [
     "bar_1d",
     "cyclic_shear_3d",
@@ -35,12 +35,12 @@ pub fn is_in_depth(field: &Path) -> bool {
         || field.file_stem().is_some_and(|stem| IN_DEPTH.iter().any(|name| stem == *name))
 }
 
-/// Whether sweeps are tried as a whole.
+/// Whether whole sweeps are tried.
 pub fn all_is_tried() -> bool {
     std::env::var(VARIABLE).is_ok_and(|it| it == "all")
 }
 
-/// One item in `share` of a sweep, and at least one, in their order; all of them where everything is tried.
+/// One item in `share` of a sweep, and at least one, in their order; all of them if everything is tried.
 pub fn sampled<T>(sweep: impl IntoIterator<Item = T>, share: usize) -> Vec<T> {
     let items: Vec<T> = sweep.into_iter().collect();
     if all_is_tried() {
@@ -59,7 +59,7 @@ pub fn sampled<T>(sweep: impl IntoIterator<Item = T>, share: usize) -> Vec<T> {
         .collect()
 }
 
-/// How many random cases are tried: one in `share`, or all.
+/// The number of random cases that are tried: one in `share`, or all.
 pub fn sampled_count(cases: usize, share: usize) -> usize {
     if all_is_tried() { cases } else { cases.div_ceil(share) }
 }
