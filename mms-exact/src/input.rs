@@ -31,7 +31,7 @@ use crate::source::{Compile, Source};
 pub struct Input {
     /// The name.
     pub name: Foreign,
-    /// Everything that follows from its text, or the part that was selected.
+    /// Everything derived from the text, or the part that was selected.
     pub compiled: Arc<Compiled>,
     /// The compiled code, if the program has it and no variant of the field was requested.
     code: Option<Code>,

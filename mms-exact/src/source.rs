@@ -33,7 +33,7 @@ pub struct Source {
     origin: Origin,
 }
 
-/// Where a text is from.
+/// The origin of a text.
 #[derive(Clone)]
 enum Origin {
     /// The gallery; with the compiled code of the field, where the program has it.

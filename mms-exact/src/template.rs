@@ -42,10 +42,10 @@ pub const TAKEN: &[&str] = &[
 /// The shape of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Body {
-    /// With edges along the axes.
+    /// A box with edges along the axes.
     #[default]
     Box,
-    /// Between two circles, in the plane.
+    /// The region between two circles, in the plane.
     Annulus,
 }
 

@@ -1,4 +1,4 @@
-//! The outcome of a run, and what it depends on.
+//! The outcome of a run, and the inputs that it depends on.
 
 use mms_runtime::study::Details;
 use mms_runtime::{Errors, Level};
@@ -15,7 +15,7 @@ pub struct Key {
     pub run: String,
     /// The quantity whose errors are measured.
     pub quantity: &'static str,
-    /// The deliberate mistake that the program made meanwhile.
+    /// The deliberate mistake that was switched on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub defect: Option<&'static str>,
 }
@@ -33,7 +33,7 @@ pub enum Quantity {
     DeformationGradient,
     /// P.
     FirstPiolaKirchhoff,
-    /// Momentum over mass at the end, which is this.
+    /// Momentum over mass at the end; the exact value is given here.
     MeanVelocity(Vec<f64>),
 }
 
@@ -63,24 +63,24 @@ pub enum Outcome {
         run: Size,
         /// The errors of the measured quantity.
         errors: Norms,
-        /// At the end, the momentum over the mass.
+        /// The momentum over the mass, at the end.
         mean_velocity: Vec<f64>,
     },
     /// The run stopped.
     Stopped {
         /// The size of the run.
         run: Size,
-        /// Why.
+        /// The reason.
         failure: String,
     },
     /// The run was not started.
     Refused {
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
 
-/// How large a run is.
+/// The size of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Size {
@@ -113,7 +113,7 @@ impl Outcome {
         }
     }
 
-    /// Why there are no errors.
+    /// The reason why there are no errors.
     pub fn failure(&self) -> Option<String> {
         match self {
             Outcome::Finished { .. } => None,

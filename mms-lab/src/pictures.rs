@@ -74,7 +74,7 @@ impl Check {
     }
 }
 
-/// Which checks object to a row, in the order of [`Check::ALL`].
+/// The objections of the checks to a row, in the order of [`Check::ALL`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Looks(pub [Option<bool>; Check::ALL.len()]);
 

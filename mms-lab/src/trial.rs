@@ -43,7 +43,7 @@ pub trait Progress {
     fn finish(&self);
 }
 
-/// Where runs are made.
+/// A maker of runs.
 pub struct Trials {
     store: Store,
     program: String,

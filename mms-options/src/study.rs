@@ -8,7 +8,7 @@ use mms_runtime::Division;
 use crate::field::{Motion, Variant};
 use crate::method::MethodOptions;
 
-/// The arguments of `mms study` that say what is run.
+/// The arguments of `mms study` that determine the runs.
 #[derive(Clone, Debug, Parser)]
 #[command(no_binary_name = true)]
 pub struct Study {
@@ -45,13 +45,13 @@ impl Study {
         Ok(Self::try_parse_from(words.iter().cloned())?)
     }
 
-    /// The variant of its field.
+    /// The variant of the field.
     pub fn variant(&self) -> Variant {
         self.method.variant(&self.motion)
     }
 }
 
-/// The arguments of a line that is cut where blanks are, except between apostrophes.
+/// The arguments of a line, split at blanks that are not between apostrophes.
 pub fn arguments(line: &str) -> Vec<&str> {
     let parts = line.split('\'').enumerate();
     let words = parts.map(|(at, part)| match at % 2 {

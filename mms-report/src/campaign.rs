@@ -27,7 +27,7 @@ use super::text::next;
 pub struct View<'a>(pub &'a Report<'a>);
 
 impl View<'_> {
-    /// The text: what runs and results lack, the judgements that are no pass, or all of them, and a row for each study.
+    /// The text: missing runs and results, the judgements (only failed ones, or all of them), and a row for each study.
     fn all(&self, is_full: bool) -> String {
         let mut parts: Vec<String> =
             self.0.studies.iter().flat_map(|it| parts(it, is_full)).collect();
@@ -222,7 +222,7 @@ fn left_behind(job: &Job, outcome: &Outcome) -> Option<String> {
     })
 }
 
-/// A run that ended, in a line.
+/// A run that ended, on one line.
 pub fn line(job: &Job, outcome: &Outcome, is_new: bool) -> String {
     let name = shown(&job.name);
     match outcome {

@@ -27,12 +27,12 @@ pub enum Document {
 pub struct Comparison {
     /// The studies, one at least.
     pub studies: Vec<Study>,
-    /// Where they are from.
+    /// The provenance.
     pub provenance: Provenance,
 }
 
 impl Comparison {
-    /// How many studies pass.
+    /// The number of studies that pass.
     fn passed(&self) -> usize {
         let passes = |study: &&Study| study.verdict.is_good();
         self.studies.iter().filter(passes).count()
@@ -43,7 +43,7 @@ impl Comparison {
         !self.studies.is_empty() && self.passed() == self.studies.len()
     }
 
-    /// The names that tell the methods from each other.
+    /// The names that distinguish the methods.
     pub fn names(&self) -> Vec<String> {
         let words: Vec<[String; 6]> = self.studies.iter().map(words).collect();
         let differs = |at: usize| words.iter().any(|word| word[at] != words[0][at]);
@@ -72,7 +72,7 @@ impl Comparison {
         }
     }
 
-    /// l2 of each method on each level, or in time its difference to the next.
+    /// l2 of each method on each level, or in time its difference from the next level.
     fn errors(&self) -> Table {
         let first = &self.studies[0];
         let ends = [FITTED, "constant", "verdict"].map(str::to_owned);

@@ -1,4 +1,4 @@
-//! Defects and what caught them, as a table, as a JSON document, and as a page.
+//! Defects and the rows that caught them, as a table, as a JSON document, and as a page.
 
 use mms_documents::provenance::Provenance;
 use mms_documents::verify::{ShownDefect, ShownRow, VerifyDefects};
@@ -9,7 +9,7 @@ use mms_verify::matrix::Row;
 use crate::shown::Shown;
 use crate::table::Table;
 
-/// A row that catches what at most so many rows catch earns its place by that.
+/// The largest number of rows that catch a defect for which each of them counts as needed.
 const FEW: usize = 6;
 
 /// A defect, and the rows that it was shown to.
@@ -18,7 +18,7 @@ pub struct Showing<'a> {
     pub defect: Defect,
     /// The rows, with it.
     pub rows: Vec<RowUnder<'a>>,
-    /// The objections of checks of plausibility to these runs, if they do not object to right runs as well.
+    /// The objections of plausibility checks to these runs, of checks that do not object to right runs as well.
     pub looks: Looks,
 }
 
@@ -52,7 +52,7 @@ impl<'a> Showing<'a> {
     }
 }
 
-/// Defects, with what came of them.
+/// Defects with their results.
 pub struct Report<'a> {
     /// The rows that were shown defects.
     pub rows: Vec<&'a Row>,
@@ -60,7 +60,7 @@ pub struct Report<'a> {
     pub showings: Vec<Showing<'a>>,
     /// Whether every defect was shown to every row.
     pub whole: bool,
-    /// Where it is from.
+    /// The provenance.
     pub provenance: Provenance,
 }
 
@@ -76,7 +76,7 @@ impl<'a> Report<'a> {
             .flat_map(|showing| showing.missed().map(|shown| (shown.row, showing.defect)))
     }
 
-    /// Rows that catch no defect that few others catch, and are no witness of anything; known of the whole table.
+    /// Rows that catch no defect that few others catch, and are not the witness of a property; only for the whole table.
     fn idle(&self) -> Vec<&'a Row> {
         let catches =
             |row: &Row, showing: &&Showing| showing.caught().any(|it| it.row.name == row.name);
@@ -87,7 +87,7 @@ impl<'a> Report<'a> {
         if self.whole { self.rows.iter().filter(idle).copied().collect() } else { Vec::new() }
     }
 
-    /// Whether there are defects, and every one was caught, by the rows that say so; and every row earns its place.
+    /// Whether there are defects, and each was caught by the rows that list it; and whether every row is needed.
     pub fn as_expected(&self) -> bool {
         !self.showings.is_empty()
             && self.uncaught().next().is_none()
@@ -108,7 +108,7 @@ impl<'a> Report<'a> {
         table
     }
 
-    /// How many were caught by what.
+    /// The numbers of defects that the rows and each check caught.
     fn summary(&self) -> String {
         let all = self.showings.len();
         let caught = all - self.uncaught().count();
@@ -138,7 +138,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// The page: what does not depend on a machine.
+    /// The page: all content that does not depend on a machine.
     pub fn page(&self) -> String {
         let mut page = INTRODUCTION.to_owned();
         for place in ["compiler", "solver"] {
@@ -203,7 +203,7 @@ fn capitalised(text: &str) -> String {
     first.to_uppercase() + rest
 }
 
-/// The words for the answers of checks: an objection, none, or not known.
+/// The words for the answers of checks: an objection, no objection, or unknown.
 fn words(looks: Looks) -> [String; Check::ALL.len()] {
     looks.0.map(|objects| match objects {
         Some(true) => "objects".to_owned(),

@@ -1,7 +1,7 @@
 //! The Pareto front.
 
-/// The positions of the points (cost, error) that no other one beats in both, from cheap to accurate; of equal
-/// points the first.
+/// The positions of the points (cost, error) that no other point beats in both, from cheap to accurate; the first of equal
+/// points.
 pub fn front(points: &[(f64, f64)]) -> Vec<usize> {
     let mut positions: Vec<usize> = (0..points.len()).collect();
     let key = |at: usize| points[at];

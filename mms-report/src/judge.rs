@@ -23,19 +23,19 @@ pub struct View<'a>(pub &'a Judgements);
 pub struct Deciding {
     /// The expected order.
     pub expected: f64,
-    /// The observed order with its interval, where there is one.
+    /// The observed order with its interval, if there is one.
     pub observed: Option<String>,
     /// The quantity and the norm.
     pub of: String,
 }
 
-/// An order with two digits, or that there is none.
+/// An order with two digits, or the statement that there is none.
 fn order(order: Option<f64>) -> String {
     order.map_or("-".into(), |order| format!("{order:.2}"))
 }
 
 impl View<'_> {
-    /// The text: of several quantities the verdict first.
+    /// The text; for several quantities it begins with the verdict.
     fn all(&self, is_full: bool) -> String {
         let next = next(self.0.next.as_ref());
         self.without_next(is_full) + &next.map_or(String::new(), |it| format!("\n{it}"))

@@ -1,7 +1,7 @@
 //! Views of results: tables, JSON documents, CSV files, pictures, and pages of HTML.
 //!
-//! A module for each kind of result makes its text and its files; [`page`] reads the documents of a folder and makes a page of
-//! them. Nothing here runs the solver or prints.
+//! Each kind of result has a module for its text and its files; [`page`] reads the documents of a folder and makes a page of
+//! them. This crate neither runs the solver nor prints.
 
 #![warn(clippy::disallowed_methods)]
 #![cfg_attr(test, allow(clippy::disallowed_methods))]

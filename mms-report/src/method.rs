@@ -43,7 +43,7 @@ pub fn division(division: &Division) -> documents::Division {
     }
 }
 
-/// The method in words; what is as always is left out.
+/// The method in words; defaults are left out.
 pub fn line(method: &Method, arithmetic: Arithmetic) -> String {
     let Setup { transfer, particles_per_cell, fill, jitter, offset, courant, .. } = &method.setup;
     let formulation = match method.formulation {

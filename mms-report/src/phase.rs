@@ -8,16 +8,16 @@ use super::table::Table;
 
 /// The amplitudes and phases of some periods.
 pub struct Phases {
-    /// How long a period takes.
+    /// The duration of a period.
     pub period: f64,
-    /// Which were measured, the first being 1.
+    /// The numbers of the measured periods, from 1.
     pub measured: Vec<usize>,
     /// The phase on each level, from coarse to fine, in each of these periods; fewer if a run stopped.
     pub levels: Vec<Vec<Option<Phase>>>,
 }
 
 impl Phases {
-    /// The levels in the `which`th of the measured periods, with the orders that led to them.
+    /// The levels in the `which`th of the measured periods, with the orders between them.
     fn rows(
         &self,
         which: usize,
@@ -75,8 +75,8 @@ impl Phases {
     }
 }
 
-/// The order that led to each level: of its value and the one before; in time, where the error of space stays, of
-/// their difference and the one before that.
+/// The order between each level and the one before; in time, where the error of space remains, between their difference and the
+/// difference before.
 fn orders(
     values: &[Option<f64>],
     lengths: &[Option<f64>],

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::shown::Shown;
 use super::table::Table;
 
-/// A comparison of results with what was saved, or with each other.
+/// A comparison of results with saved ones, or with each other.
 pub struct Compared<D> {
     text: String,
     table: Table,
@@ -32,7 +32,7 @@ impl<D: Clone + Serialize> Shown for Compared<D> {
     }
 }
 
-/// Errors beside those that were saved.
+/// Errors beside the saved ones.
 pub fn with_baseline(title: &str, all: &[Saved], verdict: Verdict) -> Compared<JudgeBaseline> {
     let header = ["quantity", "norm", "h", "error", "saved", "change"];
     let mut table = Table::new(title, header).right_from(0);
@@ -62,7 +62,7 @@ pub fn with_baseline(title: &str, all: &[Saved], verdict: Verdict) -> Compared<J
     Compared { text, table, document }
 }
 
-/// How far two results differ.
+/// The differences of two results.
 pub fn differences(a: &str, b: &str, same: &Same) -> Compared<JudgeSame> {
     let Same { differences: all, alone, words, paired, .. } = same;
     let header = ["array", "time", "largest", "relative", "where"];

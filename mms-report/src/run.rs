@@ -20,11 +20,11 @@ pub struct Run {
     pub title: Foreign,
     /// The method.
     pub method: Method,
-    /// How numbers were computed.
+    /// The arithmetic.
     pub arithmetic: Arithmetic,
     /// The run, or the reason why it was not started.
     pub run: Result<mms_runtime::Run, Refused>,
-    /// Where it is from.
+    /// The provenance.
     pub provenance: Provenance,
 }
 
@@ -46,7 +46,7 @@ fn ns_per_particle_step(run: &mms_runtime::Run) -> f64 {
 }
 
 impl Run {
-    /// Why it did not reach its end, if so.
+    /// The reason why the run did not reach its end, if it did not.
     fn failure(&self) -> Option<String> {
         match &self.run {
             Ok(run) => run.level.errors.as_ref().err().map(ToString::to_string),
@@ -85,7 +85,7 @@ impl Run {
         }
     }
 
-    /// The text for a terminal, of a run that was started.
+    /// The text for a terminal, for a run that was started.
     pub fn text(&self, run: &mms_runtime::Run) -> String {
         let level = &run.level;
         let head = format!(
@@ -115,7 +115,7 @@ impl Run {
     }
 }
 
-/// How near to equilibrium a run has come.
+/// The residual of the equilibrium that a run has reached.
 fn balanced(Residual { relative, tolerance }: Residual) -> String {
     format!(
         "\nin equilibrium: {relative:.1e} of the forces are out of balance, below {tolerance:.1e}"
@@ -194,7 +194,7 @@ fn parts(run: &mms_runtime::Run) -> documents::PartsOfTime {
     }
 }
 
-/// The errors of each quantity: the largest over time, and those at the end.
+/// The errors of each quantity: the largest over time, and the errors at the end.
 fn errors(details: &Details) -> documents::RunErrors {
     let norms = |Errors { l1, l2, linf }| documents::Norms { l1, l2, linf };
     let (largest, last) = (&details.largest, &details.last);

@@ -7,7 +7,7 @@ pub fn next(words: Option<&Vec<String>>) -> Option<String> {
     words.map(|words| format!("next: {}", shell::command(&words[1..])))
 }
 
-/// How many of all verdicts are not as expected; `expected` is how to say that, as in "as theory expects".
+/// The number of unexpected verdicts among all; `expected` is the phrase for an expected one, as in "as theory expects".
 pub fn tally(unexpected: usize, all: usize, expected: &str) -> String {
     match (unexpected, all) {
         (0, 1) => format!("the verdict is {expected}"),

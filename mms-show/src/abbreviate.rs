@@ -32,7 +32,7 @@ impl Reading {
         roots.iter().map(|root| shorter[root]).collect()
     }
 
-    /// How often each part is an operand.
+    /// The number of times that each part is an operand.
     fn uses(&self, roots: &[Expr]) -> SortedMap<Expr, usize> {
         let mut uses = SortedMap::new();
         for expr in self.graph.reachable(roots) {

@@ -1,4 +1,4 @@
-//! The terms that the turning basis adds to gradients and divergences, as on paper: with R below the line.
+//! The terms that the turning basis adds to gradients and divergences, as on paper: fractions over R.
 
 use super::reading::Reading;
 use mms_mechanics::tensor::Tensor;

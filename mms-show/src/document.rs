@@ -50,7 +50,7 @@ pub struct Material {
     pub name: Foreign,
     /// A description in a few words.
     pub title: Foreign,
-    /// Which invariants W is a function of.
+    /// The kind of invariants that W is a function of.
     pub kind: Kind,
     /// W in the parameters of the material and in the invariants, after the parts that it is put
     /// together from.

@@ -8,7 +8,7 @@ use mms_mechanics::tensor::dot;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Expr;
 
-/// A direction in the reference body, and what becomes of it.
+/// A direction in the reference body, and its image.
 pub(super) struct Fibres {
     /// a0, along the dimensions that the field has.
     pub direction: Vec<Expr>,
@@ -19,7 +19,7 @@ pub(super) struct Fibres {
 }
 
 impl Fibres {
-    /// The fibres of a field; `None` where its material has none.
+    /// The fibres of a field; `None` if its material has none.
     pub fn read(
         reading: &mut Reading,
         compiled: &Compiled,
@@ -50,7 +50,7 @@ impl Fibres {
                 reading.named(name, value, "derived")
             })
             .collect();
-        // Along a dimension that the field lacks, a fibre stays as it is.
+        // Along a dimension that the field lacks, a fibre does not change.
         let squares = present.iter().chain(missing).map(|component| (*component, *component));
         let stretch = dot(&mut reading.graph, squares);
         let stretch = reading.named(Name::plain("I4"), stretch, "derived");

@@ -82,7 +82,7 @@ impl Names for Reading {
 }
 
 impl Reading {
-    /// No entries yet, beside the parameters of a field.
+    /// A reading without entries, except the parameters of a field.
     pub fn new(compiled: &Compiled) -> Self {
         let mut graph = compiled.graph.clone();
         graph.make_room();

@@ -157,7 +157,7 @@ fn of_small_strain(quantity: Quantity) -> Option<&'static [Part]> {
     })
 }
 
-/// How a notation sets the parts of a relation.
+/// The layout of the parts of a relation in a notation.
 pub(super) trait Setting {
     /// A letter or word: `is_bold` for a vector or tensor.
     fn letter(&self, word: &str, is_bold: bool) -> String;

@@ -37,8 +37,8 @@ pub fn page(document: &Document) -> String {
     lines.join("\n")
 }
 
-/// A sentence in lines of at most [`WIDTH`] characters, as far as its words allow; those that follow
-/// the first are indented further than it is.
+/// A sentence in lines of at most [`WIDTH`] characters, as far as its words allow; later lines are indented further than the
+/// first.
 fn wrapped(note: &str) -> Vec<String> {
     let indent = note.len() - note.trim_start().len() + "  ".len();
     let mut lines = vec![" ".repeat(indent)];

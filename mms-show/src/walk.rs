@@ -6,7 +6,7 @@ use mms_symbolic::sorted::SortedMap;
 
 use super::name::Name;
 
-/// How formulas are set: everything that a notation decides.
+/// The layout of formulas: everything that a notation decides.
 pub trait Notation {
     /// A whole number from 0 on, given by its digits.
     fn whole(&self, digits: &str) -> String;
@@ -47,7 +47,7 @@ pub enum Exponent {
     },
 }
 
-/// How tightly a printed factor binds.
+/// The precedence of a printed factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
     Sum,

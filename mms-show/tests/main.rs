@@ -1,4 +1,4 @@
-//! The tests of this crate, as one program, so that what they share is compiled and linked once.
+//! The tests of this crate, as one program, so that their common parts are compiled and linked once.
 
 mod language;
 #[path = "../../tests/support/sampled.rs"]

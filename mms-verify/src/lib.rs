@@ -1,7 +1,7 @@
 //! The verification matrix: every mode of the solver, one at a time, by the field that isolates it.
 //!
-//! `matrix.toml` is the list of rows, and is embedded. A row is a study, in the words of `mms study`, with what
-//! theory expects of it and why; `mms verify` holds it to that.
+//! `matrix.toml` is the list of rows, and is embedded. A row is a study, in the words of `mms study`, with the expectation of
+//! theory and its reason; `mms verify` compares the results with it.
 //!
 //! | step | from -> to | where |
 //! |---|---|---|

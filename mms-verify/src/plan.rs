@@ -35,7 +35,7 @@ pub struct Job {
 pub struct Plan {
     /// Each once, the longest first.
     pub jobs: Vec<Job>,
-    /// For each row and level, coarse to fine, the position of its run.
+    /// The position of the run for each row and level, coarse to fine.
     pub levels: Vec<Vec<usize>>,
 }
 

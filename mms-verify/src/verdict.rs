@@ -34,7 +34,7 @@ pub enum Verdict {
     Pass,
     /// A lower order, another constant, an error where there is none, or a run that was not started.
     Fail,
-    /// No settled order, or a higher one.
+    /// An order that has not settled, or a higher one.
     NotAsymptotic,
     /// The error does not shrink, or a run stopped.
     DoesNotConverge,

@@ -103,7 +103,7 @@ type Find = fn(&str, &Variant) -> anyhow::Result<Input>;
 /// Fields with everything derived.
 pub struct Fields {
     find: Find,
-    /// By name and variant.
+    /// The fields by name and variant.
     inputs: Mutex<BTreeMap<String, Arc<Input>>>,
 }
 

@@ -1,7 +1,7 @@
 // Builds the page: node build.mjs MODULE.wasm OUT.html
 //
-// Everything goes into one file: script, style, the compressed module, and the licenses of the packages. The page then needs no
-// server. Its security policy lets it run its own script alone, and forbids every connection.
+// The page is one file: script, style, the compressed module, and the licenses of the packages. It needs no server. Its
+// security policy allows only its own script, and forbids every connection.
 import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync, existsSync, readdirSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -47,7 +47,7 @@ function licenses(folders) {
   });
 }
 
-/** Leaves out the custom sections of a module: names of functions and the like, which nothing reads. */
+/** Leaves out the custom sections of a module: names of functions and the like, which no code reads. */
 function withoutNames(module) {
   const kept = [module.subarray(0, 8)];
   for (let at = 8; at < module.length; ) {

@@ -1,4 +1,4 @@
-//! The functions of the module: the page fills the room with a request, and reads the reply where it lies.
+//! The functions of the module: the page fills a buffer with a request, and reads the reply in place.
 
 // A name that the page calls is an unsafe attribute: two functions of one name would be undefined behaviour.
 #![allow(unsafe_code)]
@@ -13,7 +13,7 @@ fn lock<T>(of: &Mutex<T>) -> MutexGuard<'_, T> {
     of.lock().expect("no other thread")
 }
 
-/// Makes room for a request of so many bytes, and forgets the last reply.
+/// Allocates the buffer for a request of `length` bytes, and discards the last reply.
 #[unsafe(no_mangle)]
 extern "C" fn room(length: usize) -> *mut u8 {
     *lock(&REPLY) = String::new();
@@ -22,7 +22,7 @@ extern "C" fn room(length: usize) -> *mut u8 {
     room.as_mut_ptr()
 }
 
-/// Answers the request in the room, and says where the reply begins.
+/// Answers the request in the buffer, and returns the address of the reply.
 #[unsafe(no_mangle)]
 extern "C" fn answer() -> *const u8 {
     let request = std::mem::take(&mut *lock(&ROOM));

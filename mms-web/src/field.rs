@@ -23,7 +23,7 @@ use crate::request::FieldText;
 /// The JSON Schema of field files.
 pub const SCHEMA: &str = include_str!("../../docs/field.schema.json");
 
-/// The quantities whose derivation is shown where none is named.
+/// The quantities whose derivation is shown if none is named.
 const USUAL: [&str; 2] = ["displacement", "body_force_density"];
 
 /// The level of the headings of a derivation.
@@ -99,10 +99,10 @@ pub fn template(dimension: usize, material: &str, shape: &str) -> Result<NewFiel
     Ok(NewField { text: template.text() })
 }
 
-/// Everything that `mms check` says of a field.
+/// The output of `mms check` for a field.
 #[derive(Serialize)]
 pub struct Checked {
-    /// As of `mms check --json`, for the one file.
+    /// The document of `mms check --json`, for the one file.
     document: CheckedFile,
     /// The lines of `mms check`.
     text: String,

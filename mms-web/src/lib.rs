@@ -1,7 +1,7 @@
 //! The compiler, its proofs and the judging of results, for a page in a browser.
 //!
-//! A request is a JSON header and the bytes of attached files; the reply is JSON. [`answer`] makes the one of the other. It
-//! starts no thread, reads no clock and opens no file. `page/` is the page that calls it, from a worker.
+//! A request is a JSON header and the bytes of attached files; the reply is JSON. [`answer`] computes the reply. It starts no
+//! thread, reads no clock and opens no file. `page/` is the page that calls it, from a worker.
 //!
 //! | file | does |
 //! |---|---|

@@ -65,7 +65,7 @@ pub enum Request {
         /// The shape of the body: box or annulus.
         shape: String,
     },
-    /// Everything that `mms check` says.
+    /// The output of `mms check`.
     Check(FieldText),
     /// The derivation of some quantities.
     Derivation {

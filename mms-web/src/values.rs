@@ -11,7 +11,7 @@ use crate::field::named;
 use crate::mistake::Mistake;
 use crate::request::FieldText;
 
-/// The most frames and the most cells along a side that are drawn.
+/// The largest number of frames, and of cells along a side, that are drawn.
 const MOST: usize = 200;
 
 /// All quantities at a point.
@@ -25,7 +25,7 @@ struct Value {
     quantity: String,
     symbol: String,
     unit: String,
-    /// A number that is not finite is null.
+    /// The components; a number that is not finite is null.
     components: Vec<f64>,
     /// Rows and columns.
     shape: [usize; 2],
@@ -157,8 +157,8 @@ struct Mesh {
 }
 
 impl Mesh {
-    /// Adds a lattice of quadrilaterals, so many along each side. `point` takes two fractions; a cell is kept if `keeps` says so of
-    /// the fractions of its middle.
+    /// Adds a lattice of quadrilaterals, `sides` along each side. `point` takes two fractions; a cell is kept if `keeps`
+    /// accepts the fractions of its middle.
     fn add_lattice(
         &mut self,
         sides: usize,

@@ -52,7 +52,7 @@ impl Files for Folder<'_> {
 /// A verdict.
 #[derive(Serialize)]
 pub struct Verdict {
-    /// As of `mms judge --json`.
+    /// The document of `mms judge --json`.
     document: Judge,
     passes: bool,
     notes: Vec<String>,

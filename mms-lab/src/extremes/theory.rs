@@ -254,7 +254,7 @@ mod tests {
         assert!((found / expected - 1.0).abs() < 1e-9, "{found} is not {expected}");
     }
 
-    /// At k = pi, particles at 1/4 and 3/4 see half of the mode: s = 1/4, omega = 2.
+    /// A wave of k = pi, which particles at 1/4 and 3/4 see at half its amplitude: s = 1/4, omega = 2.
     #[test]
     fn limits_of_two_particles_per_cell_are_those_on_paper() {
         let flip = || Setup::default();

@@ -103,7 +103,7 @@ pub struct Plan {
     pub goal: Goal,
     /// The cost to minimise.
     pub cost: Cost,
-    /// No run is begun that is predicted to take more particle-steps.
+    /// The largest predicted number of particle-steps of a run; others are not begun.
     pub most_work: f64,
     /// The approximate number of particle-steps on one cell, with one particle in it and a Courant number of 1.
     pub unit_work: f64,

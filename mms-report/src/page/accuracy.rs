@@ -11,7 +11,7 @@ use crate::accuracy::{eps, is_promised};
 use crate::front::front;
 use crate::plot::{Axis, Curve, Line, Plot};
 
-/// Whether nothing is known of an error that has a bound.
+/// Whether an error with a bound was not measured.
 fn is_unmeasured(row: &AccuracyRow) -> bool {
     row.within_bound.is_none() && is_promised(&row.form, &row.regime)
 }
@@ -58,7 +58,7 @@ impl Section for Accuracy {
                 summary { "The worst of each quantity" }
                 (rows("The regime with the largest error, of each quantity, precision and form", &worst(self)))
             }
-            // On paper only if it is open.
+            // Printed on paper only if it is open.
             details.bulk {
                 summary { "All " (self.rows.len()) " rows" }
                 (rows("Every regime", &self.rows.iter().collect::<Vec<_>>()))
@@ -133,7 +133,7 @@ fn regime(accuracy: &Accuracy) -> &str {
     regimes.find(|regime| *regime == "declared").unwrap_or(first)
 }
 
-/// Error over time, where times were measured.
+/// Error over time, if times were measured.
 pub fn plot(accuracy: &Accuracy) -> Plot {
     let mut curves = Vec::new();
     for (style, precision) in Precision::ALL.into_iter().enumerate() {
@@ -145,7 +145,7 @@ pub fn plot(accuracy: &Accuracy) -> Plot {
                         && row.form == form.name()
                 })
             };
-            // No time of any is no time of all; an error that is not finite has no place.
+            // If one time is missing, the sum is missing; an error that is not finite has no place.
             let Some(time) = rows().map(|row| row.ns_per_point).sum::<Option<f64>>() else {
                 continue;
             };

@@ -93,7 +93,7 @@ fn matrix(campaign: &Campaign, place: &impl Fn(usize) -> String) -> Markup {
     table("Studies", &columns, rows)
 }
 
-/// The mistakes that no study excludes, and which excludes the others.
+/// The mistakes that no study excludes, and for the others the studies that exclude them.
 fn exclusions(all: &[ExcludedTogether]) -> Markup {
     let open = all.iter().filter(|it| it.by.is_none()).map(|it| it.hypothesis.as_str());
     let open: Vec<&str> = open.collect();

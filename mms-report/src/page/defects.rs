@@ -1,4 +1,4 @@
-//! Deliberate mistakes, and what caught them.
+//! Deliberate mistakes, and the rows that caught them.
 
 use maud::{Markup, html};
 use mms_documents::verify::{ShownDefect, VerifyDefects};

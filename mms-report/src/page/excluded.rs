@@ -6,7 +6,7 @@ use mms_documents::judge::Excluded;
 use super::mark::{number, numbers, table, words};
 use crate::excluded::size;
 
-/// The mistakes that results exclude, and those that they do not.
+/// The excluded mistakes, and the ones that are not excluded.
 pub fn exclusions(all: &[Excluded]) -> Markup {
     let columns =
         [words("mistake"), words("excluded"), numbers("adds, over the error"), words("what it is")];

@@ -149,7 +149,7 @@ struct Entry {
 /// A page.
 pub struct Page {
     title: String,
-    /// In the order of [`KINDS`], then of their files.
+    /// The results in the order of [`KINDS`], then of their files.
     entries: Vec<Entry>,
     /// The fields of the entries.
     fields: Vec<Shown>,

@@ -5,7 +5,7 @@ use mms_documents::study::Phase;
 
 use super::mark::{number, numbers, order, table, words};
 
-/// A table for each period. Its rows are the levels; the head `what` says what tells them apart.
+/// A table for each period. Its rows are the levels; the head `what` names the length that distinguishes them.
 pub fn phase(phase: &Phase, what: &'static str, levels: &[Markup]) -> Markup {
     let columns = [
         words(what),

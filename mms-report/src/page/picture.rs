@@ -32,7 +32,7 @@ pub struct Moment {
 /// A polygon, or a dot if it has one corner.
 #[derive(Clone, PartialEq)]
 pub struct Shape {
-    /// To the right and upwards.
+    /// The corners; coordinates are to the right and upwards.
     pub corners: Vec<[f64; 2]>,
     /// The colour, less than [`STEPS`].
     pub step: usize,

@@ -30,7 +30,7 @@ pub fn apart(values: impl Iterator<Item = f64>, range: (f64, f64), length: f64) 
 /// The most numbers that an axis carries.
 const MOST: usize = 9;
 
-/// Where an axis has numbers, and where it has strokes alone.
+/// The positions of numbers on an axis, and of strokes without numbers.
 pub struct Ticks {
     /// The places of numbers: decades, or 1, 2 and 5 times decades if these are fewer than two.
     pub numbers: Vec<f64>,
@@ -52,7 +52,7 @@ pub fn ticks(range: (f64, f64)) -> Ticks {
         if decades.len() <= MOST / 2 { inside(&[2, 3, 4, 5, 6, 7, 8, 9]) } else { Vec::new() };
     let shown = match decades.len() {
         0 | 1 if inside(&[1, 2, 5]).len() > 1 => inside(&[1, 2, 5]),
-        // A range within two neighbours of those.
+        // A range between two neighbouring decades.
         0 => inside(&[1, 2, 3, 4, 5, 6, 7, 8, 9]),
         _ => decades,
     };
@@ -91,7 +91,7 @@ pub fn label(value: f64) -> Words {
     }
 }
 
-/// Numbers at an axis: all as powers of ten, if all are and one has to be.
+/// Numbers at an axis: all as powers of ten, if all are powers of ten and one has to be written so.
 pub fn labels(values: &[f64]) -> Vec<Words> {
     let all: Vec<Words> = values.iter().map(|it| label(*it)).collect();
     let is_power = |value: &f64| (value / 10f64.powf(value.log10().round()) - 1.0).abs() < 1e-9;

@@ -12,7 +12,7 @@ pub const RAISED: f64 = 0.75;
 /// The share of the size by which a text is raised.
 pub const RISE: f64 = 0.42;
 
-/// A part of a drawing, which says how it looks.
+/// A part of a drawing, which determines its look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// A line from a number of an axis through the curves.
@@ -115,7 +115,7 @@ impl Words {
         Words(vec![Part { text: text.into(), is_raised: false }])
     }
 
-    /// The text with another part behind it.
+    /// The text followed by another part.
     pub fn and(mut self, text: impl Into<String>, is_raised: bool) -> Self {
         self.0.push(Part { text: text.into(), is_raised });
         self
@@ -128,7 +128,7 @@ impl Words {
     }
 }
 
-/// The end of a text that stands at its place.
+/// The end of a text that is at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
     /// The first letter.
@@ -144,7 +144,7 @@ pub enum Anchor {
 pub struct Text {
     /// The place of the anchor on the line of the text.
     pub at: [f64; 2],
-    /// The end that stands there.
+    /// The end that is at the place.
     pub anchor: Anchor,
     /// Whether the text runs upwards.
     pub is_turned: bool,
@@ -159,7 +159,7 @@ pub struct Text {
 pub enum Item {
     /// Straight lines from point to point.
     Path {
-        /// The part of the drawing, which says how it looks.
+        /// The part of the drawing, which determines its look.
         role: Role,
         /// The points.
         points: Vec<[f64; 2]>,
@@ -168,7 +168,7 @@ pub enum Item {
     },
     /// A disc.
     Disc {
-        /// The part of the drawing, which says how it looks.
+        /// The part of the drawing, which determines its look.
         role: Role,
         /// The middle.
         centre: [f64; 2],

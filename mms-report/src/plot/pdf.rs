@@ -1,4 +1,4 @@
-//! A drawing as a PDF file of one page, with lines and letters as such.
+//! A drawing as a PDF file of one page, with real lines and letters.
 
 use pdf_writer::types::LineCapStyle;
 use pdf_writer::{Content, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
@@ -53,7 +53,7 @@ pub fn file(drawing: &Drawing) -> Vec<u8> {
     pdf.finish()
 }
 
-/// The operators that draw: in pixels from the lower left corner upwards, which the first one makes points.
+/// The drawing operators: in pixels from the lower left corner upwards; the first operator converts them to points.
 fn operators(drawing: &Drawing) -> pdf_writer::Buf {
     let mut page = Page { content: Content::new(), height: drawing.size[1] };
     let scale = POINTS as f32;

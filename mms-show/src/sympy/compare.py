@@ -12,7 +12,7 @@ def main():
         pairs = [(ours, mpmath.mpmathify(theirs))
                  for point, derivation in zip(POINTS, derivations)
                  for ours, theirs in zip(point["values"][name], derivation[name], strict=True)]
-        # Where a quantity vanishes everywhere, there is nothing to be relative to.
+        # If a quantity is 0 everywhere, there is no magnitude to be relative to.
         scale = max([abs(theirs) for _, theirs in pairs] + [mpmath.mpf("1e-30")])
         worst = max(abs(mpmath.mpf(ours) - theirs) for ours, theirs in pairs) / scale
         agrees = bool(worst <= TOLERANCE)

@@ -1,8 +1,8 @@
 //! A script for an auditor: Python that derives every quantity once more, with SymPy, from the formulas of the
 //! field and its material as they were typed, and compares the values.
 //!
-//! It is made from the trees of the typed formulas. It shares the parser with the rest, and nothing after it: no
-//! graph, no derivative, no material law. Its fixed parts are Python files beside the code.
+//! It is made from the trees of the typed formulas. It shares only the parser with the compiler: no graph, no derivative, no
+//! material law. Its fixed parts are Python files beside the code.
 
 mod own;
 mod python;
@@ -19,13 +19,13 @@ use mms_spec::{FieldSpec, Formula, RigidSpec, Rotation, Space};
 use mms_symbolic::sorted::SortedSet;
 use python::{Renamed, python};
 
-/// At how many points the values are compared.
+/// The number of points at which the values are compared.
 pub const POINTS: usize = 3;
 
-/// Points that are tried until [`POINTS`] are found where everything is defined.
+/// The number of points tried to find [`POINTS`] where everything is defined.
 const TRIED: usize = 64;
 
-/// A field that is not defined where it should be compared.
+/// A field without a value at points where it should be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Undefined;
 
@@ -147,7 +147,7 @@ fn field(compiled: &Compiled) -> String {
         format!("            \"{}\": {},", inner.name(&name.value), names.name(&name.value))
     }));
     lines.push("        },".into());
-    // A material without fibres does not look at their direction.
+    // A material without fibres ignores their direction.
     let fibre = match &field.material.fibre {
         Some(fibre) => fibre.iter().map(|component| translated(component, &names)).collect(),
         None => vec!["Integer(0)".to_string(); 3],

@@ -32,7 +32,7 @@ fn is_defined(compiled: &Compiled, name: &str) -> bool {
         || compiled.material.given(name).is_some()
 }
 
-/// The lines of `field` that define those names.
+/// The lines of `field` that define these names.
 pub(super) fn definitions(compiled: &Compiled, names: &Renamed) -> Vec<String> {
     let used = used(compiled);
     if used.is_empty() {

@@ -102,7 +102,7 @@ impl Renamed {
     }
 }
 
-/// How tightly an operator of Python binds.
+/// The precedence of an operator of Python.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
     Sum,

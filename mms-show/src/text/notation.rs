@@ -172,7 +172,7 @@ impl Text {
     }
 }
 
-/// The name of a function where it is set as a word; roots and powers are not.
+/// The name of a function that is written as a word; roots and powers are not.
 pub(crate) fn word(function: Function) -> &'static str {
     match function {
         Function::Asin => "arcsin",

@@ -34,7 +34,7 @@ impl AsRef<Outcome> for Watched {
 
 /// Makes runs and looks at them.
 pub struct Eyes {
-    /// Where fields are.
+    /// The fields.
     pub fields: Fields,
 }
 

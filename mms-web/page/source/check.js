@@ -4,7 +4,7 @@ import { wording } from "./editor.js";
 
 const count = (number, word) => `${number} ${word}${number === 1 ? "" : "s"}`;
 
-/** Makes one line of the check a row: its word, and the rest. Lines that are further in go on with the one above. */
+/** Makes one line of the check a row: its word, and the rest. Lines with a larger indent continue the one above. */
 function row(line) {
   const [, word, rest] = line.match(/^ {2}(\S+) +(.*)$/) ?? [null, "", line.trim()];
   const bad = /REFUTED|FAILED|UNPROVED|NOT FINITE|NOT COMPARED/.test(rest);

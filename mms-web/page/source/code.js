@@ -51,7 +51,7 @@ export function codePanel(panel, page) {
     code.textContent = shownFile().text;
   }
 
-  /** Fills both lists anew where what is offered has changed, so that a focused box stays what it is. */
+  /** Fills both lists anew if the choices have changed; otherwise a focused box stays unchanged. */
   async function fill() {
     const answer = await page.ask("the languages", { do: "targets", ...page.source() });
     if (offered === JSON.stringify(answer)) return;

@@ -12,7 +12,7 @@ function schemaAt(schema, path) {
   return node ?? null;
 }
 
-/** Returns all words that a value may be. */
+/** Returns all words that a value may have. */
 function words(node) {
   return [...(node.enum ?? []), ...(node.anyOf ?? []).flatMap(words)];
 }

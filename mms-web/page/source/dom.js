@@ -32,7 +32,7 @@ export function table(heads, rows, caption) {
   );
 }
 
-/** Shows an error as the module gives it: its message, and diagnostics that the message does not show already. */
+/** Shows an error of the module: its message, and diagnostics that are not part of the message. */
 export function errorBox(error) {
   const untold = (error.diagnostics ?? []).filter((diagnostic) => !error.message.includes(diagnostic.message));
   const places = untold.map((diagnostic) => {

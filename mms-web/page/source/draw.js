@@ -17,9 +17,9 @@ function colour(value, [low, high]) {
 }
 
 const COS = Math.cos(Math.PI / 6);
-/** Where a point of space lies on paper, seen along (-1, 1, -1): x to the right and front, y to the right and back, z up. */
+/** The position of a point on paper, seen along (-1, 1, -1): x to the right and front, y to the right and back, z up. */
 const onPaper = ([x, y = 0, z]) => (z === undefined ? [x, y] : [(x + y) * COS, z + (y - x) / 2]);
-/** How near a point is to who looks. */
+/** The nearness of a point to the viewer. */
 const nearness = ([x, y, z = 0]) => x - y + z;
 
 /** A drawing of one motion on one canvas. */
@@ -38,7 +38,7 @@ export class Drawing {
     this.pointwise = motion.values[0].length === motion.points[0].length;
   }
 
-  /** Draws a frame, and a mark at a reference point where one is given. */
+  /** Draws a frame, and a mark at a reference point if one is given. */
   draw(frame, mark) {
     const { canvas } = this;
     const ratio = window.devicePixelRatio || 1;
@@ -146,7 +146,7 @@ export class Drawing {
     return cells;
   }
 
-  /** Rings the place of a mark: a cell, and coordinates in it. */
+  /** Draws a ring around a mark: a cell, and coordinates in it. */
   #mark(pen, { cell, at }) {
     const drawn = this.cells.find((other) => other.index === cell);
     const [x, y] = blend(drawn.corners, at);

@@ -32,7 +32,7 @@ function range(doc, diagnostic) {
   return { from, to: Math.min(Math.max(to, from + 1), doc.length) };
 }
 
-/** Returns what a diagnostic says, in one text. */
+/** Returns the message and details of a diagnostic, in one text. */
 export function wording(diagnostic) {
   const help = (diagnostic.help ?? []).map((line) => `help: ${line}`);
   return [diagnostic.message, diagnostic.label, ...help].filter(Boolean).join("\n");
@@ -72,7 +72,7 @@ export function createEditor({ parent, label, onChange, schema }) {
     set text(text) {
       view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text }, selection: { anchor: 0 }, scrollIntoView: true });
     },
-    /** Shows diagnostics at their place, in place of those before. */
+    /** Shows diagnostics at their place, instead of the previous ones. */
     mark(diagnostics) {
       const marks = diagnostics
         .filter((diagnostic) => diagnostic.line != null)

@@ -1,4 +1,4 @@
-// The way from the page to the module: unpacks it, keeps workers, sends requests, cancels them.
+// The connection between the page and the module: unpacks it, keeps workers, sends requests, cancels them.
 
 /** Reads the module out of the page, and compiles it. */
 async function unpack() {
@@ -13,10 +13,10 @@ async function unpack() {
 const compiled = unpack();
 const workerUrl = URL.createObjectURL(new Blob([WORKER_TEXT], { type: "text/javascript" }));
 
-/** The error of a request that somebody cancelled. */
+/** The error of a cancelled request. */
 export class Cancelled extends Error {}
 
-/** The error that the module answers with; `diagnostics` have places. */
+/** The error in a reply of the module; `diagnostics` have places. */
 export class Refused extends Error {
   constructor({ message, diagnostics }) {
     super(message);
@@ -43,7 +43,7 @@ export class Engine {
     return worker;
   }
 
-  /** Sends a request; resolves to what the module answers, rejects with `Refused` or `Cancelled`. */
+  /** Sends a request; resolves to the reply of the module, rejects with `Refused` or `Cancelled`. */
   async ask(title, header, files = []) {
     const module = await compiled.catch((error) => {
       throw new Refused({ message: `this browser cannot run the module: ${error.message}` });
@@ -57,12 +57,12 @@ export class Engine {
     });
   }
 
-  /** The titles of the requests that are at work or wait. */
+  /** The titles of the running and waiting requests. */
   get titles() {
     return [...this.#waiting.values()].map((request) => request.title);
   }
 
-  /** Ends what is at work and what waits. A later request starts a new worker. */
+  /** Ends the running and waiting requests. A later request starts a new worker. */
   cancel() {
     if (this.#waiting.size) this.#stop(() => new Cancelled("cancelled"));
   }

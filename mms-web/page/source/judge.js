@@ -1,4 +1,4 @@
-// The panel "Judge": results of a solver, or a table of its errors, and what the verdict on them is.
+// The panel "Judge": results of a solver, or a table of its errors, and the verdict on them.
 import { copy, download, errorBox, make, shown, table } from "./dom.js";
 import { plot } from "./plot.js";
 
@@ -27,7 +27,7 @@ function lineOf({ name, norm, norms }) {
   return { label: `${words(name)} ${norm}`, points };
 }
 
-/** Returns what the command says of a quantity: after the verdict if it stands above already. */
+/** Returns the command's text about a quantity: the part after the verdict if the verdict is shown above. */
 function said({ says }, several) {
   return says.slice(several ? 0 : 1).map((sentence) => make("p", {}, sentence));
 }
@@ -165,6 +165,6 @@ export function judgePanel(panel, page) {
       ),
     );
   }
-  // Judging waits for its button: nothing is to be made anew when the field changes.
+  // Judging waits for its button: a changed field starts no judgement.
   return null;
 }

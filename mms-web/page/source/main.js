@@ -21,12 +21,12 @@ let ready = false; // whether the gallery and the schema are here
 let replacing = false;
 let timer;
 
-// One worker checks while one types; the other does what the panels ask for.
+// One worker checks while the user types; the other serves the panels.
 const checker = new Engine(() => showWork());
 const worker = new Engine(() => showWork());
 
 /**
- * What panels know of the page.
+ * The interface of the page for panels.
  * @typedef {typeof page} Page
  */
 const page = {
@@ -38,7 +38,7 @@ const page = {
   ask: (title, header, files) => worker.ask(title, header, files),
   say: (text) => (byId("status").textContent = text),
   refresh: () => refresh(true),
-  /** Runs an action; `failed` shows its error. A cancelled one is only said. */
+  /** Runs an action; `failed` shows its error. A cancelled one shows a note only. */
   async attempt(action, failed) {
     try {
       await action();

@@ -8,7 +8,7 @@ export function toFragment(source) {
   return `#field=${letters.replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")}`;
 }
 
-/** Returns the source in a fragment; null where there is none. Throws where it is damaged. */
+/** Returns the source in a fragment; null if there is none. Throws if it is damaged. */
 export function fromFragment(fragment) {
   const letters = fragment.match(/^#field=(.+)$/)?.[1];
   if (!letters) return null;

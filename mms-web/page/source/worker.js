@@ -1,12 +1,12 @@
 // Runs the module in a worker. A message is {id, header, files}; the answer is {id, reply}.
 
-/** The exports of the module, once it is there. */
+/** The exports of the module, once it is loaded. */
 let exports;
 let loading;
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 
-/** Puts a request into the module's room: the length of the header, the header, the files. */
+/** Writes a request into the module's buffer: the length of the header, the header, the files. */
 function ask(header, files) {
   const text = encoder.encode(JSON.stringify(header));
   const length = 4 + text.length + files.reduce((sum, file) => sum + file.byteLength, 0);
