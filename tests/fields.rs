@@ -541,7 +541,7 @@ fn scene<T: Interpretable>(name: &str, study: &StudySpec) -> Scene<T> {
     scene.expect("a field without a swirl")
 }
 
-/// The method of a study, with the command's defaults for what it omits.
+/// The method of a study, with the command's defaults for omitted keys.
 fn method(study: &StudySpec) -> Method {
     /// The member of a family that the file names.
     fn named<N: std::str::FromStr>(word: &str) -> N {

@@ -36,7 +36,7 @@ pub(super) fn listed<T: AsRef<str>>(items: &[T], width: usize) -> Vec<String> {
     lines
 }
 
-/// Statements on lines of their own, behind so many spaces.
+/// Statements on lines of their own, indented by `by` spaces.
 pub(super) fn indented(statements: &[String], by: usize) -> String {
     statements.iter().map(|statement| format!("{:by$}{statement}\n", "")).collect()
 }

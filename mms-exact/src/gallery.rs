@@ -39,7 +39,7 @@ impl Entry {
         mms_codegen::compile_with(self.name, self.path, self.text, &load, options)
     }
 
-    /// The text of its material's file; otherwise why there is none.
+    /// The text of its material's file; an error if it has none.
     pub fn own_material(&self) -> Result<String, String> {
         self.material.map(str::to_string).ok_or_else(|| "not part of the gallery".into())
     }

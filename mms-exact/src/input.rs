@@ -121,7 +121,7 @@ impl Input {
         &self.source
     }
 
-    /// Returns a copy of the field that `stop` ends: another thread can ask for it.
+    /// Returns a copy of the field that `stop` ends: another thread can set it.
     pub fn stopped_by(&self, stop: Stop) -> Input {
         Input { options: Options { stop, ..self.options.clone() }, ..self.clone() }
     }
@@ -313,7 +313,7 @@ impl Input {
     /// Refuses a field without a body; `why` says what needs one.
     ///
     /// # Errors
-    /// There is none.
+    /// The field has no body.
     pub fn hold_body(&self, why: &str) -> anyhow::Result<()> {
         hold_body(&self.compiled, why)
     }
@@ -341,7 +341,7 @@ impl Input {
 /// Refuses a compiled field without a body; `why` says what needs one.
 ///
 /// # Errors
-/// There is none.
+/// The field has no body.
 pub fn hold_body(compiled: &Compiled, why: &str) -> anyhow::Result<()> {
     ensure!(
         !compiled.field.domain.body.is_nothing(),

@@ -48,7 +48,7 @@ pub fn without_bound(input: &Input) -> String {
     )
 }
 
-/// The least and the greatest c0 at some points; the least is 0 where there is none.
+/// The least and the greatest c0 at some points; the least is 0 if there is no point.
 pub fn sound(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> [f64; 2] {
     let parameters = compiled.parameters::<f64>(set);
     let output = Output::Response(Response::WaveSpeed);

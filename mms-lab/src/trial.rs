@@ -39,7 +39,7 @@ pub trait Progress {
     /// Says a line between runs.
     fn say(&self, line: &str);
 
-    /// Clears what is shown of the run in progress.
+    /// Clears the displayed progress of the current run.
     fn finish(&self);
 }
 
@@ -129,7 +129,7 @@ impl Trials {
         Ok(trial)
     }
 
-    /// Clears what is shown of the run in progress.
+    /// Clears the displayed progress of the current run.
     pub fn finish(&self) {
         self.progress.finish();
     }

@@ -9,7 +9,7 @@ use mms_verify::matrix::Row;
 use crate::shown::Shown;
 use crate::table::Table;
 
-/// The largest number of rows that catch a defect for which each of them counts as needed.
+/// The largest number of rows that catch a rare defect; each row has to catch a rare one, or be a witness.
 const FEW: usize = 6;
 
 /// A defect, and the rows that it was shown to.

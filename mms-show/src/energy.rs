@@ -123,7 +123,7 @@ fn scope(reading: &mut Reading, invariants: &[Expr], symbols: &[Symbol]) -> Scop
     scope
 }
 
-/// The density of a material file in a scope that knows its parameters.
+/// The density of a material file in a scope that has its parameters.
 fn energy_in(reading: &mut Reading, mut scope: Scope, compiled: &Compiled) -> Option<Expr> {
     for definition in &compiled.material.lets {
         let value = resolved(reading, &scope, &definition.value)?;

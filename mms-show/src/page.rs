@@ -107,7 +107,7 @@ pub(super) fn derivation(document: &Document) -> Vec<Block<'_>> {
 /// W, and the values that the field gives to the parameters of the material.
 fn energy(document: &Document) -> [Block<'_>; 3] {
     let material = &document.material;
-    // That a parameter of the material is the field's of the same name goes without saying.
+    // A line that equates a parameter of the material with the field's parameter of the same name is left out.
     let arguments = material.arguments.iter().chain(&material.density);
     let arguments: Vec<Line> =
         arguments.filter(|line| !document.is_identity(line)).cloned().collect();

@@ -1,4 +1,4 @@
-//! Expressions in which every quantity that a reader knows by name is a leaf.
+//! Expressions in which every named quantity is a leaf.
 //!
 //! The compiled derivation consists of expanded expressions; a person writes F once, and then uses the name F. A reading
 //! therefore has its own leaves: each represents an [`Entry`], which holds its value in terms of earlier ones. Derivatives

@@ -28,7 +28,7 @@ pub trait Notation {
     fn root(&self, degree: u8, radicand: &str, is_atom: bool) -> String;
     /// A function of its arguments, itself to a power where there is one.
     fn call(&self, function: Function, arguments: &[String], power: Option<&str>) -> String;
-    /// Whether a power can stand at the name of a function: sin^2(x).
+    /// Whether a power can follow the name of a function: sin^2(x).
     fn has_powers_of_functions(&self) -> bool;
     /// Parentheses.
     fn parentheses(&self, inside: &str) -> String;

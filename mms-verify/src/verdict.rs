@@ -11,7 +11,7 @@
 //! 4. `not asymptotic`: as in a study.
 //! 5. `pass`.
 //!
-//! The constant is l2 over h^order, at the finest level of `--quick`, so that both matrices hold it to the same
+//! The constant is l2 over h^order, at the finest level of `--quick`, so that both matrices compare it with the same
 //! number. Runs differ by rounding alone from machine to machine, and one percent is far more.
 
 use std::fmt;

@@ -110,7 +110,7 @@ pub enum Request {
         field: FieldText,
         /// The language.
         target: String,
-        /// Names of quantities; all where there is none.
+        /// Names of quantities; all if there is none.
         #[serde(default)]
         quantities: Vec<String>,
     },

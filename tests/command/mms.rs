@@ -1,4 +1,4 @@
-//! Runs the program, and reads what it printed.
+//! Runs the program, and reads its output.
 
 use std::ffi::OsStr;
 use std::fs;

@@ -69,7 +69,7 @@ fn types(port: &Port<'_>) -> String {
     text + &closed(&format!("{name}_instant"), port.kept_at_times.is_empty())
 }
 
-/// The end of a type: C knows no struct without members.
+/// The end of a type: C has no struct without members.
 fn closed(name: &str, is_empty: bool) -> String {
     format!("{}}} {name};\n\n", if is_empty { "    char none;\n" } else { "" })
 }

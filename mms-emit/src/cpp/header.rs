@@ -23,7 +23,7 @@ fn point(calls: &Calls) -> String {
     text.replace("static real", "template <class T> FIELD_FUNCTION T").replace("real ", "T ")
 }
 
-/// Twice the digits of a double: the functions of C, behind operators; nothing where none of them is called.
+/// Twice the digits of a double: the functions of C, behind operators; empty if none of them is called.
 fn wide(mut calls: Calls, has_statements: bool) -> String {
     let support = support(WIDE);
     if !has_statements && !support.defines_any(&calls) {

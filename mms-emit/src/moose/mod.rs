@@ -100,7 +100,7 @@ fn text(port: &Port<'_>) -> String {
     let mut text = comment(&header, "");
     let defaults = &port.subject.vectors().defaults;
     for ((index, parameter), default) in port.parameters.iter().zip(defaults) {
-        // MOOSE refuses what nobody reads.
+        // MOOSE refuses parameters that no block reads.
         if read.contains(index) {
             text += "\n";
             text += &comment(&[port.parameter_doc(*index)], "");

@@ -309,7 +309,7 @@ struct Printer<'a> {
 }
 
 impl Printer<'_> {
-    /// The right side of a statement; none where the value needs no statement.
+    /// The right side of a statement; `None` if the value needs no statement.
     fn operation(&mut self, op: &Op) -> Option<String> {
         match op {
             Op::Constant(_) | Op::Pi => None,

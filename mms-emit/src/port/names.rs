@@ -2,9 +2,9 @@
 
 /// The rules of a language for names.
 pub struct Rules {
-    /// Words that a member may not be called.
+    /// Words that must not name a member.
     pub words: &'static [&'static str],
-    /// Words that a file, or what is named after it, may not be called.
+    /// Words that must not name a file or an item named after it.
     pub modules: &'static [&'static str],
     /// Whether names that differ in case alone are one.
     pub folds_case: bool,

@@ -22,7 +22,7 @@
 //! With s = r = 1, as on a grid without particles, both are the central difference's omega dt <= 2 (Courant,
 //! Friedrichs, Lewy, Math. Ann. 100 (1928) 32-74). Von Neumann's analysis of PIC and APIC is in Bai, Schroeder, "Stability
 //! analysis of explicit MPM", Comput. Graph. Forum 41 (2022), doi 10.1111/cgf.14620, who note that faces are less stable
-//! than the interior: what is measured on a body may be less.
+//! than the interior: the limit measured on a body may be lower.
 
 use mms_runtime::nalgebra::{Complex, DMatrix};
 use mms_runtime::scene::Scene;

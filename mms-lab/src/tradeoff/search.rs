@@ -4,12 +4,12 @@
 //! |---|---|
 //! | screen | every formulation and shape function on two coarse grids: which error, which order |
 //! | tune | the best of them, one axis at a time, on the finer of these grids |
-//! | reach | what is then predicted to be best, on finer and coarser grids, until the goal is met with little to spare |
+//! | reach | the setting with the best prediction, on finer and coarser grids, until the goal is met with little to spare |
 //! | surround | the choice on two coarser grids, and the default on the one that it needs |
 //!
-//! A prediction follows a power law in the number of cells n: the error is of the observed order, memory grows
-//! with n^D, particle-steps and time with n^(D+1). It decides what is run next, and nothing else: what is chosen
-//! was run, and meets the goal. `docs/reference/study.md` has the numbers.
+//! A prediction follows a power law in the number of cells n: the error is of the observed order, memory grows with n^D,
+//! particle-steps and time with n^(D+1). Predictions only decide what is run next: the chosen run was made, and meets the goal.
+//! `docs/reference/study.md` has the numbers.
 
 use anyhow::Context as _;
 use mms_files::words::{bytes, duration};
@@ -68,7 +68,7 @@ pub struct Trial {
     pub particles: usize,
     /// Steps; 0 if it was not started.
     pub steps: usize,
-    /// The largest error of the displacement over time and particles, or why there is none.
+    /// The largest error of the displacement over time and particles, or the reason why it is missing.
     pub error: Result<f64, String>,
     /// Wall-clock seconds.
     pub seconds: f64,
@@ -409,8 +409,8 @@ impl<'a> Search<'a> {
         self.loss_of(&self.line(setting)?)
     }
 
-    /// The best of some settings that was predicted, if it is within what may be run; and the others after it, as
-    /// long as they are predicted to be better than what is found.
+    /// Runs the setting with the best prediction, if it is within the allowed work; and the settings after it, as long as they
+    /// are predicted to be better than the best run.
     fn reach_best(&mut self, mut candidates: Vec<Setting>) -> anyhow::Result<()> {
         while !candidates.is_empty() {
             let loss = |at: &usize| self.loss(&candidates[*at]).unwrap_or(f64::INFINITY);

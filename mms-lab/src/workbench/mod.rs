@@ -97,7 +97,7 @@ impl Workbench {
         Ok(output)
     }
 
-    /// Compiles a program and returns what it prints when it reads `input`.
+    /// Compiles a program, runs it on `input`, and returns its output.
     fn run(&self, source: &str, input: &str) -> anyhow::Result<String> {
         let program = self.compile(source, "program", &["--crate-name", "program"])?;
         self.output_of(program.as_os_str(), input)

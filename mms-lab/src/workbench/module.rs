@@ -39,11 +39,11 @@ impl Module<'_> {
 pub enum Way {
     /// Point by point.
     Single,
-    /// Point by point, from what was kept of each.
+    /// Point by point, from values kept for each point.
     SingleKept,
     /// All points at once.
     Batch,
-    /// All points at once, from what was kept of them.
+    /// All points at once, from values kept for the points.
     BatchKept,
 }
 

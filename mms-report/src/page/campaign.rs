@@ -1,4 +1,4 @@
-//! Campaigns: the verification matrix of somebody else's solver.
+//! Campaigns: the verification matrix of a user's solver.
 
 use maud::{Markup, html};
 use mms_documents::campaign::{Campaign, CampaignRun, CampaignStudy, ExcludedTogether};

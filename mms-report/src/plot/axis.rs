@@ -34,7 +34,7 @@ const MOST: usize = 9;
 pub struct Ticks {
     /// The places of numbers: decades, or 1, 2 and 5 times decades if these are fewer than two.
     pub numbers: Vec<f64>,
-    /// The places of strokes between decades; none where these lie close together.
+    /// The places of strokes between decades; empty if these lie close together.
     pub strokes: Vec<f64>,
 }
 

@@ -1,8 +1,8 @@
 //! Curves over two logarithmic axes: on a page, whose style sheet colours them, or in a [`Figure`] for print.
 //!
-//! All views are one list of lines, marks and texts (`drawing`), which `svg` and `pdf` write. On a page the picture is as
-//! wide as the text and its legend stands below; a figure is a file of its own, in millimetres. Marks and dashes tell the curves
-//! apart without colours.
+//! All views are one list of lines, marks and texts (`drawing`), which `svg` and `pdf` write. On a page the picture is as wide
+//! as the text and its legend is below it; a figure is a file of its own, in millimetres. Marks and dashes distinguish the
+//! curves without colours.
 
 mod axis;
 mod drawing;

@@ -32,7 +32,7 @@ impl AsRef<Outcome> for Watched {
     }
 }
 
-/// Makes runs and looks at them.
+/// A bench that makes runs and looks at them.
 pub struct Eyes {
     /// The fields.
     pub fields: Fields,

@@ -44,7 +44,7 @@ function option(label, node, apply, type) {
   return { label, type, info: node?.description, ...(apply === undefined ? {} : { apply }) };
 }
 
-/** Returns the completions at a position, as CodeMirror wants them. */
+/** Returns the completions at a position, in the form of CodeMirror. */
 export function completions(schema, text, position, explicit) {
   const place = placeAt(text, position);
   if (place.kind === "none") return null;

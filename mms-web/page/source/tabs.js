@@ -1,4 +1,4 @@
-// Tabs as assistive technology knows them: arrows, Home and End move, one panel shows.
+// Tabs that assistive technology recognises: arrows, Home and End move, one panel shows.
 import { make } from "./dom.js";
 
 /** @returns {{add: (title: string) => object, current: object}} */
