@@ -33,7 +33,7 @@ pub enum Quantity {
     DeformationGradient,
     /// P.
     FirstPiolaKirchhoff,
-    /// Momentum over mass at the end; the exact value is given here.
+    /// Momentum over mass at the end, with its exact value.
     MeanVelocity(Vec<f64>),
 }
 

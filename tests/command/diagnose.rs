@@ -80,7 +80,7 @@ fn a_law_alone_is_named() {
     diagnose(&folder, &over, options).exits(1).prints("named: stress_volume [over J]");
     let unit = with(&|point| first(point).iter().map(|it| it * 1e-6).collect());
     diagnose(&folder, &unit, options).exits(1).prints("another unit: 10^-6");
-    // With six digits no smaller mistake can be named.
+    // The rounding to six digits is no mistake.
     let header = "F11,F12,F21,F22,sigma11,sigma12,sigma21,sigma22";
     let rounded = table(header, &points, |point| {
         [numbers(point, "deformation_gradient"), numbers(point, "cauchy_stress")].concat()

@@ -79,7 +79,7 @@ fn the_front_is_one_and_holds_the_choice() {
             .as_str()
             .is_some_and(|it| it.contains("above the stable one")))
     );
-    // Boxes that neither deform nor stay fixed still lose their order, in both configurations of the bar.
+    // Boxes that neither follow the motion nor stay fixed lose their order, in both formulations.
     let dominated: Vec<_> =
         found["dominated"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
     for word in ["updated linear", "updated ugimp", "usl", "pic"] {
