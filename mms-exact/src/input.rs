@@ -298,7 +298,7 @@ impl Input {
         self.hold_rings()?;
         ensure!(
             self.is_static(),
-            "`--relax`: `{}` moves, and has an equilibrium at no time but by chance; leave `--relax` out to follow it, or give a \
+            "`--relax`: `{}` moves, and is in equilibrium only by chance; leave `--relax` out to follow it, or give a \
              field without `time` under [domain]",
             self.name.shown()
         );

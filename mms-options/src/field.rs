@@ -118,7 +118,7 @@ fn motion(text: &str) -> Result<String, String> {
     if text.is_empty() || text.contains('=') {
         return Ok(text.to_string());
     }
-    Err("expected keys such as 'translation = [\"t\", \"0\"]'; without a value, `--rigid` goes behind the field".into())
+    Err("expected keys such as 'translation = [\"t\", \"0\"]'; without a value, `--rigid` must follow the field".into())
 }
 
 /// A first and a last time.

@@ -170,11 +170,14 @@ impl Shown for Report<'_> {
                 &format!("\n{} is not caught: {}", showing.defect.name(), showing.defect.what());
         }
         for (row, defect) in self.missed() {
-            text += &format!("\n{} does not catch {}, as it says", row.name, defect.name());
+            text +=
+                &format!("\n{} does not catch {}, although it claims to", row.name, defect.name());
         }
         for row in self.idle() {
-            text +=
-                &format!("\n{} catches nothing that few others do, and has no `witness`", row.name);
+            text += &format!(
+                "\n{} catches no defect that few other rows catch, and has no `witness`",
+                row.name
+            );
         }
         text + "\n" + &self.summary()
     }

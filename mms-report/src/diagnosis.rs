@@ -94,7 +94,7 @@ impl Diagnosed<'_> {
         for it in self.diagnosis.ranked.iter().take(SHOWN) {
             let factor: Vec<String> =
                 it.factor.iter().map(|factor| format!("{factor:.4}")).collect();
-            let note = if it.is_plausible { "" } else { "of a size that it cannot have" };
+            let note = if it.is_plausible { "" } else { "of an impossible size" };
             let explained = format!("{:.1} %", 100.0 * it.explained);
             table.add_row([it.title(), factor.join(", "), explained, note.into()]);
         }
@@ -171,7 +171,7 @@ fn order(it: &Falls, of_order: Option<&OfOrder>) -> String {
     lines.extend(it.hint().map(String::from));
     lines.extend(of_order.map(|own| {
         format!(
-            "if your method has that order, `--like {}` holds you to it: this right method has order {:.2} here",
+            "if your method has that order, `--like {}` compares with it: this right method has order {:.2} here",
             own.method, own.order
         )
     }));

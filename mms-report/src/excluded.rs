@@ -91,7 +91,7 @@ fn listed(names: impl IntoIterator<Item = String>) -> String {
 /// The lines of the mistakes that a pass excludes.
 pub fn text(exclusions: &Exclusions) -> String {
     let all = match &exclusions.all {
-        Err(reason) => return format!("which mistakes that excludes is not known: {reason}"),
+        Err(reason) => return format!("the excluded mistakes are not known: {reason}"),
         Ok(all) => all,
     };
     let line = |(head, says): &Says| {

@@ -128,8 +128,7 @@ impl Shown for Plan<'_> {
                 self.seen(*step).join(", ")
             )
         });
-        let head =
-            "Begin with the first step; a step vouches for what the next one takes for granted.";
+        let head = "Begin with the first step; each step checks what the next one assumes.";
         std::iter::once(head.to_owned()).chain(each).collect::<Vec<_>>().join("\n\n")
     }
 

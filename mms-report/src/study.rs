@@ -148,8 +148,8 @@ fn orders(point: &Point, before: Option<Point>) -> Orders {
 }
 
 /// The remark on the verdict of a study in time.
-const IN_TIME: &str = "differences between runs show that these converge, and not to what: that is for a study against the \
-                       exact solution, without `--refine time`";
+const IN_TIME: &str = "differences between runs show that the runs converge, but not to which solution: for that, study \
+                       errors against the exact solution, without `--refine time`";
 
 /// The errors of a level, if it ended, and the orders that led to them.
 type Judged = (Option<Errors>, Orders);

@@ -70,7 +70,7 @@ fn what_is_no_document_with_curves_is_refused() {
     for (arguments, said) in [
         ("newer.json -o x.svg", "its form is of version 9"),
         ("unknown.json -o x.svg", "expected a document of `mms study`, `judge`"),
-        ("list.json -o x.svg", "it does not say what made it"),
+        ("list.json -o x.svg", "it has no provenance"),
         ("errors.csv -o x.svg", "`errors.csv`: not JSON"),
         ("two/convergence.json -o x.png", "ends in .svg or .pdf"),
         ("two/convergence.json -o x.svg --width 100", "85, a column, or 170, a page"),

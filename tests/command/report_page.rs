@@ -145,8 +145,8 @@ fn what_is_no_result_is_named_and_left_where_it_is() {
     assert!(page.contains("first.json") && !run.stderr.contains("first.json"), "{run}");
     for (file, reason) in [
         ("a.json", "not JSON"),
-        ("b.json", "it does not say what made it"),
-        ("c.json", "where it is from cannot be read"),
+        ("b.json", "it has no provenance"),
+        ("c.json", "its provenance cannot be read"),
         ("d.json", "not what `mms study` writes: missing field `levels`"),
         ("e.json", "nothing is known of a `dance`"),
         ("f.pvd", "no states in it"),
@@ -203,5 +203,5 @@ fn formulas_of_a_file_that_changed_are_not_shown() {
     folder.write("mine.toml", &text.replace("value = 0.2", "value = 0.1"));
     folder.mms("report one");
     let page = folder.read("one/report.html");
-    assert!(!page.contains("<math") && page.contains("its text is another one now"), "{page}");
+    assert!(!page.contains("<math") && page.contains("its text has changed since"), "{page}");
 }

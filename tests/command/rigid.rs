@@ -113,7 +113,7 @@ fn what_is_no_motion_is_refused() {
     folder
         .mms("eval --rigid bar_1d --at 0.3 --time 0")
         .exits(2)
-        .complains("`--rigid` goes behind the field");
+        .complains("`--rigid` must follow the field");
     folder
         .run(&["eval", "bar_1d", "--at", "0.3", "--time", "0", "--rigid", "rotation = \"t\""])
         .exits(2)

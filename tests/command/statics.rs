@@ -159,7 +159,7 @@ fn a_relaxed_run_says_how_near_it_came() {
 fn what_an_equilibrium_has_not_is_refused_with_relax() {
     let folder = folder();
     for (command, said) in [
-        ("run bar_1d --relax", "`bar_1d` moves, and has an equilibrium at no time but by chance"),
+        ("run bar_1d --relax", "`bar_1d` moves, and is in equilibrium only by chance"),
         ("run static.toml --relax --time 1", "cannot be used with"),
         ("run static.toml --relax --history h.csv", "`--history`: the way of a relaxation"),
         ("run static.toml --relax --checkpoint c", "`--checkpoint`: the way of a relaxation"),

@@ -210,7 +210,7 @@ fn a_study_in_time_shows_the_order_of_the_integrator() {
     let first = document(&format!("{options} --integrator usl --expected-order 1"), 0);
     assert_eq!(first["verdict"], "pass");
     let run = Folder::new().mms(&format!("study bar_1d {options}")).exits(0);
-    run.prints("(l2; 3 levels, dt ").prints("that these converge, and not to what");
+    run.prints("(l2; 3 levels, dt ").prints("that the runs converge, but not to which solution");
 }
 
 /// Errors of space and of time, in runs that refine each separately: both of second order with leapfrog, of opposite sign

@@ -49,13 +49,13 @@ impl Section for VerifyDefects {
         html! {
             p {
                 "Each mistake was made on purpose, and rows of the quick matrix were run with it: a verdict had to fail. "
-                "The columns on the right are what looking at the very same runs would have said."
+                "The columns on the right are the results of looking at the same runs."
             }
             @for [row, defect] in &self.missed {
-                p.alert { strong { (row) } " does not catch " (defect) ", as it says." }
+                p.alert { strong { (row) } " does not catch " (defect) ", although it claims to." }
             }
             @for row in &self.idle {
-                p.alert { strong { (row) } " catches nothing that few others do." }
+                p.alert { strong { (row) } " catches no defect that few other rows catch." }
             }
             (table("Deliberate mistakes and what caught them", &columns, rows))
         }

@@ -57,7 +57,7 @@ impl Section for Diagnose {
 
 fn hypotheses(diagnosis: &Diagnose) -> Markup {
     let rows = diagnosis.ranked.iter().take(SHOWN).map(|it| {
-        let note = if it.plausible { "" } else { "of a size that it cannot have" };
+        let note = if it.plausible { "" } else { "of an impossible size" };
         vec![
             html! { code { (title(it)) } },
             number(it.factor, |it| format!("{it:.4}")),
@@ -116,7 +116,7 @@ fn error_fields(diagnosis: &Diagnose, fields: &ErrorFields, id: &str) -> Markup 
             @if let Some(errors) = errors {
                 figure {
                     (pictures(&format!("{id}-error-{at}"), of, &[moment(errors)], &scale, spacing(fields), &axes))
-                    figcaption { (of) " of " (fields.quantity.replace('_', " ")) ": what is smooth of it, by its length." }
+                    figcaption { (of) " of " (fields.quantity.replace('_', " ")) ": its smooth part, by its length." }
                 }
             }
         }

@@ -50,7 +50,7 @@ fn content(input: &Input) -> Result<Content, String> {
         .and_then(|source| mms_exact::Input::new(source, &options))
         .map_err(|error| format!("{error:#}").lines().next().unwrap_or_default().to_owned())?;
     if found.compiled.input_hash() != input.hash {
-        return Err("its text is another one now".to_owned());
+        return Err("its text has changed since".to_owned());
     }
     let set = found.settings(&input.set).map_err(|error| error.to_string())?;
     let document = Document::new(&found.compiled, &DERIVATION)

@@ -205,9 +205,9 @@ impl Page {
 
 /// The result of a document.
 fn entry(file: &str, document: &Value) -> Result<Entry, String> {
-    let provenance = document.get("provenance").ok_or("it does not say what made it")?;
+    let provenance = document.get("provenance").ok_or("it has no provenance")?;
     let provenance = Provenance::deserialize(provenance)
-        .map_err(|error| format!("where it is from cannot be read: {error}"))?;
+        .map_err(|error| format!("its provenance cannot be read: {error}"))?;
     if provenance.document_version > VERSION {
         return Err(format!(
             "its form is of version {}, and this `mms` reads versions up to {VERSION}: use the `mms` that wrote it, {}",

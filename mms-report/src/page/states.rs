@@ -121,7 +121,7 @@ fn vectors(document: &Document, name: &str) -> anyhow::Result<Vec<[f64; 3]>> {
     let bytes = STANDARD.decode(text.trim()).with_context(|| format!("`{name}`: not base64"))?;
     let (count, bytes) = bytes.split_first_chunk::<8>().unwrap_or((&[0; 8], &[]));
     let is_whole = u64::from_le_bytes(*count) == bytes.len() as u64 && bytes.len() % 24 == 0;
-    ensure!(is_whole, "`{name}`: not all of it is there");
+    ensure!(is_whole, "`{name}`: incomplete");
     let numbers: Vec<_> =
         bytes.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
     let is_drawn = |it: &f64| it.abs() <= LARGEST;
@@ -155,9 +155,9 @@ impl Section for States {
             figure {
                 (pictures(id, &format!("Particles of {}", self.name), &moments, &scale, self.spacing(step), &[]))
                 figcaption {
-                    "Particles of a run where they are, coloured by how far they are from where the field says."
+                    "Particles of a run at their positions, coloured by the distance from the exact positions."
                     @if step > 1 { " One of " (step) " is drawn." }
-                    @if dimension == 3 { " Seen from X = Y = Z; those in front hide those behind." }
+                    @if dimension == 3 { " Seen from X = Y = Z; particles in front hide particles behind." }
                 }
             }
         }

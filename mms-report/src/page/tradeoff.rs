@@ -89,7 +89,7 @@ fn goal(tradeoff: &Tradeoff) -> Option<String> {
 fn advice(tradeoff: &Tradeoff) -> Markup {
     html! {
         p {
-            @if let Some(goal) = goal(tradeoff) { "Wanted is the best method " (goal) ". " }
+            @if let Some(goal) = goal(tradeoff) { "Goal: the best method " (goal) ". " }
             @match &tradeoff.choice {
                 Some(choice) => {
                     "Choose " strong { (method(choice)) } ", " (choice.precision) ", " (choice.form) " form, "

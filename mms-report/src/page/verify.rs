@@ -34,7 +34,7 @@ impl Section for Verify {
         let groups = || self.rows.chunk_by(|a, b| parts(a).0 == parts(b).0);
         html! {
             p {
-                "Each mode by the field that isolates it. Theory expects of some modes that they do not converge: "
+                "Each mode by the field that isolates it. Theory expects some modes not to converge: "
                 "what counts is whether the verdict is the expected one."
             }
             dl.matrix {

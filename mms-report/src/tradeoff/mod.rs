@@ -216,7 +216,7 @@ impl Report<'_> {
             }
             (None, Goal::Error(target)) => sentences.push(self.unreached(target)),
             (None, Goal::Cost(budget)) => sentences.push(format!(
-                "No run that was made costs as little as {}: give more.",
+                "No run costs as little as {}: allow more.",
                 measure.show(budget)
             )),
         }
@@ -248,7 +248,7 @@ impl Report<'_> {
         let errors: Vec<_> = self.trials().iter().filter_map(|it| it.error.clone().ok()).collect();
         let exact = errors.iter().filter(|error| **error == 0.0).count();
         format!(
-            "{exact} of the {} runs that came to their end make no error: only their cost tells these apart.",
+            "{exact} of the {} runs that ended make no error: only their cost tells these apart.",
             errors.len()
         )
     }
@@ -261,7 +261,7 @@ impl Report<'_> {
         }
         let (gain, default) = match (self.gain(), self.found.default) {
             (Some(gain), Some(default)) => (gain, default),
-            _ => return format!("The default, {setting}, does not get there: {}.", self.why_not()),
+            _ => return format!("The default, {setting}, does not reach it: {}.", self.why_not()),
         };
         match self.plan.goal {
             Goal::Error(_) => format!(
@@ -290,16 +290,16 @@ impl Report<'_> {
     /// The reason why no run meets a target.
     pub fn unreached(&self, target: f64) -> String {
         let least = self.front().last().and_then(|trial| Some((trial.error.clone().ok()?, *trial)));
-        let least = least.map_or("no run came to its end".into(), |(error, trial)| {
+        let least = least.map_or("no run reached its end".into(), |(error, trial)| {
             format!("the least is {error:.2e}, of {} on {} cells", trial.setting, trial.cells)
         });
         let more = match &self.found.predicted {
             Some((setting, it)) => format!(
-                "{setting} is predicted to get there on {:.0} cells in {:.1e} particle-steps, where runs of more \
+                "{setting} is predicted to reach it on {:.0} cells in {:.1e} particle-steps, where runs of more \
                  than {:.1e} are left out: raise `--most-work`",
                 it.cells, it.work, self.plan.most_work
             ),
-            None => "no setting is predicted to get there: errors no longer shrink with the cells, or runs stop".into(),
+            None => "no setting is predicted to reach it: errors no longer shrink with the cells, or runs stop".into(),
         };
         format!("An error of {target:e} is not reached: {least}; {more}.")
     }
