@@ -295,11 +295,11 @@ impl Report<'_> {
         });
         let more = match &self.found.predicted {
             Some((setting, it)) => format!(
-                "{setting} is predicted to reach it on {:.0} cells in {:.1e} particle-steps, where runs of more \
+                "{setting} is predicted to get there on {:.0} cells in {:.1e} particle-steps, where runs of more \
                  than {:.1e} are left out: raise `--most-work`",
                 it.cells, it.work, self.plan.most_work
             ),
-            None => "no setting is predicted to reach it: errors no longer shrink with the cells, or runs stop".into(),
+            None => "no setting is predicted to get there: errors no longer shrink with the cells, or runs stop".into(),
         };
         format!("An error of {target:e} is not reached: {least}; {more}.")
     }
