@@ -108,7 +108,7 @@ def study(
 ) -> Study:
     """Runs a method of this project's own solver on levels of refinement: errors, orders, verdict. No file is written.
 
-    `study("bar_1d", shape="cpgimp", cells=[8, 16, 32])`. It takes the options of `mms study`, with an underscore for a hyphen;
+    `study("bar_1d", shape="cpgimp", cells=[8, 16, 32])`. Options are as in `mms study`, with an underscore for a hyphen;
     True means an option without a value. A study has one method.
 
     `progress` is a function that takes each line about how far runs are; True prints them to stderr, and None does where
@@ -205,7 +205,7 @@ def campaign(
     """Runs a solver that is a Python function on meshes, from coarse to fine, and judges its results.
 
     `solver(problem)` gets a `Problem`, with so many particles in each direction of a cell, and returns `problem.results(u)`, or
-    results as `judge` takes them. It takes the options of `judge`, as in `expected_order=2`; `progress` is used as in `study`.
+    results as `judge` takes them. Options are as in `judge`, for example `expected_order=2`; `progress` is as in `study`.
 
     Raises what the solver raises, and MmsError where its results are none of the field.
     """
