@@ -1,15 +1,14 @@
 //! Proves that a field stays within one analytic branch of every function that it uses.
 //!
-//! Derivatives do not know of a cut: where u jumps, all that is derived may be finite and J positive. So the
-//! formulas of a file are kept as they are written (`mechanics/model/written.rs`), and for each node of their
-//! canonical form the limit of its function (`limits.rs`) is proved over the body, the time window and the ranges
-//! of parameters. The same is done for W at the strain of the field, the density, the moduli, the fibres and a
-//! rigid motion. What canonical form has cancelled, such as one of `sqrt(X)*sqrt(X)`, needs a value and no more;
-//! what no variable moves does, too. All else is made of these formulas by derivatives and whole powers, and is
-//! analytic where it is finite.
+//! A derivative does not show a cut: if u jumps, all derivatives may be finite and J positive. The model therefore keeps the
+//! formulas of a file as they are written (`mechanics/model/written.rs`). For each node of their canonical form, the limit
+//! of its function (`limits.rs`) is proved over the body, the time window and the ranges of parameters. The same
+//! is proved for W at the strain of the field, the density, the moduli, the fibres and a rigid motion. A subexpression that canonical
+//! form has cancelled, such as one of `sqrt(X)*sqrt(X)`, needs only a value, and so does one without variables. All
+//! other quantities follow from these formulas by derivatives and whole powers, and are analytic if they are finite.
 //!
-//! A sign that differs at two points of a cell is followed to where it changes, in 77 digits: that point is named,
-//! at the place of the call. What is neither proved nor refuted is refused as unproved.
+//! If a sign differs at two points of a cell, a bisection in 77 digits finds where it changes: the message names that point,
+//! at the call. A limit that is neither proved nor refuted is refused as unproved.
 
 use std::cmp::Ordering;
 
@@ -35,36 +34,36 @@ use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::substitute;
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
-/// How often the way between two points is halved on which a limit is met.
+/// The number of bisections between two points on different sides of a limit.
 const HALVINGS: usize = 60;
 
-/// How many evaluations a cell takes: its bounds, those in its middle, and its corners.
+/// The evaluations per cell: its bounds, the bounds at its middle, and its corners.
 const OF_A_CELL: usize = 4;
 
 /// An operation that ends within the domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exit {
-    /// Where it stands.
+    /// The place of the operation.
     pub span: Span,
-    /// What does not hold.
+    /// The condition that does not hold.
     pub must: Must,
-    /// A place where it does not, or near which it is not proved to.
+    /// A point at which the condition does not hold, or near which it is not proved.
     pub witness: Witness,
-    /// Whether 77 digits say that it does not.
+    /// True if an evaluation in 77 digits refutes the condition.
     pub is_certain: bool,
 }
 
-/// What must hold for an operation, in the variables of a chart.
+/// The condition of an operation, in the variables of a chart.
 struct Condition {
     must: Must,
     operands: Vec<Expr>,
-    /// What it follows from.
+    /// The limit from which the condition follows.
     limit: Limit,
 }
 
-/// The operations that are not proved to stay within one branch, and how many cells it took: at most `cells` for each,
-/// and so many that all take no more than some `operations`. `motion` is that of a field whose J is positive: without it,
-/// nothing is asked of W.
+/// Returns the operations that are not proved to stay within one branch, and the number of cells that the proofs used: at
+/// most `cells` for each, and at most `operations` evaluated instructions in total. `motion` is the motion of a field with
+/// positive J; if it is `None`, W is not examined.
 pub fn exits(
     graph: &mut Graph,
     chart: &Chart,
@@ -104,7 +103,7 @@ pub fn exits(
     (found, taken)
 }
 
-/// J as W knows it.
+/// J in the symbols of W.
 fn volume(graph: &mut Graph) -> Expr {
     let (one, change) = (graph.number(1), graph.symbol(VOLUME));
     graph.add(one, change)
@@ -114,7 +113,7 @@ fn volume(graph: &mut Graph) -> Expr {
 struct Steps<'a> {
     part: &'a Part,
     formulas: Vec<Expr>,
-    /// Those that are quantities of the field themselves, and so are known to be finite or not.
+    /// The formulas that are quantities of the field; whether they are finite is proved elsewhere.
     quantities: Vec<Expr>,
     values: Vec<Expr>,
     limits: Vec<Vec<Limit>>,
@@ -131,7 +130,7 @@ impl<'a> Steps<'a> {
         Steps { part, formulas, quantities, values, limits }
     }
 
-    /// What must hold of all of it, each once. `invariants` are those of W, of which it is known already that J > 0.
+    /// Lists the conditions of all steps, each once. `invariants` are the arguments of W; J > 0 is proved already.
     fn conditions(
         &self,
         graph: &mut Graph,
@@ -141,11 +140,11 @@ impl<'a> Steps<'a> {
         let left = limits(graph, &self.formulas);
         let key = |limit: &Limit| (limit.analytic, limit.operands.clone());
         let known: SortedSet<_> = left.iter().map(key).collect();
-        // At a pole a quantity is not finite; what it is made of may have one that drops out of all of them.
+        // At a pole a quantity is not finite; a pole of a formula may cancel in all quantities.
         let finite: SortedSet<_> = limits(graph, &self.quantities).iter().map(key).collect();
         let strict = left.into_iter().filter(|it| !(it.is_pole && finite.contains(&key(it))));
         let strict = strict.map(|limit| (Some(limit.analytic), limit));
-        // What canonical form has cancelled needs no more than a value.
+        // A step that canonical form has cancelled only needs a value.
         let cancelled = self.limits.iter().flatten().filter(|limit| !known.contains(&key(limit)));
         let cancelled = cancelled.map(|limit| (limit.defined, limit.clone()));
         let volume = invariants.map(|_| volume(graph));
@@ -162,7 +161,7 @@ impl<'a> Steps<'a> {
             let varies = operands.iter().any(|operand| {
                 graph.symbols(*operand).iter().any(|symbol| chart.variables().contains(symbol))
             });
-            // What does not vary needs no derivative either.
+            // An operand that does not vary needs no derivative.
             let Some(must) = (if varies { must } else { limit.defined }) else { continue };
             if seen.insert((must, operands.clone())) {
                 found.push(Condition { must, operands, limit });
@@ -171,7 +170,7 @@ impl<'a> Steps<'a> {
         found
     }
 
-    /// Where a limit stands: the step that has it, else the first whose limits are about what it needs, else the formula.
+    /// The place of a limit: the step that has it, else the first step whose limits concern its operand, else the formula.
     fn blame(&self, graph: &Graph, limit: &Limit) -> Option<Span> {
         let operand = limit.operands[0];
         let uses = |expr: Expr| graph.reachable(&[expr]).contains(&operand);
@@ -188,7 +187,7 @@ impl<'a> Steps<'a> {
     }
 }
 
-/// The invariants that W is a function of, in the variables of a chart.
+/// The invariants on which W depends, in the variables of a chart.
 fn invariants(
     graph: &mut Graph,
     chart: &Chart,
@@ -204,8 +203,8 @@ fn invariants(
     Strain::new(graph, tensor, &kind, &Relations::default()).invariants
 }
 
-/// Proves what must hold of formulas, or finds where it does not, and whether that is certain; the cells that it took come
-/// second.
+/// Proves a condition on formulas, or returns a point where it does not hold and whether that is certain; second, the number
+/// of cells used.
 fn judge(
     chart: &Chart,
     formulas: &Formulas,
@@ -237,7 +236,7 @@ fn judge(
     (Some((witness, is_certain)), found.cells)
 }
 
-/// Whether what must hold of values does so everywhere within their bounds.
+/// Whether a condition holds everywhere within the bounds of its operands.
 fn holds(must: Must, values: &[Interval]) -> bool {
     let is_not_zero = |value: &Interval| !value.contains(0.0);
     values.iter().all(|value| value.is_defined())
@@ -249,7 +248,7 @@ fn holds(must: Must, values: &[Interval]) -> bool {
         }
 }
 
-/// Looks for a point where what must hold does not.
+/// Searches for a point that violates the condition.
 struct Hunter<'a> {
     chart: &'a Chart,
     must: Must,
@@ -257,7 +256,7 @@ struct Hunter<'a> {
     precise: Evaluation<'a, Precise>,
 }
 
-/// On which side of a limit a point is.
+/// The side of a limit on which a point lies.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Side {
     Below,
@@ -265,7 +264,7 @@ enum Side {
     Above,
 }
 
-/// The side of a point by the signs of the operands; `None` where it is nowhere near.
+/// The side of a point by the signs of the operands; `None` if the limit is not near.
 fn side(must: Must, signs: &[Option<Ordering>]) -> Option<Side> {
     use Ordering::{Equal, Greater, Less};
     let all = signs.iter().copied().collect::<Option<Vec<_>>>()?;
@@ -292,8 +291,8 @@ fn sign(value: &Precise) -> Option<Ordering> {
 }
 
 impl Hunter<'_> {
-    /// In the middle and at the corners of a cell, and between two of them that are on both sides of the limit: there the
-    /// operand, which is continuous, passes 0.
+    /// Searches the middle and the corners of a cell, and the segment between two of them on different sides of the limit:
+    /// on it the operand, which is continuous, is 0 somewhere.
     fn hunt(&mut self, cell: &Cell) -> Option<Witness> {
         let mut points = corners(cell);
         points.push(cell.centre());
@@ -313,7 +312,7 @@ impl Hunter<'_> {
         self.between(below?, above?)
     }
 
-    /// The point between two others where the limit is met.
+    /// The point between two others at which the operand reaches the limit.
     fn between(&mut self, mut below: Vec<f64>, mut above: Vec<f64>) -> Option<Witness> {
         if [&below, &above].map(|end| self.side(end)) != [Some(Side::Below), Some(Side::Above)] {
             return None;
