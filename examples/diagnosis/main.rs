@@ -27,15 +27,16 @@ A solver makes a mistake of some size on a field of the gallery, and writes its 
 `mms diagnose` gets only these results. A seed determines fields, mistakes, sizes, meshes, times and methods: shape function,
 integrator, transfer, formulation, jitter, offset of the grid. A case is drawn again if a run stops, or if its error is at most
 three times the error of the right run. The list of hypotheses belongs to this version (its hash is printed), and was not
-changed after the seed was drawn. The solvers share the code of the mistakes with the hypotheses; their methods are of the
-same project.
+changed after the seed was drawn. These solvers are not independent of the hypotheses: both use the same code of the mistakes,
+and methods of this project.
 
 * closed: the mistake is in the list. The answer is right if the mistake is the first name, or equivalent to it.
 * open: the family of the mistake is removed from the list, so that every name is wrong.
 * two: two mistakes at once, of different families, in computed quantities. The answer is right if it names one of them.
 * right: no mistake, integrators of second order.
 
-In `share alone right`, the mistake explains the largest part of the error, whether or not the answer names it.
+`share alone right` counts the cases in which the mistake explains the largest part of the error, whether or not the answer
+names it.
 
 `conformal_sector_2d` is left out: it is unstable under its own loads, so no solver can follow it. Intervals
 are for 95 %, after Wilson.
@@ -105,7 +106,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         println!("{}", tally.row(set));
     }
-    println!("\nOf the closed set, by mistake:\n");
+    println!("\nThe closed set, by mistake:\n");
     println!(
         "| mistake | cases | right | wrong | unexplained | nothing |\n|---|---|---|---|---|---|"
     );

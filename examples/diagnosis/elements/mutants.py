@@ -230,9 +230,9 @@ def main():
     print("Each mutant is the independent solver with one operator, operand, sign, order of axes or statement changed by")
     print(f"rule (`examples/diagnosis/elements/mutants.py`), on `{FIELD}`, whose law is typed by hand. The changed function")
     print("determines the stage of the mutant. `mms diagnose` gets a table of stresses, then forces at nodes at an exact state, with")
-    print("all terms and without one, then results of two meshes. The first wrong answer gives the stage at fault; if the balance is")
-    print(f"wrong, the stage is the term without which it is right. {silent} mutants are not counted: they stop, or their error is at most")
-    print("three times the error of the right solver.")
+    print("all terms and without one, then results of two meshes. The first of these tests that shows an error determines the stage at")
+    print("fault; if the balance is wrong, the stage is the term without which it is right.")
+    print(f"{silent} mutants are not counted: they stop, or their error is at most three times the error of the right solver.")
     print("\n| stage | mutants | stage right |\n|---|---|---|")
     for stage, (hits, count) in found.items():
         print(f"| {stage} | {count} | {hits} |")

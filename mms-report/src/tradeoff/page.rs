@@ -10,16 +10,17 @@ use super::{Report, factor};
 const INTRODUCTION: &str = "\
 # Speed against accuracy
 
-The factor by which the choice of `mms tradeoff` beats the default (updated cpgimp leapfrog, f64, 2 particles per cell and
-direction, Courant 0.4), for a largest displacement error over time and particles of 1e-3, 1e-4 and 1e-5. The command is
+`mms tradeoff` chooses the cheapest method for an error. These tables compare its choice with the default of `mms run` (updated
+cpgimp leapfrog, f64, 2 particles per cell and direction, Courant 0.4). The errors are 1e-3, 1e-4 and 1e-5: the largest error of
+the displacement over time and particles. The command is
 
 ```console
 $ cargo run --release -- tradeoff --page > docs/tradeoff.md
 ```
 
-Both run on one thread. The cost of the default follows from its power law, through its run nearest to the target. A time
-is the number of particle-steps, times the time of one in the longest runs with the method. Runs of more than 1e8
-particle-steps are left out.
+All runs use one thread. The cost of the default is extrapolated by its power law from its run nearest to the target. A time is
+the number of particle-steps, times the time of one particle-step in the longest runs with the method. No run has more than
+1e8 particle-steps.
 ";
 
 /// Tables of fields, one after the other.

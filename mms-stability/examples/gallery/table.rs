@@ -12,8 +12,9 @@ use mms_stability::{Stability, judge};
 const HEAD: &str = "\
 # Is the gallery fit to verify with?
 
-Results of `mms check` for each field, at the defaults of its parameters; see [their meaning](guide/stability.md). Moduli are
-relative to mu at rest. Written by
+A solver can follow a motion only if the motion is stable. This table has the results of `mms check` for each field, at the
+defaults of its parameters; [Stability of a field](guide/stability.md) explains them. Moduli are relative to mu at rest. The
+command is
 
 ```sh
 cargo run -p mms-stability --example gallery > docs/stability.md
@@ -21,7 +22,7 @@ cargo run -p mms-stability --example gallery > docs/stability.md
 
 Acoustic tensors: the least eigenvalue of a sample, and whether all are proved to be positive. Impedance: its least
 eigenvalue on the worst face that can move. Coercivity: at the worst corner of two such faces. Growth: the factor by which
-a long wave grows over the window, and the least w^2 in 1/s^2.
+a long wave grows over the time window, and the least w^2 in 1/s^2. The last column counts the warnings of `mms check`.
 
 | field | acoustic tensors | impedance | coercivity | growth | least w^2 | warned of |
 |---|---|---|---|---|---|---|
