@@ -208,6 +208,7 @@ def judge(
     over: str | None,
     part: bool,
     all_components: bool,
+    progress: Callable[[str], object] | None,
 ) -> dict[str, str | None]: ...
 def diagnose(
     field: Field,
@@ -220,6 +221,7 @@ def diagnose(
     without: Sequence[str],
     residual_sign: float,
     nodal: bool,
+    progress: Callable[[str], object] | None,
 ) -> tuple[dict[str, str | None], list[str]]: ...
 def study(
     field: Field, options: Sequence[str], progress: Callable[[str], object] | None

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::{Domain, Fill, ManufacturedField, Matrix, Vector};
 
+use crate::follow::{Follow, Unfollowed};
 use crate::law::{LAWS, Law, moduli};
 use crate::revolved::Revolved;
 
@@ -74,6 +75,8 @@ pub struct Exact<'a, const D: usize> {
     pub parameters: Option<&'a dyn Parameters<D>>,
     /// The field in space, if it is axisymmetric.
     pub space: Option<&'a Exact<'a, 3>>,
+    /// The follower of what is done with the field.
+    pub follow: &'a dyn Follow,
     moduli: Moduli,
     /// Whether strains have no shears along the hoop: this is an axisymmetric field in space.
     is_revolved: bool,
@@ -119,6 +122,7 @@ impl<'a, const D: usize> Exact<'a, D> {
             law: None,
             parameters: None,
             space: None,
+            follow: &Unfollowed,
             moduli: Moduli::None,
             is_revolved,
         };

@@ -169,7 +169,7 @@ where
             shown: runs.shown(it),
         }
     };
-    Ok(on_all_processors(hypotheses.len(), one))
+    on_all_processors(hypotheses.len(), ("mistake to exclude", exact.follow), one)
 }
 
 /// Points all over the body, at the times of a study.

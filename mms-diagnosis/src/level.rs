@@ -10,6 +10,7 @@ use mms_runtime::study::Solve;
 use crate::changed::Without;
 use crate::evidence::{Frame, Mesh, Seen, Sight};
 use crate::exact::Exact;
+use crate::follow::Follow;
 use crate::hypothesis::{Change, Hypothesis};
 use crate::run::{Obstacle, Plan, Responses, written};
 use crate::smooth::{less, size};
@@ -40,9 +41,11 @@ pub struct Level<'a, const D: usize> {
 fn of_methods<const D: usize>(
     sight: &Sight<'_, D>,
     solvers: &dyn Responses<'_, D>,
-) -> Vec<Option<Vec<f64>>> {
+    follow: &dyn Follow,
+) -> Result<Vec<Option<Vec<f64>>>, Obstacle> {
     let right = |method| Some(sight.see(&solvers.right(method)?)?.coefficients);
-    on_all_processors(solvers.methods(), right)
+    let says = format!("right method on cells of {:.3e}", solvers.cell_size());
+    on_all_processors(solvers.methods(), (&says, follow), right)
 }
 
 impl<'a, const D: usize> Level<'a, D> {
@@ -54,7 +57,7 @@ impl<'a, const D: usize> Level<'a, D> {
     ) -> Result<Self, Obstacle> {
         let sight = frame.sight(mesh).ok_or(Obstacle::NotFinite)?;
         let seen = sight.errors_of(exact).ok_or(Obstacle::NotFinite)?;
-        let right = of_methods(&sight, &*solvers);
+        let right = of_methods(&sight, &*solvers, exact.follow)?;
         Ok(Level { mesh, sight, seen, solvers, right })
     }
 
@@ -119,7 +122,7 @@ impl<'a, const D: usize> Levels<'a, D> {
             }
             _ => {
                 let solvers = fine.solvers.coarser();
-                orders(&fine, &*solvers, &of_methods(&fine.sight, &*solvers))
+                orders(&fine, &*solvers, &of_methods(&fine.sight, &*solvers, exact.follow)?)
             }
         };
         Ok(Levels { exact, frame, fine, coarse, orders })
@@ -220,11 +223,25 @@ fn orders<const D: usize>(
     fine.right.iter().zip(coarse).map(one).collect()
 }
 
-/// Maps a function over the numbers below `count` on all processors; the results are in the order of the numbers.
-pub fn on_all_processors<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+/// Computes a function of the numbers below `count`, in their order. The follower gets a line for each, such as "mistake 3 of 90".
+///
+/// # Errors
+/// The follower has ended the work.
+pub fn on_all_processors<T: Send>(
+    count: usize,
+    (says, follow): (&str, &dyn Follow),
+    of: impl Fn(usize) -> T + Sync,
+) -> Result<Vec<T>, Obstacle> {
     let next = AtomicUsize::new(0);
     let worker = || {
-        let take = || Some(next.fetch_add(1, Relaxed)).filter(|it| *it < count);
+        let take = || {
+            let at = next.fetch_add(1, Relaxed);
+            if at >= count || follow.is_stopped() {
+                return None;
+            }
+            follow.say(&format!("{says}: {} of {count}", at + 1));
+            Some(at)
+        };
         std::iter::from_fn(take).map(|at| (at, of(at))).collect::<Vec<_>>()
     };
     let threads = thread::available_parallelism().map_or(1, usize::from);
@@ -232,6 +249,9 @@ pub fn on_all_processors<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) 
         let workers: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
         workers.into_iter().flat_map(|it| it.join().expect("a run that ends")).collect()
     });
+    if follow.is_stopped() {
+        return Err(Obstacle::Stopped);
+    }
     all.sort_by_key(|(at, _)| *at);
-    all.into_iter().map(|(_, it)| it).collect()
+    Ok(all.into_iter().map(|(_, it)| it).collect())
 }

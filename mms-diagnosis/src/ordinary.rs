@@ -165,35 +165,37 @@ where
         (is_asked || best.apart <= NEAR).then_some(best)
     }
 
-    /// Finds the part of the error that each hypothesis explains, on all processors. If no hypothesis explains it, tries large
-    /// mistakes, whose response is no multiple of the response to small ones.
-    fn all(&self, is_right: bool) -> Vec<Explained> {
+    /// Finds the part of the error that each hypothesis explains, on all processors. If none explains it, large mistakes are tried: the
+    /// response to a large mistake is no multiple of that to a small one.
+    fn all(&self, is_right: bool) -> Result<Vec<Explained>, Obstacle> {
         let seen: Vec<_> = self.frame.quantities.iter().map(|(it, _)| *it).collect();
-        let each = |of: &(dyn Fn(usize, &Hypothesis<D>) -> Option<Explained> + Sync)| {
-            let one = |index: usize| {
-                Some(&self.hypotheses[index])
-                    .filter(|it| it.is_of(&seen))
-                    .and_then(|it| of(index, it))
+        let each =
+            |says: &str, of: &(dyn Fn(usize, &Hypothesis<D>) -> Option<Explained> + Sync)| {
+                let one = |index: usize| {
+                    Some(&self.hypotheses[index])
+                        .filter(|it| it.is_of(&seen))
+                        .and_then(|it| of(index, it))
+                };
+                on_all_processors(self.hypotheses.len(), (says, self.exact.follow), one)
             };
-            on_all_processors(self.hypotheses.len(), one)
-        };
-        let mut all = each(&|index, it| explain(index, it, &self.error, self));
-        // Output with a fitted offset or factor explains much by chance.
+        let mut all = each("mistake", &|index, it| explain(index, it, &self.error, self))?;
+        // Output of some offset or factor explains much by chance.
         let is_output =
             |it: &Explained| matches!(self.hypotheses[it.hypothesis].change, Change::Output(_));
         let explains = |it: &Explained| it.share >= EXPLAINED && !is_output(it);
         if is_right || all.iter().flatten().any(explains) {
-            return all.into_iter().flatten().collect();
+            return Ok(all.into_iter().flatten().collect());
         }
-        let large =
-            each(&|index, it| explain_usual(index, it, &self.error, self, &it.usual(self.exact)));
+        let large = each("large mistake", &|index, it| {
+            explain_usual(index, it, &self.error, self, &it.usual(self.exact))
+        })?;
         for (first, large) in all.iter_mut().zip(large) {
             let share = |it: &Option<Explained>| it.as_ref().map_or(f64::MIN, |it| it.share);
             if share(&large) > share(first) {
                 *first = large;
             }
         }
-        all.into_iter().flatten().collect()
+        Ok(all.into_iter().flatten().collect())
     }
 }
 
@@ -303,7 +305,7 @@ where
     let (like, falls) = (solver.like.as_ref(), solver.falls.as_ref());
     let levels = Levels::new(exact, frame, meshes, like)?;
     let look = Look::new(exact, frame, levels, hypotheses, solver);
-    let explained = look.all(falls.is_some_and(|it| it.is_right));
+    let explained = look.all(falls.is_some_and(|it| it.is_right))?;
     let seen = &look.levels.fine.seen;
     let (error, ordinary) = (size(&seen.coefficients), look.ordinary());
     let mut needs = Vec::new();

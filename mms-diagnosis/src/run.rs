@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use mms_runtime::body::bounding_box;
-use mms_runtime::study::{Frame as State, Observer, Solve, Watch};
+use mms_runtime::study::{Checkpoint, Frame as State, Observer, Solve, Watch};
 use mms_runtime::{
     Condition, Division, FormulationName, IntegratorName, ManufacturedField, Method, Refusal,
     Setup, ShapeName, Transfer, Vector,
@@ -13,6 +13,7 @@ use mms_runtime::{
 use crate::changed::{Changed, Without};
 use crate::evidence::{Frame, Mesh, Snapshot, nearest};
 use crate::exact::{Exact, Quantity, vectors};
+use crate::follow::Follow;
 use crate::hypothesis::{Change, Given, Hypothesis};
 use crate::sample::Sampling;
 use crate::smooth::less;
@@ -46,6 +47,8 @@ pub enum Obstacle {
     Refused(Refusal),
     /// The error of the method that the user named falls with this order on this field, or, if `None`, a run of it stops.
     Diverges(Option<f64>),
+    /// The follower has ended the diagnosis.
+    Stopped,
 }
 
 impl std::error::Error for Obstacle {}
@@ -95,6 +98,7 @@ impl fmt::Display for Obstacle {
                 f,
                 "this method stops on this field, so nothing can be held to it: expected a method that converges"
             ),
+            Obstacle::Stopped => write!(f, "stopped, as somebody asked for"),
             Obstacle::TooManySteps(steps) => write!(
                 f,
                 "waves cross the body so often until then that each run would take {steps:.0} steps: give results of an \
@@ -182,6 +186,7 @@ fn methods(setup: &Setup, may_be_offset: bool) -> Vec<Method> {
 
 /// The states of a run at the wanted times.
 struct States<'a> {
+    follow: &'a dyn Follow,
     times: &'a [f64],
     window: [f64; 2],
     seen: Vec<State>,
@@ -189,6 +194,15 @@ struct States<'a> {
 
 impl Observer for States<'_> {
     fn step(&mut self, _: usize, _: usize) {}
+
+    /// Asks for the state where the run has to end.
+    fn keeps(&self, _: usize, _: usize) -> bool {
+        self.follow.is_stopped()
+    }
+
+    fn keep(&mut self, _: &dyn Checkpoint) -> Result<(), String> {
+        Err(Obstacle::Stopped.to_string())
+    }
 
     fn wants(&self, step: usize, steps: usize) -> bool {
         let [start, end] = self.window;
@@ -269,8 +283,8 @@ where
         if end <= start {
             return None;
         }
-        let mut states =
-            States { times: &self.frame.times, window: [start, end], seen: Vec::new() };
+        let (follow, times) = (self.exact.follow, &self.frame.times);
+        let mut states = States { follow, times, window: [start, end], seen: Vec::new() };
         let field: &dyn ManufacturedField<f64, D> = field;
         let cells = self.division();
         let run = f64::run(field, method, &cells, Watch::Displacement, &mut states).ok()?;

@@ -10,6 +10,7 @@ use crate::closed_form::{self, ClosedForm, Values};
 use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use crate::exact::{Exact, Parameters, Quantity, vectors};
 use crate::excluded::{Excluded, Study, excluded};
+use crate::follow::{Follow, Unfollowed};
 use crate::hypothesis::{Hypothesis, all};
 use crate::list::{Listed, listed};
 use crate::material::{Material, Own};
@@ -102,12 +103,13 @@ const COURANT: f64 = 0.4;
 /// Diagnoses evidence of a field.
 ///
 /// # Errors
-/// Evidence that cannot be diagnosed.
+/// Evidence with which that is not possible; a follower that ends the diagnosis.
 pub fn diagnose(
     scene: &Scene<f64>,
     evidence: &Evidence,
     solver: &Solver,
     material: &Material<'_>,
+    follow: &dyn Follow,
 ) -> Result<Diagnosis, Obstacle> {
     match scene {
         Scene::Line(field) => {
@@ -115,21 +117,21 @@ pub fn diagnose(
                 Scene::Line(field) => Some(field),
                 _ => None,
             });
-            of(field.as_ref(), &own, evidence, solver)
+            of(field.as_ref(), &own, evidence, solver, follow)
         }
         Scene::Plane(field) => {
             let own = Own::new(material, |it| match it {
                 Scene::Plane(field) => Some(field),
                 _ => None,
             });
-            of(field.as_ref(), &own, evidence, solver)
+            of(field.as_ref(), &own, evidence, solver, follow)
         }
         Scene::Space(field) => {
             let own = Own::new(material, |it| match it {
                 Scene::Space(field) => Some(field),
                 _ => None,
             });
-            of(field.as_ref(), &own, evidence, solver)
+            of(field.as_ref(), &own, evidence, solver, follow)
         }
     }
 }
@@ -160,7 +162,7 @@ where
 {
     let meshes = thinned::<D>(meshes);
     let Some(mesh) = meshes.last() else { return Ok(Vec::new()) };
-    with_exact(field, None, (mesh.cell_size, None), |exact| {
+    with_exact(field, None, (mesh.cell_size, None), &Unfollowed, |exact| {
         like::orders_of(exact, &frame(exact, &meshes)?, mesh, method)
     })
 }
@@ -168,12 +170,16 @@ where
 /// Lists the mistakes that results exclude, if their errors are no larger than a method's error.
 ///
 /// # Errors
-/// Runs of our own that would take too long, or that stop.
-pub fn excludes(scene: &Scene<f64>, study: &Study) -> Result<Vec<Excluded>, Obstacle> {
+/// Runs of our own that would take too long, or that stop; a follower that ends the work.
+pub fn excludes(
+    scene: &Scene<f64>,
+    study: &Study,
+    follow: &dyn Follow,
+) -> Result<Vec<Excluded>, Obstacle> {
     match scene {
-        Scene::Line(field) => excludes_of(field.as_ref(), study),
-        Scene::Plane(field) => excludes_of(field.as_ref(), study),
-        Scene::Space(field) => excludes_of(field.as_ref(), study),
+        Scene::Line(field) => excludes_of(field.as_ref(), study, follow),
+        Scene::Plane(field) => excludes_of(field.as_ref(), study, follow),
+        Scene::Space(field) => excludes_of(field.as_ref(), study, follow),
     }
 }
 
@@ -198,9 +204,15 @@ pub fn is_at_rest(scene: &Scene<f64>) -> bool {
 /// All hypotheses about a field.
 pub fn hypotheses(scene: &Scene<f64>) -> Vec<Listed> {
     match scene {
-        Scene::Line(field) => with_exact(field.as_ref(), None, (1.0, Some(1.0)), |it| listed(it)),
-        Scene::Plane(field) => with_exact(field.as_ref(), None, (1.0, Some(1.0)), |it| listed(it)),
-        Scene::Space(field) => with_exact(field.as_ref(), None, (1.0, Some(1.0)), |it| listed(it)),
+        Scene::Line(field) => {
+            with_exact(field.as_ref(), None, (1.0, Some(1.0)), &Unfollowed, |it| listed(it))
+        }
+        Scene::Plane(field) => {
+            with_exact(field.as_ref(), None, (1.0, Some(1.0)), &Unfollowed, |it| listed(it))
+        }
+        Scene::Space(field) => {
+            with_exact(field.as_ref(), None, (1.0, Some(1.0)), &Unfollowed, |it| listed(it))
+        }
     }
 }
 
@@ -210,6 +222,7 @@ fn with_exact<const D: usize, R>(
     field: &dyn ManufacturedField<f64, D>,
     parameters: Option<&dyn Parameters<D>>,
     (cell_size, time_step): (f64, Option<f64>),
+    follow: &dyn Follow,
     then: impl FnOnce(&mut Exact<'_, D>) -> R,
 ) -> R {
     let ordinary = || COURANT * cell_size / Exact::new(field, 1.0, 1.0).wave_speed();
@@ -218,7 +231,7 @@ fn with_exact<const D: usize, R>(
     let is_axisymmetric = field.axisymmetric().is_some();
     let space = is_axisymmetric.then(|| Exact::in_space(&revolved, cell_size, time_step));
     let mut exact = Exact::new(field, cell_size, time_step);
-    (exact.space, exact.parameters) = (space.as_ref(), parameters);
+    (exact.space, exact.parameters, exact.follow) = (space.as_ref(), parameters, follow);
     then(&mut exact)
 }
 
@@ -227,7 +240,7 @@ fn closed_form_of<const D: usize>(
     of: ClosedForm,
     values: &Values<'_>,
 ) -> Option<Ranked> {
-    with_exact(field, None, (1.0, None), |exact| {
+    with_exact(field, None, (1.0, None), &Unfollowed, |exact| {
         closed_form::diagnose(exact, of, values, all(exact))
     })
 }
@@ -235,11 +248,12 @@ fn closed_form_of<const D: usize>(
 fn excludes_of<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
     study: &Study,
+    follow: &dyn Follow,
 ) -> Result<Vec<Excluded>, Obstacle>
 where
     f64: Solve<D>,
 {
-    with_exact(field, None, (study.cell_size, study.time_step), |exact| {
+    with_exact(field, None, (study.cell_size, study.time_step), follow, |exact| {
         excluded(exact, study, &all(exact))
     })
 }
@@ -249,6 +263,7 @@ fn of<const D: usize>(
     parameters: &Own<'_, D>,
     evidence: &Evidence,
     solver: &Solver,
+    follow: &dyn Follow,
 ) -> Result<Diagnosis, Obstacle>
 where
     f64: Solve<D>,
@@ -260,7 +275,7 @@ where
         Evidence::State { cell_size, .. } => (*cell_size, None),
         Evidence::Law(_) | Evidence::Tangent(_) => (1.0, None),
     };
-    with_exact(field, Some(parameters), (cell_size, time_step), |exact| {
+    let diagnosed = with_exact(field, Some(parameters), (cell_size, time_step), follow, |exact| {
         let hypotheses = all(exact);
         let unseen = match evidence {
             _ if exact.space.is_none() => None,
@@ -286,7 +301,8 @@ where
             Evidence::Law(law) => of_law(exact, law, hypotheses),
             Evidence::Tangent(law) => of_tangent(exact, law, hypotheses),
         }
-    })
+    });
+    if follow.is_stopped() { Err(Obstacle::Stopped) } else { diagnosed }
 }
 
 fn of_results<const D: usize>(

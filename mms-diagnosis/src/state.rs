@@ -163,6 +163,7 @@ pub fn diagnose<const D: usize>(
         .iter()
         .enumerate()
         .filter(|(_, it)| is_shown(&it.change))
+        .take_while(|_| !exact.follow.is_stopped())
         .filter_map(|(index, hypothesis)| explain(index, hypothesis, &error, &make))
         .collect();
     let mut cannot_be_seen = unseen(hypotheses, &explained, floor.min(1e-6));

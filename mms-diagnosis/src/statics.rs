@@ -201,6 +201,9 @@ impl<'a, const D: usize> System<'a, D> {
         let mut last = tangent.solve(out)?;
         let mut history: Vec<[DVector<f64>; 2]> = Vec::new();
         for _ in 0..ROUNDS {
+            if self.weak.exact.follow.is_stopped() {
+                return None;
+            }
             let own = accelerated(&history, &last);
             let halved = |half: usize| &parts + &own * 0.5_f64.powi(half as i32);
             let (found, next) =

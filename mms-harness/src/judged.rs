@@ -3,9 +3,9 @@
 use mms_documents::provenance::Provenance;
 use mms_exact::Exact;
 use mms_files::results::Disk;
-use mms_judge::Judgements;
 use mms_judge::measured::Measured;
 use mms_judge::results::{Comparison, Measurement, Reading, Results, measure};
+use mms_judge::{Judgements, Unfollowed};
 use mms_results::Snapshot;
 
 use super::plan::{Job, Judging, Planned};
@@ -61,7 +61,14 @@ impl<'a> Judged<'a> {
                 stopped(&mut measurement.measured, planned, &jobs);
                 let provenance = provenance(planned);
                 let time_step = jobs.iter().filter_map(|job| job.time_step).reduce(f64::min);
-                match Judgements::of_results(&exact, &files, measurement, time_step, provenance) {
+                match Judgements::of_results(
+                    &exact,
+                    &files,
+                    measurement,
+                    time_step,
+                    provenance,
+                    &Unfollowed,
+                ) {
                     Ok(judgements) => judged.judgements = Some(judgements),
                     Err(error) => judged.mistake = Some(format!("{error:#}")),
                 }
@@ -97,6 +104,7 @@ fn measured(
         orders: &options.orders,
         has_steps: study.time_steps.is_some(),
         tighter: None,
+        follow: &Unfollowed,
     };
     let mut measurement = measure(all, &reading, exact, comparison)?;
     if study.time_steps.is_some() {

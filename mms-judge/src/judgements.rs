@@ -1,6 +1,7 @@
 //! Judged errors, and the document of a judgement.
 
 use mms_convergence::{Basis, Finding, Judgement, Kind, Level, RULE, Verdict};
+use mms_diagnosis::follow::Follow;
 use mms_documents::Names;
 use mms_documents::judge as documents;
 use mms_documents::provenance::Provenance;
@@ -78,11 +79,12 @@ impl Judgements {
         measurement: Measurement,
         time_step: Option<f64>,
         provenance: Provenance,
+        follow: &dyn Follow,
     ) -> anyhow::Result<Self> {
         let times = measurement.times.clone();
         let report = Self::without_exclusions(exact, files, measurement, provenance)?;
         let exclusions = match report.verdict().is_good() {
-            true => exclusions(exact, &report.measured, times, time_step)?,
+            true => exclusions(exact, &report.measured, times, time_step, follow)?,
             false => None,
         };
         Ok(Self { exclusions, ..report })

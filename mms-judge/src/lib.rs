@@ -14,4 +14,6 @@ pub mod results;
 pub mod table;
 
 pub use excluded::Together;
+pub use mms_diagnosis::follow::{Follow, Unfollowed};
+
 pub use judgements::{Judgements, norms_judged};

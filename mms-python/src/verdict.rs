@@ -19,12 +19,11 @@ use mms_report::plot::Figure;
 use mms_report::{Diagnosed, Format, Shown, View};
 use mms_results::names::Names;
 use mms_spec::quantity::Quantity;
-use mms_symbolic::work::Stop;
 use pyo3::prelude::*;
 
 use crate::field::Field;
+use crate::follow::Follower;
 use crate::mistake::mistake;
-use crate::open::interruptible;
 use crate::opened::Opened;
 use crate::results::{Given, exact, sizes};
 
@@ -88,19 +87,18 @@ fn provenance(kind: &str, opened: &Opened) -> Provenance {
     }
 }
 
-/// Works without the lock of the interpreter until an interrupt asks for a stop, and turns an error into an exception.
+/// Works without the lock of the interpreter until an interrupt ends the work, and turns an error into an exception.
 fn detached<R: Send>(
     py: Python<'_>,
-    work: impl FnOnce(Stop) -> anyhow::Result<R> + Send,
+    progress: Option<Py<PyAny>>,
+    work: impl FnOnce(&Follower) -> anyhow::Result<R> + Send,
 ) -> PyResult<R> {
-    let stop = Stop::default();
-    let made = py.detach(|| interruptible(&stop, || work(stop.clone())));
-    made?.map_err(|error| mistake(format!("{error:#}")))
+    Follower::follow(py, progress, work)?.map_err(|error| mistake(format!("{error:#}")))
 }
 
 /// Judges results; see `judge` of the package.
 #[pyfunction]
-#[pyo3(signature = (field, results, quantities, times, orders, tolerance, start, over, part, all_components))]
+#[pyo3(signature = (field, results, quantities, times, orders, tolerance, start, over, part, all_components, progress))]
 #[allow(clippy::too_many_arguments)]
 fn judge(
     py: Python<'_>,
@@ -114,13 +112,14 @@ fn judge(
     over: Option<&str>,
     part: bool,
     all_components: bool,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Views> {
     let start = start.map(Start::of).transpose().map_err(|it| mistake(format!("`start`: {it}")))?;
     let over = over.map(Over::of).transpose().map_err(|it| mistake(format!("`over`: {it}")))?;
     let (opened, sizes) = (&*field.opened, sizes(&results)?);
     let orders = self::orders(&orders, tolerance, start);
-    detached(py, move |stop| {
-        let mut exact = exact(opened, stop)?.in_space_if(all_components);
+    detached(py, progress, move |follower| {
+        let mut exact = exact(opened, follower.stop.clone())?.in_space_if(all_components);
         let (names, wanted) = (names(opened.compiled()), wanted(opened, &quantities)?);
         let reading = Reading {
             files: &Disk,
@@ -141,10 +140,12 @@ fn judge(
             orders: &orders,
             has_steps: false,
             tighter: None,
+            follow: follower,
         };
         let measurement = measure(all, &reading, &mut exact, comparison)?;
         let provenance = provenance("judge", opened);
-        let report = Judgements::of_results(&exact, &files, measurement, None, provenance)?;
+        let report =
+            Judgements::of_results(&exact, &files, measurement, None, provenance, follower)?;
         let title = report.source.clone();
         let picture = Figure::new(title, report.document().plots()).svg();
         Views::of(&View(&report), Some(picture))
@@ -153,7 +154,7 @@ fn judge(
 
 /// Diagnoses results; see `diagnose` of the package.
 #[pyfunction]
-#[pyo3(signature = (field, results, law, quantities, times, time_steps, orders, without, residual_sign, nodal))]
+#[pyo3(signature = (field, results, law, quantities, times, time_steps, orders, without, residual_sign, nodal, progress))]
 #[allow(clippy::too_many_arguments)]
 fn diagnose(
     py: Python<'_>,
@@ -167,6 +168,7 @@ fn diagnose(
     without: Vec<String>,
     residual_sign: f64,
     nodal: bool,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<(Views, Vec<String>)> {
     let terms = ["body_force", "stress", "traction"];
     if let Some(odd) = without.iter().find(|it| !terms.contains(&it.as_str())) {
@@ -180,8 +182,8 @@ fn diagnose(
     };
     let (opened, sizes) = (&*field.opened, sizes(&results)?);
     let orders = self::orders(&orders, None, None);
-    detached(py, move |stop| {
-        let mut exact = exact(opened, stop)?;
+    detached(py, progress, move |follower| {
+        let mut exact = exact(opened, follower.stop.clone())?;
         let scene = exact.scene()?;
         let (names, wanted) = (names(opened.compiled()), wanted(opened, &quantities)?);
         let find = |name: &str| find(name, &names, None, &Disk);
@@ -224,7 +226,7 @@ fn diagnose(
         let factors = Factors::new(&exact);
         let times = |parameter, factor| factors.times(parameter, factor);
         let material = Material { names: factors.names(), times: &times };
-        let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material)?;
+        let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material, follower)?;
         let provenance = provenance("diagnose", opened);
         let input = &opened.input;
         let (diagnosis, next) = (&diagnosis, None);

@@ -76,9 +76,9 @@ def test_an_interrupt_ends_a_study_and_nothing_else_runs():
 
 
 def test_progress_is_printed_to_stderr(capsys, monkeypatch):
-    from manufactured import studies
+    from manufactured import _progress
 
-    monkeypatch.setattr(studies.time, "monotonic", iter(range(0, 2000, 2)).__next__)
+    monkeypatch.setattr(_progress.time, "monotonic", iter(range(0, 2000, 2)).__next__)
     mf.study("bar_1d", cells=[4, 8], progress=True)
     printed = capsys.readouterr()
     assert "\r8 cells: step" in printed.err and printed.out == ""
@@ -92,7 +92,9 @@ def test_a_campaign_judges_a_function():
         error = 1 + 3 * problem.h**2
         return problem.results(problem.field.u(problem.X, problem.window[1]) * error)
 
-    verdict = mf.campaign("bar_1d", solver=solve, cells=CELLS, expected_order=2)
+    lines = []
+    verdict = mf.campaign("bar_1d", solver=solve, cells=CELLS, expected_order=2, progress=lines.append)
+    assert lines[2:4] == ["32 cells: level 3 of 3", "error of mesh 1 of 3"]
     assert verdict.passed and verdict.quantities[0].norms[1].observed_order == pytest.approx(2, abs=1e-6)
     first = seen[0]
     assert [it.cells for it in seen] == CELLS and [it.level for it in seen] == [1, 2, 3]

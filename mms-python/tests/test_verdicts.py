@@ -1,7 +1,9 @@
 """Verdicts and diagnoses: to the documents of the command."""
 
+import contextlib
 import json
 import signal
+import time
 from types import SimpleNamespace
 
 import numpy as np
@@ -186,16 +188,73 @@ def test_accelerations_at_an_exact_state():
     assert wrong.ranked[0].hypothesis == "force_reversed", str(wrong)
 
 
-def test_an_interrupt_ends_a_judgement_and_the_field_stays():
-    field = mf.field("axis_aligned_3d")
-    u = np.zeros((3_000_000, 3))
-    signal.setitimer(signal.ITIMER_REAL, 0.05)
+@contextlib.contextmanager
+def interrupted_after(seconds):
+    """An interrupt, as Ctrl-C makes one, so many seconds from now."""
     before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
     try:
         with pytest.raises(KeyboardInterrupt):
-            mf.judge(field, [mf.Level(h, u, u, t=0.01) for h in (1, 1 / 2, 1 / 4)])
+            yield
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
+
+
+def test_an_interrupt_ends_a_judgement_and_the_field_stays():
+    field = mf.field("axis_aligned_3d")
+    u = np.zeros((3_000_000, 3))
+    with interrupted_after(0.05):
+        mf.judge(field, [mf.Level(h, u, u, t=0.01) for h in (1, 1 / 2, 1 / 4)])
     few = field.sample(20)
     assert mf.judge(field, [mf.Level(h, few, field.u(few, 0.01) * (1 + h**2), t=0.01) for h in (1, 1 / 2, 1 / 4)]).passed
+
+
+def wrong_waves():
+    """Results of a wrong solver, whose diagnosis runs the solver of this project for seconds."""
+    field, given = opened("travelling_wave_2d"), []
+    for n in (8, 16):
+        x = (np.arange(n) + 0.5) / n
+        X = np.stack(np.meshgrid(x, x, indexing="ij"), -1)
+        given.append(mf.Level(1 / n, X, 0.9 * field.u(X, TIME), t=TIME))
+    return field, given
+
+
+def test_an_interrupt_ends_a_diagnosis_in_the_middle():
+    field, given = wrong_waves()
+    start = time.perf_counter()
+    mf.diagnose(field, given)
+    whole = time.perf_counter() - start
+    start = time.perf_counter()
+    with interrupted_after(whole / 10):
+        mf.diagnose(field, given)
+    assert time.perf_counter() - start < whole / 2
+
+
+def test_progress_is_given_to_a_function_and_ends_at_what_it_raises():
+    lines = []
+    mf.judge("bar_1d", levels(), progress=lines.append)
+    assert lines[0] == "error of mesh 1 of 3"
+    lines.clear()
+
+    def progress(line):
+        lines.append(line)
+        if line.startswith("mistake: "):
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        mf.diagnose(*wrong_waves(), progress=progress)
+    assert lines[0].startswith("right method on cells of ")
+    assert sum(it.startswith("mistake: ") for it in lines) == 1
+
+
+def test_progress_is_shown_on_a_terminal_alone(monkeypatch, capsys):
+    from manufactured import _progress
+
+    monkeypatch.setattr(_progress.time, "monotonic", iter(range(0, 2000, 2)).__next__)
+    mf.judge("bar_1d", levels())
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(_progress.sys.stderr, "isatty", lambda: True)
+    mf.judge("bar_1d", levels())
+    shown = capsys.readouterr().err
+    assert shown.startswith("\rerror of mesh 1 of 3") and shown.endswith(" \r")

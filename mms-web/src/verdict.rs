@@ -8,10 +8,10 @@ use mms_convergence::TOLERANCE;
 use mms_documents::judge::Judge;
 use mms_documents::provenance::{Input, Provenance, VERSION};
 use mms_exact::Exact;
-use mms_judge::Judgements;
 use mms_judge::next::{Meshes, after_judgement, list};
 use mms_judge::results::{Comparison, Reading, axes, measure, own_roles};
 use mms_judge::table::{self, Orders};
+use mms_judge::{Judgements, Unfollowed};
 use mms_results::Files;
 use mms_results::names::Names;
 use mms_spec::foreign::shown;
@@ -138,6 +138,7 @@ fn of_results(
         orders,
         has_steps: false,
         tighter: None,
+        follow: &Unfollowed,
     };
     let measurement = measure(results, &reading, &mut exact, comparison)?;
     let warnings = measurement.warnings.clone();

@@ -5,6 +5,7 @@ use mms_diagnosis::answer::{Diagnosis, Finding};
 use mms_diagnosis::evidence::{Mesh, Snapshot};
 use mms_diagnosis::exact::Quantity;
 use mms_diagnosis::falls::Falls;
+use mms_diagnosis::follow::Unfollowed;
 use mms_diagnosis::material::Material;
 use mms_diagnosis::scene::{Evidence, diagnose};
 use mms_diagnosis::solver::Solver;
@@ -186,7 +187,7 @@ fn mistakes_about_rings_are_named() {
         let solver = Solver { falls: Some(falls), ..Solver::default() };
         let material = Material { names: Vec::new(), times: &|_, _| None };
         let evidence = Evidence::Results(meshes.to_vec());
-        diagnose(&scene, &evidence, &solver, &material).expect("a diagnosis")
+        diagnose(&scene, &evidence, &solver, &material, &Unfollowed).expect("a diagnosis")
     };
     assert_eq!(of(RIGHT).finding, Finding::Nothing);
     let mistakes = [

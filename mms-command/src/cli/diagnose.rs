@@ -12,6 +12,7 @@ use mms_diagnosis::answer::Finding;
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::Mesh;
 use mms_diagnosis::exact::Quantity as Seen;
+use mms_diagnosis::follow::Unfollowed;
 use mms_diagnosis::material::Material;
 use mms_diagnosis::scene::{self, Evidence};
 use mms_diagnosis::solver::Solver;
@@ -256,7 +257,7 @@ impl Diagnose {
         let factors = Factors::new(&exact);
         let times = |parameter, factor| factors.times(parameter, factor);
         let material = Material { names: factors.names(), times: &times };
-        let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material)?;
+        let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material, &Unfollowed)?;
         let input = exact.input();
         let meshes = self.meshes(reading.rest);
         let next = next::after_diagnosis(&diagnosis, &meshes, &typed());

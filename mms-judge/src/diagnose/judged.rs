@@ -2,6 +2,7 @@
 
 use mms_convergence::Verdict;
 use mms_diagnosis::falls::Falls;
+use mms_diagnosis::follow::Unfollowed;
 use mms_exact::Exact;
 use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
@@ -45,6 +46,7 @@ pub fn falls(
         orders,
         has_steps: false,
         tighter: None,
+        follow: &Unfollowed,
     };
     let measurement = measure(all, &judging, exact, comparison)?;
     let (_, judged) = measurement.measured.judged(measurement.objection.as_ref())?;

@@ -2,6 +2,7 @@
 
 use mms_diagnosis::exact::Quantity;
 use mms_diagnosis::excluded::{Excluded, Study};
+use mms_diagnosis::follow::Follow;
 use mms_diagnosis::scene::excludes;
 use mms_exact::Exact;
 use mms_runtime::scene::Scene;
@@ -34,6 +35,7 @@ impl Exclusions {
         error: impl Fn(&str) -> Option<f64>,
         (cell_size, time_step): (f64, Option<f64>),
         times: Option<Vec<f64>>,
+        follow: &dyn Follow,
     ) -> Option<Exclusions> {
         let is_static = times.is_none();
         let moving = QUANTITIES.iter().filter(|(_, it)| !is_static || *it != Quantity::Velocity);
@@ -45,7 +47,7 @@ impl Exclusions {
         }
         let times = times.unwrap_or_else(|| vec![AT_REST]);
         let study = Study { cell_size, time_step, times, errors, is_static };
-        let all = excludes(scene, &study).map_err(|obstacle| obstacle.to_string());
+        let all = excludes(scene, &study, follow).map_err(|obstacle| obstacle.to_string());
         Some(Exclusions { of: names.join(", "), all })
     }
 }
@@ -60,6 +62,7 @@ pub fn exclusions(
     measured: &Measured,
     times: Vec<f64>,
     time_step: Option<f64>,
+    follow: &dyn Follow,
 ) -> anyhow::Result<Option<Exclusions>> {
     if exact.turns() {
         return Ok(None);
@@ -67,7 +70,7 @@ pub fn exclusions(
     let times = (!exact.input().is_static()).then_some(times);
     let finest = measured.runs.iter().map(|run| run.cell_size).fold(f64::INFINITY, f64::min);
     let error = |name: &str| error(measured, name, finest);
-    Ok(Exclusions::new(&exact.scene()?, error, (finest, time_step), times))
+    Ok(Exclusions::new(&exact.scene()?, error, (finest, time_step), times, follow))
 }
 
 /// The root mean square error of a quantity on the finest mesh, or its floor if that is larger; the largest of replicates.

@@ -23,6 +23,7 @@ mod traction;
 mod units;
 
 use anyhow::{bail, ensure};
+use mms_diagnosis::follow::Follow;
 use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
@@ -91,6 +92,8 @@ pub struct Comparison<'a> {
     pub has_steps: bool,
     /// Results of one of the meshes with a smaller tolerance of the solver.
     pub tighter: Option<Results>,
+    /// The follower, which gets a line for each mesh.
+    pub follow: &'a dyn Follow,
 }
 
 /// Measures the errors of results on meshes.
@@ -103,14 +106,15 @@ pub fn measure(
     exact: &mut Exact,
     comparison: Comparison<'_>,
 ) -> anyhow::Result<Measurement> {
-    let Comparison { sizes, times, orders, has_steps, tighter } = comparison;
+    let Comparison { sizes, times, orders, has_steps, tighter, follow } = comparison;
     let meshes = all.len();
     all.extend(tighter);
     let own = all.iter_mut().map(Results::keep_own).collect::<anyhow::Result<Vec<_>>>()?;
     let common = times::common(&mut all, times, exact)?;
     let (all, tighter) = all.split_at(meshes);
     let mut levels = Vec::new();
-    for (results, snapshots) in all.iter().zip(&common.snapshots) {
+    for (at, (results, snapshots)) in all.iter().zip(&common.snapshots).enumerate() {
+        follow.say(&format!("error of mesh {} of {meshes}", at + 1));
         levels.push(level(results, snapshots, reading, exact)?);
     }
     let mut quantities = quantities(&levels)?;

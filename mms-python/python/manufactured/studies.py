@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 from . import _native, documents
 from ._native import Field, Level
+from ._progress import Progress, followed
 from .verdicts import Judged, Judgement, Results, Shown, judge, opened
 
 if TYPE_CHECKING:
@@ -19,9 +18,6 @@ if TYPE_CHECKING:
 
 #: Cells along the longest edge of the body, or along each of its axes.
 Cells = Union[int, str, Sequence[int]]
-
-#: Takes each line that says how far runs are.
-Progress = Union[bool, Callable[[str], object], None]
 
 #: The options of `mms study` that say where files go and how results are printed.
 _NO_OPTIONS = ("format", "full", "help", "json", "output", "set", "study", "verbose")
@@ -49,36 +45,6 @@ class Study(Judged, documents.Study):
         ax.set_ylabel("error")
         ax.legend()
         return ax
-
-
-class _Printed:
-    """Prints how far work is on one line of stderr, once it has taken a second."""
-
-    def __init__(self) -> None:
-        self.start, self.width = time.monotonic(), 0
-
-    def __call__(self, line: str) -> None:
-        if time.monotonic() - self.start > 1:
-            sys.stderr.write("\r" + line.ljust(self.width))
-            sys.stderr.flush()
-            self.width = len(line)
-
-    def end(self) -> None:
-        """Clears the line."""
-        if self.width:
-            sys.stderr.write("\r" + " " * self.width + "\r")
-
-
-def _followed(progress: Progress) -> Callable[[str], object] | None:
-    if callable(progress):
-        return progress
-    is_seen = progress is None and (sys.stderr.isatty() or "ipykernel" in sys.modules)
-    return _Printed() if progress or is_seen else None
-
-
-def _end(told: Callable[[str], object] | None) -> None:
-    if isinstance(told, _Printed):
-        told.end()
 
 
 def _division(cells: Cells) -> str:
@@ -117,11 +83,8 @@ def study(
     Raises MmsError where an option makes no sense, or no level can be started. An interrupt ends the runs.
     """
     grids = [_division(it) for it in cells]
-    told = _followed(progress)
-    try:
+    with followed(progress) as told:
         return Study._of(_native.study(opened(field), _options({"cells": grids or None, **options}), told))
-    finally:
-        _end(told)
 
 
 class Problem:
@@ -210,13 +173,10 @@ def campaign(
     Raises what the solver raises, and MmsError where its results are none of the field.
     """
     of, grids = opened(field), list(cells)
-    told = _followed(progress)
     results = []
-    try:
+    with followed(progress) as told:
         for level, each in enumerate(grids, 1):
             if told:
                 told(f"{_division(each)} cells: level {level} of {len(grids)}")
             results.append(solver(Problem(of, each, level, particles_per_cell)))
-    finally:
-        _end(told)
-    return judge(of, results, **options)
+        return judge(of, results, progress=told or False, **options)

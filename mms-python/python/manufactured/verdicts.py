@@ -14,6 +14,7 @@ from . import _native
 from ._document import Document
 from ._mesh import level_of
 from ._native import Field, Level
+from ._progress import Progress, followed
 from .documents import Diagnose, Judge
 
 if TYPE_CHECKING:
@@ -156,27 +157,30 @@ def judge(
     over: str | None = None,
     part: bool = False,
     all_components: bool = False,
+    progress: Progress = None,
 ) -> Judgement:
     """Judges results of any solver, one of each mesh, from coarse to fine: their orders, and a verdict.
 
     No process is started, and no file is written. `results` are levels, paths as `mms judge` takes them, or meshes of meshio or
     PyVista. `expected_order` is a number, or numbers by names of norms, quantities or QUANTITY:NORM. `over` is "points" or
-    "cells". The other options have their meaning in `mms judge`.
+    "cells". The other options are those of `mms judge`, and `progress` is that of `study`.
 
-    Raises MmsError where results are none of the field.
+    Raises MmsError where results are none of the field. An interrupt ends the work.
     """
-    views = _native.judge(
-        opened(field),
-        _levels(results),
-        list(quantities),
-        [float(it) for it in times],
-        _orders(expected_order),
-        tolerance,
-        start,
-        over,
-        part,
-        all_components,
-    )
+    with followed(progress) as told:
+        views = _native.judge(
+            opened(field),
+            _levels(results),
+            list(quantities),
+            [float(it) for it in times],
+            _orders(expected_order),
+            tolerance,
+            start,
+            over,
+            part,
+            all_components,
+            told,
+        )
     judgement = Judgement._of(views)
     for warning in judgement.warnings or []:
         warnings.warn(warning, stacklevel=2)
@@ -196,30 +200,33 @@ def diagnose(
     without: Sequence[str] = (),
     residual_sign: float = 1.0,
     nodal: bool = False,
+    progress: Progress = None,
     **arrays: ArrayLike,
 ) -> Diagnosis:
     """Names the mistake of a solver by the error that it makes, as `mms diagnose` does.
 
     `diagnose(field, X, a=a, t=t)` looks at accelerations, or at residuals `r`, at an exact state. `diagnose(field, results)`
-    looks at results as `judge` takes them. `time_step` is the solver's, or one for each mesh.
+    looks at results as `judge` takes them. `time_step` is that of the solver, or one for each mesh. `progress` is that of `study`.
 
-    Raises MmsError where there is nothing to look at.
+    Raises MmsError where there is nothing to look at. An interrupt ends the work.
     """
     named: dict[str, Any] = arrays
     given = [Level(h, results, t=t, **named)] if named else _levels(results)  # type: ignore[arg-type]
     steps = [float(time_step)] if isinstance(time_step, (int, float)) else [float(it) for it in time_step]
-    views, notes = _native.diagnose(
-        opened(field),
-        given,
-        None,
-        list(quantities),
-        [float(it) for it in times],
-        steps,
-        _orders(expected_order),
-        list(without),
-        residual_sign,
-        nodal,
-    )
+    with followed(progress) as told:
+        views, notes = _native.diagnose(
+            opened(field),
+            given,
+            None,
+            list(quantities),
+            [float(it) for it in times],
+            steps,
+            _orders(expected_order),
+            list(without),
+            residual_sign,
+            nodal,
+            told,
+        )
     for note in notes:
         warnings.warn(note, stacklevel=2)
     return Diagnosis._of(views)
@@ -244,5 +251,5 @@ def judge_law(
     stresses = {"P": P, "S": S, "sigma": sigma, "tau": tau}
     given: dict[str, Any] = {name: it for name, it in stresses.items() if it is not None}
     level = Level(None, X, F=F, **given)
-    views, _ = _native.diagnose(opened(field), [level], "stress", [], [], [], [], [], 1.0, False)
+    views, _ = _native.diagnose(opened(field), [level], "stress", [], [], [], [], [], 1.0, False, None)
     return Diagnosis._of(views)

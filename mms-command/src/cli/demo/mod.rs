@@ -22,6 +22,7 @@ use mms_codegen::{Options, Selection};
 use mms_convergence::{TOLERANCE, Verdict};
 use mms_diagnosis::answer::{Diagnosis, Finding};
 use mms_diagnosis::changed::Without;
+use mms_diagnosis::follow::Unfollowed;
 use mms_diagnosis::material::Material;
 use mms_diagnosis::scene;
 use mms_diagnosis::solver::Solver;
@@ -180,11 +181,17 @@ fn judge(tables: &Tables, exact: &mut Exact) -> anyhow::Result<Judgements> {
     let all =
         tables.names().iter().map(|it| reading.find(it, exact)).collect::<anyhow::Result<_>>()?;
     let orders = Orders::new(&[], TOLERANCE);
-    let comparison =
-        Comparison { sizes: &[], times: &[], orders: &orders, has_steps: false, tighter: None };
+    let comparison = Comparison {
+        sizes: &[],
+        times: &[],
+        orders: &orders,
+        has_steps: false,
+        tighter: None,
+        follow: &Unfollowed,
+    };
     let measurement = measure(all, &reading, exact, comparison)?;
     let provenance = this_command("demo", exact.input().provenance(&[]));
-    Judgements::of_results(exact, &tables.names(), measurement, None, provenance)
+    Judgements::of_results(exact, &tables.names(), measurement, None, provenance, &Unfollowed)
 }
 
 /// Diagnoses results, as `mms diagnose` does.
@@ -215,7 +222,7 @@ fn diagnose(tables: &Tables, exact: &mut Exact) -> anyhow::Result<Diagnosis> {
     let factors = Factors::new(exact);
     let times = |parameter, factor| factors.times(parameter, factor);
     let material = Material { names: factors.names(), times: &times };
-    Ok(scene::diagnose(&scene, &evidence, &solver, &material)?)
+    Ok(scene::diagnose(&scene, &evidence, &solver, &material, &Unfollowed)?)
 }
 
 /// The sentence of a verdict.

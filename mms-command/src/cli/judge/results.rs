@@ -11,13 +11,13 @@ use mms_exact::Exact;
 use mms_exact::evaluated;
 use mms_files::read::{self, Kind};
 use mms_files::results::Disk;
-use mms_judge::Judgements;
 use mms_judge::next::{self, Meshes};
 use mms_judge::results::{
     Baseline, Comparison, Explained, Measurement, Over, Reading, Results, Start, measure, room,
     same, weight,
 };
 use mms_judge::table::Orders;
+use mms_judge::{Judgements, Unfollowed};
 use mms_options::field::{Variant, find};
 use mms_options::method::{finite, length};
 use mms_report::{differences, with_baseline};
@@ -137,8 +137,14 @@ impl Judge {
             return self.against(path, &exact.title(), &measurement);
         }
         let provenance = this_command("judge", exact.input().provenance(&options.set));
-        let mut report =
-            Judgements::of_results(&exact, &self.files, measurement, None, provenance)?;
+        let mut report = Judgements::of_results(
+            &exact,
+            &self.files,
+            measurement,
+            None,
+            provenance,
+            &Unfollowed,
+        )?;
         let meshes = options.meshes(field, &self.files);
         let is_chosen = !options.quantity.is_empty();
         report.next = next::after_judgement(&report, Some(&meshes), is_chosen);
@@ -201,6 +207,7 @@ impl Judge {
             orders,
             has_steps: false,
             tighter,
+            follow: &Unfollowed,
         };
         measure(all, &reading, exact, comparison)
     }

@@ -1,5 +1,6 @@
 //! The mistakes that a study excludes.
 
+use mms_diagnosis::follow::Unfollowed;
 use mms_exact::Input;
 use mms_judge::results::Exclusions;
 use mms_mechanics::sample::domain;
@@ -31,6 +32,12 @@ impl Study {
         let error =
             |name: &str| Some(largest.iter().flatten().find(|(_, key, _)| *key == name)?.2.l2);
         let level = &finest.level;
-        Ok(Exclusions::new(&scene, error, (level.cell_size, Some(level.time_step)), times))
+        Ok(Exclusions::new(
+            &scene,
+            error,
+            (level.cell_size, Some(level.time_step)),
+            times,
+            &Unfollowed,
+        ))
     }
 }
