@@ -290,16 +290,7 @@ impl Field {
 
     /// A quantity that the field file defines, as a method.
     fn __getattr__<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        match slf.get().opened.compiled().quantity(name) {
-            Ok(quantity) => {
-                let partial = slf.py().import("functools")?.getattr("partial")?;
-                partial.call1((slf.getattr("evaluate")?, quantity.name()))
-            }
-            Err(_) => Err(PyAttributeError::new_err(format!(
-                "a field has no `{name}`, and `{}` defines no such quantity",
-                slf.get().name()
-            ))),
-        }
+        own(slf.as_any(), &slf.get().opened, name)
     }
 
     fn __repr__(&self) -> String {
@@ -323,6 +314,24 @@ impl Now {
         self.opened.named(py, Quantity::Traction.name(), &points, Some(self.time), Some(face))
     }
 
+    /// A quantity by its name or alias at X, also one that the field file defines; see `evaluate` of a field.
+    #[pyo3(signature = (quantity, X, *, face=None))]
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        quantity: &str,
+        X: &Bound<'py, PyAny>,
+        face: Option<&str>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let points = Points::given(X, &self.opened)?;
+        self.opened.named(py, quantity, &points, Some(self.time), face)
+    }
+
+    /// A quantity that the field file defines, as a method.
+    fn __getattr__<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        own(slf.as_any(), &slf.get().opened, name)
+    }
+
     fn __repr__(&self) -> String {
         format!("<field {} at t = {:?}>", self.opened.input.name.shown(), self.time)
     }
@@ -340,6 +349,23 @@ impl AtPoints {
     ) -> PyResult<Bound<'py, PyAny>> {
         let points = self.stay.points(py, &self.opened)?;
         self.opened.named(py, Quantity::Traction.name(), &points, t, Some(face))
+    }
+
+    /// A quantity by its name or alias at t, also one that the field file defines; see `evaluate` of a field.
+    #[pyo3(signature = (quantity, t=None, *, face=None))]
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        quantity: &str,
+        t: Option<f64>,
+        face: Option<&str>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.opened.named(py, quantity, &self.stay.points(py, &self.opened)?, t, face)
+    }
+
+    /// A quantity that the field file defines, as a method.
+    fn __getattr__<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        own(slf.as_any(), &slf.get().opened, name)
     }
 
     fn __repr__(&self) -> String {
@@ -369,7 +395,19 @@ impl Material {
     }
 }
 
-/// Parameters as they were given: a number is taken by its digits, as on the command line, and a text as a formula.
+/// A quantity that the field file defines, as a method of a field, at a time or at points.
+fn own<'py>(of: &Bound<'py, PyAny>, opened: &Opened, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    let Ok(quantity) = opened.compiled().quantity(name) else {
+        let field = opened.input.name.shown();
+        return Err(PyAttributeError::new_err(format!(
+            "a field has no `{name}`, and `{field}` defines no such quantity"
+        )));
+    };
+    let partial = of.py().import("functools")?.getattr("partial")?;
+    partial.call1((of.getattr("evaluate")?, quantity.name()))
+}
+
+/// Parameters as they were given: a number stands for its digits, as on the command line, and a text for a formula.
 fn settings(parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, String)>> {
     let Some(parameters) = parameters else { return Ok(Vec::new()) };
     let setting = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {

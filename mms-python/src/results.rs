@@ -15,7 +15,8 @@ use crate::mistake::mistake;
 /// The results of one mesh at one time: h, the points X, and what the solver computed there, by names or symbols of quantities.
 ///
 /// `Level(1/8, X, u=u, t=0.01)`. X is (..., D) or, for D = 1, (n,); u is like X; a tensor is (..., D, D). `cells` are pairs of a
-/// type of VTK's and an array (m, k) of points; with them norms are taken over cells. Arrays are copied.
+/// type and an array (m, k) of points; with them norms are taken over cells. A type is a name of meshio's, such as "triangle6", or
+/// a number of VTK's. Arrays are copied.
 #[pyclass(frozen, module = "manufactured")]
 pub struct Level {
     /// h; None if it is to be found from cells or points.
@@ -34,7 +35,7 @@ impl Level {
         X: Option<&Bound<'_, PyAny>>,
         u: Option<&Bound<'_, PyAny>>,
         t: Option<f64>,
-        cells: Option<Vec<(u8, Bound<'_, PyAny>)>>,
+        cells: Option<Vec<(Kind, Bound<'_, PyAny>)>>,
         quantities: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Level> {
         if let Some(h) = h.filter(|h| !(h.is_finite() && *h > 0.0)) {
@@ -123,17 +124,63 @@ fn all<T: Precision + Into<f64>>(array: &PyReadonlyArrayDyn<'_, T>) -> Vec<f64> 
     stretch(array, 1, [0, array.len()]).iter().map(|it| (*it).into()).collect()
 }
 
+/// A type of cells.
+#[derive(FromPyObject)]
+enum Kind {
+    /// The number in VTK.
+    #[pyo3(transparent)]
+    Number(u8),
+    /// The name in meshio.
+    #[pyo3(transparent)]
+    Name(String),
+}
+
+impl Kind {
+    /// The number in VTK.
+    fn number(&self) -> PyResult<u8> {
+        let name = match self {
+            Kind::Number(number) => return Ok(*number),
+            Kind::Name(name) => name,
+        };
+        let known = KINDS.iter().find(|(it, _)| it == name);
+        known.map(|(_, number)| *number).ok_or_else(|| {
+            let names = KINDS.map(|(it, _)| it).join(", ");
+            mistake(format!("cells of the type `{name}` are not read; expected {names}"))
+        })
+    }
+}
+
+/// The names of types of cells in meshio, and their numbers in VTK.
+const KINDS: [(&str, u8); 15] = [
+    ("vertex", 1),
+    ("line", 3),
+    ("triangle", 5),
+    ("quad", 9),
+    ("tetra", 10),
+    ("hexahedron", 12),
+    ("wedge", 13),
+    ("pyramid", 14),
+    ("line3", 21),
+    ("triangle6", 22),
+    ("quad8", 23),
+    ("tetra10", 24),
+    ("hexahedron20", 25),
+    ("quad9", 28),
+    ("hexahedron27", 29),
+];
+
 /// Cells of so many points.
-fn mesh(given: &[(u8, Bound<'_, PyAny>)], points: usize) -> PyResult<Cells> {
+fn mesh(given: &[(Kind, Bound<'_, PyAny>)], points: usize) -> PyResult<Cells> {
     let mut cells = Cells::default();
     for (kind, connectivity) in given {
+        let kind = kind.number()?;
         let rows: Vec<Vec<usize>> = connectivity.call_method0("tolist")?.extract()?;
         for row in rows {
             if let Some(odd) = row.iter().find(|point| **point >= points) {
                 return Err(mistake(format!("a cell has the point {odd}, and there are {points}")));
             }
             cells.points.extend(row);
-            cells.types.push(*kind);
+            cells.types.push(kind);
             cells.ends.push(cells.points.len());
         }
     }

@@ -109,7 +109,11 @@ def test_a_field_with_quantities_of_its_own():
     x, time = field.sample(4), time_of(field)
     for name in own:
         if not name.endswith("_normal_flux"):
-            np.testing.assert_array_equal(getattr(field, name)(x, time), field.evaluate(name, x, time))
+            values = field.evaluate(name, x, time)
+            for again in (getattr(field, name)(x, time), getattr(field.at(time), name)(x), getattr(field.points(x), name)(time)):
+                np.testing.assert_array_equal(again, values)
+    with pytest.raises(AttributeError, match="a field has no `q_flux`"):
+        field.at(time).q_flux
 
 
 def test_methods_are_documented():

@@ -1,6 +1,7 @@
 """Studies of the solver of this project, and campaigns of a function."""
 
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -103,6 +104,9 @@ def test_a_campaign_judges_a_function():
     assert first.boundary == {"x_min": "fixed", "x_max": "free"}
     assert np.array_equal(first.b(first.X, 0.01), first.field.b(first.X, 0.01))
     assert first.traction("x_max", [[1.0]], 0.01).shape == (1, 1)
+    assert [it.problem for it in verdict.runs] == seen and all(it.seconds > 0 for it in verdict.runs)
+    assert isinstance(verdict, mf.Campaign) and verdict.to_dict()["verdict"] == "pass"
+    assert verdict.diagnose().is_right
 
 
 def test_a_campaign_in_two_dimensions_raises_what_the_solver_raises():
@@ -111,8 +115,10 @@ def test_a_campaign_in_two_dimensions_raises_what_the_solver_raises():
         raise ZeroDivisionError
 
     lines = []
-    with pytest.raises(ZeroDivisionError):
+    with pytest.raises(ZeroDivisionError) as error:
         mf.campaign("travelling_wave_2d", solve, cells=["4x4"], particles_per_cell=(3, 2), progress=lines.append)
     assert lines == ["4x4 cells: level 1 of 1"]
+    if sys.version_info >= (3, 11):
+        assert error.value.__notes__ == ["in level 1 of 1: <travelling_wave_2d on 4x4 cells>"]
     with pytest.raises(mf.MmsError, match="cells"):
         mf.campaign("bar_1d", lambda problem: problem.X, cells=[(4, 4)])

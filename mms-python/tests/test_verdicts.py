@@ -126,12 +126,14 @@ def test_meshes_are_judged_over_cells():
     assert judgement.samplings == {"displacement": "cells"}
     assert judgement.passed, str(judgement)
 
-    def by_numbers(n):
-        points, _, cells, u = square(n)
-        return mf.Level(None, points, u, t=TIME, cells=[(9, cells)])
+    for kind in (9, "quad"):
 
-    other = mf.judge("travelling_wave_2d", [by_numbers(n) for n in CELLS])
-    assert other.observed_order == judgement.observed_order
+        def arrays(n):
+            points, _, cells, u = square(n)
+            return mf.Level(None, points, u, t=TIME, cells=[(kind, cells)])
+
+        other = mf.judge("travelling_wave_2d", [arrays(n) for n in CELLS])
+        assert other.observed_order == judgement.observed_order
 
 
 def test_mistakes_in_results_are_named():
@@ -146,6 +148,8 @@ def test_mistakes_in_results_are_named():
         mf.judge("bar_1d", [mf.Level(1 / 8, x, u, t=TIME), mf.Level(None, x, u, t=TIME)])
     with pytest.raises(mf.MmsError, match="the point 99"):
         mf.Level(None, x, u, cells=[(3, np.array([[0, 99]]))])
+    with pytest.raises(mf.MmsError, match="type `round` are not read; expected vertex, line"):
+        mf.Level(None, x, u, cells=[("round", np.array([[0, 1]]))])
     with pytest.raises(TypeError, match="a path, or a mesh"):
         mf.judge("bar_1d", [1])
     with pytest.raises(mf.MmsError, match="points or cells"):

@@ -27,4 +27,4 @@ def solve(problem: mf.Problem) -> mf.Level:
     return problem.results(problem.field.u(problem.X, 0.0), t=0.0)
 
 
-assert_type(mf.campaign("bar_1d", solve, cells=[8, 16, 32], expected_order=2), mf.Judgement)
+assert_type(mf.campaign("bar_1d", solve, cells=[8, 16, 32], expected_order=2), mf.Campaign)

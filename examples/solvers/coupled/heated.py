@@ -1,18 +1,17 @@
 """A thermoelastic square in motion, with bilinear functions of u and theta, by the implicit midpoint rule.
-
-    mms emit heated_square_2d --target numpy -o FOLDER
-    PYTHONPATH=FOLDER python3 heated.py right CELLS STEPS END FILE
-
-`without expansion` in place of `right` leaves out the term of b that the thermal stress gives, and `without conductivity` the
-divergence of the heat flux in the source of heat.
 """
 
-import sys
-
+import manufactured as mf
 import numpy as np
 from skfem import BilinearForm, ElementQuad1, ElementVector, LinearForm, MeshQuad
 from skfem.helpers import ddot, det, dot, grad, inv, mul, trace, transpose
-from square import Square, deformation, prepared
+from square import Square, deformation
+
+# In the time of the runs heat crosses half of the square.
+FIELD = mf.field("heated_square_2d", capacity=1, conductivity=2000)
+# A quarter of a period of the wave.
+END = 0.0079
+COURANT = 0.5
 
 
 @LinearForm
@@ -48,29 +47,33 @@ def capacity(du, dtheta, v, q, w):
     return w.rho0 * w.capacity * dtheta * q
 
 
-def main(study, cells, steps, end, path):
-    p, field, lacking = prepared("heated_square_2d", study)
+def run(problem, sources=None):
+    """The square; `sources` is a field whose b and source of heat take the place of the right ones."""
+    field, names = problem.field, ("young", "nu", "rho0", "expansion", "conductivity", "capacity", "length")
+    young, nu, rho0, expansion, conductivity, heat, length = (field.parameters[it] for it in names)
+    sources = sources or field
     element = ElementVector(ElementQuad1()) * ElementQuad1()
-    rollers = [(axis, at, [f"u^{axis + 1}^1"]) for axis in (0, 1) for at in (0.0, p.length)]
-    square = Square(MeshQuad, p.length, int(cells), element, 4, rollers)
+    rollers = {f"{side}_{end}": [f"u^{axis}^1"] for side, axis in (("x", 1), ("y", 2)) for end in ("min", "max")}
+    square = Square(MeshQuad, length, problem.cells, element, 4, rollers)
     basis = square.basis
-    mu, lame = p.young / (2 * (1 + p.nu)), p.young * p.nu / ((1 + p.nu) * (1 - 2 * p.nu))
-    law = {"mu": mu, "lame": lame, "thermal": (3 * lame + 2 * mu) * p.expansion, "conductivity": p.conductivity}
-    inertia = mass.assemble(basis, rho0=p.rho0)
-    storage = capacity.assemble(basis, rho0=p.rho0, capacity=p.capacity)
+    mu, lame = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
+    law = {"mu": mu, "lame": lame, "thermal": (3 * lame + 2 * mu) * expansion, "conductivity": conductivity}
+    inertia = mass.assemble(basis, rho0=rho0)
+    storage = capacity.assemble(basis, rho0=rho0, capacity=heat)
 
-    first, end = field.time_window()[0], float(end)
-    start = field.at_time(first)
-    nodes = basis.mesh.p
+    first, nodes = problem.window[0], basis.mesh.p.T
+    start = field.at(first)
     of_u, of_theta = basis.split_indices()
     x, v = basis.zeros(), basis.zeros()
-    x[of_u], v[of_u] = start.displacement(*nodes).T.ravel(), start.velocity(*nodes).T.ravel()
-    x[of_theta] = start.theta(*nodes)
+    x[of_u], v[of_u] = start.displacement(nodes).ravel(), start.velocity(nodes).ravel()
+    x[of_theta] = start.theta(nodes)
 
-    dt = (end - first) / int(steps)
-    for step in range(int(steps)):
-        now = lacking.at_time(first + (step + 0.5) * dt)
-        given = {"b": now.body_force(*square.x), "heat": now.heat_source(*square.x), "rho0": p.rho0}
+    speed = np.sqrt((lame + 2 * mu) / rho0)
+    steps = int(np.ceil((END - first) * speed / (COURANT * problem.h)))
+    dt = (END - first) / steps
+    for step in range(steps):
+        now = sources.at(first + (step + 0.5) * dt)
+        given = {"b": square.at_points(now.body_force), "heat": square.at_points(now.heat_source), "rho0": rho0}
 
         def equations(middle):
             u, theta = basis.interpolate(middle)
@@ -84,7 +87,4 @@ def main(study, cells, steps, end, path):
         x, v = 2 * middle - x, 4 / dt * (middle - x) - v
 
     (u, part), (theta, _) = basis.split(x)
-    square.write(path, u, part, theta=theta)
-
-
-main(*sys.argv[1:])
+    return square.results(problem, u, part, t=END, theta=theta)

@@ -1,17 +1,13 @@
 """Elements of Taylor and Hood: an incompressible neo-Hookean block at rest, with quadratic functions of u and linear ones of p.
-
-    mms emit incompressible_2d.toml --target numpy -o FOLDER
-    PYTHONPATH=FOLDER python3 mixed.py right CELLS FILE
-
-`without volume_residual` in place of `right` leaves out the source of the constraint.
 """
 
-import sys
-
+import manufactured as mf
 import numpy as np
 from skfem import BilinearForm, ElementTriP1, ElementTriP2, ElementVector, LinearForm, MeshTri
 from skfem.helpers import ddot, det, dot, grad
-from square import Square, deformation, prepared
+from square import Square, deformation
+
+FIELD = mf.load("incompressible_2d.toml")
 
 
 def cofactor(f):
@@ -33,23 +29,20 @@ def tangent(du, dp, v, q, w):
     return ddot(dstress, grad(v)) - ddot(cofactor(f), df) * q
 
 
-def main(study, cells, path):
-    parameters, field, _ = prepared("incompressible_2d", "right")
-    now = field.at_time(0.0)
+def run(problem, has_source=True):
+    """The block; without its source the constraint is J = 1."""
+    field, mu = problem.field, problem.field.parameters["mu"]
     element = ElementVector(ElementTriP2()) * ElementTriP1()
-    square = Square(MeshTri, parameters.length, int(cells), element, 6, [(0, 0.0, ["u^1^1", "u^2^1"])])
-    b = now.body_force_density(*square.x)
-    source = 0.0 if study == "without volume_residual" else now.volume_residual(*square.x)
-    force = square.surface_force(now.traction)
+    square = Square(MeshTri, problem.upper[0], problem.cells, element, 6, {"x_min": ["u^1^1", "u^2^1"]})
+    b = square.at_points(field.body_force_density)
+    source = square.at_points(field.volume_residual) if has_source else 0.0
+    force = square.surface_force(field)
 
     def equations(x):
         u, p = square.basis.interpolate(x)
-        given = {"u": u, "p": p, "mu": parameters.mu}
+        given = {"u": u, "p": p, "mu": mu}
         internal = residual.assemble(square.basis, b=b, source=source, **given)
         return tangent.assemble(square.basis, **given), internal + force
 
     (u, nodes), (p, _) = square.basis.split(square.solved(equations, square.basis.zeros()))
-    square.write(path, u, nodes, p=p)
-
-
-main(*sys.argv[1:])
+    return square.results(problem, u, nodes, p=p)

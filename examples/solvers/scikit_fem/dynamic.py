@@ -3,9 +3,14 @@ error is that of the elements. The sides move with the accelerations of the fiel
 the field's.
 """
 
+import math
+
 import numpy as np
 from scipy.sparse.linalg import splu
-from solid import Solid
+from solid import ELEMENTS, Solid
+
+# The largest product of wave speed and time step over the distance of nodes.
+COURANT = 0.15
 
 
 def moved(solid, field, begin, end, steps):
@@ -17,16 +22,16 @@ def moved(solid, field, begin, end, steps):
     factors = splu(mass[free][:, free])
 
     def acceleration(t, u):
-        now = field.at_time(t)
+        now = field.at(t)
         a = np.zeros_like(u)
-        a[held] = solid.interpolated(lambda x: now.acceleration(*x))[held]
-        force = solid.body_force(lambda x: now.body_force(*x)) - solid.internal_force(u)
+        a[held] = solid.interpolated(now.acceleration)[held]
+        force = solid.body_force(now.body_force) - solid.internal_force(u)
         a[free] = factors.solve((force - mass @ a)[free])
         return a
 
-    start = field.at_time(begin)
-    u = solid.interpolated(lambda x: start.displacement(*x))
-    v = solid.interpolated(lambda x: start.velocity(*x))
+    start = field.at(begin)
+    u = solid.interpolated(start.displacement)
+    v = solid.interpolated(start.velocity)
     dt = (end - begin) / steps
     for step in range(steps):
         t = begin + step * dt
@@ -39,9 +44,10 @@ def moved(solid, field, begin, end, steps):
     return u, v, acceleration(end, u)
 
 
-def run(module, kind, n, steps, end, shift=0.0):
-    """The solid, and its motion after so many steps from the first time on."""
-    parameters = module.Parameters()
-    field = module.prepare(parameters)
-    solid = Solid(kind, n, parameters, lambda x: np.full(x[0].shape, True), shift)
-    return solid, moved(solid, field, field.time_window()[0], end, steps)
+def run(field, kind, n, end, shift=0.0):
+    """The solid, and its motion from the first time of the field to the end."""
+    solid = Solid(kind, n, field.parameters, field.faces, shift)
+    begin, speed = field.window[0], math.sqrt((solid.lam + 2 * solid.mu) / solid.rho0)
+    distance = field.parameters["length"] / (n * ELEMENTS[kind][2])
+    steps = math.ceil((end - begin) * speed / (COURANT * distance))
+    return solid, moved(solid, field, begin, end, steps)

@@ -1,7 +1,6 @@
 """A total-Lagrangian solid of neo-Hookean material in plane strain, discretised with scikit-fem.
 
-It knows nothing of the field that it is verified with but what is given to it: moduli, density, and
-functions for b and for tractions.
+Of the field that verifies it, it gets the parameters, and functions for b and for tractions.
 """
 
 import numpy as np
@@ -10,13 +9,18 @@ from skfem import (
     LinearForm, MeshQuad, MeshTri, condense, solve,
 )
 
-# Of each kind: its mesh, its functions, its degree, and its number in VTK.
+# Of each kind: its mesh, its functions, its degree, and the name of its cells in meshio.
 ELEMENTS = {
-    "P1": (MeshTri, ElementTriP1, 1, 5),
-    "P2": (MeshTri, ElementTriP2, 2, 22),
-    "Q1": (MeshQuad, ElementQuad1, 1, 9),
-    "Q2": (MeshQuad, ElementQuad2, 2, 28),
+    "P1": (MeshTri, ElementTriP1, 1, "triangle"),
+    "P2": (MeshTri, ElementTriP2, 2, "triangle6"),
+    "Q1": (MeshQuad, ElementQuad1, 1, "quad"),
+    "Q2": (MeshQuad, ElementQuad2, 2, "quad9"),
 }
+
+
+def at(quantity, x):
+    """A quantity of the field at positions of scikit-fem, which has components first."""
+    return np.moveaxis(quantity(np.moveaxis(x, 0, -1)), -1, 0)
 
 
 def _inverse(f):
@@ -43,22 +47,24 @@ def square(kind, n, length, shift):
 
 
 class Solid:
-    """A square of elements of a kind; its sides are held where `is_held` says so."""
+    """A square of elements of a kind; the motion of the sides `held` is given."""
 
-    def __init__(self, kind, n, parameters, is_held, shift=0.0):
-        length, young, nu = parameters.length, parameters.young, parameters.nu
+    def __init__(self, kind, n, parameters, held, shift=0.0):
+        length, young, nu = (parameters[it] for it in ("length", "young", "nu"))
         mesh = square(kind, n, length, shift)
-        _, functions, degree, self.number = ELEMENTS[kind]
+        _, functions, degree, self.cell = ELEMENTS[kind]
         element = ElementVector(functions())
         # Exact enough that quadrature shows in no error.
         self.order = 2 * degree + 4
         self.basis = Basis(mesh, element, intorder=self.order)
-        self.loaded = mesh.facets_satisfying(lambda x: ~is_held(x), boundaries_only=True)
-        held = mesh.facets_satisfying(is_held, boundaries_only=True)
-        self.held = self.basis.get_dofs(held).all()
+        places = {"x_min": (0, 0.0), "x_max": (0, length), "y_min": (1, 0.0), "y_max": (1, length)}
+        self.sides = {
+            name: mesh.facets_satisfying(lambda x: x[axis] == place) for name, (axis, place) in places.items()
+        }
+        self.held = self.basis.get_dofs(np.concatenate([self.sides[it] for it in held])).all()
         self.mu = young / (2.0 * (1.0 + nu))
         self.lam = young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
-        self.rho0 = parameters.rho0
+        self.rho0 = parameters["rho0"]
 
     def stress(self, h):
         """P = mu (F - F^-T) + lambda ln J F^-T."""
@@ -86,17 +92,16 @@ class Solid:
         return BilinearForm(form).assemble(self.basis, g=g, twist=twist)
 
     def body_force(self, b):
-        """The integral of rho0 b . v, of a function of x."""
+        """The integral of rho0 b . v, of a function b(X)."""
         form = LinearForm(lambda v, w: self.rho0 * np.sum(w.b * v.value, axis=0))
-        return form.assemble(self.basis, b=b(self.basis.default_parameters()["x"]))
+        return form.assemble(self.basis, b=at(b, self.basis.default_parameters()["x"]))
 
-    def surface_force(self, traction):
-        """The integral of T . v over the sides that are not held, of a function of x and N."""
+    def surface_force(self, side, traction):
+        """The integral of T . v over a side, of a function T(X)."""
         mesh, element = self.basis.mesh, self.basis.elem
-        faces = FacetBasis(mesh, element, facets=self.loaded, intorder=self.order)
-        at = faces.default_parameters()
+        faces = FacetBasis(mesh, element, facets=self.sides[side], intorder=self.order)
         form = LinearForm(lambda v, w: np.sum(w.t * v.value, axis=0))
-        return form.assemble(faces, t=traction(at["x"], at["n"]))
+        return form.assemble(faces, t=at(traction, faces.default_parameters()["x"]))
 
     def balance(self, force, u):
         """The displacement that balances a force, by Newton's method from u."""
@@ -114,24 +119,14 @@ class Solid:
         return form.assemble(self.basis)
 
     def interpolated(self, function):
-        """The values of a function of x at the nodes."""
-        values = np.array(function(self.basis.doflocs))
+        """The values of a function of X at the nodes."""
+        values = at(function, self.basis.doflocs)
         u = np.empty(self.basis.N)
         for component, dofs in enumerate(self.basis.split_indices()):
             u[dofs] = values[component, dofs]
         return u
 
-    def write(self, u, path):
-        """Nodes, cells and the displacement, in the legacy format of VTK."""
+    def nodes(self, u):
+        """The positions, the cells and the vectors of the nodes, a row for each."""
         (u1, part), (u2, _) = self.basis.split(u)
-        places, cells = part.doflocs, part.element_dofs
-        with open(path, "w") as file:
-            print("# vtk DataFile Version 3.0\nsolid\nASCII\nDATASET UNSTRUCTURED_GRID", file=file)
-            print(f"POINTS {places.shape[1]} double", file=file)
-            np.savetxt(file, np.vstack([places, 0.0 * places[0]]).T, fmt="%.17g")
-            print(f"CELLS {cells.shape[1]} {cells.size + cells.shape[1]}", file=file)
-            np.savetxt(file, np.vstack([np.full(cells.shape[1], len(cells)), cells]).T, fmt="%d")
-            print(f"CELL_TYPES {cells.shape[1]}", file=file)
-            np.savetxt(file, np.full(cells.shape[1], self.number), fmt="%d")
-            print(f"POINT_DATA {places.shape[1]}\nVECTORS displacement double", file=file)
-            np.savetxt(file, np.vstack([u1, u2, 0.0 * u1]).T, fmt="%.17g")
+        return part.doflocs.T, [(self.cell, part.element_dofs.T)], np.stack([u1, u2], axis=1)

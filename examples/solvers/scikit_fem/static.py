@@ -12,11 +12,13 @@ def solved(solid, force, steps=4):
     return u
 
 
-def run(module, kind, n):
+def run(field, kind, n):
     """The solid, and its displacement."""
-    parameters = module.Parameters()
-    now = module.prepare(parameters).at_time(0.0)
-    solid = Solid(kind, n, parameters, is_held=lambda x: x[0] == 0.0)
-    force = solid.body_force(lambda x: now.body_force(*x))
-    force += solid.surface_force(lambda x, normal: now.traction(*x, *normal))
+    held = [side for side, claim in field.boundary.items() if claim == "fixed"]
+    solid = Solid(kind, n, field.parameters, held)
+    now = field.at(0.0)
+    force = solid.body_force(now.body_force)
+    for side, claim in field.boundary.items():
+        if claim == "traction":
+            force += solid.surface_force(side, lambda X: now.traction(side, X))
     return solid, solved(solid, force)

@@ -1,18 +1,21 @@
 """The material point method in Taichi, total Lagrangian with linear weights, on travelling_wave_2d.
 
-    mms emit travelling_wave_2d --target numpy -o FOLDER
-    PYTHONPATH=FOLDER python3 examples/solvers/taichi/mpm.py CELLS STEPS END FILE
+    python3 examples/solvers/taichi/mpm.py
 
 The grid is that of the reference body, with 2 x 2 particles of neo-Hookean material in each cell.
 Velocities live between the times of positions. b at the particles, the motion of the sides and the start
-are the field's. X and u of the particles at the end go to a file of NumPy.
+are the field's.
 """
 
 import sys
 
+import manufactured as mf
 import numpy as np
 import taichi as ti
-import travelling_wave_2d
+
+# A quarter of the time window.
+END = 0.0158
+COURANT = 0.25
 
 ti.init(arch=ti.cpu, default_fp=ti.f64, log_level=ti.ERROR)
 
@@ -21,12 +24,12 @@ ti.init(arch=ti.cpu, default_fp=ti.f64, log_level=ti.ERROR)
 class Body:
     """A square of n x n cells."""
 
-    def __init__(self, n, parameters):
-        young, nu = parameters.young, parameters.nu
-        self.n, self.h = n, parameters.length / n
+    def __init__(self, n, h, parameters):
+        young, nu = parameters["young"], parameters["nu"]
+        self.n, self.h = n, h
         self.mu = young / (2.0 * (1.0 + nu))
         self.lam = young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
-        self.volume, self.rho0 = (self.h / 2.0) ** 2, parameters.rho0
+        self.volume, self.rho0 = (self.h / 2.0) ** 2, parameters["rho0"]
         self.X, self.u, self.v = (ti.Vector.field(2, float, 4 * n * n) for _ in range(3))
         self.H = ti.Matrix.field(2, 2, float, 4 * n * n)
         self.mass = ti.field(float, (n + 1, n + 1))
@@ -83,38 +86,29 @@ class Body:
                 self.H[p] += dt * self.velocity[node].outer_product(gradient)
 
 
-def run(n, steps, end):
-    """X and u of the particles, after so many steps from the first time on."""
-    parameters = travelling_wave_2d.Parameters()
-    field = travelling_wave_2d.prepare(parameters)
-    body = Body(n, parameters)
-    ticks = (np.arange(2 * n) + 0.5) * body.h / 2.0
-    particles = np.array(np.meshgrid(ticks, ticks)).reshape(2, -1)
-    nodes = np.array(np.meshgrid(*[np.arange(n + 1) * body.h] * 2, indexing="ij"))
+def run(problem):
+    """u of the particles at the end."""
+    field, particles = problem.field, problem.X
+    body = Body(problem.cells, problem.h, field.parameters)
+    ticks = np.arange(body.n + 1) * body.h
+    nodes = np.stack(np.meshgrid(ticks, ticks, indexing="ij"), axis=-1)
 
-    def columns(values):
-        """Components last, as Taichi takes vectors."""
-        return np.ascontiguousarray(np.moveaxis(values, 0, -1))
-
-    begin, _ = field.time_window()
-    dt = (end - begin) / steps
-    start = field.at_time(begin)
-    body.X.from_numpy(columns(particles))
-    body.u.from_numpy(columns(start.displacement(*particles)))
-    body.v.from_numpy(columns(field.at_time(begin - dt / 2.0).velocity(*particles)))
-    gradient = start.displacement_gradient(*particles)
-    body.H.from_numpy(np.ascontiguousarray(np.moveaxis(gradient, -1, 0)))
+    begin, speed = problem.window[0], np.sqrt((body.lam + 2.0 * body.mu) / body.rho0)
+    steps = int(np.ceil((END - begin) * speed / (COURANT * body.h)))
+    dt = (END - begin) / steps
+    start = field.at(begin)
+    body.X.from_numpy(particles)
+    body.u.from_numpy(start.displacement(particles))
+    body.v.from_numpy(field.velocity(particles, begin - dt / 2.0))
+    body.H.from_numpy(start.displacement_gradient(particles))
     for step in range(steps):
         t = begin + step * dt
-        body.gather(columns(field.at_time(t).body_force(*particles)))
-        body.move(dt, columns(field.at_time(t + dt / 2.0).velocity(*nodes)))
+        body.gather(field.body_force(particles, t))
+        body.move(dt, field.velocity(nodes, t + dt / 2.0))
         body.scatter(dt)
-    return particles.T, body.u.to_numpy()
+    return problem.results(body.u.to_numpy(), t=END)
 
 
-def main(cells, steps, end, path):
-    X, u = run(int(cells), int(steps), float(end))
-    np.savez(path, X=X, u=u)
-
-
-main(*sys.argv[1:])
+verdict = mf.campaign("travelling_wave_2d", run, cells=[8, 16, 32, 64], expected_order=2)
+print(verdict)
+sys.exit(not verdict.passed)

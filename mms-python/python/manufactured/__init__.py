@@ -28,11 +28,12 @@ from ._native import (
 )
 
 if TYPE_CHECKING:
-    from .studies import Problem, Study, campaign, study
+    from .studies import Campaign, Problem, Run, Study, campaign, study
     from .verdicts import Diagnosis, Judgement, diagnose, judge, judge_law
 
 __all__ = [
     "AtPoints",
+    "Campaign",
     "Diagnosis",
     "Field",
     "FieldError",
@@ -42,6 +43,7 @@ __all__ = [
     "MmsError",
     "Now",
     "Problem",
+    "Run",
     "Study",
     "__version__",
     "campaign",

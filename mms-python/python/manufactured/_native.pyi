@@ -348,6 +348,8 @@ class Now:
     @property
     def time(self) -> float: ...
     def traction(self, face: str, X: _Numbers) -> _Array: ...
+    def evaluate(self, quantity: str, X: _Numbers, *, face: str | None = None) -> _Array: ...
+    def __getattr__(self, name: str) -> Any: ...
 
 @final
 class AtPoints:
@@ -418,6 +420,8 @@ class AtPoints:
     b = body_force
     S = second_piola_kirchhoff
     def traction(self, face: str, t: float | None = None) -> _Array: ...
+    def evaluate(self, quantity: str, t: float | None = None, *, face: str | None = None) -> _Array: ...
+    def __getattr__(self, name: str) -> Any: ...
 
 @final
 class Material:
@@ -432,7 +436,7 @@ class Level:
         u: _Numbers | None = None,
         *,
         t: float | None = None,
-        cells: Sequence[tuple[int, Any]] | None = None,
+        cells: Sequence[tuple[int | str, Any]] | None = None,
         **quantities: _Numbers,
     ) -> None: ...
     @property

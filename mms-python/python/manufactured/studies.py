@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Union
 from . import _native, documents
 from ._native import Field, Level
 from ._progress import Progress, followed
-from .verdicts import Judged, Judgement, Results, Shown, judge, opened
+from .verdicts import Diagnosis, Judged, Judgement, Results, Shown, diagnose, judge, opened
 
 if TYPE_CHECKING:
     import numpy as np
@@ -147,13 +148,54 @@ class Problem:
         """The traction P N on the reference area of a face: (..., D)."""
         return self.field.traction(face, X, t)
 
-    def results(self, u: Any, X: Any = None, *, t: float | None = None, **quantities: Any) -> Level:
-        """Results on this mesh: u at the points X, or at the particles of the problem, at t, or at the end of the window."""
+    def results(
+        self,
+        u: Any,
+        X: Any = None,
+        *,
+        t: float | None = None,
+        cells: Sequence[tuple[int | str, Any]] | None = None,
+        **quantities: Any,
+    ) -> Level:
+        """Results on this mesh: u at the points X, or at the particles of the problem, at t, or at the end of the window.
+
+        `cells` are those of a `Level`, such as `[("triangle", triangles)]`: norms are then taken over cells. Other quantities
+        are named: `P=stress`.
+        """
         at = self.window[1] if t is None and self.window else t
-        return Level(self.h, self.X if X is None else X, u, t=at, **quantities)
+        return Level(self.h, self.X if X is None else X, u, t=at, cells=cells, **quantities)
 
     def __repr__(self) -> str:
         return f"<{self.field.name} on {_division(self.cells)} cells>"
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run of a solver in a `campaign`."""
+
+    #: The problem that the solver got.
+    problem: Problem
+    #: The results that it returned.
+    results: Results
+    #: The wall time that it took, in s.
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Campaign(Judgement):
+    """The verdict on the results of a solver that is a function, with its runs: `campaign` returns one."""
+
+    __str__ = Shown.__str__
+
+    @property
+    def runs(self) -> list[Run]:
+        """The runs, from coarse to fine."""
+        runs: list[Run] = self.__dict__["_runs"]
+        return runs
+
+    def diagnose(self, **options: Any) -> Diagnosis:
+        """Names the mistake of the solver by these results; the options are those of `diagnose`."""
+        return diagnose(self.runs[0].problem.field, [run.results for run in self.runs], **options)
 
 
 def campaign(
@@ -164,19 +206,30 @@ def campaign(
     particles_per_cell: Cells = 2,
     progress: Progress = None,
     **options: Any,
-) -> Judgement:
+) -> Campaign:
     """Runs a solver that is a Python function on meshes, from coarse to fine, and judges its results.
 
     `solver(problem)` gets a `Problem`, with so many particles in each direction of a cell, and returns `problem.results(u)`, or
     results as `judge` takes them. Options are as in `judge`, for example `expected_order=2`; `progress` is as in `study`.
 
-    Raises what the solver raises, and MmsError where its results are none of the field.
+    Returns the judgement, whose `runs` have each problem, its results and the seconds that they took; `diagnose()` looks for the
+    mistake behind them. Raises what the solver raises, with a note that names the mesh, and MmsError where its results are none
+    of the field.
     """
-    of, grids = opened(field), list(cells)
-    results = []
+    of, grids, runs = opened(field), list(cells), []
     with followed(progress) as told:
         for level, each in enumerate(grids, 1):
             if told:
                 told(f"{_division(each)} cells: level {level} of {len(grids)}")
-            results.append(solver(Problem(of, each, level, particles_per_cell)))
-        return judge(of, results, progress=told or False, **options)
+            problem, start = Problem(of, each, level, particles_per_cell), time.perf_counter()
+            try:
+                results = solver(problem)
+            except Exception as error:
+                if hasattr(error, "add_note"):
+                    error.add_note(f"in level {level} of {len(grids)}: {problem!r}")
+                raise
+            runs.append(Run(problem, results, time.perf_counter() - start))
+        judgement = judge(of, [run.results for run in runs], progress=told or False, **options)
+    made = Campaign._of(judgement.__dict__["_views"])
+    object.__setattr__(made, "_runs", runs)
+    return made

@@ -117,8 +117,13 @@ class Diagnosis(Shown, Diagnose):
     __str__ = Shown.__str__
 
     def __repr__(self) -> str:
-        named = f" {self.ranked[0].hypothesis}" if self.finding == "named" else ""
+        named = f" {self.named}" if self.named else ""
         return f"<diagnosis of {self.field}: {self.finding}{named}>"
+
+    @property
+    def named(self) -> str | None:
+        """The name of the mistake, such as "force_reversed"; None where none is named."""
+        return self.ranked[0].hypothesis if self.finding == "named" else None
 
     @property
     def is_right(self) -> bool:
