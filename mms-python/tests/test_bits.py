@@ -29,8 +29,11 @@ def same_bits(one, other):
     assert one.tobytes() == other.tobytes()
 
 
-@pytest.mark.parametrize("dtype", [np.float64, np.float32])
-@pytest.mark.parametrize("name", mf.gallery())
+# In single precision the same programs are evaluated by other loops: a fourth of the fields has all of these.
+ALL = [(name, np.float64) for name in mf.gallery()] + [(name, np.float32) for name in mf.gallery()[::4]]
+
+
+@pytest.mark.parametrize(("name", "dtype"), ALL)
 def test_every_quantity(mms, name, dtype):
     field = opened(name)
     points = field.sample(POINTS).astype(dtype)
