@@ -150,7 +150,7 @@ impl Layout {
 }
 
 /// A tuple as Python writes it.
-fn written(numbers: &[usize]) -> String {
+pub fn written(numbers: &[usize]) -> String {
     let all: Vec<_> = numbers.iter().map(usize::to_string).collect();
     match all.as_slice() {
         [one] => format!("({one},)"),

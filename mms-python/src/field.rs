@@ -13,6 +13,7 @@ use mms_runtime::{Division, Setup};
 use mms_show::mathml::escape;
 use mms_spec::Face;
 use mms_spec::quantity::Quantity;
+use mms_spec::suggest::did_you_mean;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::{PyAttributeError, PyOSError, PyTypeError};
 use pyo3::prelude::*;
@@ -398,10 +399,13 @@ impl Material {
 /// A quantity that the field file defines, as a method of a field, at a time or at points.
 fn own<'py>(of: &Bound<'py, PyAny>, opened: &Opened, name: &str) -> PyResult<Bound<'py, PyAny>> {
     let Ok(quantity) = opened.compiled().quantity(name) else {
-        let field = opened.input.name.shown();
-        return Err(PyAttributeError::new_err(format!(
-            "a field has no `{name}`, and `{field}` defines no such quantity"
-        )));
+        let known: Vec<String> = of.get_type().dir()?.extract()?;
+        let known = known.iter().map(String::as_str).filter(|it| !it.starts_with('_'));
+        let advice = match did_you_mean(name, known) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("`{}` defines no such quantity", opened.input.name.shown()),
+        };
+        return Err(PyAttributeError::new_err(format!("a field has no `{name}`; {advice}")));
     };
     let partial = of.py().import("functools")?.getattr("partial")?;
     partial.call1((of.getattr("evaluate")?, quantity.name()))

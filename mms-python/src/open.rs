@@ -11,7 +11,7 @@ use mms_files::read::{self, Kind};
 use mms_spec::foreign::shown;
 use mms_spec::suggest::advice;
 use mms_symbolic::work::Stop;
-use pyo3::exceptions::PyOSError;
+use pyo3::exceptions::{PyFileNotFoundError, PyOSError};
 use pyo3::prelude::*;
 
 use crate::mistake::{failure, mistake};
@@ -36,7 +36,10 @@ pub fn shipped(name: &str) -> PyResult<Source> {
 
 /// The text of a field file.
 pub fn file(path: &Path) -> PyResult<Source> {
-    let unread = |error: anyhow::Error| PyOSError::new_err(format!("{error:#}"));
+    let unread = |error: anyhow::Error| match path.exists() {
+        true => PyOSError::new_err(format!("{error:#}")),
+        false => PyFileNotFoundError::new_err(format!("{error:#}")),
+    };
     let text = read::text(path, Kind::Field).map_err(unread)?;
     let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
     Ok(Source::file(path.to_path_buf(), text, move |material| {

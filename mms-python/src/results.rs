@@ -2,13 +2,13 @@
 
 use mms_exact::Exact;
 use mms_judge::results::Results;
-use mms_results::{Array, Cells, Snapshot, Stored, Time};
+use mms_results::{ARRAYS, Array, Cells, Snapshot, Stored, Time};
 use mms_symbolic::work::Stop;
 use numpy::PyReadonlyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::array::{Numbers, stretch};
+use crate::array::{Numbers, stretch, written};
 use crate::evaluator::Precision;
 use crate::mistake::mistake;
 
@@ -53,13 +53,13 @@ impl Level {
         }
         let mut leading = None;
         let mut snapshot =
-            Snapshot { path: "arrays".into(), format: "arrays", ..Snapshot::default() };
+            Snapshot { path: "arrays".into(), format: ARRAYS, ..Snapshot::default() };
         snapshot.time = t.map(|value| Time { value, rounding: 0.0 });
         for (name, array) in given {
             let array = of_points(&name, &array, &mut leading)?;
             snapshot.of_points.push(array);
         }
-        let rows = leading.map_or(0, |it| it.iter().product());
+        let rows = leading.map_or(0, |(_, it)| it.iter().product());
         if rows == 0 {
             return Err(mistake("a level has no points: expected arrays with one row for each"));
         }
@@ -96,19 +96,23 @@ impl Level {
 fn of_points(
     name: &str,
     given: &Bound<'_, PyAny>,
-    leading: &mut Option<Vec<usize>>,
+    leading: &mut Option<(String, Vec<usize>)>,
 ) -> PyResult<Array> {
     let numbers = Numbers::of(name, given)?;
     let shape = numbers.shape();
-    let leading = leading.get_or_insert_with(|| match (name, shape) {
-        ("X" | "x" | "u", [before @ .., _]) if !before.is_empty() => before.to_vec(),
-        (_, [first, ..]) => vec![*first],
-        (_, []) => Vec::new(),
+    let (first, leading) = leading.get_or_insert_with(|| {
+        let leading = match (name, shape) {
+            ("X" | "x" | "u", [before @ .., _]) if !before.is_empty() => before.to_vec(),
+            (_, [first, ..]) => vec![*first],
+            (_, []) => Vec::new(),
+        };
+        (name.to_owned(), leading)
     });
     let Some(own) = shape.strip_prefix(leading.as_slice()) else {
         return Err(mistake(format!(
-            "`{name}` has the shape {shape:?}, and the array before it has points along the axes {leading:?}: expected a row \
-             for each point"
+            "`{name}` has the shape {}, and `{first}` has points along {}: expected a row for each point",
+            written(shape),
+            written(leading)
         )));
     };
     let components = own.iter().product::<usize>().max(1);
@@ -241,6 +245,20 @@ pub fn sizes(all: &[Given]) -> PyResult<Vec<f64>> {
         known => Err(mistake(format!(
             "`h` is known of {known} of {} levels: expected all or none",
             all.len()
+        ))),
+    }
+}
+
+/// Refuses arrays of a motion that have no time.
+pub fn ensure_timed(all: &[Given], times: &[f64], is_static: bool) -> PyResult<()> {
+    let is_timeless = |it: &Given| match it {
+        Given::Arrays(level) => level.get().snapshot.time.is_none(),
+        Given::Files(_) => false,
+    };
+    match all.iter().position(is_timeless).filter(|_| times.is_empty() && !is_static) {
+        None => Ok(()),
+        Some(at) => Err(mistake(format!(
+            "level {at} has no time: expected `t=`, as in Level(h, X, u, t=0.01), or `times=`"
         ))),
     }
 }

@@ -25,7 +25,7 @@ use crate::field::Field;
 use crate::follow::Follower;
 use crate::mistake::mistake;
 use crate::opened::Opened;
-use crate::results::{Given, exact, sizes};
+use crate::results::{Given, ensure_timed, exact, sizes};
 
 /// A result in every form that Python is given.
 #[derive(IntoPyObject)]
@@ -93,7 +93,26 @@ fn detached<R: Send>(
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&Follower) -> anyhow::Result<R> + Send,
 ) -> PyResult<R> {
-    Follower::follow(py, progress, work)?.map_err(|error| mistake(format!("{error:#}")))
+    let made = Follower::follow(py, progress, work)?;
+    made.map_err(|error| mistake(in_keywords(&format!("{error:#}"))))
+}
+
+/// A message with the keywords of Python in place of options: `` `--time` `` is `` `times` ``, and `` `--map u=..` `` is `` `u=..` ``.
+fn in_keywords(message: &str) -> String {
+    let mut parts = message.split("`--");
+    let mut written = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let end = part.find(|it: char| it != '-' && !it.is_ascii_lowercase());
+        let (option, rest) = part.split_at(end.unwrap_or(part.len()));
+        written.push('`');
+        match option {
+            "map" => written.push_str(rest.trim_start()),
+            "time" => written += &format!("times{rest}"),
+            "quantity" => written += &format!("quantities{rest}"),
+            _ => written += &format!("{}{rest}", option.replace('-', "_")),
+        }
+    }
+    written
 }
 
 /// Judges results; see `judge` of the package.
@@ -117,6 +136,7 @@ fn judge(
     let start = start.map(Start::of).transpose().map_err(|it| mistake(format!("`start`: {it}")))?;
     let over = over.map(Over::of).transpose().map_err(|it| mistake(format!("`over`: {it}")))?;
     let (opened, sizes) = (&*field.opened, sizes(&results)?);
+    ensure_timed(&results, &times, opened.input.is_static())?;
     let orders = self::orders(&orders, tolerance, start);
     detached(py, progress, move |follower| {
         let mut exact = exact(opened, follower.stop.clone())?.in_space_if(all_components);
@@ -231,7 +251,7 @@ fn diagnose(
         let input = &opened.input;
         let (diagnosis, next) = (&diagnosis, None);
         let report = Diagnosed { input, files: &files, diagnosis, next, provenance };
-        Ok((Views::of(&report, None)?, notes))
+        Ok((Views::of(&report, None)?, notes.iter().map(|it| in_keywords(it)).collect()))
     })
 }
 

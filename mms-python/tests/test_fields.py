@@ -65,7 +65,7 @@ def test_a_mistake_has_its_place(tmp_path):
 def test_exceptions_are_value_errors():
     assert issubclass(mf.MmsError, ValueError)
     assert issubclass(mf.FieldError, mf.MmsError)
-    with pytest.raises(OSError, match="cannot read"):
+    with pytest.raises(FileNotFoundError, match="cannot read `there_is_none.toml`"):
         mf.load("there_is_none.toml")
     with pytest.raises(mf.MmsError, match="did you mean `bar_1d`"):
         mf.field("bar1d")
@@ -83,8 +83,11 @@ def test_exceptions_are_value_errors():
         opened("bar_1d").evaluate("traction", [1.0], 0.0)
     with pytest.raises(TypeError, match="truth value"):
         mf.field("bar_1d", amplitude=True)
-    with pytest.raises(AttributeError, match="has no `stres`"):
+    with pytest.raises(AttributeError, match="has no `stres`; `bar_1d` defines no such"):
         opened("bar_1d").stres
+    for of in (opened("bar_1d"), opened("bar_1d").at(0.0), opened("bar_1d").points([0.5])):
+        with pytest.raises(AttributeError, match="did you mean `displacement`"):
+            of.displacment
 
 
 def test_numbers_are_taken_by_their_digits():

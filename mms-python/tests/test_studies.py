@@ -122,3 +122,15 @@ def test_a_campaign_in_two_dimensions_raises_what_the_solver_raises():
         assert error.value.__notes__ == ["in level 1 of 1: <travelling_wave_2d on 4x4 cells>"]
     with pytest.raises(mf.MmsError, match="cells"):
         mf.campaign("bar_1d", lambda problem: problem.X, cells=[(4, 4)])
+
+
+def test_what_is_no_campaign_is_said():
+    for cells in (8, "8x8"):
+        with pytest.raises(TypeError, match=r"`cells`: expected those of each mesh, such as \[8, 16, 32\]"):
+            mf.campaign("bar_1d", lambda problem: problem.X, cells=cells)
+    with pytest.raises(mf.MmsError, match="no results"):
+        mf.campaign("bar_1d", lambda problem: problem.X, cells=[])
+    seen = []
+    with pytest.raises(TypeError, match="`problem.results\\(u\\)`, .* found NoneType"):
+        mf.campaign("bar_1d", seen.append, cells=[8, 16])
+    assert len(seen) == 1

@@ -140,7 +140,7 @@ def test_meshes_are_judged_over_cells():
 
 def test_mistakes_in_results_are_named():
     x, u = results(8)
-    with pytest.raises(mf.MmsError, match="a row for each point"):
+    with pytest.raises(mf.MmsError, match=r"`u` has the shape \(15,\), and `X` has points along \(16,\): expected a row for each"):
         mf.Level(1 / 8, x, u[:-1], t=TIME)
     with pytest.raises(mf.MmsError, match="no points"):
         mf.Level()
@@ -158,6 +158,15 @@ def test_mistakes_in_results_are_named():
         mf.judge("bar_1d", levels(), over="faces")
     with pytest.raises(mf.MmsError, match="there_is_none.csv"):
         mf.judge("bar_1d", ["there_is_none.csv"])
+    with pytest.raises(mf.MmsError, match="no results"):
+        mf.judge("bar_1d", [])
+    with pytest.raises(mf.MmsError, match="level 1 has no time: expected `t=`"):
+        mf.judge("bar_1d", [mf.Level(1 / 8, x, u, t=TIME), mf.Level(1 / 16, x, u)])
+    with pytest.raises(mf.MmsError) as error:
+        mf.judge("bar_1d", [mf.Level(1 / 8, x, foo=u, t=TIME)])
+    assert "`X`, `foo`; name them, as with `u=foo`" in str(error.value)
+    with pytest.raises(TypeError, match="points alone"):
+        mf.diagnose("bar_1d", x)
 
 
 def deformations(count=40):
@@ -182,6 +191,8 @@ def test_a_law_is_compared_with_that_of_the_field(mms, tmp_path):
     assert mf.judge_law(field, F, tau=P @ np.swapaxes(F, 1, 2)).is_right
     with pytest.raises(mf.MmsError, match="no stress"):
         mf.judge_law(field, F)
+    with pytest.raises(mf.MmsError, match=r"`F` has the shape \(40, 2\): expected \(..., 2, 2\)"):
+        mf.judge_law(field, F[:, 0], P)
 
 
 def test_accelerations_at_an_exact_state():

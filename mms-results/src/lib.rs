@@ -37,4 +37,4 @@ pub mod write;
 pub use files::Files;
 pub use mistake::Mistake;
 pub use read::{Contents, is_time, parse, read};
-pub use snapshot::{Array, Cells, Snapshot, Stored, Time};
+pub use snapshot::{ARRAYS, Array, Cells, Snapshot, Stored, Time};

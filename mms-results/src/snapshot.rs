@@ -198,7 +198,10 @@ pub struct Time {
     pub rounding: f64,
 }
 
-/// The contents of a file for one mesh at one time.
+/// The format of a snapshot that no file holds.
+pub const ARRAYS: &str = "arrays";
+
+/// What a file holds of one mesh at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     /// The file.

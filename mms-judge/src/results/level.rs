@@ -7,7 +7,7 @@ use mms_results::motion::{Motion, hold_distinct};
 use mms_results::names::{
     Axes, Form, Meaning, Names, OwnRole, Role, Values, all_names, everything, recognise, wanted,
 };
-use mms_results::{Files, Snapshot, Stored, suggestion};
+use mms_results::{ARRAYS, Files, Snapshot, Stored, suggestion};
 use mms_spec::own::Own;
 use mms_spec::quantity::{Quantity, Shape};
 use mms_spec::{FieldSpec, Space};
@@ -427,6 +427,9 @@ impl Reading<'_> {
 
     /// Reads the snapshot with all its arrays, including those with unknown names.
     fn whole(&self, snapshot: &Snapshot) -> anyhow::Result<Snapshot> {
+        if snapshot.format == ARRAYS {
+            return Ok(Snapshot { points: None, ..snapshot.clone() });
+        }
         let (room, advice) = room(self.memory, self.files);
         let wanted = everything(self.names).within(room, advice);
         let found = Results::find(&snapshot.path, &wanted, self.files)?;

@@ -17,7 +17,8 @@ def level_of(results: Any) -> Level | str | os.PathLike[str]:
     if hasattr(results, "points") and hasattr(results, "point_data"):
         return _level(results)
     raise TypeError(
-        f"expected a level, a path, or a mesh of meshio or PyVista, found {type(results).__name__}"
+        "expected a level, as of `Level(h, X, u, t=t)` or `problem.results(u)`, a path, or a mesh of meshio or PyVista; found "
+        + type(results).__name__
     )
 
 

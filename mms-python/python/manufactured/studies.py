@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Union
 
 from . import _native, documents
+from ._mesh import level_of
 from ._native import Field, Level
 from ._progress import Progress, followed
 from .verdicts import Diagnosis, Judged, Judgement, Results, Shown, diagnose, judge, opened
@@ -52,6 +53,13 @@ def _division(cells: Cells) -> str:
     return "x".join(map(str, cells)) if isinstance(cells, Sequence) and not isinstance(cells, str) else str(cells)
 
 
+def _grids(cells: Iterable[Cells]) -> list[Cells]:
+    """The cells of each mesh."""
+    if isinstance(cells, str) or not isinstance(cells, Iterable):
+        raise TypeError(f"`cells`: expected those of each mesh, such as [8, 16, 32], found {cells!r}")
+    return list(cells)
+
+
 def _options(options: Mapping[str, Any]) -> list[str]:
     words = []
     for name, value in options.items():
@@ -83,7 +91,7 @@ def study(
 
     Raises MmsError where an option makes no sense, or no level can be started. An interrupt ends the runs.
     """
-    grids = [_division(it) for it in cells]
+    grids = [_division(it) for it in _grids(cells)]
     with followed(progress) as told:
         return Study._of(_native.study(opened(field), _options({"cells": grids or None, **options}), told))
 
@@ -216,14 +224,14 @@ def campaign(
     mistake behind them. Raises what the solver raises, with a note that names the mesh, and MmsError where its results are none
     of the field.
     """
-    of, grids, runs = opened(field), list(cells), []
+    of, grids, runs = opened(field), _grids(cells), []
     with followed(progress) as told:
         for level, each in enumerate(grids, 1):
             if told:
                 told(f"{_division(each)} cells: level {level} of {len(grids)}")
             problem, start = Problem(of, each, level, particles_per_cell), time.perf_counter()
             try:
-                results = solver(problem)
+                results = level_of(solver(problem))
             except Exception as error:
                 if hasattr(error, "add_note"):
                     error.add_note(f"in level {level} of {len(grids)}: {problem!r}")

@@ -10,6 +10,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 
+import numpy as np
+
 from . import _native
 from ._document import Document
 from ._mesh import level_of
@@ -139,7 +141,10 @@ def opened(field: Field | str) -> Field:
 def _levels(results: Iterable[Results]) -> list[Level | str | os.PathLike[str]]:
     if isinstance(results, (str, os.PathLike, Level)):
         results = [results]
-    return [level_of(it) for it in results]
+    levels = [level_of(it) for it in results]
+    if not levels:
+        raise _native.MmsError("no results: expected a level, a path or a mesh of each mesh, from coarse to fine")
+    return levels
 
 
 def _orders(given: float | Mapping[str, float] | None) -> list[tuple[str | None, float]]:
@@ -216,6 +221,8 @@ def diagnose(
     Raises MmsError where there is nothing to look at. An interrupt ends the work.
     """
     named: dict[str, Any] = arrays
+    if not named and isinstance(results, np.ndarray):
+        raise TypeError("points alone: give what the solver computed there, such as `a=` for accelerations or `r=` for residuals")
     given = [Level(h, results, t=t, **named)] if named else _levels(results)  # type: ignore[arg-type]
     steps = [float(time_step)] if isinstance(time_step, (int, float)) else [float(it) for it in time_step]
     with followed(progress) as told:
@@ -253,8 +260,12 @@ def judge_law(
 
     Raises MmsError where no stress is given, or two are.
     """
+    of, shape = opened(field), np.shape(F)
+    dimension = of.dimension
+    if shape[-2:] not in ((dimension, dimension), (3, 3)) and (dimension > 1 or len(shape) != 1):
+        raise _native.MmsError(f"`F` has the shape {shape}: expected (..., {dimension}, {dimension})")
     stresses = {"P": P, "S": S, "sigma": sigma, "tau": tau}
     given: dict[str, Any] = {name: it for name, it in stresses.items() if it is not None}
     level = Level(None, X, F=F, **given)
-    views, _ = _native.diagnose(opened(field), [level], "stress", [], [], [], [], [], 1.0, False, None)
+    views, _ = _native.diagnose(of, [level], "stress", [], [], [], [], [], 1.0, False, None)
     return Diagnosis._of(views)
