@@ -164,7 +164,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-diagnosis",
         knows: &["mms-runtime"],
         layers: &[
-            "body falls law revolved sample slopes smooth",
+            "body falls follow law revolved sample slopes smooth",
             "exact",
             "evidence hypothesis material",
             "answer changed quadrature",
@@ -423,7 +423,7 @@ pub const CRATES: &[Crate] = &[
         layers: &[
             "command evaluator mistake",
             "array open",
-            "opened",
+            "follow opened",
             "kept results show",
             "field",
             "verdict",
