@@ -24,7 +24,7 @@ const CLASSES: [Class; 3] = [
     Class {
         name: "Field",
         signature: "X, t=None",
-        arguments: "X: &Bound<'py, PyAny>, t: Option<f64>",
+        arguments: "X: &Bound<'py, PyAny>, #[pyo3(from_py_with = crate::array::time)] t: Option<f64>",
         call: "self.opened.quantity(py, QUANTITY, &Points::given(X, &self.opened)?, t)",
         says: "X: (..., D) reference positions; for D = 1 also (n,). t: the time, which a static field needs none of.",
     },
@@ -38,7 +38,7 @@ const CLASSES: [Class; 3] = [
     Class {
         name: "AtPoints",
         signature: "t=None",
-        arguments: "t: Option<f64>",
+        arguments: "#[pyo3(from_py_with = crate::array::time)] t: Option<f64>",
         call: "self.stay.quantity(py, &self.opened, QUANTITY, t)",
         says: "t: the time, which a static field needs none of.",
     },

@@ -100,7 +100,17 @@ fn not_real(name: &str, given: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("`{name}`: expected an array of real numbers, found {found}{of}"))
 }
 
-/// The layout of the numbers of points in an array: a fixed number in a row for each point.
+/// The time of an argument, if it is given.
+pub fn time(given: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
+    given.extract().map_err(|_| {
+        let found = given.get_type();
+        PyTypeError::new_err(format!(
+            "`t`: expected one number, found {found}; call once for each time"
+        ))
+    })
+}
+
+/// How the numbers of points stand in an array: so many in a row for each point.
 pub struct Layout {
     /// The axes before the axes of one point.
     pub leading: Vec<usize>,

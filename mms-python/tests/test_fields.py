@@ -81,6 +81,9 @@ def test_exceptions_are_value_errors():
         opened("bar_1d").traction("y_max", [1.0], 0.0)
     with pytest.raises(mf.MmsError, match="takes a normal"):
         opened("bar_1d").evaluate("traction", [1.0], 0.0)
+    for of in (opened("bar_1d").b, lambda _, t: opened("bar_1d").points([0.5]).b(t)):
+        with pytest.raises(TypeError, match="`t`: expected one number, found .*ndarray.*; call once for each"):
+            of([0.5], np.array([0.0, 0.01]))
     with pytest.raises(TypeError, match="truth value"):
         mf.field("bar_1d", amplitude=True)
     with pytest.raises(AttributeError, match="has no `stres`; `bar_1d` defines no such"):
