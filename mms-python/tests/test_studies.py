@@ -126,7 +126,7 @@ def test_a_campaign_in_two_dimensions_raises_what_the_solver_raises():
 
 def test_what_is_no_campaign_is_said():
     for cells in (8, "8x8"):
-        with pytest.raises(TypeError, match=r"`cells`: expected those of each mesh, such as \[8, 16, 32\]"):
+        with pytest.raises(TypeError, match=r"`cells`: expected a list with the cells of each mesh, such as \[8, 16, 32\]"):
             mf.campaign("bar_1d", lambda problem: problem.X, cells=cells)
     with pytest.raises(mf.MmsError, match="no results"):
         mf.campaign("bar_1d", lambda problem: problem.X, cells=[])

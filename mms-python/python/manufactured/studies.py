@@ -56,7 +56,7 @@ def _division(cells: Cells) -> str:
 def _grids(cells: Iterable[Cells]) -> list[Cells]:
     """The cells of each mesh."""
     if isinstance(cells, str) or not isinstance(cells, Iterable):
-        raise TypeError(f"`cells`: expected those of each mesh, such as [8, 16, 32], found {cells!r}")
+        raise TypeError(f"`cells`: expected a list with the cells of each mesh, such as [8, 16, 32], found {cells!r}")
     return list(cells)
 
 
