@@ -22,7 +22,7 @@ fn study(
     let mut words = vec!["study".to_owned(), source.given().to_owned()];
     words.extend(set.chain(options));
     let work = |follower: &Follower| {
-        let report = studies(&words, &|_| Ok(source.clone()), follower)?;
+        let report = studies(&words, &|_| Ok(source.clone()), follower, follower)?;
         let [alone] = report.studies.as_slice() else {
             bail!("a study has one method: call `study` once for each")
         };

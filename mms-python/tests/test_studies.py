@@ -76,6 +76,15 @@ def test_an_interrupt_ends_a_study_and_nothing_else_runs():
     assert mf.study("bar_1d", cells=[4, 8]).levels[0].cells == 4
 
 
+def test_an_interrupt_ends_the_search_for_excluded_mistakes():
+    def interrupt(line):
+        if line.startswith("mistake to exclude: "):
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        mf.study("bar_1d", cells=CELLS, shape="cpgimp", excluded=True, progress=interrupt)
+
+
 def test_progress_is_printed_to_stderr(capsys, monkeypatch):
     from manufactured import _progress
 

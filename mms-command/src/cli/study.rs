@@ -16,7 +16,7 @@ use mms_analysis::period::period;
 use mms_codegen::selection::Selection;
 use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
 use mms_exact::{Input, Open, hold_division, units};
-use mms_judge::next;
+use mms_judge::{Follow as Search, Unfollowed, next};
 use mms_lab::trial::Progress as Follow;
 use mms_mechanics::sample::domain;
 use mms_options::field::{Motion, open};
@@ -135,7 +135,8 @@ pub(super) fn main_job() -> anyhow::Result<Outcome> {
     Alone::parse_from(["mms", "bar_1d"]).study.run(&["mms".to_owned()])
 }
 
-/// The studies of a command line, `study` first, of a field that `open` opens; nothing is printed or written.
+/// The studies of a command line, `study` first, of a field that `open` opens; nothing is printed or written. `search` follows the
+/// search for excluded mistakes.
 ///
 /// # Errors
 /// Options or a field that cannot be studied.
@@ -143,6 +144,7 @@ pub fn studies(
     words: &[String],
     open: Open<'_>,
     progress: &dyn Follow,
+    search: &dyn Search,
 ) -> anyhow::Result<Comparison> {
     let study = Alone::try_parse_from(words)?.study;
     study.validate()?;
@@ -150,7 +152,7 @@ pub fn studies(
     let command: Vec<_> = [&["mms".to_owned()], words].concat();
     let input = cases[0].input.provenance(&study.set);
     let provenance = provenance::new("study", &command, input);
-    let studies = study.reports(&cases, &command, &provenance, progress)?;
+    let studies = study.reports(&cases, &command, &provenance, (progress, search))?;
     Ok(Comparison { studies, provenance })
 }
 
@@ -164,7 +166,7 @@ impl Study {
         let folder = output_folder(self.output.as_deref(), input.name.raw())?;
         self.figure.hold()?;
         let provenance = provenance::new("study", words, input.provenance(&self.set));
-        let studies = self.reports(&cases, words, &provenance, &progress)?;
+        let studies = self.reports(&cases, words, &provenance, (&progress, &Unfollowed))?;
         let is_started = studies.iter().any(Report::is_started);
         let report = Comparison { studies, provenance };
         if is_started || self.printing.is_json() {
@@ -185,7 +187,7 @@ impl Study {
 
     /// The study of a command line, `study` first, as any machine makes it; nothing, if no level could be started.
     pub fn anywhere(words: &[String]) -> anyhow::Result<Option<Report>> {
-        let mut report = studies(words, &open, &Progress::new())?;
+        let mut report = studies(words, &open, &Progress::new(), &Unfollowed)?;
         report.studies.iter_mut().for_each(|it| it.provenance.machine = None);
         Ok(report.studies.into_iter().next().filter(Report::is_started))
     }
@@ -238,14 +240,14 @@ impl Study {
         cases: &[Case],
         words: &[String],
         provenance: &Provenance,
-        progress: &dyn Follow,
+        (progress, search): (&dyn Follow, &dyn Search),
     ) -> anyhow::Result<Vec<Report>> {
         let mut reports = Vec::new();
         for case in cases {
             if cases.len() > 1 {
                 progress.say(&method::line(&case.method, case.options.arithmetic));
             }
-            let mut report = self.report(case, provenance.clone(), progress)?;
+            let mut report = self.report(case, provenance.clone(), (progress, search))?;
             self.explain(&mut report, case, cases.len() > 1, words)?;
             reports.push(report);
         }
@@ -290,7 +292,7 @@ impl Study {
         &self,
         case: &Case,
         provenance: Provenance,
-        progress: &dyn Follow,
+        (progress, search): (&dyn Follow, &dyn Search),
     ) -> anyhow::Result<Report> {
         let Case { options, input, method } = case;
         let mut method = method.clone();
@@ -336,7 +338,9 @@ impl Study {
             verdict => verdict,
         };
         let exclusions = match (self.excluded, verdict) {
-            (true, Verdict::Pass | Verdict::Exact) => self.exclusions(input, &method, &started)?,
+            (true, Verdict::Pass | Verdict::Exact) => {
+                self.exclusions(input, &method, &started, search)?
+            }
             (true, _) => {
                 progress.say("note: `--excluded`: only a pass excludes mistakes");
                 None

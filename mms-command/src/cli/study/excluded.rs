@@ -1,7 +1,7 @@
 //! The mistakes that a study excludes.
 
-use mms_diagnosis::follow::Unfollowed;
 use mms_exact::Input;
+use mms_judge::Follow;
 use mms_judge::results::Exclusions;
 use mms_mechanics::sample::domain;
 use mms_report::run;
@@ -19,6 +19,7 @@ impl Study {
         input: &Input,
         method: &Method,
         started: &[&Run],
+        search: &dyn Follow,
     ) -> anyhow::Result<Option<Exclusions>> {
         let Some(finest) = started.last() else { return Ok(None) };
         let set = input.settings(&self.set)?;
@@ -32,12 +33,6 @@ impl Study {
         let error =
             |name: &str| Some(largest.iter().flatten().find(|(_, key, _)| *key == name)?.2.l2);
         let level = &finest.level;
-        Ok(Exclusions::new(
-            &scene,
-            error,
-            (level.cell_size, Some(level.time_step)),
-            times,
-            &Unfollowed,
-        ))
+        Ok(Exclusions::new(&scene, error, (level.cell_size, Some(level.time_step)), times, search))
     }
 }
