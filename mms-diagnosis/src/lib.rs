@@ -17,9 +17,9 @@
 //! no more than that error, and which hypotheses explain as much. If none does, [`pair`] searches two, and [`place`] says where
 //! the error is.
 //!
-//! If the order between meshes is wrong ([`falls`]), the answer is a name or that nothing explains the error, however small it is.
-//! Where an error is no more than a method's, the same runs tell which mistakes it [excludes](excluded).
-//! [`follow`] shows how far the runs are, and ends them on request.
+//! If the order between meshes is wrong ([`falls`]), the finding is `named` or `unexplained`, however small the error is. If an
+//! error is no larger than a method's, the same runs show which mistakes it [excludes](excluded). [`follow`] shows the progress
+//! of the runs, and ends them on request.
 //!
 //! A hypothesis is named only if three conditions hold: it leaves little of the error; its effect need not be scaled, or its
 //! size is possible; and, if that size was fitted, the error is larger than the methods' errors ([`answer::Limits`]).

@@ -110,7 +110,7 @@ pub fn time(given: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
     })
 }
 
-/// How the numbers of points stand in an array: so many in a row for each point.
+/// The layout of the numbers of points in an array: a fixed number in a row for each point.
 pub struct Layout {
     /// The axes before the axes of one point.
     pub leading: Vec<usize>,

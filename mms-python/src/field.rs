@@ -411,7 +411,7 @@ fn own<'py>(of: &Bound<'py, PyAny>, opened: &Opened, name: &str) -> PyResult<Bou
     partial.call1((of.getattr("evaluate")?, quantity.name()))
 }
 
-/// Parameters as they were given: a number stands for its digits, as on the command line, and a text for a formula.
+/// Parameters as they were given: a number is read by its digits, as on the command line, and a text as a formula.
 fn settings(parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, String)>> {
     let Some(parameters) = parameters else { return Ok(Vec::new()) };
     let setting = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {

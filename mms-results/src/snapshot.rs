@@ -201,7 +201,7 @@ pub struct Time {
 /// The format of a snapshot that no file holds.
 pub const ARRAYS: &str = "arrays";
 
-/// What a file holds of one mesh at one time.
+/// The contents of a file for one mesh at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     /// The file.

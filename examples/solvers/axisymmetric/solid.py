@@ -2,8 +2,8 @@
 
     python3 examples/solvers/axisymmetric/solid.py
 
-The integrals are per radian, with the weight R. The mass is lumped, and velocities are half a step off. Of the field it takes b, the
-start, and that all sides but the axis are at rest. `around=0` leaves out P_tt/R, and takes F_tt = 1: that has to fail.
+The integrals are per radian, with the weight R. The mass is lumped, and velocities are at half steps. b and the start come from the
+field; all sides except the axis are at rest. `around=0` leaves out P_tt/R, and sets F_tt = 1: that study must fail.
 """
 
 import sys

@@ -7,7 +7,7 @@ from skfem import BilinearForm, ElementQuad1, ElementVector, LinearForm, MeshQua
 from skfem.helpers import ddot, det, dot, grad, inv, mul, trace, transpose
 from square import Square, deformation
 
-# In the time of the runs heat crosses half of the square.
+# During the runs, heat crosses half of the square.
 FIELD = mf.field("heated_square_2d", capacity=1, conductivity=2000)
 # A quarter of a period of the wave.
 END = 0.0079
@@ -48,7 +48,7 @@ def capacity(du, dtheta, v, q, w):
 
 
 def run(problem, sources=None):
-    """The square; `sources` is a field whose b and source of heat take the place of the right ones."""
+    """The square; `sources` is a field whose b and source of heat replace the right ones."""
     field, names = problem.field, ("young", "nu", "rho0", "expansion", "conductivity", "capacity", "length")
     young, nu, rho0, expansion, conductivity, heat, length = (field.parameters[it] for it in names)
     sources = sources or field

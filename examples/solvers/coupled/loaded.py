@@ -1,4 +1,4 @@
-"""A neo-Hookean block in equilibrium, with quadratic functions, under a share of its load.
+"""A neo-Hookean block in equilibrium, with quadratic functions, under a part of its load.
 """
 
 import manufactured as mf
@@ -26,7 +26,7 @@ def tangent(du, v, w):
 
 
 def run(problem, sources=None):
-    """The block; `sources` is a field whose b takes the place of the right one."""
+    """The block; `sources` is a field whose b replaces the right one."""
     field, (mu, lame) = problem.field, (problem.field.parameters[it] for it in ("mu", "lame"))
     square = Square(
         MeshTri, problem.upper[0], problem.cells, ElementVector(ElementTriP2()), 6, {"x_min": ["u^1", "u^2"]}

@@ -1,4 +1,4 @@
-"""Elements of Taylor and Hood: an incompressible neo-Hookean block at rest, with quadratic functions of u and linear ones of p.
+"""Taylor-Hood elements: an incompressible neo-Hookean block at rest, with quadratic functions of u and linear functions of p.
 """
 
 import manufactured as mf

@@ -1,4 +1,4 @@
-"""The parts that the three solvers share: a square of triangles or quadrilaterals, and Newton's method."""
+"""The shared parts of the three solvers: a square of triangles or quadrilaterals, and Newton's method."""
 
 import numpy as np
 from skfem import Basis, FacetBasis, LinearForm, condense, solve
@@ -11,7 +11,7 @@ def deformation(h):
 
 
 class Square:
-    """A square of n x n squares, or of twice as many triangles, with the functions of an element, the displacement first. `held`
+    """A mesh of n x n squares, or of twice as many triangles, with the functions of an element, the displacement first. `held`
     has the names of the degrees of freedom that are 0 on sides. Quadrature is exact up to an order.
     """
 
@@ -44,7 +44,7 @@ class Square:
         return force
 
     def solved(self, equations, x):
-        """Where the residual of equations is 0, by Newton's method from x; they give the tangent and the residual."""
+        """Solves for a residual of 0 by Newton's method from x; `equations` returns the tangent and the residual."""
         for _ in range(20):
             tangent, residual = equations(x)
             correction = solve(*condense(tangent, residual, D=self.held))
@@ -55,7 +55,7 @@ class Square:
         raise ArithmeticError("Newton's method does not converge")
 
     def results(self, problem, u, nodes, t=None, **linear):
-        """The displacement at nodes with their cells, and what is linear in each cell, at the same nodes."""
+        """The displacement at nodes with their cells, and quantities that are linear in each cell, at the same nodes."""
         (u1, part), (u2, _) = nodes.split(u)
         cells, corners = part.element_dofs, self.basis.mesh.t
         at_nodes = {}

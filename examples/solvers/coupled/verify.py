@@ -1,5 +1,5 @@
-"""Verifies the three solvers with all sources, and without one term of them: prints the orders, and exits 1 unless they are the
-expected ones with all, and lost without the term.
+"""Verifies the three solvers with all sources, and without one term of them. Prints the orders, and exits 1 unless they are as
+expected with all terms, and lost without the term.
 """
 
 import sys
@@ -32,7 +32,7 @@ lacking = partial(mixed.run, has_source=False)
 study("mixed", "without volume_residual", mixed.FIELD, lacking, cells, order, passes=False)
 
 study("heated", "right", heated.FIELD, heated.run, cells, 2, passes=True)
-# Sources are linear in these parameters: with 0 they lack one term, and no other.
+# Sources are linear in these parameters: with the value 0 they lack exactly one term.
 for name in ("expansion", "conductivity"):
     lacking = partial(heated.run, sources=heated.FIELD.set(**{name: 0}))
     study("heated", f"without {name}", heated.FIELD, lacking, cells, 2, passes=False)

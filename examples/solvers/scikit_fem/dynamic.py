@@ -1,6 +1,6 @@
-"""A field in motion: a consistent mass, and the method of Runge and Kutta of fourth order, so that the
-error is that of the elements. The sides move with the accelerations of the field; b and the start are
-the field's.
+"""A field in motion: a consistent mass, and the Runge-Kutta method of fourth order, so that the elements
+dominate the error. The sides move with the accelerations of the field; b and the start come from the
+field.
 """
 
 import math
@@ -9,14 +9,12 @@ import numpy as np
 from scipy.sparse.linalg import splu
 from solid import ELEMENTS, Solid
 
-# The largest product of wave speed and time step over the distance of nodes.
+# The largest wave speed times time step, over the distance of nodes.
 COURANT = 0.15
 
 
 def moved(solid, field, begin, end, steps):
-    """The displacement, the velocity and the acceleration at the end of so many steps, from the field's own state at the
-    beginning.
-    """
+    """The displacement, the velocity and the acceleration after `steps` steps from the state of the field at the start."""
     mass = solid.mass().tocsc()
     held, free = solid.held, solid.basis.complement_dofs(solid.held)
     factors = splu(mass[free][:, free])

@@ -1,6 +1,6 @@
 """A total-Lagrangian solid of neo-Hookean material in plane strain, discretised with scikit-fem.
 
-Of the field that verifies it, it gets the parameters, and functions for b and for tractions.
+The field that verifies it provides the parameters, and functions for b and for tractions.
 """
 
 import numpy as np
@@ -9,7 +9,7 @@ from skfem import (
     LinearForm, MeshQuad, MeshTri, condense, solve,
 )
 
-# Of each kind: its mesh, its functions, its degree, and the name of its cells in meshio.
+# For each kind of element: its mesh, its functions, its degree, and the name of its cells in meshio.
 ELEMENTS = {
     "P1": (MeshTri, ElementTriP1, 1, "triangle"),
     "P2": (MeshTri, ElementTriP2, 2, "triangle6"),
@@ -47,14 +47,14 @@ def square(kind, n, length, shift):
 
 
 class Solid:
-    """A square of elements of a kind; the motion of the sides `held` is given."""
+    """A square of elements of a kind; the motion of the sides `held` is prescribed."""
 
     def __init__(self, kind, n, parameters, held, shift=0.0):
         length, young, nu = (parameters[it] for it in ("length", "young", "nu"))
         mesh = square(kind, n, length, shift)
         _, functions, degree, self.cell = ELEMENTS[kind]
         element = ElementVector(functions())
-        # Exact enough that quadrature shows in no error.
+        # High enough that the error of quadrature is negligible.
         self.order = 2 * degree + 4
         self.basis = Basis(mesh, element, intorder=self.order)
         places = {"x_min": (0, 0.0), "x_max": (0, length), "y_min": (1, 0.0), "y_max": (1, length)}
@@ -92,12 +92,12 @@ class Solid:
         return BilinearForm(form).assemble(self.basis, g=g, twist=twist)
 
     def body_force(self, b):
-        """The integral of rho0 b . v, of a function b(X)."""
+        """The integral of rho0 b . v, with a function b(X)."""
         form = LinearForm(lambda v, w: self.rho0 * np.sum(w.b * v.value, axis=0))
         return form.assemble(self.basis, b=at(b, self.basis.default_parameters()["x"]))
 
     def surface_force(self, side, traction):
-        """The integral of T . v over a side, of a function T(X)."""
+        """The integral of T . v over a side, with a function T(X)."""
         mesh, element = self.basis.mesh, self.basis.elem
         faces = FacetBasis(mesh, element, facets=self.sides[side], intorder=self.order)
         form = LinearForm(lambda v, w: np.sum(w.t * v.value, axis=0))

@@ -1,11 +1,11 @@
-"""A field at rest: Newton's method, and a force that is put on in steps."""
+"""A field at rest: Newton's method, with the force applied in steps."""
 
 import numpy as np
 from solid import Solid
 
 
 def solved(solid, force, steps=4):
-    """The displacement that balances a force, which is put on in steps."""
+    """The displacement that balances a force, which is applied in steps."""
     u = np.zeros(solid.basis.N)
     for step in range(1, steps + 1):
         u = solid.balance(force * step / steps, u)

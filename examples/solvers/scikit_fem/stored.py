@@ -1,4 +1,4 @@
-"""Writes twenty right runs on four meshes each, as `tests/command/data/scikit_fem` holds them:
+"""Writes the twenty right runs, on four meshes each, that are stored in `tests/command/data/scikit_fem`:
 
     python3 examples/solvers/scikit_fem/stored.py OUTPUT
 """
@@ -13,11 +13,11 @@ import numpy as np
 from solid import ELEMENTS
 
 END = 0.012
-# The fields: one that is deformed at the start, and one that is not.
+# The fields: the first is deformed at the start, the second is not.
 FIELDS = {"wave": "travelling_wave_2d", "start": "starting_square_2d"}
-# What is written of the motion, by the field and the degree.
+# The written quantities of the motion, by field and degree.
 WRITTEN = {("wave", 1): "uv", ("wave", 2): "uv", ("start", 1): "uva", ("start", 2): "uv"}
-# Four of the waves once more, with accelerations.
+# Four of the waves are written again, with accelerations.
 WITH_ACCELERATION = ["Q1_regular", "P2_regular", "P1_irregular", "Q2_irregular"]
 
 

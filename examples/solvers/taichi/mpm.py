@@ -2,9 +2,9 @@
 
     python3 examples/solvers/taichi/mpm.py
 
-The grid is that of the reference body, with 2 x 2 particles of neo-Hookean material in each cell.
-Velocities live between the times of positions. b at the particles, the motion of the sides and the start
-are the field's.
+The grid covers the reference body, with 2 x 2 particles of neo-Hookean material in each cell.
+Velocities are at half steps. b at the particles, the motion of the sides and the start come from the
+field.
 """
 
 import sys
@@ -40,7 +40,7 @@ class Body:
 
     @ti.func
     def corner(self, p, k):
-        """Of the corners of the particle's cell the k-th: its node, its weight, and the gradient."""
+        """The node, the weight and the weight gradient of the k-th corner of the particle's cell."""
         place = self.X[p] / self.h
         cell = ti.min(ti.floor(place, int), self.n - 1)
         side = ti.Vector([k % 2, k // 2])
@@ -50,7 +50,7 @@ class Body:
 
     @ti.kernel
     def gather(self, b: ti.types.ndarray(dtype=ti.math.vec2, ndim=1)):
-        """From the particles to the nodes."""
+        """Sums masses, momenta and forces of the particles onto the nodes."""
         for node in ti.grouped(self.mass):
             self.mass[node] = 0.0
             self.velocity[node] = self.acceleration[node] = ti.Vector([0.0, 0.0])
@@ -67,7 +67,7 @@ class Body:
 
     @ti.kernel
     def move(self, dt: float, sides: ti.types.ndarray(dtype=ti.math.vec2, ndim=2)):
-        """The nodes: those of the sides get the velocities that they are given."""
+        """Updates the nodes; nodes of the sides get prescribed velocities."""
         for node in ti.grouped(self.mass):
             before = self.velocity[node] / self.mass[node]
             self.velocity[node] = before + dt * self.acceleration[node] / self.mass[node]
@@ -77,7 +77,7 @@ class Body:
 
     @ti.kernel
     def scatter(self, dt: float):
-        """From the nodes to the particles."""
+        """Updates the particles from the nodes."""
         for p in self.X:
             for k in ti.static(range(4)):
                 node, weight, gradient = self.corner(p, k)

@@ -167,7 +167,7 @@ class Problem:
     ) -> Level:
         """Results on this mesh: u at the points X, or at the particles of the problem, at t, or at the end of the window.
 
-        `cells` are those of a `Level`, such as `[("triangle", triangles)]`: norms are then taken over cells. Other quantities
+        `cells` are the cells as in a `Level`, such as `[("triangle", triangles)]`: norms are then taken over cells. Other quantities
         are named: `P=stress`.
         """
         at = self.window[1] if t is None and self.window else t
@@ -202,7 +202,7 @@ class Campaign(Judgement):
         return runs
 
     def diagnose(self, **options: Any) -> Diagnosis:
-        """Names the mistake of the solver by these results; the options are those of `diagnose`."""
+        """Names the mistake of the solver by these results; the options are the same as of `diagnose`."""
         return diagnose(self.runs[0].problem.field, [run.results for run in self.runs], **options)
 
 

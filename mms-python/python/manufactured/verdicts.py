@@ -173,7 +173,7 @@ def judge(
 
     No process is started, and no file is written. `results` are levels, paths as `mms judge` takes them, or meshes of meshio or
     PyVista. `expected_order` is a number, or numbers by names of norms, quantities or QUANTITY:NORM. `over` is "points" or
-    "cells". The other options are those of `mms judge`, and `progress` is that of `study`.
+    "cells". The other options have their meaning in `mms judge`; for `progress`, see `study`.
 
     Raises MmsError where results are none of the field. An interrupt ends the work.
     """
@@ -216,7 +216,7 @@ def diagnose(
     """Names the mistake of a solver by the error that it makes, as `mms diagnose` does.
 
     `diagnose(field, X, a=a, t=t)` looks at accelerations, or at residuals `r`, at an exact state. `diagnose(field, results)`
-    looks at results as `judge` takes them. `time_step` is that of the solver, or one for each mesh. `progress` is that of `study`.
+    looks at results as `judge` takes them. `time_step` is the solver's, or one for each mesh. For `progress`, see `study`.
 
     Raises MmsError where there is nothing to look at. An interrupt ends the work.
     """
