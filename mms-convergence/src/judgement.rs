@@ -107,7 +107,19 @@ impl Judgement {
         self.deciding().finding.verdict
     }
 
-    /// The result of a norm.
+    /// The order of linf, if it alone decides a fail: l2, and l1 if there is such, has the expected order.
+    pub fn only_largest(&self) -> Option<f64> {
+        let deciding = self.deciding();
+        let is_good = |name| self.norm(name).is_none_or(|it| it.finding.verdict.is_good());
+        let is_alone = deciding.norm == "linf"
+            && deciding.finding.verdict == Verdict::Fail
+            && self.norm("l2").is_some()
+            && is_good("l1")
+            && is_good("l2");
+        deciding.finding.estimate.filter(|_| is_alone).map(|it| it.order)
+    }
+
+    /// What is found of a norm.
     pub fn norm(&self, name: &str) -> Option<&Judged> {
         self.norms.iter().find(|it| it.norm == name)
     }

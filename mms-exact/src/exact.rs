@@ -281,6 +281,19 @@ impl Exact {
         faces.map(|face| (face, on(&face))).filter(|(_, points)| !points.is_empty()).collect()
     }
 
+    /// The distances of a point to the faces.
+    pub fn distances_to_faces(&self, point: &[f64]) -> Vec<(Face, f64)> {
+        let field = &self.input.compiled.field;
+        let faces = Face::of(&field.domain.body, field.space).into_iter();
+        let distances = faces.map(|face| (face, self.body.distance_to(face, point)));
+        distances.filter(|it| it.1.is_finite()).collect()
+    }
+
+    /// The largest distance to a face of a point that lies on it; how far each coordinate may be from what was meant.
+    pub fn rounding_of_faces(&self, point: &[f64], rounding: f64) -> f64 {
+        near(point, rounding)
+    }
+
     /// The part of the neighbourhood of each point that lies in the body: half of it on a face, a quarter on an edge.
     pub fn neighbourhoods(&self, points: &[f64], rounding: f64) -> Vec<f64> {
         let mut parts = vec![1.0; points.len() / self.dimension];

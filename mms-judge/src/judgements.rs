@@ -29,6 +29,10 @@ pub struct Judgements {
     pub exclusions: Option<Exclusions>,
     /// The words of the command to type next, if the verdict is no pass.
     pub next: Option<Vec<String>>,
+    /// Whether a campaign file has the expected orders, and not a command line.
+    is_of_campaign: bool,
+    /// The place of the largest error of each quantity on the finest mesh, in words; none of a table.
+    largest: Vec<String>,
     /// The keys of results of files.
     results: Results,
     /// The provenance of the document.
@@ -63,6 +67,8 @@ impl Judgements {
             part: None,
             exclusions: None,
             next: None,
+            is_of_campaign: false,
+            largest: Vec::new(),
             results: Results::default(),
             provenance,
         })
@@ -101,9 +107,15 @@ impl Judgements {
         provenance: Provenance,
     ) -> anyhow::Result<Self> {
         let results = Results::new(exact.input(), files, &measurement);
-        let Measurement { measured, notes, objection, part, .. } = measurement;
+        let Measurement { measured, notes, objection, part, largest, .. } = measurement;
         let report = Self::objected(exact.title(), measured, objection.as_ref(), provenance)?;
-        Ok(Self { notes, part, results, ..report })
+        Ok(Self { notes, part, largest, results, ..report })
+    }
+
+    /// Names the key of a campaign file where another judgement names an option.
+    #[must_use]
+    pub fn of_campaign(self) -> Self {
+        Self { is_of_campaign: true, ..self }
     }
 
     /// The position of the deciding quantity, and its verdict.
@@ -178,12 +190,56 @@ impl Judgements {
                 deciding.expected.order
             )
         }));
+        lines.extend(self.largest(quantity, judged));
         lines.extend(fits);
         lines.extend(judged.objection.as_ref().map(|it| it.why.clone()));
         lines.extend(
             self.part.as_ref().map(|part| format!("only a part of the body is judged: {part}")),
         );
         lines
+    }
+
+    /// The place of the largest error, and the expected order that accepts it, if linf alone fails.
+    fn largest(&self, quantity: &Quantity, judged: &Judged) -> Option<String> {
+        let order = judged.judgement.only_largest()?;
+        let at = self.measured.quantities.iter().position(|it| std::ptr::eq(it, quantity));
+        let place = at.and_then(|at| self.largest.get(at)).filter(|it| !it.is_empty());
+        let place = place.map(|it| format!("; the largest error of the finest mesh is {it}"));
+        let l2 = judged.judgement.norm("l2")?.finding.estimate?.order;
+        let option = self.lower_order(quantity, judged).map(|it| match self.is_of_campaign {
+            true => format!("; \"{it}\" in `order` expects that"),
+            false => format!("; `--expected-order {it}` expects that"),
+        });
+        Some(format!(
+            "linf alone fails, with order {order:.2}, and l2 has order {l2:.2}: the order is lost at few points{}{}",
+            place.unwrap_or_default(),
+            option.unwrap_or_default()
+        ))
+    }
+
+    /// The value of `--expected-order` with which a quantity passes, if linf alone fails: the observed order, rounded down.
+    fn lower_order(&self, quantity: &Quantity, judged: &Judged) -> Option<String> {
+        let order = (10.0 * judged.judgement.only_largest()?).floor() / 10.0;
+        let name = quantity.name.raw();
+        let symbol = mms_spec::quantity::Quantity::from_name(name).map_or(name, |it| it.symbol());
+        let is_one = self.files().is_empty() && self.measured.quantities.len() == 1;
+        let column = if is_one { String::new() } else { format!("{symbol}:") };
+        (order > 0.0).then(|| format!("{column}linf={order}"))
+    }
+
+    /// The values of `--expected-order` with which the results pass, if linf alone fails wherever they fail, and no layer at a face
+    /// is seen.
+    pub fn lower_orders(&self) -> Option<Vec<String>> {
+        let is_good = |it: &&Judged| it.judgement.verdict().is_good();
+        if self.judged.iter().all(|it| is_good(&it)) {
+            return None;
+        }
+        let order = |(quantity, judged): (&Quantity, &Judged)| match is_good(&judged) {
+            true => None,
+            false if judged.judgement.layer().is_some() => Some(None),
+            false => Some(self.lower_order(quantity, judged)),
+        };
+        self.each().filter_map(order).collect()
     }
 
     /// The JSON document.

@@ -21,6 +21,8 @@ pub struct Meshes {
     pub files: Vec<String>,
     /// The options that `mms judge` and `mms diagnose` share.
     pub options: Vec<String>,
+    /// The words of the command, if it is `mms judge`.
+    pub of_judge: Option<Words>,
 }
 
 /// The option of this name with several values; `None` without a value.
@@ -76,6 +78,11 @@ pub fn after_judgement(
         Verdict::Exact | Verdict::Pass => None,
         Verdict::NoEvidence => Some(meshes.asks("judge", ["--explain".to_owned()])),
         Verdict::Fail | Verdict::NotAsymptotic => {
+            // An error at few points is too small in the mean for a diagnosis.
+            if let (Some(own), Some(orders)) = (&meshes.of_judge, judgements.lower_orders()) {
+                let order = list("expected-order", &orders);
+                return Some(own.iter().cloned().chain(order).collect());
+            }
             let samplings = judgements.samplings();
             let is_at_points = |name: &&str| {
                 samplings.is_some_and(|all| {

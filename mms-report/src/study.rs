@@ -438,6 +438,11 @@ impl Study {
             true => self.judgement.explanations(symbol, &name),
             false => self.judgement.reasons(symbol, &name),
         });
+        lines.extend(self.judgement.only_largest().map(|order| {
+            format!(
+                "linf alone fails, with order {order:.2}: l2 has its order, so the order is lost at few particles"
+            )
+        }));
         lines.extend(self.causes.iter().map(|it| format!("likely cause: {it}")));
         lines.extend(self.growth());
         let has_constant = is_full || self.expected_error_constant.is_some();

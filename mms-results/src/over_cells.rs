@@ -41,11 +41,13 @@ pub struct Carried<'a> {
 }
 
 /// The norms of an error over the body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct OverCells {
     /// The error.
     pub value: Norms,
-    /// The seminorm of H1, over the root of the body's measure; 0 if it was not requested.
+    /// The place X of the largest error.
+    pub place: Vec<f64>,
+    /// The seminorm of H1, by the root of the body's measure; 0 where it was not asked for.
     pub h1: f64,
 }
 
@@ -160,6 +162,8 @@ struct Peak {
     table: usize,
     /// The place in the cube.
     at: Local,
+    /// The place in the cube that has the error.
+    highest: Local,
 }
 
 /// The sums and the largest errors so far.
@@ -244,11 +248,11 @@ impl Mesh<'_> {
         if found.volume.is_nan() || found.volume <= 0.0 {
             return Err(Mistake::new("no cell of the dimension of the field"));
         }
-        self.climb(&mut found, &tables, carried, exact)?;
+        let place = self.climb(&mut found, &tables, carried, exact)?;
         let (linf, at) = found.largest;
         let root = |sum: f64| (sum / found.volume).sqrt();
         let value = Norms { l1: found.first / found.volume, l2: root(found.second), linf, at };
-        Ok(OverCells { value, h1: root(found.gradient) })
+        Ok(OverCells { value, place, h1: root(found.gradient) })
     }
 
     /// Adds the points of quadrature of a cell to a batch.
@@ -354,15 +358,15 @@ impl Mesh<'_> {
         Ok(())
     }
 
-    /// Evaluates the exact solution where the polynomials have their largest values, and climbs by parabolas beside these
-    /// places.
+    /// Asks for the exact solution where polynomials have their largest values, and beside these places, by parabolas uphill.
+    /// Returns the place X of the largest error; the middle of its cell, if a point of quadrature has it.
     fn climb(
         &self,
         found: &mut Found,
         tables: &[Table],
         carried: Carried<'_>,
         exact: Exact<'_>,
-    ) -> Result<(), Mistake> {
+    ) -> Result<Vec<f64>, Mistake> {
         found.keep_peaks();
         let dimension = self.dimension;
         found.peaks.iter_mut().for_each(|it| it.error = 0.0);
@@ -385,8 +389,14 @@ impl Mesh<'_> {
                 .flat_map(|peak| beside(peak).map(|at| Peak { at, ..*peak }))
                 .collect();
             let errors = self.errors_at(&tried, tables, carried, exact)?;
-            for (peak, errors) in found.peaks.iter_mut().zip(errors.chunks(2 * dimension + 1)) {
-                peak.error = errors.iter().copied().fold(peak.error, f64::max);
+            let count = 2 * dimension + 1;
+            let each = found.peaks.iter_mut().zip(errors.chunks(count).zip(tried.chunks(count)));
+            for (peak, (errors, tried)) in each {
+                for (error, tried) in errors.iter().zip(tried).filter(|it| !it.0.is_nan()) {
+                    if *error > peak.error {
+                        (peak.error, peak.highest) = (*error, tried.at);
+                    }
+                }
                 for (axis, beside) in errors[1..].chunks(2).enumerate() {
                     let (rise, bend) =
                         (beside[1] - beside[0], 2.0 * errors[0] - beside[0] - beside[1]);
@@ -400,12 +410,21 @@ impl Mesh<'_> {
             }
             part *= SHRINKS;
         }
-        let larger = |most: (f64, usize), it: &Peak| match it.error > most.0 {
-            true => (it.error, it.cell),
-            false => most,
-        };
-        found.largest = found.peaks.iter().fold(found.largest, larger);
-        Ok(())
+        let mut highest = [0.5; 3];
+        for peak in &found.peaks {
+            if peak.error > found.largest.0 {
+                (found.largest, highest) = ((peak.error, peak.cell), peak.highest);
+            }
+        }
+        let cell = found.largest.1;
+        let points = self.full().find(|it| it.0 == cell);
+        Ok(points.map_or_else(Vec::new, |(_, shape, points)| {
+            let functions = shape.values(shape.of_cube(highest).0);
+            let sum = |axis: usize| {
+                points.iter().zip(&functions).map(|(&at, n)| n * self.point(at)[axis]).sum()
+            };
+            (0..dimension).map(sum).collect()
+        }))
     }
 
     /// The errors at places in cells.
@@ -520,7 +539,7 @@ impl Found {
             let error = most.sqrt();
             self.best = self.best.max(error);
             if error > NEAR * self.best {
-                self.peaks.push(Peak { error, cell, table, at: place });
+                self.peaks.push(Peak { error, cell, table, at: place, highest: place });
             }
         }
         if self.peaks.len() > 4 * COMPARED {

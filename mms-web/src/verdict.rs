@@ -147,8 +147,8 @@ fn of_results(
     report.notes.splice(0..0, warnings);
     let given = [list("h", &options.mesh_sizes), list("time", &options.times)];
     let options_given = given.into_iter().flatten().collect();
-    let meshes =
-        Meshes { field: format!("{}.toml", field.name), files: names, options: options_given };
+    let field = format!("{}.toml", field.name);
+    let meshes = Meshes { field, files: names, options: options_given, of_judge: None };
     report.next = after_judgement(&report, Some(&meshes), !options.quantities.is_empty());
     Ok(report)
 }

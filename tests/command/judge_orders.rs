@@ -129,3 +129,56 @@ fn velocities_at_points_have_the_order_of_u_unless_an_option_says_less() {
     let run = folder.mms(&format!("{judge} --start interpolation")).exits(0);
     run.prints("expected order of v: from 1 on").prints("expected 1 to 2");
 }
+
+/// The state of the wave at the points of a grid as `N.csv`, u with an error of order 2, and of order 1.7 at one corner.
+fn with_a_corner(folder: &Folder, n: usize) {
+    let of = |k: usize| k as f64 / n as f64;
+    let mut points = "X,Y\n".to_owned();
+    for at in 0..(n + 1) * (n + 1) {
+        writeln!(points, "{},{}", of(at / (n + 1)), of(at % (n + 1))).expect("a string");
+    }
+    folder.write("points.csv", &points);
+    let state = "--points points.csv --time 0.012 --quantity u -o exact.csv";
+    folder.mms(&format!("state travelling_wave_2d {state}")).exits(0);
+    let exact = folder.read("exact.csv");
+    let (header, rows) = exact.split_once('\n').expect("rows");
+    let column = header.split(',').position(|it| it.starts_with("u_")).expect("a column of u");
+    let mut wrong = header.to_owned();
+    let rows: Vec<&str> = rows.lines().collect();
+    for (at, row) in rows.iter().enumerate() {
+        let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();
+        let is_corner = at + 1 == rows.len();
+        let error = if is_corner { 3.0 * (n as f64).powf(-1.7) } else { (n as f64).powi(-2) };
+        let u: f64 = cells[column].parse().expect("a number");
+        cells[column] = (u + 0.01 * error).to_string();
+        wrong += &format!("\n{}", cells.join(","));
+    }
+    folder.write(&format!("{n}.csv"), &format!("{wrong}\n"));
+}
+
+#[test]
+fn a_lower_order_at_a_corner_alone_is_told_with_its_place() {
+    let folder = Folder::new();
+    [16, 32, 64].iter().for_each(|&n| with_a_corner(&folder, n));
+    let judge = "judge travelling_wave_2d 16.csv 32.csv 64.csv";
+    let run = folder.mms(judge).exits(1);
+    run.prints("linf alone fails, with order 1.70")
+        .prints("the largest error of the finest mesh is at X = (1, 1), where the faces x_max and y_max meet")
+        .prints("`--expected-order u:linf=1.7` expects that")
+        .prints(&format!("\nnext: mms {judge} --expected-order=u:linf=1.7"));
+    folder.mms(&format!("{judge} --expected-order u:linf=1.7")).exits(0);
+    // A table has no places.
+    folder.write(
+        "errors.csv",
+        "h,l2,linf\n0.25,1.6e-2,8.0e-2\n0.125,4.0e-3,2.46e-2\n0.0625,1.0e-3,7.58e-3\n",
+    );
+    let run = folder.mms("judge --errors errors.csv").exits(1);
+    run.prints("the order is lost at few points; `--expected-order linf=1.6` expects that");
+    // A layer at a face is a mistake, and no corner.
+    folder.write(
+        "errors.csv",
+        "h,u_l1,u_l2,u_linf\n0.25,1,1,1\n0.125,0.25,0.353,0.5\n0.0625,0.0625,0.125,0.25\n",
+    );
+    let run = folder.mms("judge --errors errors.csv").exits(1);
+    assert!(!run.stdout.contains("linf alone"), "{run}");
+}

@@ -293,7 +293,8 @@ impl Diagnose {
             self.variant.arguments(),
         ];
         let field = self.field.clone().unwrap_or_default();
-        Meshes { field, files: self.files.clone(), options: options.concat() }
+        let (files, options) = (self.files.clone(), options.concat());
+        Meshes { field, files, options, of_judge: None }
     }
 
     /// The law alone, or the quantities of results that are looked at.

@@ -127,6 +127,8 @@ pub struct Errors {
     pub of_time: [f64; 2],
     /// Whether a solver is given all values.
     pub is_given: bool,
+    /// The place X of the largest error, and how far each coordinate may be from what was meant.
+    pub largest_at: (Vec<f64>, f64),
 }
 
 /// The options for reading snapshots.

@@ -13,6 +13,7 @@ mod extent;
 mod files;
 mod given;
 mod iterative;
+mod largest;
 mod level;
 mod remarks;
 mod same;
@@ -57,7 +58,9 @@ pub struct Measurement {
     pub objection: Option<Objection>,
     /// The part of the body that results cover, if a part is enough.
     pub part: Option<String>,
-    /// The number of points of the mesh with the fewest points.
+    /// The place of the largest error of each quantity on the finest mesh, in words.
+    pub largest: Vec<String>,
+    /// The number of points of the mesh that has the fewest.
     pub points: usize,
     /// Notes on how errors were measured, and why.
     pub notes: Vec<String>,
@@ -169,8 +172,10 @@ pub fn measure(
         .filter_map(|it| Some((it.quantity.name(), it.iterative?)))
         .collect();
     let points = levels.iter().map(|level| level.found.covered.points).min().unwrap_or_default();
+    let names: Vec<_> = quantities.iter().map(|(it, _)| *it).collect();
     Ok(Measurement {
         measured,
+        largest: largest::places(&names, (&levels, &sizes), exact),
         points,
         samplings: quantities.iter().map(|(_, sampling)| *sampling).collect(),
         times: common.times,
@@ -237,7 +242,10 @@ impl Errors {
         if other.of_time[0] > self.of_time[0] {
             self.of_time = other.of_time;
         }
-        for ((_, most), (_, one)) in self.norms.iter_mut().zip(other.norms) {
+        for ((name, most), (_, one)) in self.norms.iter_mut().zip(other.norms) {
+            if *name == "linf" && one.error > most.error {
+                self.largest_at.clone_from(&other.largest_at);
+            }
             *most = Measure { error: most.error.max(one.error), floor: most.floor.max(one.floor) };
         }
     }

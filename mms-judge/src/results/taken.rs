@@ -104,15 +104,15 @@ impl Taken<'_> {
         let compared = self.compared(quantity, (values, weights), places, solution)?;
         match sampling {
             Sampling::Cells => self.over_cells(quantity, values, &compared),
-            _ => self.over_points(quantity, values, sampling, &compared),
+            _ => self.over_points(quantity, (values, places), sampling, &compared),
         }
     }
 
-    /// The norms over points, weighted or with equal weights.
+    /// The norms over points at these places, by their weights or all alike.
     pub fn over_points(
         &self,
         quantity: Quantity,
-        values: &Values<'_>,
+        (values, places): (&Values<'_>, &[f64]),
         sampling: Sampling,
         compared: &AgainstExact<'_>,
     ) -> anyhow::Result<Errors> {
@@ -122,7 +122,10 @@ impl Taken<'_> {
         let norms = [("l1", found.l1), ("l2", found.l2), ("linf", found.linf)];
         let floor = compared.floor;
         let norms = norms.map(|(name, error)| (name, Measure { error, floor })).to_vec();
-        Ok(self.result(quantity, values, sampling, norms, compared))
+        let dimension = self.mesh.dimension;
+        let place = places.get(found.at * dimension..).and_then(|it| it.get(..dimension));
+        let place = place.unwrap_or_default().to_vec();
+        Ok(self.result(quantity, values, (sampling, place), norms, compared))
     }
 
     /// Refuses a density whose name may mean the present or the reference one, if its numbers are the reference density and the
@@ -195,7 +198,7 @@ impl Taken<'_> {
         let norms =
             norms.into_iter().map(|(name, error)| (name, Measure { error, floor: of_norm(name) }));
         let norms = norms.collect();
-        Ok(self.result(quantity, values, Sampling::Cells, norms, compared))
+        Ok(self.result(quantity, values, (Sampling::Cells, found.place), norms, compared))
     }
 
     /// Compares values with the exact ones at places X, and finds the part of the difference that rounding may make: rounding
@@ -257,7 +260,7 @@ impl Taken<'_> {
         &self,
         quantity: Quantity,
         values: &Values<'_>,
-        sampling: Sampling,
+        (sampling, place): (Sampling, Vec<f64>),
         norms: Vec<(&'static str, Measure)>,
         compared: &AgainstExact<'_>,
     ) -> Errors {
@@ -272,6 +275,7 @@ impl Taken<'_> {
             stored: values.stored,
             of_time: [compared.of_time, self.time],
             is_given: compared.is_given,
+            largest_at: (place, self.motion.reference.rounding),
         }
     }
 }

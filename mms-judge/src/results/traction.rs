@@ -72,7 +72,8 @@ impl Taken<'_> {
         let radii = self.exact.radii(&places);
         let compared =
             self.compared(Quantity::Traction, (&values, radii.as_deref()), &places, solution)?;
-        self.over_points(Quantity::Traction, &values, Sampling::Faces, &compared).map(Some)
+        let values = (&values, places.as_slice());
+        self.over_points(Quantity::Traction, values, Sampling::Faces, &compared).map(Some)
     }
 
     /// A vector with `components` components at each point.

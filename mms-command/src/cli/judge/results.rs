@@ -27,6 +27,7 @@ use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
 use super::super::naming::Naming;
+use super::super::next::typed;
 use super::super::{Outcome, say, this_command};
 use super::{Judge, outcome};
 
@@ -112,7 +113,12 @@ impl Options {
             next::each("set", &self.set),
             self.variant.arguments(),
         ];
-        Meshes { field: field.to_owned(), files: files.to_vec(), options: options.concat() }
+        Meshes {
+            field: field.to_owned(),
+            files: files.to_vec(),
+            options: options.concat(),
+            of_judge: Some(typed()),
+        }
     }
 }
 
