@@ -68,23 +68,34 @@ impl View<'_> {
         }
     }
 
-    /// The findings of the canaries: a line for each study that passes with a wrong b.
+    /// The findings of the canaries: a line for each study that passes with a wrong b, or does not count.
     fn canaries(&self) -> Option<String> {
         let all = self.0.canaries.as_ref()?.len();
         let fails = self.0.with_canary(Canary::Fails).len();
-        let head = match all {
-            0 => "canary: no study has a body force, so none can be given a wrong one".to_owned(),
-            _ => {
-                format!("canary: with -b in place of b {fails} of {all} studies fail, as all must")
+        let open = self.0.with_canary(Canary::Open);
+        let head = match (all, all - open.len()) {
+            (0, _) => {
+                Some("canary: no study has a body force, so none can be given a wrong one".into())
             }
+            (_, 0) => None,
+            (_, counted) => Some(format!(
+                "canary: with -b in place of b {fails} of {counted} studies fail, as all must"
+            )),
         };
+        let left_out = open.into_iter().map(|name| {
+            format!(
+                "canary: {} does not count: the study does not pass with the right b either",
+                shown(name)
+            )
+        });
+        let head = head.into_iter().chain(left_out);
         let lines = self.0.with_canary(Canary::Passes).into_iter().map(|name| {
             format!(
                 "{} passes with -b: it measures nothing. Does the solver use the b that it is given, and are these its results?",
                 shown(name)
             )
         });
-        Some(std::iter::once(head).chain(lines).collect::<Vec<_>>().join("\n"))
+        Some(head.chain(lines).collect::<Vec<_>>().join("\n"))
     }
 
     /// The verdict of each study that does not pass, with its name.
