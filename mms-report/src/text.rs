@@ -4,7 +4,13 @@ use mms_files::shell;
 
 /// The line with the command to type next, if there is one.
 pub fn next(words: Option<&Vec<String>>) -> Option<String> {
-    words.map(|words| format!("next: {}", shell::command(&words[1..])))
+    words.map(|words| match words.first().is_some_and(|it| it == "mms") {
+        true => format!("next: {}", shell::command(&words[1..])),
+        false => {
+            let words = words.iter().map(|it| shell::quoted(it));
+            format!("next: {}", words.collect::<Vec<_>>().join(" "))
+        }
+    })
 }
 
 /// The number of unexpected verdicts among all; `expected` is the phrase for an expected one, as in "as theory expects".

@@ -128,3 +128,20 @@ fn a_campaign_is_junit_xml_and_a_summary() {
         .exits(2)
         .complains("studies of `mms campaign` are cases of a test");
 }
+
+#[test]
+fn a_canary_of_a_study_that_fails_itself_does_not_count() {
+    let folder = Folder::new();
+    let run = campaign(&folder, "1 {force_factor}", "", "--canary").exits(1);
+    run.prints("canary: bar_1d does not count: the study does not pass with the right b either");
+    assert!(!run.stdout.contains("as all must"), "{run}");
+}
+
+#[test]
+fn after_a_crash_the_next_command_shows_what_the_run_printed() {
+    let folder = Folder::new();
+    let run = campaign(&folder, "x", "", "--store runs").exits(3);
+    let next = run.stdout.lines().find_map(|it| it.strip_prefix("next: ")).expect("a command");
+    assert!(next.starts_with("tail -n 50 runs/") && next.ends_with("/stderr.txt"), "{run}");
+    assert_eq!(folder.types(next).stdout, "no licence\n");
+}

@@ -335,3 +335,22 @@ fn a_study_that_fails_says_why_and_what_to_type() {
     let run = folder.mms("study bar_1d --cells 8,16,32 --shape ugimp").exits(1);
     run.prints("the error of P grows on finer meshes (l2: ");
 }
+
+#[test]
+fn after_several_methods_the_next_command_names_one_that_passes() {
+    let folder = Folder::new();
+    let next = |options: &str| {
+        let run = folder.mms(&format!("study bar_1d --cells 8,16,32 {options}")).exits(1);
+        let line = run.stdout.lines().find_map(|it| it.strip_prefix("next: "));
+        line.unwrap_or_else(|| panic!("no command: {run}")).to_owned()
+    };
+    assert_eq!(
+        next("--formulation updated,total --shape linear"),
+        "mms study bar_1d --cells 8,16,32 --formulation=total --shape=linear --integrator=leapfrog --transfer=flip --excluded"
+    );
+    // Nothing passes: what has failed is not named.
+    let failed = next("--formulation updated --shape linear,ugimp --integrator usl,leapfrog");
+    assert!(failed.contains("--formulation=total --shape=linear"), "{failed}");
+    let twice = next("--formulation updated,total --shape linear --integrator usl,usf");
+    assert!(!twice.contains("=usl") && !twice.contains("=usf"), "{twice}");
+}

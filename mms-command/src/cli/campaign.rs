@@ -156,7 +156,7 @@ impl Campaign {
             set: Vec::new(),
             hash: hash(plan, text),
         };
-        let next = next::after_campaign(&mut studies, &plan.here, &next::typed());
+        let next = next::after_campaign(&mut studies, &plan.here, &self.folder(), &next::typed());
         let provenance = this_command("campaign", input);
         let report = Report { plan, studies, canaries, next, provenance };
         self.tell(&report, work)

@@ -1,7 +1,8 @@
 //! The next command to type after a search and a campaign; `mms_judge::next` has those after a judgement and a diagnosis.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use mms_campaign::supervisor::{STDERR, STDOUT};
 use mms_files::program::arguments;
 use mms_files::shell;
 use mms_harness::judged::Judged;
@@ -70,7 +71,12 @@ fn of_study(judged: &Judged<'_>, files: &[String], here: &Path) -> Meshes {
         each("from", study.from.as_ref().map(path).as_slice()),
         each("max-memory", study.max_memory.as_slice()),
     ];
-    Meshes { field: path(&study.field), files: files.to_vec(), options: options.concat() }
+    Meshes {
+        field: path(&study.field),
+        files: files.to_vec(),
+        options: options.concat(),
+        of_judge: None,
+    }
 }
 
 /// After a search by a command of these words: the run of the choice, or the same search for the least error, or the least cost, that
@@ -93,9 +99,26 @@ pub fn after_search(
     Some(changed(words, &[(name, format!("{:.1e}", (value / unit).ceil() * unit))]))
 }
 
-/// Sets the next command of each judgement of a campaign, and returns the next command of the campaign, whose command so far
-/// has these words: a diagnosis, or the commands of runs that failed.
-pub fn after_campaign(studies: &mut [Judged<'_>], here: &Path, words: &[String]) -> Option<Words> {
+/// The end of what the first failed run of a campaign printed; nothing, if it printed nothing.
+fn log_of(studies: &[Judged<'_>], store: &Path) -> Option<Words> {
+    let folders = studies.iter().flat_map(|it| &it.outcomes).filter_map(|outcome| match outcome {
+        Outcome::Failed { folder, .. } => Some(store.join(folder)),
+        _ => None,
+    });
+    let logs = folders.flat_map(|it| [STDERR, STDOUT].map(|name| it.join(name)));
+    let is_said = |path: &PathBuf| path.metadata().is_ok_and(|it| it.len() > 0);
+    let log = logs.into_iter().find(is_said)?.to_string_lossy().into_owned();
+    Some(["tail", "-n", "50", &log].map(str::to_owned).to_vec())
+}
+
+/// Gives each judgement of a campaign its own, and returns the command after the campaign, whose command so far has these words:
+/// the log of a failed run in this store, or the command of a run that printed nothing, or a diagnosis.
+pub fn after_campaign(
+    studies: &mut [Judged<'_>],
+    here: &Path,
+    store: &Path,
+    words: &[String],
+) -> Option<Words> {
     for study in studies.iter_mut() {
         let Some(judgements) = &study.judgements else { continue };
         let meshes = of_study(study, judgements.files(), here);
@@ -107,6 +130,9 @@ pub fn after_campaign(studies: &mut [Judged<'_>], here: &Path, words: &[String])
         let failed = |it: &Outcome| matches!(it, Outcome::Failed { .. });
         it.mistake.is_some() || it.outcomes.iter().any(failed)
     };
+    if let Some(log) = log_of(studies, store) {
+        return Some(log);
+    }
     if let Some(study) = studies.iter().find(has_failed) {
         let only = format!("--only={}", study.planned.study.name);
         let words = words.iter().cloned();

@@ -16,7 +16,7 @@ use mms_analysis::period::period;
 use mms_codegen::selection::Selection;
 use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
 use mms_exact::{Input, Open, hold_division, units};
-use mms_judge::{Follow as Search, Unfollowed, next};
+use mms_judge::next as judged;
 use mms_lab::trial::Progress as Follow;
 use mms_mechanics::sample::domain;
 use mms_options::field::{Motion, open};
@@ -26,14 +26,14 @@ use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
 use mms_runtime::{Division, Method, Real, Refusal, Run};
 
-use self::cause::Ended;
+use self::cause::{Ended, Named};
 use self::periods::Periods;
 use self::refined::{PARTS, halved, quartered};
 use self::usual::filled;
 use super::figure::FigureFile;
 use super::format::{Detail, Printing};
 use super::methods::Methods;
-use super::{Outcome, output_folder, print, replaced, say};
+use super::{Outcome, next, output_folder, print, replaced, say};
 use crate::provenance::{self, Provenance};
 use crate::session::effort::estimate;
 use crate::session::progress::Progress;
@@ -130,7 +130,23 @@ struct Case {
     method: Method,
 }
 
-/// Runs `mms` without arguments: the slides' bar with contiguous-particle GIMP.
+impl Case {
+    /// The options that name the method.
+    fn named(&self) -> Named {
+        let Method { formulation, shape, integrator, setup } = &self.method;
+        let arithmetic = self.options.arithmetic;
+        vec![
+            ("formulation", formulation.to_string()),
+            ("shape", shape.to_string()),
+            ("integrator", integrator.to_string()),
+            ("transfer", setup.transfer.to_string()),
+            ("precision", arithmetic.precision.name().to_owned()),
+            ("form", arithmetic.form.name().to_owned()),
+        ]
+    }
+}
+
+/// What `mms` does without arguments: the slides' bar with contiguous-particle GIMP.
 pub(super) fn main_job() -> anyhow::Result<Outcome> {
     Alone::parse_from(["mms", "bar_1d"]).study.run(&["mms".to_owned()])
 }
@@ -243,15 +259,57 @@ impl Study {
         (progress, search): (&dyn Follow, &dyn Search),
     ) -> anyhow::Result<Vec<Report>> {
         let mut reports = Vec::new();
-        for case in cases {
+        let mut studied: Vec<Named> = cases.iter().map(Case::named).collect();
+        // Without the numbers that all methods share.
+        for name in ["precision", "form"] {
+            let value = |of: &Named| of.iter().find(|it| it.0 == name).cloned();
+            if studied.iter().all(|it| value(it) == value(&studied[0])) {
+                studied.iter_mut().for_each(|it| it.retain(|it| it.0 != name));
+            }
+        }
+        for (case, own) in cases.iter().zip(&studied) {
             if cases.len() > 1 {
                 progress.say(&method::line(&case.method, case.options.arithmetic));
             }
-            let mut report = self.report(case, provenance.clone(), (progress, search))?;
-            self.explain(&mut report, case, cases.len() > 1, words)?;
+            let mut report = self.report(case, provenance.clone(), progress)?;
+            self.explain(&mut report, case, (&studied, own), words)?;
             reports.push(report);
         }
+        self.prefer_passed(&mut reports, &studied, words);
         Ok(reports)
+    }
+
+    /// Leads on from the most accurate of several methods that pass, if others do not.
+    fn prefer_passed(&self, reports: &mut [Report], studied: &[Named], words: &[String]) {
+        let finest = |report: &Report| {
+            let run = report.levels.last().and_then(|it| it.as_ref().ok());
+            run.and_then(|it| it.level.errors.as_ref().ok()).map_or(f64::INFINITY, |it| it.l2)
+        };
+        let passed = reports.iter().zip(studied).filter(|(report, _)| report.verdict.is_good());
+        let best = passed.min_by(|a, b| finest(a.0).total_cmp(&finest(b.0)));
+        let Some((_, method)) = best else { return };
+        let has_exclusions =
+            !self.excluded && self.periods.is_empty() && self.refine != Refinement::Time;
+        let next = match has_exclusions {
+            true => next::changed(&self.own(words), method)
+                .into_iter()
+                .chain(["--excluded".to_owned()])
+                .collect(),
+            false => {
+                let set = self.set.iter().map(|it| format!("--set={it}"));
+                judged::command(["check".to_owned(), self.field.clone()].into_iter().chain(set))
+            }
+        };
+        let failed = reports.iter_mut().filter(|it| it.next.is_some());
+        failed.for_each(|it| it.next = Some(next.clone()));
+    }
+
+    /// The words of the command, `mms study` first.
+    fn own(&self, words: &[String]) -> Vec<String> {
+        match words {
+            [] | [_] => judged::command(["study", &self.field]),
+            [_, own @ ..] => judged::command(own),
+        }
     }
 
     /// Says why a study does not pass, and what to type next.
@@ -259,28 +317,26 @@ impl Study {
         &self,
         report: &mut Report,
         case: &Case,
-        is_one_of_several: bool,
+        (studied, own): (&[Named], &Named),
         words: &[String],
     ) -> anyhow::Result<()> {
         if report.verdict.is_good() || !report.is_started() {
             return Ok(());
         }
-        let own = match words {
-            [] | [_] => next::command(["study", &self.field]),
-            [_, own @ ..] => next::command(own),
-        };
+        let words = self.own(words);
         let ended = Ended {
             field: &self.field,
             input: &case.input,
             variant: case.options.variant(&self.motion),
             set: &self.set,
             method: &report.method,
-            is_one_of_several,
+            studied,
+            own,
             refinement: self.refine,
             levels: &report.levels,
             expected: report.expected,
             verdict: report.verdict,
-            words: &own,
+            words: &words,
         };
         let (causes, next) = ended.explained()?;
         (report.causes, report.next) = (causes, Some(next));

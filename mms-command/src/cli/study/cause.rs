@@ -31,8 +31,10 @@ pub struct Ended<'a> {
     pub set: &'a [String],
     /// The method.
     pub method: &'a Method,
-    /// Whether other methods were studied as well.
-    pub is_one_of_several: bool,
+    /// All methods that are studied, this one among them.
+    pub studied: &'a [Named],
+    /// The words of this method.
+    pub own: &'a Named,
     /// The refined lengths.
     pub refinement: Refinement,
     /// The levels, from coarse to fine.
@@ -44,6 +46,9 @@ pub struct Ended<'a> {
     /// The words of the command.
     pub words: &'a [String],
 }
+
+/// The options that name a method, with their values.
+pub type Named = Vec<(&'static str, String)>;
 
 /// A likely cause, and the options that avoid it, by their names and values; none, if no option does.
 struct Cause {
@@ -74,7 +79,8 @@ impl Ended<'_> {
         }
         causes.extend(self.of_stops());
         causes.extend(self.of_few_levels().filter(|_| causes.is_empty()));
-        let options = causes.iter().find(|it| !it.options.is_empty()).map(|it| &it.options);
+        let options = causes.iter().map(|it| &it.options);
+        let options = options.into_iter().find(|it| !it.is_empty() && self.is_new(it));
         let next = match options {
             Some(options) => changed(self.words, &self.alone(options)),
             None => {
@@ -87,18 +93,20 @@ impl Ended<'_> {
     }
 
     /// The options of this method and no other, with some changed.
-    fn alone(&self, options: &[(&'static str, String)]) -> Vec<(&'static str, String)> {
+    fn alone(&self, options: &[(&'static str, String)]) -> Named {
         let mut own = Vec::new();
-        if self.is_one_of_several {
-            own.extend([
-                ("formulation", self.method.formulation.to_string()),
-                ("shape", self.method.shape.to_string()),
-                ("integrator", self.method.integrator.to_string()),
-                ("transfer", self.method.setup.transfer.to_string()),
-            ]);
+        if self.studied.len() > 1 {
+            own.clone_from(self.own);
             own.retain(|(name, _)| options.iter().all(|(other, _)| other != name));
         }
         own.into_iter().chain(options.iter().cloned()).collect()
+    }
+
+    /// Whether options lead to another study than those of this command.
+    fn is_new(&self, options: &[(&'static str, String)]) -> bool {
+        let changed = self.alone(options);
+        let is_of = |method: &Named| changed.iter().all(|it| method.contains(it));
+        self.studied.len() == 1 || !self.studied.iter().any(is_of)
     }
 
     /// The runs that stopped, from coarse to fine.
