@@ -299,6 +299,12 @@ pub enum Cause {
         /// The particle's position.
         position: Vec<f64>,
     },
+    /// A particle, or a part of its domain, left the grid on the way to an equilibrium.
+    #[error("the particle is lost: it left the grid on the way to equilibrium, x = {position:?}")]
+    LostInRelaxation {
+        /// The particle's position.
+        position: Vec<f64>,
+    },
     /// A particle's domain is too wide for the grid, or has collapsed.
     #[error(
         "the half width of the particle's domain is {half_width:e}, outside ]0, {cell_size:e}[ (one cell)"
@@ -368,6 +374,10 @@ impl Cause {
             Cause::Lost { .. } => {
                 "likely an unstable run, for the grid holds the field's own motion with room to \
                  spare: try a smaller Courant number or more cells"
+            }
+            Cause::LostInRelaxation { .. } => {
+                "where a curved face cuts cells, some hold few particles, and a load tears them off: claim `prescribed` on that \
+                 face, or try `--formulation total --shape quadratic_bspline --particles-per-cell 4`, which may lose its order there"
             }
             Cause::HalfWidth { .. } => {
                 "the stretch is large for so few particles: try more particles per cell"

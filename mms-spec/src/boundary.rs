@@ -1,7 +1,8 @@
 //! `[boundary]`: the faces of a body, and the claims of a field on them.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, quoted};
 use crate::domain::{Body, is_zero};
+use crate::language::instead_of_claim;
 use crate::source::Spanned;
 use crate::space::Space;
 use crate::table::{Entry, Reader, list};
@@ -208,15 +209,26 @@ pub(super) fn boundary<'a>(
             None => Claim::about(Face::RadialMin),
         };
         let words: Vec<_> = claims.iter().map(|claim| claim.name()).collect();
-        let claim = reader.word(entry, "claim", &words).and_then(|word| {
-            let claim = claims.iter().find(|claim| claim.name() == word.value)?;
-            Some(Spanned { value: *claim, span: word.span })
+        let claim = reader.string(entry).and_then(|word| {
+            let claim = claims.iter().find(|claim| claim.name() == word.value);
+            if claim.is_none() {
+                reader.report(unknown_claim(&word, &words));
+            }
+            Some(Spanned { value: *claim?, span: word.span })
         });
         if let (Some(face), Some(claim)) = (face, claim) {
             boundary.push(BoundarySpec { face, claim });
         }
     }
     boundary
+}
+
+fn unknown_claim(word: &Spanned<String>, words: &[&str]) -> Diagnostic {
+    let Some(advice) = instead_of_claim(&word.value) else {
+        return unknown_word(word, "claim", words);
+    };
+    let message = format!("unknown claim {}", quoted(&word.value));
+    Diagnostic::error(word.span, message).label("no such claim").help(advice)
 }
 
 fn face(key: &Spanned<String>, faces: &[Face], reader: &mut Reader<'_>) -> Option<Spanned<Face>> {

@@ -43,7 +43,24 @@ pub fn elsewhere(word: &str) -> Option<&'static str> {
     })
 }
 
-/// The advice on a power between a function and its argument, as in `sin^2(X)`, if a text ends in this way.
+/// The advice on a word that other programs have for what a face carries, and that is no claim.
+pub fn instead_of_claim(word: &str) -> Option<&'static str> {
+    Some(match word.to_ascii_lowercase().as_str() {
+        "pressure" | "follower" | "follower_load" | "follower_pressure" | "following_pressure" => {
+            concat!(
+                "a load that follows the face is no claim; `traction` gives P N of the exact motion, a dead load: ",
+                scope!()
+            )
+        }
+        "load" | "dead_load" | "force" | "neumann" | "stress" => {
+            concat!("a load is `traction`, and follows from u: ", scope!())
+        }
+        "contact" | "friction" => concat!("contact is not covered: ", scope!()),
+        _ => return None,
+    })
+}
+
+/// The advice on a power between a function and its argument, as in `sin^2(X)`, if a text ends so.
 pub fn power_of_function(text: &str) -> Option<String> {
     let (before, exponent) = text.trim_end().rsplit_once('^')?;
     let is_word = |it: char| it.is_ascii_alphanumeric() || it == '_';

@@ -72,12 +72,14 @@ impl Solved {
             Solved::Leaves => {
                 "Newton's method LEAVES the exact state: it lies on an unstable branch"
             }
-            Solved::Unknown => "NOT SOLVED: the exact state has no value, or that takes too long",
+            Solved::Unknown => {
+                "NOT SOLVED: the exact state is not finite at a point of the coarse mesh, or takes too long to evaluate there"
+            }
             Solved::NoMesh => {
-                "NOT SOLVED: only boxes and round bodies have a coarse mesh, polygons have none"
+                "NOT SOLVED: this body is a polygon, and `--solve` makes coarse meshes of boxes and of round bodies alone"
             }
             Solved::Axisymmetric => {
-                "NOT SOLVED: the field is axisymmetric, and the coarse mesh needs Cartesian coordinates"
+                "NOT SOLVED: the field is axisymmetric, and `--solve` has elements in Cartesian coordinates alone"
             }
             Solved::Moving => "the field is not static: there is nothing to solve",
         }

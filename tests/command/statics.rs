@@ -357,3 +357,39 @@ fn what_a_static_campaign_has_not_is_refused_at_its_place() {
         .complains("c.toml:7:32")
         .complains("`young` has 1 values");
 }
+
+/// Parts of a cell at a curved face hold few particles, which a load tears off.
+#[test]
+fn a_particle_that_is_lost_in_relaxation_says_what_to_do() {
+    let folder = Folder::new();
+    let text = STATIC
+        .replace(
+            "a*sin(pi*X/length)*sin(pi*Y/length)\", \"a*sin(pi*X/length)*sin(pi*Y/length)",
+            "a*X/length*(1 + (X^2 + Y^2)/length^2)\", \"a*Y/length*(1 + (X^2 + Y^2)/length^2)",
+        )
+        .replace(
+            "shape = \"box\"\nlower = [0, 0]\nupper = [\"length\", \"length\"]",
+            "shape = \"disk\"\nouter = \"length\"",
+        );
+    let faces = text.find("x_min").expect("faces");
+    folder.write("disk.toml", &format!("{}outer = \"traction\"\n", &text[..faces]));
+    let run = folder.mms("study disk.toml --relax --cells 4").exits(1);
+    run.prints(
+        "claim `prescribed` on that face, or try `--formulation total --shape quadratic_bspline",
+    )
+    .prints("next: mms study disk.toml --relax --cells 4 --formulation=total");
+    folder.mms("run disk.toml --relax --cells 4").exits(3).complains("on the way to equilibrium");
+}
+
+#[test]
+fn a_polygon_is_told_why_it_is_not_solved() {
+    let folder = Folder::new();
+    let text = STATIC.replace(
+        "shape = \"box\"\nlower = [0, 0]\nupper = [\"length\", \"length\"]",
+        "shape = \"polygon\"\nvertices = [[0, 0], [\"length\", 0], [0, \"length\"]]",
+    );
+    let faces = text.find("x_min").expect("faces");
+    folder.write("wedge.toml", &format!("{}edge_1 = \"prescribed\"\n", &text[..faces]));
+    let run = folder.mms("check wedge.toml --solve");
+    run.prints("NOT SOLVED: this body is a polygon");
+}

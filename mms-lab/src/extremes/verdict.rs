@@ -44,7 +44,7 @@ impl Diagnosis {
             Cause::UnstableStep { .. } => Diagnosis::UnstableStep,
             Cause::Inverted { .. } | Cause::BeyondAxis { .. } => Diagnosis::Inverted,
             Cause::NotFinite { .. } | Cause::OutOfRange { .. } => Diagnosis::NotFinite,
-            Cause::Lost { .. } => Diagnosis::Lost,
+            Cause::Lost { .. } | Cause::LostInRelaxation { .. } => Diagnosis::Lost,
             Cause::HalfWidth { .. } => Diagnosis::HalfWidth,
             Cause::FlatDomain => Diagnosis::FlatDomain,
             Cause::NoReferencePosition { .. } => Diagnosis::NoReferencePosition,

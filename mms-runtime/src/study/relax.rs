@@ -21,6 +21,20 @@ pub(super) fn relax<T: Real, const D: usize>(
     stopwatch: Stopwatch,
     observer: &mut dyn Observer,
 ) -> Result<Ended, Failure> {
+    relaxed(solver, watch, stopwatch, observer).map_err(|failure| match failure.cause {
+        Cause::Lost { position } => {
+            Failure { cause: Cause::LostInRelaxation { position }, ..failure }
+        }
+        _ => failure,
+    })
+}
+
+fn relaxed<T: Real, const D: usize>(
+    solver: &mut dyn AnySolver<'_, T, D>,
+    watch: Watch,
+    stopwatch: Stopwatch,
+    observer: &mut dyn Observer,
+) -> Result<Ended, Failure> {
     let ramp = solver.steps();
     let most = ramp.saturating_mul(MOST);
     let mut course = Course::begin(watch, &solver.present(), most, None, stopwatch, observer)?;

@@ -280,6 +280,18 @@ impl Ended<'_> {
         let is_finest = self.levels.last()?.as_ref().is_ok_and(|run| run.level.errors.is_err());
         let sooner = stops.windows(2).all(|pair| pair[1].time <= pair[0].time);
         let times: Vec<_> = stops.iter().map(|it| format!("{:.2e}", it.time)).collect();
+        if matches!(last.cause, Stop::LostInRelaxation { .. })
+            && self.method.formulation == FormulationName::Updated
+            && !is_box(&self.input.compiled.field)
+        {
+            let total = [
+                ("formulation", "total"),
+                ("shape", "quadratic_bspline"),
+                ("particles-per-cell", "4"),
+            ];
+            let says = format!("a run stopped: {}", last.cause.advice());
+            return Some(Cause::new(says, &total));
+        }
         Some(match (is_finest && sooner, stops.len()) {
             _ if matches!(last.cause, Stop::NoReferencePosition { .. }) => Cause::new(
                 "the motion has no inverse beside the body, where the updated formulation has nodes: `--formulation total` needs \
