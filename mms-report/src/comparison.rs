@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::Study;
 use super::page::Section as _;
+use super::page::method::written;
 use super::plot::Figure;
 use crate::shown::Shown;
 use crate::table::{FITTED, Table};
@@ -72,14 +73,19 @@ impl Comparison {
         }
     }
 
-    /// l2 of each method on each level, or in time its difference from the next level.
-    fn errors(&self) -> Table {
+    /// l2 of each method on each level, or in time its difference to the next.
+    fn errors(&self, names: Vec<String>) -> Table {
         let first = &self.studies[0];
         let ends = [FITTED, "constant", "verdict"].map(str::to_owned);
         let header = ["l2".to_owned()].into_iter().chain(first.names_of_levels()).chain(ends);
-        let caption = format!("{}: l2 of {} methods", first.field.shown(), self.studies.len());
+        let formulation = first.method.formulation;
+        let is_shared = self.studies.iter().all(|it| it.method.formulation == formulation);
+        let shared = if is_shared { written(formulation.name()) } else { String::new() };
+        let count = format!("{}: l2 of {} methods", first.field.shown(), self.studies.len());
+        let caption = [count, shared].into_iter().filter(|it| !it.is_empty());
+        let caption = caption.collect::<Vec<_>>().join(", ");
         let mut table = Table::new(caption, header).right_from(1);
-        for (name, study) in self.named() {
+        for (name, study) in names.into_iter().zip(&self.studies) {
             let mut cells = vec![name];
             cells.extend(study.errors_of_levels());
             cells.extend([
@@ -123,7 +129,7 @@ impl Shown for Comparison {
         let first = &self.studies[0];
         let mut parts = vec![
             format!("{}: {}", first.field.shown(), first.title.shown()),
-            self.errors().to_string(),
+            self.errors(self.names()).to_string(),
         ];
         let verdict = |(name, study): (String, &Study)| format!("{name}: {}", study.conclusion());
         let conclusions: Vec<_> = self.named().map(verdict).collect();
@@ -147,7 +153,8 @@ impl Shown for Comparison {
         if let [alone] = self.studies.as_slice() {
             return alone.tables();
         }
-        vec![self.errors()]
+        let names = self.names().iter().map(|it| written(it)).collect();
+        vec![self.errors(names).first_apart()]
     }
 
     fn document(&self) -> Document {

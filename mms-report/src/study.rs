@@ -17,6 +17,7 @@ use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
 use mms_spec::foreign::Foreign;
 
 use super::page::Section as _;
+use super::page::method::whole;
 use super::plot::Figure;
 use super::run::quantities;
 use super::shown::Shown;
@@ -333,7 +334,8 @@ impl Study {
         let relaxes = self.method.setup.relax;
         let header = heads.into_iter().chain(relaxes.then_some("residual"));
         let when = if relaxes { "at equilibrium" } else { "the largest over time" };
-        let caption = format!("{}: errors of u, {when}", self.field.shown());
+        let method = whole(&method::document(&self.method, self.arithmetic));
+        let caption = format!("{}: errors of u, {when}; {method}", self.field.shown());
         let mut table = Table::new(caption, header).right_from(0);
         for row in self.rows() {
             let dead = if row.steps.is_some() { "stopped" } else { "not started" };

@@ -20,6 +20,8 @@ pub struct Table {
     rows: Vec<Vec<String>>,
     /// The columns that are aligned to the right.
     right: Vec<usize>,
+    /// Whether the first cell of each row is a row of its own in LaTeX, whose columns are narrow.
+    is_first_apart: bool,
 }
 
 impl Table {
@@ -29,7 +31,8 @@ impl Table {
         header: impl IntoIterator<Item = S>,
     ) -> Self {
         let header = header.into_iter().map(Into::into).collect();
-        Table { caption: caption.into(), header, rows: Vec::new(), right: Vec::new() }
+        let caption = caption.into();
+        Table { caption, header, rows: Vec::new(), right: Vec::new(), is_first_apart: false }
     }
 
     /// Adds a row with a cell for each column.
@@ -47,6 +50,12 @@ impl Table {
     pub fn right_from(self, first: usize) -> Self {
         let count = self.header.len();
         self.right(first..count)
+    }
+
+    /// The table with the first cell of each row in a row of its own in LaTeX, so that it fits a column of a paper.
+    pub fn first_apart(mut self) -> Self {
+        self.is_first_apart = true;
+        self
     }
 
     /// The table with another caption in front of its own, as the name of one of several parts.
@@ -92,13 +101,27 @@ impl Table {
             format!("    {} \\\\\n", cells.join(" & "))
         };
         let align = |at: usize| if self.right.contains(&at) { 'r' } else { 'l' };
-        let aligned: String = (0..self.header.len()).map(align).collect();
-        let rows: String = self.rows.iter().map(|row| line(row)).collect();
+        let first = usize::from(self.is_first_apart);
+        let count = self.header.len() - first;
+        let aligned: String = (first..self.header.len()).map(align).collect();
+        let row = |cells: &Vec<String>| {
+            let head = cells
+                .first()
+                .filter(|_| self.is_first_apart)
+                .map(|name| format!("    \\multicolumn{{{count}}}{{l}}{{{}}} \\\\\n", latex(name)));
+            head.unwrap_or_default() + &line(&cells[first..])
+        };
+        let rows: Vec<String> = self.rows.iter().map(row).collect();
+        let rows = rows.join(if self.is_first_apart { "    \\addlinespace\n" } else { "" });
+        let small = match self.is_first_apart {
+            true => "  \\footnotesize\n  \\setlength{\\tabcolsep}{3pt}\n",
+            false => "",
+        };
         format!(
-            "\\begin{{table}}\n  \\centering\n  \\caption{{{}}}\n  \\begin{{tabular}}{{{aligned}}}\n    \\toprule\n{}    \
+            "\\begin{{table}}\n  \\centering\n  \\caption{{{}}}\n{small}  \\begin{{tabular}}{{{aligned}}}\n    \\toprule\n{}    \
              \\midrule\n{rows}    \\bottomrule\n  \\end{{tabular}}\n\\end{{table}}\n",
             latex(&self.caption),
-            line(&self.header)
+            line(&self.header[first..])
         )
     }
 }
@@ -191,6 +214,13 @@ mod tests {
             "u\\_x & $1.25\\times10^{-3}$ & a | b, 5 \\% \\\\\n    \\textasciitilde{}F & - &  \\\\";
         assert!(latex.contains(row), "{latex}");
         assert_eq!(table.to_string().lines().count(), 3);
+    }
+
+    #[test]
+    fn a_long_first_cell_is_a_row_of_its_own() {
+        let latex = table().first_apart().latex();
+        assert!(latex.contains("\\begin{tabular}{rl}\n    \\toprule\n    l2 &  \\\\"), "{latex}");
+        assert!(latex.contains("    \\multicolumn{2}{l}{u\\_x} \\\\\n    $1.25"), "{latex}");
     }
 
     #[test]

@@ -36,7 +36,7 @@ fn documents_are_drawn_as_svg_and_as_pdf() {
     let both = texts(&svg);
     // Errors in metres and errors without a unit share no panel.
     for text in [
-        "(a) cpGIMP, leapfrog",
+        "(a) updated Lagrangian, cpGIMP, leapfrog",
         "largest error of u over time (m)",
         "(b) ",
         "error",
@@ -79,4 +79,43 @@ fn what_is_no_document_with_curves_is_refused() {
         folder.mms(&format!("plot {arguments}")).exits(2).complains(said);
     }
     assert!(!folder.path("x.svg").exists());
+}
+
+/// In a column the legend is small and lies in rows, and the 1 of the triangle lies above the axis.
+#[test]
+fn a_figure_in_a_column_is_compact() {
+    let folder = Folder::new();
+    folder.mms("study bar_1d --cells 8,16,32 --shape cpgimp,linear -o out").exits(1);
+    folder.mms("plot out/convergence.json -o column.svg --width 85").exits(0);
+    let svg = folder.read("column.svg");
+    assert!(texts(&svg).iter().any(|it| it == "updated Lagrangian"), "{svg}");
+    let document = Document::parse(&svg).expect("XML");
+    let number = |node: roxmltree::Node<'_, '_>, name: &str| {
+        node.attribute(name).and_then(|it| it.parse::<f64>().ok()).expect("a number")
+    };
+    let text = |wanted: &str| {
+        let found = document.descendants().filter(|it| it.has_tag_name("text"));
+        found.into_iter().find(|it| it.text() == Some(wanted)).expect("a text")
+    };
+    // The axis ends at the numbers below it, 17 pixels lower.
+    let axis = number(text("0.125"), "y") - 17.0;
+    assert!(number(text("1"), "y") < axis - 3.0, "{svg}");
+    let entry = text("cpGIMP, order 2.00");
+    assert_eq!(number(entry, "font-size"), 10.0);
+    let slope = text("slope 2");
+    assert!(
+        number(slope, "x") == number(entry, "x") || number(slope, "y") == number(entry, "y"),
+        "{svg}"
+    );
+}
+
+#[test]
+fn a_latex_table_of_methods_fits_a_column() {
+    let study = "study bar_1d --cells 8,16 --shape cpgimp,quadratic_bspline --format latex";
+    let run = Folder::new().mms(study).exits(0);
+    run.prints("\\caption{bar\\_1d: l2 of 2 methods, updated Lagrangian}")
+        .prints("    \\multicolumn{5}{l}{quadratic B-splines} \\\\\n")
+        .prints("\\begin{tabular}{rrrrr}");
+    let one = "study bar_1d --cells 8,16 --format latex";
+    Folder::new().mms(one).exits(0).prints("updated Lagrangian, cpGIMP, leapfrog}");
 }

@@ -77,12 +77,20 @@ pub fn plot(studies: &Studies) -> Plot {
             first.map(study::axis).unwrap_or_default(),
             Axis::of(what, first.and_then(|it| study::unit(it, "displacement"))),
         ],
+        head: shared(studies),
         slope: first.map(|it| it.expected_order),
         curves,
         stopped: studies.studies.iter().flat_map(|it| stopped(&judged(&it.study))).collect(),
         marks_points: true,
         ..Plot::default()
     }
+}
+
+/// The formulation, if all methods share it.
+fn shared(studies: &Studies) -> String {
+    let mut all = studies.studies.iter().map(|it| it.study.method.formulation.as_str());
+    let first = all.next().unwrap_or_default();
+    if all.all(|it| it == first) { written(first) } else { String::new() }
 }
 
 fn methods(studies: &Studies) -> Markup {

@@ -45,6 +45,10 @@ fn together(mut plots: Vec<(&Path, Plot)>, paths: &[PathBuf]) -> Plot {
         return plots.swap_remove(0).1;
     }
     let alike = |path: &Path| paths.iter().filter(|it| it.file_stem() == path.file_stem()).count();
+    // A head that all plots have tells nothing.
+    if plots.iter().all(|(_, it)| it.head == plots[0].1.head) {
+        plots.iter_mut().for_each(|(_, it)| it.head.clear());
+    }
     let named = plots.into_iter().map(|(path, plot)| {
         let whole = path.with_extension("");
         let stem = path.file_stem().map_or(path, Path::new);

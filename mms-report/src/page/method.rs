@@ -65,6 +65,19 @@ pub fn written(name: &str) -> String {
     name.split_whitespace().map(word).collect::<Vec<_>>().join(", ")
 }
 
+/// A method as people write it, with its formulation; the transfer, precision and form are left out if they are the usual ones.
+pub fn whole(method: &Method) -> String {
+    let usual = Arithmetic::default();
+    let others = [
+        (method.transfer.as_str(), "flip"),
+        (&method.precision, usual.precision.name()),
+        (&method.form, usual.form.name()),
+    ];
+    let others = others.iter().filter(|(own, usual)| own != usual).map(|(own, _)| *own);
+    let words = [method.formulation.as_str(), &method.shape, &method.integrator];
+    written(&words.into_iter().chain(others).collect::<Vec<_>>().join(" "))
+}
+
 /// All keys of a method, to be opened.
 pub fn method(method: &Method) -> Markup {
     let keys = serde_json::to_value(method).unwrap_or_default();

@@ -22,7 +22,7 @@ mod frame;
 pub mod gallery;
 pub mod judge;
 mod mark;
-mod method;
+pub(crate) mod method;
 mod motion;
 mod phase;
 mod picture;

@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::excluded::exclusions;
 use super::mark::{Column, count, number, numbers, order, seconds, small, table, words};
-use super::method::{method, name, written};
+use super::method::{method, name, whole};
 use super::phase::phase;
 use super::{Section, Verdicts};
 use crate::plot::{Axis, Curve, Plot, short};
@@ -178,7 +178,7 @@ pub fn plot(study: &StudyOfMethod) -> Plot {
     Plot {
         title: format!("Convergence of {}", study.title()),
         description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
-        head: written(&name(&study.method)),
+        head: whole(&study.method),
         axes: [axis(study), Axis::of(what, unit(study, "displacement"))],
         curves,
         slope: Some(study.expected_order),

@@ -6,6 +6,9 @@ use super::helvetica::width;
 /// The size of texts.
 pub const TEXT: f64 = 11.0;
 
+/// The size of the legend of a figure in a column: 7.5 points.
+pub const SMALL: f64 = 10.0;
+
 /// The share of its size that a raised text keeps.
 pub const RAISED: f64 = 0.75;
 
@@ -121,10 +124,15 @@ impl Words {
         self
     }
 
-    /// The width of the text.
+    /// The width of the text in the size [`TEXT`].
     pub fn width(&self) -> f64 {
+        self.width_of(TEXT)
+    }
+
+    /// The width of the text in a size.
+    pub fn width_of(&self, size: f64) -> f64 {
         let of = |part: &Part| width(&part.text) * if part.is_raised { RAISED } else { 1.0 };
-        TEXT * self.0.iter().map(of).sum::<f64>()
+        size * self.0.iter().map(of).sum::<f64>()
     }
 }
 
@@ -150,6 +158,8 @@ pub struct Text {
     pub is_turned: bool,
     /// Whether the text is bold.
     pub is_bold: bool,
+    /// Its size, [`TEXT`] or [`SMALL`].
+    pub size: f64,
     /// The text.
     pub words: Words,
 }
@@ -192,7 +202,7 @@ impl Item {
 
     /// A text in a row.
     pub fn text(at: [f64; 2], anchor: Anchor, words: Words) -> Self {
-        Item::Text(Text { at, anchor, is_turned: false, is_bold: false, words })
+        Item::Text(Text { at, anchor, is_turned: false, is_bold: false, size: TEXT, words })
     }
 
     /// The item at another place.

@@ -4,14 +4,15 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-use super::drawing::{Anchor, Item, Text, Words};
-use super::{Area, Plot, pdf, svg};
+use super::drawing::{Anchor, Item, SMALL, TEXT, Text, Words};
+use super::{Area, Entry, Plot, pdf, svg};
 
 /// Pixels in a millimetre, as CSS defines them.
 pub const PER_MM: f64 = 96.0 / 25.4;
 
-/// The height of a line of a legend.
+/// The height of a line of a legend, and in a column.
 const LEGEND_LINE: f64 = 16.0;
+const SMALL_LINE: f64 = 13.5;
 
 /// The room between a legend and the curves, and around a panel.
 const GAP: f64 = 14.0;
@@ -146,7 +147,8 @@ impl Figure {
                 let letter = are_several.then(|| letter(row * columns + column));
                 let head = letter.unwrap_or_default() + &plot.head;
                 let is_beside = !are_several && width == Width::Page;
-                let (own, high) = panel(plot, &head, [left, wide], is_beside);
+                let size = if width == Width::Column { SMALL } else { TEXT };
+                let (own, high) = panel(plot, &head, [left, wide], is_beside, size);
                 let at = [column as f64 * wide, top];
                 items.extend(own.into_iter().map(|it| it.moved(at)));
                 height = height.max(high);
@@ -172,18 +174,25 @@ fn letter(number: usize) -> String {
 }
 
 /// A panel between its left axis and its width, with its legend beside the curves if there is room; and its height.
-fn panel(plot: &Plot, head: &str, [left, width]: [f64; 2], is_beside: bool) -> (Vec<Item>, f64) {
+fn panel(
+    plot: &Plot,
+    head: &str,
+    [left, width]: [f64; 2],
+    is_beside: bool,
+    size: f64,
+) -> (Vec<Item>, f64) {
     let legend = plot.legend(true);
-    let longest = legend.iter().map(|it| it.words.width() + 34.0);
-    let longest = longest.chain([Words::plain(head).width()]).fold(0.0, f64::max);
-    // Bold letters, and the letters of a substitute for Helvetica, are wider.
-    let longest = 1.08 * longest;
+    // Bold letters, and those of a font in the place of Helvetica, are wider.
+    let row = |it: &Entry| 1.08 * (it.words.width_of(size) + 34.0);
+    let of_rows = legend.iter().map(row).fold(0.0, f64::max);
+    let longest = of_rows.max(1.08 * Words::plain(head).width());
     let beside = width - GAP - longest - GAP - left;
     let is_beside = is_beside && beside >= LEAST;
     let right = if is_beside { left + beside } else { width - GAP };
     let bold = |at: [f64; 2]| {
         let words = Words::plain(head);
-        Item::Text(Text { at, anchor: Anchor::Start, is_turned: false, is_bold: true, words })
+        let (anchor, is_turned, is_bold) = (Anchor::Start, false, true);
+        Item::Text(Text { at, anchor, is_turned, is_bold, size: TEXT, words })
     };
     let head_above = !is_beside && !head.is_empty();
     let top = if head_above { 26.0 } else { 12.0 };
@@ -197,10 +206,29 @@ fn panel(plot: &Plot, head: &str, [left, width]: [f64; 2], is_beside: bool) -> (
         items.push(bold([x, y + 8.0]));
         y += LEGEND_LINE + 4.0;
     }
-    for entry in legend {
-        items.extend(entry.sign.into_iter().map(|it| it.moved([x, y])));
-        items.push(Item::text([x + 34.0, y + 12.0], Anchor::Start, entry.words));
-        y += LEGEND_LINE;
+    let line = if size == TEXT { LEGEND_LINE } else { SMALL_LINE };
+    // Below the curves of a column, entries stand beside each other where there is room.
+    let room = width - GAP - x;
+    let columns = match is_beside || size == TEXT {
+        true => 1,
+        false => ((room / of_rows) as usize).clamp(1, legend.len().max(1)),
+    };
+    for entries in legend.chunks(columns) {
+        for (column, entry) in entries.iter().enumerate() {
+            let x = x + column as f64 * room / columns as f64;
+            items.extend(entry.sign.iter().map(|it| it.clone().moved([x, y])));
+            let (at, anchor) = ([x + 34.0, y + 8.0 + 4.0 * size / TEXT], Anchor::Start);
+            let words = entry.words.clone();
+            items.push(Item::Text(Text {
+                at,
+                anchor,
+                is_turned: false,
+                is_bold: false,
+                size,
+                words,
+            }));
+        }
+        y += line;
     }
     let height = if is_beside { below.max(y + 8.0) } else { y + GAP };
     (items, height)

@@ -17,7 +17,7 @@ pub use axis::{short, steps};
 pub use figure::{Figure, FileFormat, Width};
 
 use axis::{Ticks, apart, labels, span, ticks, unit};
-use drawing::{Anchor, Item, Role, Text, Words, cross, mark};
+use drawing::{Anchor, Item, Role, TEXT, Text, Words, cross, mark};
 
 /// A round-off floor further below all errors than this factor would press them together.
 const FAR: f64 = 1e3;
@@ -160,7 +160,10 @@ struct Area {
 const ON_PAGE: [f64; 2] = [640.0, 400.0];
 const AREA_ON_PAGE: Area = Area { left: 76.0, right: 628.0, top: 12.0, bottom: 348.0 };
 
-/// The positions of numbers on the picture.
+/// The room for the 1 between a triangle and the axis, in pixels.
+const BELOW_TRIANGLE: f64 = 17.0;
+
+/// Where numbers are on the picture.
 struct Frame {
     x: (f64, f64),
     y: (f64, f64),
@@ -244,9 +247,16 @@ impl Plot {
     fn frame(&self, area: Area) -> Frame {
         let (triangle, floor) = (self.triangle(), self.floor_shown());
         let all = || self.points().chain(triangle.into_iter().flatten()).chain(floor.clone());
+        let (mut least, greatest) = span(all().map(|[_, y]| y), 1.8);
+        if let Some([[_, base], ..]) = triangle {
+            // The 1 below the triangle lies above the axis.
+            let part = BELOW_TRIANGLE / (area.bottom - area.top);
+            let lower = ((base.ln() - part * greatest.ln()) / (1.0 - part)).exp();
+            least = least.min(lower).max(least.min(*SHOWN.start()));
+        }
         Frame {
             x: span(all().map(|[x, _]| x).chain(self.stopped_shown()), 1.25),
-            y: span(all().map(|[_, y]| y), 1.8),
+            y: (least, greatest),
             area,
         }
     }
@@ -347,6 +357,7 @@ impl Plot {
             anchor: Anchor::Middle,
             is_turned: true,
             is_bold: false,
+            size: TEXT,
             words: self.axes[1].words(),
         }));
         items

@@ -3,7 +3,7 @@
 use pdf_writer::types::LineCapStyle;
 use pdf_writer::{Content, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
 
-use super::drawing::{Anchor, Item, RAISED, RISE, Role, TEXT, Text};
+use super::drawing::{Anchor, Item, RAISED, RISE, Role, Text};
 use super::figure::Drawing;
 use super::helvetica::{Font, code};
 
@@ -128,7 +128,7 @@ impl Page {
     }
 
     fn text(&mut self, text: &Text) {
-        let width = text.words.width();
+        let width = text.words.width_of(text.size);
         let before = match text.anchor {
             Anchor::Start => 0.0,
             Anchor::Middle => width / 2.0,
@@ -143,8 +143,8 @@ impl Page {
             false => [1.0, 0.0, 0.0, 1.0, x, y],
         });
         for part in &text.words.0 {
-            let size = if part.is_raised { RAISED * TEXT } else { TEXT };
-            self.content.set_rise(if part.is_raised { (RISE * TEXT) as f32 } else { 0.0 });
+            let size = if part.is_raised { RAISED * text.size } else { text.size };
+            self.content.set_rise(if part.is_raised { (RISE * text.size) as f32 } else { 0.0 });
             let codes: Vec<(Font, u8)> = part.text.chars().map(code).collect();
             for run in codes.chunk_by(|a, b| a.0 == b.0) {
                 let (name, _) = match run[0].0 {

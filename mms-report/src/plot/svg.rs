@@ -70,10 +70,11 @@ fn text(text: &Text) -> Markup {
     };
     let turned = text.is_turned.then(|| format!("rotate(-90 {x} {y})"));
     let weight = text.is_bold.then_some("bold");
+    let size = (text.size != TEXT).then_some(text.size);
     // A raised part is measured by its own, smaller size.
     let rise = round(RISE / RAISED);
     html! {
-        text x=(x) y=(y) text-anchor=[anchor] font-weight=[weight] transform=[turned] {
+        text x=(x) y=(y) text-anchor=[anchor] font-weight=[weight] font-size=[size] transform=[turned] {
             @for (at, part) in text.words.0.iter().enumerate() {
                 @let falls = at > 0 && text.words.0[at - 1].is_raised;
                 @if part.is_raised {
