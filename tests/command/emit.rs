@@ -320,3 +320,11 @@ fn units_of_functions_are_those_of_the_field() {
     folder.mms("emit bar_1d --target c -o si").exits(0);
     assert!(folder.read("si/bar_1d.h").contains("Unit: kg/m^3."));
 }
+
+#[test]
+fn a_module_of_chosen_quantities_has_the_time_window() {
+    for target in ["rust-mms-math", "rust", "numpy"] {
+        let emit = format!("emit bar_1d --target {target} --quantity body_force");
+        Folder::new().mms(&emit).exits(0).prints("time_window");
+    }
+}

@@ -109,6 +109,10 @@ impl Emitter<'_> {
                 }
             }
         });
+        let window = (solver.is_none() && !self.compiled.field.is_static()).then(|| {
+            let window = self.bound(Bound::Time);
+            quote!(impl<T: Real> Field<T> { #window })
+        });
         // A field without any value still has a scalar type.
         let (marker, marked) = match kept.is_empty() && wide.is_empty() {
             true => (
@@ -134,6 +138,7 @@ impl Emitter<'_> {
             }
 
             #solver
+            #window
         }
     }
 
@@ -141,26 +146,28 @@ impl Emitter<'_> {
         (!self.parameter_names.is_empty()).then(|| quote!(<T>))
     }
 
-    fn bounds(&self) -> TokenStream {
+    /// The function that returns a bound.
+    fn bound(&self, bound: Bound) -> TokenStream {
         let place = Context::at_points(quote!(self), &[]);
-        let function = |bound: Bound| {
-            let name = format_ident!("{}", bound.name());
-            let doc = format!(" {}", bound.doc());
-            let values = self.values(Output::Bound(bound));
-            let length = Literal::usize_unsuffixed(values.len());
-            let values = values.iter().map(|value| self.operand(*value, &place));
-            quote! {
-                #[doc = #doc]
-                pub fn #name(&self) -> [T; #length] { [#(#values),*] }
-            }
-        };
-        let time = function(Bound::Time);
-        // If there is no body, there are no bounds of it.
+        let name = format_ident!("{}", bound.name());
+        let doc = format!(" {}", bound.doc());
+        let values = self.values(Output::Bound(bound));
+        let length = Literal::usize_unsuffixed(values.len());
+        let values = values.iter().map(|value| self.operand(*value, &place));
+        quote! {
+            #[doc = #doc]
+            pub fn #name(&self) -> [T; #length] { [#(#values),*] }
+        }
+    }
+
+    fn bounds(&self) -> TokenStream {
+        let time = self.bound(Bound::Time);
+        // Where there is no body, there is nothing that bounds it.
         let parts = self.program.outputs.keys().filter_map(|output| match output {
             Output::Bound(bound) if !matches!(bound, Bound::Time | Bound::Space) => Some(*bound),
             _ => None,
         });
-        let body = parts.map(function);
+        let body = parts.map(|it| self.bound(it));
         quote!(#(#body)* #time)
     }
 

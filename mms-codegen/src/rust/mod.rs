@@ -15,7 +15,7 @@ use quote::{format_ident, quote};
 
 use crate::compile::Compiled;
 use crate::liveness::Later;
-use mms_mechanics::{Output, Program};
+use mms_mechanics::{Bound, Output, Program};
 use mms_program::interpret::{parts, small_ratio};
 use mms_program::{Op, Stage, Value};
 use mms_spec::Space;
@@ -161,6 +161,7 @@ impl<'a> Emitter<'a> {
         let program = &compiled.program;
         let emitted = |output: &Output| match output {
             Output::Quantity(_) | Output::Response(_) | Output::Face(..) => true,
+            Output::Bound(Bound::Time) if !compiled.field.is_static() => true,
             Output::Bound(_) => compiled.is_for_a_solver(),
             Output::Parameter(_) | Output::Expected(_) => false,
         };
