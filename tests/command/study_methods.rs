@@ -254,6 +254,8 @@ fn the_method_fits_the_body_unless_it_is_given() {
         ("axis_aligned_2d", "total", "linear"),
         ("axis_aligned_2d --formulation updated", "updated", "cpgimp"),
         ("axis_aligned_2d --shape cpdi", "updated", "cpdi"),
+        ("axis_aligned_2d --shape linear", "total", "linear"),
+        ("expanding_ring --shape linear", "updated", "linear"),
         ("expanding_ring", "updated", "cpdi"),
         ("expanding_ring --formulation total", "total", "quadratic_bspline"),
         ("conformal_sector_2d", "updated", "cpdi"),

@@ -22,6 +22,14 @@ fn usual(field: &FieldSpec) -> (FormulationName, ShapeName) {
     })
 }
 
+/// The formulation for a shape function: the one of the usual method, if domains that follow the motion do not need the updated one.
+fn formulation_for(shape: ShapeName, field: &FieldSpec) -> FormulationName {
+    match shape {
+        ShapeName::Cpgimp | ShapeName::Cpdi => FormulationName::Updated,
+        _ => usual(field).0,
+    }
+}
+
 /// Whether the body is a box.
 pub fn is_box(field: &FieldSpec) -> bool {
     matches!(field.domain.body, Body::Box { .. })
@@ -30,7 +38,8 @@ pub fn is_box(field: &FieldSpec) -> bool {
 /// Options with the formulation and the shape function that were not given.
 pub fn filled(options: &MethodOptions, given: Given, field: &FieldSpec) -> MethodOptions {
     let (formulation, shape) = match (given.formulation, given.shape) {
-        (_, true) => return options.clone(),
+        (true, true) => return options.clone(),
+        (false, true) => (formulation_for(options.shape, field), options.shape),
         (false, false) => usual(field),
         (true, false) if usual(field).0 == options.formulation => usual(field),
         (true, false) => {
