@@ -110,7 +110,8 @@ where
 
     /// A right method whose error falls with about this order.
     fn of_order(&self, order: f64) -> Option<OfOrder> {
-        if self.levels.degree() > 1 {
+        // No method is right whose error does not fall.
+        if self.levels.degree() > 1 || order < LEAST_ORDER {
             return None;
         }
         let mut all = (0..self.levels.fine.solvers.methods())
@@ -288,7 +289,10 @@ const CONVERGES: f64 = 1.4;
 /// Orders that differ by less may belong to one method.
 const SAME_ORDER: f64 = 0.15;
 
-/// Diagnoses ordinary results of meshes, from coarse to fine, with the known facts about their solver.
+/// The least order of an error that falls.
+const LEAST_ORDER: f64 = 0.25;
+
+/// Diagnoses ordinary results of meshes, from coarse to fine, of a solver of which something is known.
 ///
 /// # Errors
 /// Results that cannot be diagnosed.

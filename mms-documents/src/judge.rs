@@ -204,6 +204,8 @@ pub struct ExplainedFile {
     pub format: String,
     /// The times of the results.
     pub times: Vec<f64>,
+    /// The path of the file of each result, in the order of times.
+    pub paths: Vec<String>,
     /// The number of points.
     pub points: usize,
     /// The source of X.

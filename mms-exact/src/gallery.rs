@@ -5,7 +5,9 @@ use mms_codegen::materials::MATERIALS;
 use mms_codegen::{Compiled, Options};
 use mms_mechanics::Model;
 use mms_spec::source::Sources;
-use mms_spec::{FieldSpec, MaterialSpec, read_field, read_material};
+use mms_spec::{
+    FieldSpec, MaterialSpec, moduli, own_quantities, read_field, read_material, settle_checks,
+};
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::substitute;
@@ -63,8 +65,14 @@ pub fn fields() -> Vec<FieldSpec> {
 /// The start of a motion, in a few words: unless a formula says that u or v is 0 at the first time, it is not. `None` for a
 /// field with mistakes.
 pub fn start(field: &FieldSpec, material: &MaterialSpec) -> Option<&'static str> {
+    let (mut field, mut material) = (field.clone(), material.clone());
+    let mistakes = &mut Vec::new();
+    field.material.tell_givens(&material);
+    moduli::convert(&mut Sources::default(), &field, &mut material, mistakes);
+    let own = own_quantities(&field, Some(&material));
+    settle_checks(&mut field, &own, mistakes);
     let mut graph = Graph::default();
-    let model = Model::resolve(&mut graph, field, Some(material), &mut Vec::new())?;
+    let model = Model::resolve(&mut graph, &field, Some(&material), mistakes)?;
     if field.is_static() {
         return Some("static");
     }

@@ -57,7 +57,10 @@ pub struct Orders {
 /// The character between a quantity and its norm.
 pub const OF: char = ':';
 
-/// The name of the order in dt.
+/// The column that names the method of each row, in the table of a study of several.
+const METHOD: &str = "method";
+
+/// The name that the order in dt goes by.
 pub const TIME: &str = "time";
 
 impl Orders {
@@ -161,7 +164,21 @@ struct Table {
 /// # Errors
 /// A text that is no such table, with the place.
 pub fn read(path: &Path, text: &str, orders: &Orders) -> anyhow::Result<(Measured, Vec<String>)> {
-    let table = Table::parse(foreign::path(path), text)?;
+    read_one(path, text, orders, None)
+}
+
+/// As [`read`], the rows of one method, if the table has a column of these.
+///
+/// # Errors
+/// As of [`read`]; several methods and no choice; a method that is not there.
+pub fn read_one(
+    path: &Path,
+    text: &str,
+    orders: &Orders,
+    method: Option<&str>,
+) -> anyhow::Result<(Measured, Vec<String>)> {
+    let mut table = Table::parse(foreign::path(path), text)?;
+    table.choose(method)?;
     orders.hold(&table.header)?;
     let measured = Measured { runs: table.runs()?, quantities: table.quantities(orders)? };
     Ok((measured, table.left_out()))
@@ -182,6 +199,46 @@ impl Table {
         table.hold_header()?;
         table.hold_rows()?;
         Ok(table)
+    }
+
+    /// Keeps the rows of a method, and drops the column of methods.
+    fn choose(&mut self, method: Option<&str>) -> anyhow::Result<()> {
+        let names_methods = |cell: &Cell| cell.text.eq_ignore_ascii_case(METHOD);
+        let Some(at) = self.header.iter().position(names_methods) else {
+            if method.is_some() {
+                bail!("`--method`: `{}` has no column `{METHOD}`", self.path);
+            }
+            return Ok(());
+        };
+        let is_number = |row: &Vec<Cell>| row[at].text.parse::<f64>().is_ok();
+        if method.is_none() && self.rows.iter().all(is_number) {
+            return Ok(());
+        }
+        let mut names: Vec<&str> = self.rows.iter().map(|row| row[at].text.as_str()).collect();
+        names.dedup();
+        let chosen = match (method, names.as_slice()) {
+            (None, [only]) => *only,
+            (Some(method), all) if all.contains(&method) => method,
+            (given, all) => {
+                let wrong =
+                    given.map_or(String::new(), |it| format!(" `{}` is none of them;", shown(it)));
+                let all: Vec<_> = all.iter().map(|it| format!("`{}`", shown(it))).collect();
+                bail!(
+                    "{}: a table of {} methods:{wrong} choose one with `--method NAME`: {}",
+                    self.place(&self.header[at]),
+                    all.len(),
+                    all.join(", ")
+                )
+            }
+        };
+        let chosen = chosen.to_owned();
+        self.rows.retain(|row| row[at].text == chosen);
+        self.rows.iter_mut().for_each(|row| {
+            row.remove(at);
+        });
+        self.header.remove(at);
+        self.columns.remove(at);
+        Ok(())
     }
 
     fn place(&self, cell: &Cell) -> String {

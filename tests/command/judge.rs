@@ -268,3 +268,31 @@ fn extreme_numbers_are_judged_without_nonsense() {
         }
     }
 }
+
+/// The table that a study of several methods writes.
+#[test]
+fn a_table_of_several_methods_is_judged_one_by_one() {
+    let folder = Folder::new();
+    folder.mms("study bar_1d --cells 8,16,32 --shape cpgimp,linear -o out").exits(1);
+    let judge = "judge --errors out/convergence.csv";
+    folder.mms(judge).exits(2).complains(
+        "out/convergence.csv:1:1: a table of 2 methods: choose one with `--method NAME`: `cpgimp`, `linear`",
+    );
+    folder.mms(&format!("{judge} --method cpgimp")).exits(0).prints("observed order 2.00");
+    folder.mms(&format!("{judge} --method linear")).exits(1);
+    folder.mms(&format!("{judge} --method cpdi")).exits(2).complains("`cpdi` is none of them");
+    folder.write("errors.csv", "h,l2\n0.25,1.6e-2\n0.125,4.0e-3\n");
+    let without = folder.mms("judge --errors errors.csv --method cpdi").exits(2);
+    without.complains("`errors.csv` has no column `method`");
+}
+
+/// A bound that rounds to nothing has the digits that tell it from 0.
+#[test]
+fn no_sentence_says_less_than_0_percent() {
+    let folder = Folder::new();
+    let rows: Vec<String> =
+        (0..6).map(|level| 0.5_f64.powi(level)).map(|h| format!("{h},{:.15e}", h * h)).collect();
+    folder.write("errors.csv", &format!("h,l2\n{}\n", rows.join("\n")));
+    let run = folder.mms("judge --errors errors.csv").exits(0);
+    assert!(!run.stdout.contains("less than 0 %"), "{run}");
+}

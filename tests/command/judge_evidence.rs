@@ -288,3 +288,17 @@ fn nodes_are_as_far_from_each_other_as_cells_are_wide() {
     let document = folder.mms(&format!("{WAVE} 8.csv 16.csv --quantity u --json")).exits(0).json();
     near(&of_levels(&document, "cell_size"), &[0.125, 0.0625], 1e-12);
 }
+
+#[test]
+fn the_files_of_a_list_of_states_are_told_with_their_times() {
+    let file = data("start_8.pvd");
+    let run = Folder::new().mms(&format!("{WAVE} {file} --explain")).exits(0);
+    run.prints("start_8_0.vtu, t = 0.0\n").prints("start_8_1.vtu, t = 0.0158");
+    let document = Folder::new().mms(&format!("{WAVE} {file} --explain --json")).exits(0).json();
+    let paths = document["files"][0]["paths"].as_array().expect("paths");
+    assert_eq!(paths.len(), 2);
+    assert!(paths[1].as_str().is_some_and(|it| it.ends_with("start_8_1.vtu")), "{document:#}");
+    // One file has nothing to tell.
+    let alone = Folder::new().mms(&format!("{WAVE} {} --explain", data("start_8_1.vtu"))).exits(0);
+    assert!(!alone.stdout.contains("\n  file "), "{alone}");
+}

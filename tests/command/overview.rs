@@ -199,3 +199,14 @@ fn words_that_people_mean_otherwise_get_a_hint() {
         .complains("`a.csv` is in the place of the field")
         .complains("as in bar_1d or ./mine.toml");
 }
+
+#[test]
+fn each_field_says_how_it_starts() {
+    let document = Folder::new().mms("list --json").exits(0).json();
+    for field in document["fields"].as_array().expect("fields") {
+        assert!(field["starts"].is_string(), "{field}");
+    }
+    for term in ["canary", "rest", "swirl", "interval", "surface impedance", "not asymptotic"] {
+        Folder::new().mms(&format!("explain {term}")).exits(0).prints(&format!("{term}: "));
+    }
+}

@@ -59,6 +59,9 @@ pub struct Judge {
     /// Judge this table instead: values between commas, semicolons, tabs or blanks; lines that begin with # are comments.
     #[arg(long, value_name = "TABLE", conflicts_with_all = ["field", "files"])]
     errors: Option<PathBuf>,
+    /// Judge the rows of this method in a table of several, as `mms study` writes it for a list of methods.
+    #[arg(long, value_name = "NAME", requires = "errors")]
+    method: Option<String>,
     #[command(flatten)]
     results: results::Options,
     /// The order to judge against: without it 2, and for results one more than the degree of their cells. H1 has the degree of
@@ -95,7 +98,8 @@ impl Judge {
 
     fn errors(&self, table: &Path) -> anyhow::Result<Outcome> {
         let text = read::text(table, Kind::Errors)?;
-        let (measured, notes) = table::read(table, &text, &self.orders())?;
+        let (measured, notes) =
+            table::read_one(table, &text, &self.orders(), self.method.as_deref())?;
         let source = foreign::path(table);
         let input =
             Input { field: None, rigid: None, window: None, set: Vec::new(), hash: digest([text]) };

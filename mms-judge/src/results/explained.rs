@@ -23,6 +23,8 @@ pub struct Explained {
     format: &'static str,
     /// The times of the results.
     times: Vec<f64>,
+    /// The file of each result, in the order of times.
+    paths: Vec<String>,
     /// The number of points.
     points: usize,
     /// The source of X.
@@ -82,6 +84,7 @@ impl Explained {
         Ok(Explained {
             format: snapshot.format,
             times: results.snapshots.iter().filter_map(|it| Some(it.time?.value)).collect(),
+            paths: results.snapshots.iter().map(|it| it.path.clone()).collect(),
             points: snapshot.rows(),
             positions: motion.how.clone(),
             cells: cells(snapshot),
@@ -101,17 +104,35 @@ impl Explained {
         let cells = if self.cells.is_empty() { "none".into() } else { self.cells.join(", ") };
         let left_out =
             if self.left_out.is_empty() { "nothing".into() } else { self.left_out.join(", ") };
-        let mut rows = vec![
-            ("format", self.format.to_owned()),
-            ("times", times),
-            ("points", format!("{}; {}", self.points, self.positions)),
-            ("cells", cells),
-        ];
+        let mut rows = vec![("format", self.format.to_owned()), ("times", times)];
+        rows.extend(self.each_file().map(|it| ("file", it)));
+        rows.extend([("points", format!("{}; {}", self.points, self.positions)), ("cells", cells)]);
         rows.extend(self.quantities.iter().map(|(role, how)| (role.symbol(), how.clone())));
         rows.push(("left out", left_out));
         let width = rows.iter().map(|(key, _)| key.len()).max().unwrap_or(0);
         let row = |(key, words): &(&str, String)| format!("\n  {key:width$}  {words}");
         format!("{}{}", shown(&self.file), rows.iter().map(row).collect::<String>())
+    }
+
+    /// The files of a folder or a pattern, each with its times; none, if the name is that of one file.
+    fn each_file(&self) -> impl Iterator<Item = String> {
+        let mut files: Vec<(&str, Vec<f64>)> = Vec::new();
+        for (at, path) in self.paths.iter().enumerate() {
+            let path = path.trim_matches('`');
+            let time = self.times.get(at).filter(|_| self.times.len() == self.paths.len());
+            match files.last_mut().filter(|it| it.0 == path) {
+                Some((_, times)) => times.extend(time),
+                None => files.push((path, time.copied().into_iter().collect())),
+            }
+        }
+        let are_several = files.len() > 1;
+        files.into_iter().filter(move |_| are_several).map(|(path, times)| match times.as_slice() {
+            [] => path.to_owned(),
+            [only] => format!("{path}, t = {only:?}"),
+            [first, .., last] => {
+                format!("{path}, {} times from {first:?} to {last:?}", times.len())
+            }
+        })
     }
 
     /// The explanation as a document.
@@ -124,6 +145,7 @@ impl Explained {
             file: self.file.clone(),
             format: self.format.to_owned(),
             times: self.times.clone(),
+            paths: self.paths.iter().map(|it| it.trim_matches('`').to_owned()).collect(),
             points: self.points,
             positions: self.positions.clone(),
             cells: self.cells.clone(),
