@@ -185,8 +185,8 @@ fn panel(
     // Bold letters, and those of a font in the place of Helvetica, are wider.
     let row = |it: &Entry| 1.08 * (it.words.width_of(size) + 34.0);
     let of_rows = legend.iter().map(row).fold(0.0, f64::max);
-    let longest = of_rows.max(1.08 * Words::plain(head).width());
-    let beside = width - GAP - longest - GAP - left;
+    let of_head = 1.08 * Words::plain(head).width();
+    let beside = width - GAP - of_rows - GAP - left;
     let is_beside = is_beside && beside >= LEAST;
     let right = if is_beside { left + beside } else { width - GAP };
     let bold = |at: [f64; 2]| {
@@ -194,7 +194,8 @@ fn panel(
         let (anchor, is_turned, is_bold) = (Anchor::Start, false, true);
         Item::Text(Text { at, anchor, is_turned, is_bold, size: TEXT, words })
     };
-    let head_above = !is_beside && !head.is_empty();
+    // A head that is longer than the legend would take room from the curves.
+    let head_above = !head.is_empty() && (!is_beside || of_head > of_rows);
     let top = if head_above { 26.0 } else { 12.0 };
     let area = Area { left, right, top, bottom: top + SHAPE * (right - left).min(420.0) };
     let mut items = plot.drawn(&plot.frame(area));
