@@ -219,7 +219,8 @@ impl Judgements {
 
     /// The value of `--expected-order` with which a quantity passes, if linf alone fails: the observed order, rounded down.
     fn lower_order(&self, quantity: &Quantity, judged: &Judged) -> Option<String> {
-        let order = (10.0 * judged.judgement.only_largest()?).floor() / 10.0;
+        // As it is printed, 1.699 is 1.70.
+        let order = (10.0 * judged.judgement.only_largest()? + 0.05).floor() / 10.0;
         let name = quantity.name.raw();
         let symbol = mms_spec::quantity::Quantity::from_name(name).map_or(name, |it| it.symbol());
         let is_one = self.files().is_empty() && self.measured.quantities.len() == 1;

@@ -173,7 +173,7 @@ fn a_lower_order_at_a_corner_alone_is_told_with_its_place() {
         "h,l2,linf\n0.25,1.6e-2,8.0e-2\n0.125,4.0e-3,2.46e-2\n0.0625,1.0e-3,7.58e-3\n",
     );
     let run = folder.mms("judge --errors errors.csv").exits(1);
-    run.prints("the order is lost at few points; `--expected-order linf=1.6` expects that");
+    run.prints("the order is lost at few points; `--expected-order linf=1.7` expects that");
     // A layer at a face is a mistake, and no corner.
     folder.write(
         "errors.csv",

@@ -114,7 +114,7 @@ impl Explained {
         format!("{}{}", shown(&self.file), rows.iter().map(row).collect::<String>())
     }
 
-    /// The files of a folder or a pattern, each with its times; none, if the name is that of one file.
+    /// The files of a folder or a pattern, each with its times; none, if the name means one file.
     fn each_file(&self) -> impl Iterator<Item = String> {
         let mut files: Vec<(&str, Vec<f64>)> = Vec::new();
         for (at, path) in self.paths.iter().enumerate() {
