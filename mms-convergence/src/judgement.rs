@@ -107,7 +107,7 @@ impl Judgement {
         self.deciding().finding.verdict
     }
 
-    /// The order of linf, if it alone decides a fail: l2, and l1 if there is such, has the expected order.
+    /// The order of linf, if linf alone decides a fail: l2, and l1 if it is given, has the expected order.
     pub fn only_largest(&self) -> Option<f64> {
         let deciding = self.deciding();
         let is_good = |name| self.norm(name).is_none_or(|it| it.finding.verdict.is_good());
@@ -119,7 +119,7 @@ impl Judgement {
         deciding.finding.estimate.filter(|_| is_alone).map(|it| it.order)
     }
 
-    /// What is found of a norm.
+    /// The result of a norm.
     pub fn norm(&self, name: &str) -> Option<&Judged> {
         self.norms.iter().find(|it| it.norm == name)
     }

@@ -162,7 +162,7 @@ impl Finding {
     fn left_open(&self, name: Name<'_>) -> Option<String> {
         let (share, finest) = (self.share?, self.lengths.last()?);
         let most = 100.0 * share.interval()[1].clamp(0.0, 1.0);
-        // As many digits as tell it from 0.
+        // With enough digits to differ from 0.
         let digits = (0..=3).find(|&it| most >= 0.95 * 0.1_f64.powi(it))?;
         Some(format!(
             "an error of order {} that makes up less than {most:.*} % at {} is not excluded",

@@ -110,7 +110,7 @@ where
 
     /// A right method whose error falls with about this order.
     fn of_order(&self, order: f64) -> Option<OfOrder> {
-        // No method is right whose error does not fall.
+        // A method whose error does not fall is not right.
         if self.levels.degree() > 1 || order < LEAST_ORDER {
             return None;
         }
@@ -292,7 +292,7 @@ const SAME_ORDER: f64 = 0.15;
 /// The least order of an error that falls.
 const LEAST_ORDER: f64 = 0.25;
 
-/// Diagnoses ordinary results of meshes, from coarse to fine, of a solver of which something is known.
+/// Diagnoses ordinary results of meshes, from coarse to fine, with the known facts about their solver.
 ///
 /// # Errors
 /// Results that cannot be diagnosed.

@@ -61,7 +61,14 @@ impl<'a> Judged<'a> {
                 stopped(&mut measurement.measured, planned, &jobs);
                 let provenance = provenance(planned);
                 let time_step = jobs.iter().filter_map(|job| job.time_step).reduce(f64::min);
-                match Judgements::of_results(&exact, &files, measurement, time_step, provenance) {
+                match Judgements::of_results(
+                    &exact,
+                    &files,
+                    measurement,
+                    time_step,
+                    provenance,
+                    &Unfollowed,
+                ) {
                     Ok(judgements) => {
                         judged.judgements = Some(judgements.of_campaign());
                     }

@@ -31,7 +31,7 @@ pub struct Judgements {
     pub next: Option<Vec<String>>,
     /// Whether a campaign file has the expected orders, and not a command line.
     is_of_campaign: bool,
-    /// The place of the largest error of each quantity on the finest mesh, in words; none of a table.
+    /// The place of the largest error of each quantity on the finest mesh, in words; empty for a table.
     largest: Vec<String>,
     /// The keys of results of files.
     results: Results,
@@ -112,7 +112,7 @@ impl Judgements {
         Ok(Self { notes, part, largest, results, ..report })
     }
 
-    /// Names the key of a campaign file where another judgement names an option.
+    /// Names the key of a campaign file in place of the option.
     #[must_use]
     pub fn of_campaign(self) -> Self {
         Self { is_of_campaign: true, ..self }
@@ -228,8 +228,8 @@ impl Judgements {
         (order > 0.0).then(|| format!("{column}linf={order}"))
     }
 
-    /// The values of `--expected-order` with which the results pass, if linf alone fails wherever they fail, and no layer at a face
-    /// is seen.
+    /// The values of `--expected-order` with which the results pass; `None` if another norm than linf fails, or a layer at a face
+    /// shows.
     pub fn lower_orders(&self) -> Option<Vec<String>> {
         let is_good = |it: &&Judged| it.judgement.verdict().is_good();
         if self.judged.iter().all(|it| is_good(&it)) {

@@ -60,7 +60,7 @@ pub const OF: char = ':';
 /// The column that names the method of each row, in the table of a study of several.
 const METHOD: &str = "method";
 
-/// The name that the order in dt goes by.
+/// The name of the order in dt.
 pub const TIME: &str = "time";
 
 impl Orders {
@@ -167,10 +167,10 @@ pub fn read(path: &Path, text: &str, orders: &Orders) -> anyhow::Result<(Measure
     read_one(path, text, orders, None)
 }
 
-/// As [`read`], the rows of one method, if the table has a column of these.
+/// Reads the rows of one method of a table, if the table has a column of methods.
 ///
 /// # Errors
-/// As of [`read`]; several methods and no choice; a method that is not there.
+/// The errors of [`read`]; several methods without a choice; a method that the table lacks.
 pub fn read_one(
     path: &Path,
     text: &str,

@@ -73,7 +73,7 @@ impl Comparison {
         }
     }
 
-    /// l2 of each method on each level, or in time its difference to the next.
+    /// l2 of each method on each level, or in time its difference from the next level.
     fn errors(&self, names: Vec<String>) -> Table {
         let first = &self.studies[0];
         let ends = [FITTED, "constant", "verdict"].map(str::to_owned);

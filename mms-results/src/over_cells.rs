@@ -47,7 +47,7 @@ pub struct OverCells {
     pub value: Norms,
     /// The place X of the largest error.
     pub place: Vec<f64>,
-    /// The seminorm of H1, by the root of the body's measure; 0 where it was not asked for.
+    /// The seminorm of H1, over the root of the body's measure; 0 if it was not requested.
     pub h1: f64,
 }
 
@@ -358,8 +358,8 @@ impl Mesh<'_> {
         Ok(())
     }
 
-    /// Asks for the exact solution where polynomials have their largest values, and beside these places, by parabolas uphill.
-    /// Returns the place X of the largest error; the middle of its cell, if a point of quadrature has it.
+    /// Evaluates the exact solution where the polynomials have their largest values, and climbs by parabolas beside these places.
+    /// Returns the place X of the largest error; the middle of its cell, if it is at a point of quadrature.
     fn climb(
         &self,
         found: &mut Found,

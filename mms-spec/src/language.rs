@@ -43,7 +43,7 @@ pub fn elsewhere(word: &str) -> Option<&'static str> {
     })
 }
 
-/// The advice on a word that other programs have for what a face carries, and that is no claim.
+/// The advice on a word of other programs for a load or condition of a face, such as `pressure`, which is no claim.
 pub fn instead_of_claim(word: &str) -> Option<&'static str> {
     Some(match word.to_ascii_lowercase().as_str() {
         "pressure" | "follower" | "follower_load" | "follower_pressure" | "following_pressure" => {
@@ -60,7 +60,7 @@ pub fn instead_of_claim(word: &str) -> Option<&'static str> {
     })
 }
 
-/// The advice on a power between a function and its argument, as in `sin^2(X)`, if a text ends so.
+/// The advice on a power between a function and its argument, as in `sin^2(X)`, if a text ends in this way.
 pub fn power_of_function(text: &str) -> Option<String> {
     let (before, exponent) = text.trim_end().rsplit_once('^')?;
     let is_word = |it: char| it.is_ascii_alphanumeric() || it == '_';

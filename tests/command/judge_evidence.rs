@@ -298,7 +298,7 @@ fn the_files_of_a_list_of_states_are_told_with_their_times() {
     let paths = document["files"][0]["paths"].as_array().expect("paths");
     assert_eq!(paths.len(), 2);
     assert!(paths[1].as_str().is_some_and(|it| it.ends_with("start_8_1.vtu")), "{document:#}");
-    // One file has nothing to tell.
+    // One file needs no list.
     let alone = Folder::new().mms(&format!("{WAVE} {} --explain", data("start_8_1.vtu"))).exits(0);
     assert!(!alone.stdout.contains("\n  file "), "{alone}");
 }

@@ -162,7 +162,7 @@ impl Emitter<'_> {
 
     fn bounds(&self) -> TokenStream {
         let time = self.bound(Bound::Time);
-        // Where there is no body, there is nothing that bounds it.
+        // If there is no body, there are no bounds of it.
         let parts = self.program.outputs.keys().filter_map(|output| match output {
             Output::Bound(bound) if !matches!(bound, Bound::Time | Bound::Space) => Some(*bound),
             _ => None,

@@ -99,7 +99,7 @@ pub fn after_search(
     Some(changed(words, &[(name, format!("{:.1e}", (value / unit).ceil() * unit))]))
 }
 
-/// The end of what the first failed run of a campaign printed; nothing, if it printed nothing.
+/// The last output of the first failed run of a campaign; empty, if the run printed nothing.
 fn log_of(studies: &[Judged<'_>], store: &Path) -> Option<Words> {
     let folders = studies.iter().flat_map(|it| &it.outcomes).filter_map(|outcome| match outcome {
         Outcome::Failed { folder, .. } => Some(store.join(folder)),
@@ -111,8 +111,8 @@ fn log_of(studies: &[Judged<'_>], store: &Path) -> Option<Words> {
     Some(["tail", "-n", "50", &log].map(str::to_owned).to_vec())
 }
 
-/// Gives each judgement of a campaign its own, and returns the command after the campaign, whose command so far has these words:
-/// the log of a failed run in this store, or the command of a run that printed nothing, or a diagnosis.
+/// Sets the next command of each judgement of a campaign, and returns the next command of the campaign, whose command so far has
+/// these words: it prints the log of a failed run in this store, shows the command of a run that printed nothing, or diagnoses.
 pub fn after_campaign(
     studies: &mut [Judged<'_>],
     here: &Path,

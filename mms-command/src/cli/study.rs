@@ -146,7 +146,7 @@ impl Case {
     }
 }
 
-/// What `mms` does without arguments: the slides' bar with contiguous-particle GIMP.
+/// Runs `mms` without arguments: the slides' bar with contiguous-particle GIMP.
 pub(super) fn main_job() -> anyhow::Result<Outcome> {
     Alone::parse_from(["mms", "bar_1d"]).study.run(&["mms".to_owned()])
 }

@@ -5,7 +5,7 @@ use mms_spec::quantity::Quantity;
 
 use super::Level;
 
-/// From how many lengths of a cell on a point is no longer near a face.
+/// A point at this distance from a face, in lengths of a cell, is no longer near the face.
 const NEAR: f64 = 1.01;
 
 /// The place of the largest error of each quantity on the finest mesh: the point, and the faces that meet there, or how far they are.

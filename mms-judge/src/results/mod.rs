@@ -60,7 +60,7 @@ pub struct Measurement {
     pub part: Option<String>,
     /// The place of the largest error of each quantity on the finest mesh, in words.
     pub largest: Vec<String>,
-    /// The number of points of the mesh that has the fewest.
+    /// The number of points of the mesh with the fewest points.
     pub points: usize,
     /// Notes on how errors were measured, and why.
     pub notes: Vec<String>,

@@ -108,7 +108,7 @@ impl Taken<'_> {
         }
     }
 
-    /// The norms over points at these places, by their weights or all alike.
+    /// The norms over points at these places, weighted or with equal weights.
     pub fn over_points(
         &self,
         quantity: Quantity,

@@ -45,7 +45,7 @@ fn together(mut plots: Vec<(&Path, Plot)>, paths: &[PathBuf]) -> Plot {
         return plots.swap_remove(0).1;
     }
     let alike = |path: &Path| paths.iter().filter(|it| it.file_stem() == path.file_stem()).count();
-    // A head that all plots have tells nothing.
+    // A head that all plots share says nothing.
     if plots.iter().all(|(_, it)| it.head == plots[0].1.head) {
         plots.iter_mut().for_each(|(_, it)| it.head.clear());
     }

@@ -158,7 +158,7 @@ pub struct Text {
     pub is_turned: bool,
     /// Whether the text is bold.
     pub is_bold: bool,
-    /// Its size, [`TEXT`] or [`SMALL`].
+    /// The size of the letters, [`TEXT`] or [`SMALL`].
     pub size: f64,
     /// The text.
     pub words: Words,

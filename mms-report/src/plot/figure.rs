@@ -182,7 +182,7 @@ fn panel(
     size: f64,
 ) -> (Vec<Item>, f64) {
     let legend = plot.legend(true);
-    // Bold letters, and those of a font in the place of Helvetica, are wider.
+    // Bold letters, and the letters of a substitute for Helvetica, are wider.
     let row = |it: &Entry| 1.08 * (it.words.width_of(size) + 34.0);
     let of_rows = legend.iter().map(row).fold(0.0, f64::max);
     let of_head = 1.08 * Words::plain(head).width();
@@ -194,7 +194,7 @@ fn panel(
         let (anchor, is_turned, is_bold) = (Anchor::Start, false, true);
         Item::Text(Text { at, anchor, is_turned, is_bold, size: TEXT, words })
     };
-    // A head that is longer than the legend would take room from the curves.
+    // A head longer than the legend would make the curves smaller.
     let head_above = !head.is_empty() && (!is_beside || of_head > of_rows);
     let top = if head_above { 26.0 } else { 12.0 };
     let area = Area { left, right, top, bottom: top + SHAPE * (right - left).min(420.0) };
@@ -208,7 +208,7 @@ fn panel(
         y += LEGEND_LINE + 4.0;
     }
     let line = if size == TEXT { LEGEND_LINE } else { SMALL_LINE };
-    // Below the curves of a column, entries stand beside each other where there is room.
+    // Below the curves of a narrow figure, entries share a line if they fit.
     let room = width - GAP - x;
     let columns = match is_beside || size == TEXT {
         true => 1,

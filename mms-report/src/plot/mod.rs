@@ -160,10 +160,10 @@ struct Area {
 const ON_PAGE: [f64; 2] = [640.0, 400.0];
 const AREA_ON_PAGE: Area = Area { left: 76.0, right: 628.0, top: 12.0, bottom: 348.0 };
 
-/// The room for the 1 between a triangle and the axis, in pixels.
+/// The height of the 1 between a triangle and the axis, in pixels.
 const BELOW_TRIANGLE: f64 = 17.0;
 
-/// Where numbers are on the picture.
+/// The positions of numbers on the picture.
 struct Frame {
     x: (f64, f64),
     y: (f64, f64),

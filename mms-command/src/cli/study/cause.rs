@@ -102,7 +102,7 @@ impl Ended<'_> {
         own.into_iter().chain(options.iter().cloned()).collect()
     }
 
-    /// Whether options lead to another study than those of this command.
+    /// Whether options lead to a study other than this command's.
     fn is_new(&self, options: &[(&'static str, String)]) -> bool {
         let changed = self.alone(options);
         let is_of = |method: &Named| changed.iter().all(|it| method.contains(it));

@@ -22,7 +22,7 @@ fn usual(field: &FieldSpec) -> (FormulationName, ShapeName) {
     })
 }
 
-/// The formulation for a shape function: the one of the usual method, if domains that follow the motion do not need the updated one.
+/// The formulation for a shape function: the usual one of the body, unless the domains of the shape function follow the motion.
 fn formulation_for(shape: ShapeName, field: &FieldSpec) -> FormulationName {
     match shape {
         ShapeName::Cpgimp | ShapeName::Cpdi => FormulationName::Updated,
