@@ -16,7 +16,7 @@ use mms_analysis::period::period;
 use mms_codegen::selection::Selection;
 use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
 use mms_exact::{Input, Open, hold_division, units};
-use mms_judge::next as judged;
+use mms_judge::{Follow as Search, Unfollowed, next as judged};
 use mms_lab::trial::Progress as Follow;
 use mms_mechanics::sample::domain;
 use mms_options::field::{Motion, open};
