@@ -271,7 +271,7 @@ impl Study {
             if cases.len() > 1 {
                 progress.say(&method::line(&case.method, case.options.arithmetic));
             }
-            let mut report = self.report(case, provenance.clone(), progress)?;
+            let mut report = self.report(case, provenance.clone(), (progress, search))?;
             self.explain(&mut report, case, (&studied, own), words)?;
             reports.push(report);
         }
