@@ -7,8 +7,8 @@ use mms_exact::gallery::{Entry, FIELDS};
 use mms_interpreted::{Interpretable, scene};
 use mms_mechanics::sample::samples;
 use mms_runtime::axisymmetric::{hoop_strain, kirchhoff_stress, strain_energy};
-use mms_runtime::column::BUNCH;
-use mms_runtime::column::{Bunch as _, Matrices};
+use mms_runtime::column::PACK;
+use mms_runtime::column::{Matrices, Pack as _};
 use mms_runtime::scene::{Code, Scene};
 use mms_runtime::{ManufacturedField, Matrix, Real, Vector};
 use mms_symbolic::sorted::SortedMap;
@@ -80,7 +80,7 @@ fn agree<T: Real, const D: usize>(
     let [first, second] =
         scalars(&|field, out| assert!(field.strain_energy(time, points, &gradients, out)));
     same(&what("W"), &first, &second);
-    stress_of_bunches(&what("tau of bunches"), [compiled, interpreted], time, points);
+    stress_of_packs(&what("tau of packs"), [compiled, interpreted], time, points);
     axisymmetric(
         &what("hoop strains, stresses and energies"),
         [compiled, interpreted],
@@ -112,22 +112,22 @@ fn axisymmetric<T: Real, const D: usize>(
     same(what, &[own], &[found]);
 }
 
-fn stress_of_bunches<T: Real, const D: usize>(
+fn stress_of_packs<T: Real, const D: usize>(
     what: &str,
     fields: [&Field<T, D>; 2],
     time: T,
     points: &[Vector<T, D>],
 ) {
-    let bunches = points.as_chunks::<BUNCH>().0;
-    let of_bunch = |bunch: &[Vector<T, D>; BUNCH]| {
+    let packs = points.as_chunks::<PACK>().0;
+    let of_pack = |pack: &[Vector<T, D>; PACK]| {
         let mut gradients = Matrices::zeros();
-        bunch.iter().enumerate().for_each(|(k, point)| gradients.set(k, &gradient(point)));
+        pack.iter().enumerate().for_each(|(k, point)| gradients.set(k, &gradient(point)));
         gradients
     };
-    let gradients: Vec<_> = bunches.iter().map(of_bunch).collect();
+    let gradients: Vec<_> = packs.iter().map(of_pack).collect();
     let [first, second] = fields.map(|field| {
-        let mut stress = vec![Matrices::zeros(); bunches.len()];
-        field.kirchhoff_stress_of_bunches(time, bunches, &gradients, &mut stress);
+        let mut stress = vec![Matrices::zeros(); packs.len()];
+        field.kirchhoff_stress_of_packs(time, packs, &gradients, &mut stress);
         stress
     });
     same(what, &first, &second);

@@ -8,17 +8,20 @@ use mms_lab::rows::Named as _;
 use mms_options::{Study, arguments};
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use mms_spec::Claim;
-use mms_verify::matrix::{Expected, Row, Word, rows};
+use mms_verify::matrix::{Expected, MatrixRow, Word, rows};
 use mms_verify::plan::Plan;
 use mms_verify::verdict::{Verdict, judge};
 
-fn studies() -> Vec<(Row, Study)> {
+fn studies() -> Vec<(MatrixRow, Study)> {
     let rows = rows().unwrap_or_else(|error| panic!("{error:#}"));
     rows.into_iter().map(|row| (row.clone(), row.study().unwrap().0)).collect()
 }
 
 /// Asserts that each of the items has some row.
-fn each_has_a_row<T: std::fmt::Debug + Copy>(all: &[T], has: impl Fn(&Row, &Study, T) -> bool) {
+fn each_has_a_row<T: std::fmt::Debug + Copy>(
+    all: &[T],
+    has: impl Fn(&MatrixRow, &Study, T) -> bool,
+) {
     let studies = studies();
     for &one in all {
         assert!(studies.iter().any(|(row, study)| has(row, study, one)), "no row for {one:?}");
@@ -149,8 +152,8 @@ fn arguments_are_cut_at_blanks_but_between_apostrophes() {
 }
 
 /// A row with an expected order.
-fn row(order: Expected) -> Row {
-    Row {
+fn row(order: Expected) -> MatrixRow {
+    MatrixRow {
         name: "some/mode".into(),
         study: "bar_1d --cells 8,16,32".into(),
         quick: 3,
@@ -255,7 +258,7 @@ fn a_run_that_stopped_does_not_converge_and_one_that_was_refused_fails() {
 /// If only the time step is refined, the order is in time.
 #[test]
 fn an_order_in_time_is_that_over_time_steps() {
-    let row = Row { halvings: 2, constant: Some(100.0), ..row(SECOND) };
+    let row = MatrixRow { halvings: 2, constant: Some(100.0), ..row(SECOND) };
     let levels = [16.0, 4.0, 1.0].map(|e| match finished(0, [e; 3]) {
         Outcome::Finished { run, errors, mean_velocity } => {
             let run = Size { time_step: 0.1 * f64::sqrt(e), ..run };
@@ -269,7 +272,7 @@ fn an_order_in_time_is_that_over_time_steps() {
 
 #[test]
 fn momentum_is_held_to_what_it_is() {
-    let row = |velocity| Row { quantity: Quantity::MeanVelocity(velocity), ..row(EXACT) };
+    let row = |velocity| MatrixRow { quantity: Quantity::MeanVelocity(velocity), ..row(EXACT) };
     let levels = [finished(0, [1.0; 3]), finished(1, [1.0; 3])];
     assert_eq!(judge(&row(vec![1.0]), &levels).verdict, Verdict::Pass);
     assert_eq!(judge(&row(vec![1.1]), &levels).verdict, Verdict::Fail);

@@ -11,7 +11,7 @@ use std::hint::black_box;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::time::Instant;
 
-use mms_runtime::math::batch::{self, Float, Function, Kernel, Points, Stand};
+use mms_runtime::math::batch::{self, Float, Function, Kernel, Lift, Points};
 use mms_runtime::math::{Real, Scalar};
 
 use crate::median;
@@ -214,7 +214,7 @@ impl<S: Real> Function<S, 1, 1> for Chains {
 
 impl<T: Float> Kernel<T, 1, 1> for Chains {
     #[inline(always)]
-    fn drive<S: Stand<T>>(&self, points: &mut impl Points<S, 1, 1>) {
+    fn drive<S: Lift<T>>(&self, points: &mut impl Points<S, 1, 1>) {
         points.each(self);
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use mms_codegen::Compiled;
 use mms_codegen::compile;
 use mms_mechanics::Output;
-use mms_program::block::{Blockwise, Inputs, Outputs, Plan, Prepared, Room, Way};
+use mms_program::block::{BlockLayout, Blockwise, Inputs, Outputs, Plan, Prepared, Scratch};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
 
@@ -16,7 +16,7 @@ struct Interpreted<T: Blockwise> {
     mode: &'static str,
     precision: &'static str,
     prepared: Prepared<T>,
-    room: Room<T>,
+    scratch: Scratch<T>,
     time: T,
     points: Vec<Vec<T>>,
     out: Vec<Vec<T>>,
@@ -25,7 +25,7 @@ struct Interpreted<T: Blockwise> {
 
 impl<T: Blockwise> Interpreted<T> {
     fn evaluate(&mut self) {
-        let Interpreted { prepared, room, time, points, out, .. } = self;
+        let Interpreted { prepared, scratch, time, points, out, .. } = self;
         let mut bring = |start: usize, inputs: &mut Inputs<'_, T>| {
             for (symbol, column) in inputs.columns() {
                 if let Symbol::Coordinate(axis) = symbol {
@@ -38,7 +38,7 @@ impl<T: Blockwise> Interpreted<T> {
                 component.write(column[start..start + outputs.count()].iter_mut());
             }
         };
-        prepared.run(room, *time, COUNT, &mut bring, &mut take);
+        prepared.run(scratch, *time, COUNT, &mut bring, &mut take);
     }
 }
 
@@ -73,13 +73,13 @@ fn contenders_in<T: Blockwise + Into<f64> + 'static>(
         Output::is_quantity,
     ));
     let numbers = |values: &[f64]| -> Vec<T> { values.iter().map(|it| T::from_f64(*it)).collect() };
-    let ways = [("batch", Way::fused()), ("portable", Way::portable())];
+    let ways = [("batch", BlockLayout::fused()), ("portable", BlockLayout::portable())];
     let contender = |(mode, way)| {
         let contender: Box<dyn Contender> = Box::new(Interpreted {
             mode,
             precision,
             prepared: Prepared::new(plan.clone(), way, &numbers(case.parameters)),
-            room: Room::default(),
+            scratch: Scratch::default(),
             time: T::from_f64(case.time),
             points: case.points.iter().map(|column| numbers(column)).collect(),
             out: vec![vec![T::from_f64(0.0); COUNT]; case.points.len()],

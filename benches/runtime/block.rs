@@ -2,8 +2,8 @@
 
 use std::ops::MulAssign;
 
-use mms_runtime::column::BUNCH;
 use mms_runtime::column::Matrices;
+use mms_runtime::column::PACK;
 use mms_runtime::scene::Scene;
 use mms_runtime::{Condition, Domain, ManufacturedField, Material, Matrix, Real, Vector};
 
@@ -97,14 +97,14 @@ impl<T: Real, const D: usize> Material<T, D> for Block<T, D> {
         self.field.kirchhoff_stress(time, reference, displacement_gradient, stress);
     }
 
-    fn kirchhoff_stress_of_bunches(
+    fn kirchhoff_stress_of_packs(
         &self,
         time: T,
-        reference: &[[Vector<T, D>; BUNCH]],
+        reference: &[[Vector<T, D>; PACK]],
         displacement_gradient: &[Matrices<T, D>],
         stress: &mut [Matrices<T, D>],
     ) {
-        self.field.kirchhoff_stress_of_bunches(time, reference, displacement_gradient, stress);
+        self.field.kirchhoff_stress_of_packs(time, reference, displacement_gradient, stress);
     }
 }
 

@@ -8,7 +8,7 @@ use core_affinity::CoreId;
 use cpu_time::ThreadTime;
 use mms_runtime::Real;
 use mms_runtime::math::dispatch::{Work, best};
-use mms_runtime::math::machine::Machine;
+use mms_runtime::math::simd::Simd;
 
 /// The number of independent chains of multiply-adds, and the length of each.
 const CHAINS: [usize; 2] = [12, 1_000_000];
@@ -133,18 +133,18 @@ impl<T: Real> Work<T> for Chains<T> {
     type Output = [T; 8];
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, machine: M) -> [T; 8] {
-        let x = machine.splat(self.0);
+    fn on<M: Simd<T>>(self, simd: M) -> [T; 8] {
+        let x = simd.splat(self.0);
         let mut chains = [x; CHAINS[0]];
         for _ in 0..CHAINS[1] {
             for chain in 0..CHAINS[0] {
-                chains[chain] = machine.times_plus(chains[chain], x, x);
+                chains[chain] = simd.times_plus(chains[chain], x, x);
             }
         }
         let mut sum = x;
         for chain in chains {
-            sum = machine.plus(sum, chain);
+            sum = simd.plus(sum, chain);
         }
-        machine.numbers(sum)
+        simd.numbers(sum)
     }
 }

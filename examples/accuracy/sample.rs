@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mms_analysis::accuracy::{Accuracy, Request, Row, measure};
+use mms_analysis::accuracy::{Accuracy, AccuracyRow, Request, measure};
 use mms_codegen::compile::compile_unproved;
 use mms_program::precision::Precision;
 use mms_spec::Form;
@@ -60,7 +60,7 @@ pub fn worst<'a>(
     accuracy: &'a Accuracy,
     regime: &str,
     (precision, form): (Precision, Form),
-) -> Option<(&'a Row, usize)> {
+) -> Option<(&'a AccuracyRow, usize)> {
     let rows = accuracy
         .rows
         .iter()

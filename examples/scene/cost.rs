@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context as _, anyhow};
 use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::{Compiled, compile_with};
-use mms_lab::workbench::{self, Module, Time, Way, Workbench};
+use mms_lab::workbench::{self, Module, ModuleForm, Time, Workbench};
 use mms_mechanics::Output;
 use mms_program::Stage;
 use mms_spec::quantity::Quantity;
@@ -67,10 +67,10 @@ impl Subject {
     }
 
     /// The functions to call for one point, and for many.
-    fn ways(&self) -> [Way; 2] {
+    fn ways(&self) -> [ModuleForm; 2] {
         match self.variant.is_kept {
-            false => [Way::Single, Way::Batch],
-            true => [Way::SingleKept, Way::BatchKept],
+            false => [ModuleForm::Single, ModuleForm::Batch],
+            true => [ModuleForm::SingleKept, ModuleForm::BatchKept],
         }
     }
 

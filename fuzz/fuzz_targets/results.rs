@@ -6,7 +6,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use mms_results::mesh::Mesh;
-use mms_results::motion::{hold_distinct, resolve};
+use mms_results::motion::{resolve, validate_distinct};
 use mms_results::names::{KNOWN, Role, everything, recognise, wanted};
 use mms_results::own;
 use mms_results::pairing::{cells, points};
@@ -31,7 +31,7 @@ fuzz_target!(|bytes: &[u8]| {
                 let Ok(motion) = resolve(snapshot, &meanings, 2, &|_: &[f64]| 0.0, back) else {
                     continue;
                 };
-                let _ = hold_distinct(snapshot, &motion.reference);
+                let _ = validate_distinct(snapshot, &motion.reference);
                 let places = &motion.reference.numbers;
                 let mesh = Mesh {
                     cells: &snapshot.cells,

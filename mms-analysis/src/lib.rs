@@ -2,7 +2,7 @@
 //! cost, and the inverse of its motion.
 
 pub mod accuracy;
+pub mod inverse_motion;
 pub mod operations;
 pub mod period;
-pub mod present;
 pub mod visibility;

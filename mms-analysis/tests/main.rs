@@ -2,6 +2,6 @@
 
 mod accuracy;
 mod axisymmetric;
+mod inverse_motion;
 mod period;
-mod present;
 mod visibility;

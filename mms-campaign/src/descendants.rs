@@ -79,7 +79,7 @@ fn descendants(first: i32) -> Option<Vec<Process>> {
     let own = i32::try_from(std::process::id()).ok()?;
     let entries = std::fs::read_dir("/proc").ok()?.flatten();
     let lines = entries.filter_map(|it| std::fs::read_to_string(it.path().join("stat")).ok());
-    let all: Vec<Row> = lines.filter_map(|line| Row::parse(&line)).collect();
+    let all: Vec<ProcessRow> = lines.filter_map(|line| ProcessRow::parse(&line)).collect();
     let session = all.iter().find(|row| row.number == own)?.session;
     let mut found: Vec<Process> = Vec::new();
     let mut parents = vec![own];
@@ -97,7 +97,7 @@ fn descendants(first: i32) -> Option<Vec<Process>> {
 
 /// A living process from `/proc`.
 #[cfg(unix)]
-struct Row {
+struct ProcessRow {
     number: i32,
     name: String,
     parent: i32,
@@ -106,7 +106,7 @@ struct Row {
 }
 
 #[cfg(unix)]
-impl Row {
+impl ProcessRow {
     /// Reads a line such as `12 (name) S 11 12 10 ..`.
     fn parse(line: &str) -> Option<Self> {
         // A name may contain blanks and brackets.
@@ -117,7 +117,7 @@ impl Row {
         let mut next = || rest.next()?.parse::<i32>().ok();
         let (parent, group, session) = (next()?, next()?, next()?);
         let (number, name) = (number.parse().ok()?, name.replace('\n', " "));
-        (!matches!(state, "Z" | "X")).then_some(Row { number, name, parent, group, session })
+        (!matches!(state, "Z" | "X")).then_some(ProcessRow { number, name, parent, group, session })
     }
 }
 

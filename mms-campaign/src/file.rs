@@ -8,7 +8,7 @@ use mms_spec::diagnostic::{Diagnostic, quoted, render};
 use mms_spec::source::{Sources, Span, Spanned};
 use toml::de::DeValue;
 
-use crate::can::{self, Can, hold};
+use crate::capabilities::{self, Capabilities, hold};
 use crate::set::{self, Step};
 use crate::table::{Reader, Table, Value, digits, each, number};
 use crate::template::{Placeholder, Template, Wrong};
@@ -60,7 +60,7 @@ pub struct Solver {
     /// The format of the exact state, `vtu`, `npz` or `csv`, if the file states it.
     pub state: Option<Spanned<String>>,
     /// The abilities of the solver.
-    pub can: Option<Can>,
+    pub can: Option<Capabilities>,
 }
 
 /// A field, and the meshes on which a solver runs it.
@@ -297,15 +297,15 @@ fn solver(reader: &mut Reader, root: &Table<'_>) -> Option<Solver> {
         time_limit: limit(reader, &table),
         emit: reader.text(&table, "emit"),
         state,
-        can: can::read(reader, &table),
+        can: capabilities::read(reader, &table),
     };
-    hold_emitted(reader, &table, &found);
-    hold_output(reader, &table, &found);
+    validate_emitted(reader, &table, &found);
+    validate_output(reader, &table, &found);
     Some(found)
 }
 
 /// Requires `emit` if `{emitted}` is used.
-fn hold_emitted(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
+fn validate_emitted(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
     if solver.asks_for(Placeholder::Emitted)
         && solver.emit.is_none()
         && table.value("emit").is_none()
@@ -319,7 +319,7 @@ fn hold_emitted(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
 }
 
 /// Refuses results in a place that all runs share, where results of one run could be taken for results of another.
-fn hold_output(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
+fn validate_output(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
     let names = |template: &Template| template.placeholders().any(|it| it == Placeholder::Output);
     if names(&solver.output) || solver.directory.as_ref().is_some_and(names) {
         return;
@@ -460,7 +460,7 @@ fn study(reader: &mut Reader, table: &Table<'_>) -> Option<(Study, Vec<Step>)> {
         set: Vec::new(),
         span: table.span,
     };
-    hold_levels(reader, table, &study);
+    validate_levels(reader, table, &study);
     Some((study, set::steps(reader, table)))
 }
 
@@ -501,7 +501,7 @@ fn cells(reader: &mut Reader, table: &Table<'_>) -> Option<Vec<usize>> {
 }
 
 /// Requires at least three of each and no `courant` in a grid of cells and time steps: fewer do not separate the two errors.
-fn hold_grid(reader: &mut Reader, table: &Table<'_>, study: &Study) {
+fn validate_grid(reader: &mut Reader, table: &Table<'_>, study: &Study) {
     let lengths = [("cells", study.cells.len()), ("time_steps", study.steps())];
     for (key, length) in lengths.into_iter().filter(|(_, length)| *length < 3) {
         let span = table.value(key).map_or(table.span, |value| reader.span(value));
@@ -519,9 +519,9 @@ fn hold_grid(reader: &mut Reader, table: &Table<'_>, study: &Study) {
 }
 
 /// Requires as many of each as there are levels; or one mesh for all time steps.
-fn hold_levels(reader: &mut Reader, table: &Table<'_>, study: &Study) {
+fn validate_levels(reader: &mut Reader, table: &Table<'_>, study: &Study) {
     if study.grid {
-        return hold_grid(reader, table, study);
+        return validate_grid(reader, table, study);
     }
     let levels = study.levels();
     let lengths = [

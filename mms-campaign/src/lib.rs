@@ -8,8 +8,8 @@
 //!
 //! This crate does not evaluate fields, resolve their names, or read results.
 
-mod can;
-pub mod cover;
+mod capabilities;
+pub mod coverage;
 mod descendants;
 mod file;
 pub mod printed;
@@ -20,5 +20,5 @@ pub mod supervisor;
 mod table;
 pub mod template;
 
-pub use can::Can;
+pub use capabilities::Capabilities;
 pub use file::{Campaign, Mistakes, Solver, Study, read};

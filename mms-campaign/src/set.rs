@@ -36,7 +36,7 @@ pub(crate) fn steps(reader: &mut Reader, table: &Table<'_>) -> Vec<Step> {
         .collect();
     let Some(count) = count(reader, &settings) else { return Vec::new() };
     let steps: Vec<Step> = (0..count).map(|at| step(&settings, at)).collect();
-    hold_apart(reader, &settings, &steps);
+    validate_distinct(reader, &settings, &steps);
     steps
 }
 
@@ -92,7 +92,7 @@ fn step(settings: &[Setting], at: usize) -> Step {
 }
 
 /// Refuses duplicate steps, whose results would be confused.
-fn hold_apart(reader: &mut Reader, settings: &[Setting], steps: &[Step]) {
+fn validate_distinct(reader: &mut Reader, settings: &[Setting], steps: &[Step]) {
     let twice = (0..steps.len()).find(|&at| steps[..at].iter().any(|it| it.name == steps[at].name));
     let span = settings.iter().find_map(|it| it.list);
     if let (Some(at), Some(span)) = (twice, span) {

@@ -1,6 +1,6 @@
 //! The tests of this crate, as one program, so that shared code is compiled and linked once.
 
-mod cover;
+mod coverage;
 mod file;
 mod process;
 mod profile;

@@ -13,7 +13,7 @@ use crate::border::{attempt, guarded, guarded_or};
 use crate::error::{Error, MmsCode};
 use crate::field::Field;
 use crate::gallery;
-use crate::memory::{Extent, Message, Room, array, handle, reference, text};
+use crate::memory::{Extent, Message, Writable, array, handle, reference, text};
 use crate::stop::Stop;
 
 /// The largest number of bytes of a name. Longer names are not read further.
@@ -245,7 +245,7 @@ pub unsafe extern "C" fn mms_field_get_parameter(
     unsafe {
         guarded(Message::new(message, capacity), |message| {
             let found = this(field)?.parameter(word("name", name)?)?;
-            Room::new("value", value, 1, &[message.extent()])?.put(&[found]);
+            Writable::new("value", value, 1, &[message.extent()])?.put(&[found]);
             Ok(())
         })
     }
@@ -311,7 +311,7 @@ pub unsafe extern "C" fn mms_field_components(
     unsafe {
         guarded(Message::new(message, capacity), |message| {
             let count = this(field)?.components(word("quantity", quantity)?)?;
-            Room::new("components", components, 1, &[message.extent()])?.put(&[count]);
+            Writable::new("components", components, 1, &[message.extent()])?.put(&[count]);
             Ok(())
         })
     }
@@ -388,7 +388,7 @@ pub unsafe extern "C" fn mms_field_evaluate_stoppable(
                 Extent::of("normals", normals.unwrap_or(&[])),
                 message.extent(),
             ];
-            let mut values = Room::new("values", values, room, &others)?;
+            let mut values = Writable::new("values", values, room, &others)?;
             let stop = if stop.is_null() { None } else { Some(handle("stop", stop)?) };
             field.evaluate(name, time, points, normals, stop, |result| values.put(result))
         })
@@ -421,7 +421,7 @@ pub unsafe extern "C" fn mms_field_normals(
                 Extent::of("points", points),
                 message.extent(),
             ];
-            let mut normals = Room::new("normals", normals, size, &others)?;
+            let mut normals = Writable::new("normals", normals, size, &others)?;
             field.normals(name, points, |normal| normals.put(normal))
         })
     }
@@ -442,7 +442,7 @@ pub unsafe extern "C" fn mms_field_bound_components(
     unsafe {
         guarded(Message::new(message, capacity), |message| {
             let count = this(field)?.bound(word("name", name)?)?.len();
-            Room::new("components", components, 1, &[message.extent()])?.put(&[count]);
+            Writable::new("components", components, 1, &[message.extent()])?.put(&[count]);
             Ok(())
         })
     }
@@ -473,7 +473,7 @@ pub unsafe extern "C" fn mms_field_get_bound(
                 let message = format!("`room` is {room}: `{name}` has {needed} components");
                 return Err(Error::new(MmsCode::InvalidArgument, message));
             }
-            Room::new("values", values, bound.len(), &[message.extent()])?.put(&bound);
+            Writable::new("values", values, bound.len(), &[message.extent()])?.put(&bound);
             Ok(())
         })
     }
@@ -503,7 +503,7 @@ unsafe fn make(
 ) -> MmsCode {
     guarded(message, |message| {
         // SAFETY: the caller vouches for the pointer.
-        let mut place = unsafe { Room::new("field", place, 1, &[message.extent()]) }?;
+        let mut place = unsafe { Writable::new("field", place, 1, &[message.extent()]) }?;
         let made = attempt(|| Ok(Box::into_raw(Box::new(new()?))));
         place.put(&[made.as_ref().map_or(null_mut(), |field| *field)]);
         made.map(drop)

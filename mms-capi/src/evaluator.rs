@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use mms_mechanics::{Output, Program};
-use mms_program::block::{Blockwise, Plan, Prepared, Room, Way};
+use mms_program::block::{BlockLayout, Blockwise, Plan, Prepared, Scratch};
 use mms_spec::quantity::Quantity;
 
 /// The number of points that are evaluated together.
@@ -27,7 +27,7 @@ pub struct Ready {
     /// The parameters of `prepared`.
     parameters: Vec<f64>,
     prepared: Prepared<f64>,
-    room: Room<f64>,
+    scratch: Scratch<f64>,
     /// The components of a block.
     values: Vec<f64>,
 }
@@ -57,8 +57,8 @@ impl Evaluator {
             let plan = asked.plan.get_or_init(plan).clone();
             Ready {
                 parameters: parameters.to_vec(),
-                prepared: Prepared::new(plan, Way::portable(), parameters),
-                room: Room::default(),
+                prepared: Prepared::new(plan, BlockLayout::portable(), parameters),
+                scratch: Scratch::default(),
                 values: Vec::new(),
             }
         });
@@ -88,7 +88,7 @@ impl Ready {
             self.values.resize(count * components, 0.0);
         }
         let values = &mut self.values[..count * components];
-        self.prepared.at_points(&mut self.room, time, dimension, [points, normals], values);
+        self.prepared.at_points(&mut self.scratch, time, dimension, [points, normals], values);
         &self.values[..count * components]
     }
 }

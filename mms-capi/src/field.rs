@@ -4,7 +4,7 @@ use std::ffi::CString;
 use std::mem;
 use std::sync::OnceLock;
 
-use mms_codegen::compile::quick::Quick;
+use mms_codegen::compile::fast_check::FastParameterCheck;
 use mms_codegen::compile_with;
 use mms_codegen::selection::quantity;
 use mms_codegen::{Compiled, Options};
@@ -33,7 +33,7 @@ pub struct Field {
     settings: Settings<SortedMap<usize, Rational>>,
     evaluator: Evaluator,
     /// The bounds of values that are certainly allowed, once any are set.
-    quick: OnceLock<Option<Quick>>,
+    quick: OnceLock<Option<FastParameterCheck>>,
     /// The name for C programs, with a NUL at the end.
     pub name: CString,
     /// The title.
@@ -143,7 +143,7 @@ impl Field {
 
     /// The values of all parameters if some are set and the field allows them.
     fn accepted(&self, set: &SortedMap<usize, Rational>) -> Result<Vec<f64>, Error> {
-        let quick = self.quick.get_or_init(|| Quick::new(&self.compiled));
+        let quick = self.quick.get_or_init(|| FastParameterCheck::new(&self.compiled));
         if let Some(all) = quick.as_ref().and_then(|quick| quick.accepted(set)) {
             return Ok(all);
         }
@@ -166,7 +166,7 @@ impl Field {
         mut put: impl FnMut(&[f64]),
     ) -> Result<(), Error> {
         let quantity = self.find(name)?;
-        let offered = self.compiled.hold_offered(quantity);
+        let offered = self.compiled.validate_offered(quantity);
         offered.map_err(|mistake| Error::new(MmsCode::UnknownName, mistake))?;
         let dimension = self.dimension();
         finite("the time", &[time])?;

@@ -74,12 +74,12 @@ fn cut(text: &str, most: usize) -> &str {
 
 /// Memory for results.
 #[derive(Debug)]
-pub struct Room<T> {
+pub struct Writable<T> {
     next: *mut T,
     left: usize,
 }
 
-impl<T: Copy> Room<T> {
+impl<T: Copy> Writable<T> {
     /// Memory for `count` elements, separate from all other arguments of the call.
     ///
     /// # Safety
@@ -93,7 +93,7 @@ impl<T: Copy> Room<T> {
         check(what, first, count)?;
         let own = Extent { what, start: first.addr(), bytes: count * size_of::<T>() };
         others.iter().try_for_each(|other| own.apart(*other))?;
-        Ok(Room { next: first, left: count })
+        Ok(Writable { next: first, left: count })
     }
 
     /// Writes the next elements.
@@ -278,7 +278,7 @@ pub mod tests {
     fn room_is_written_in_turn_and_no_further() {
         let mut values = [MaybeUninit::<f64>::uninit(); 3];
         // SAFETY: there are three.
-        let room = unsafe { Room::new("values", values.as_mut_ptr().cast::<f64>(), 3, &[]) };
+        let room = unsafe { Writable::new("values", values.as_mut_ptr().cast::<f64>(), 3, &[]) };
         let mut room = room.expect("room");
         room.put(&[1.0]);
         room.put(&[]);

@@ -15,7 +15,7 @@ use mms_codegen::certify::certificate::certify;
 use mms_codegen::certify::closed_form::compare;
 use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::rest::{self, Rest};
-use mms_codegen::certify::written::{self, Gap, gaps};
+use mms_codegen::certify::undefined::{self, Gap, gaps};
 use mms_codegen::compile::Failure;
 use mms_documents::check::{self as documents, CheckedFile, UndefinedComponent};
 use mms_spec::diagnostic::Diagnostic;
@@ -72,7 +72,7 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: Asked) -> Report {
     };
     let growing = warnings(compiled, &stability, lost);
     let solved = asked.solve.then(|| solve(compiled));
-    let is_seen = written::points(compiled) > 0 && compared.all_agree();
+    let is_seen = undefined::points(compiled) > 0 && compared.all_agree();
 
     let notes = doubly_named(compiled);
     let mut lines = vec![title];
@@ -181,7 +181,7 @@ fn name_lines(notes: &[String]) -> impl Iterator<Item = String> {
 /// The other checks that were skipped, or made at fewer points, because they take too long.
 fn unseen(compiled: &Compiled, rest: &Rest) -> Vec<String> {
     let mut unseen = Vec::new();
-    if written::points(compiled) < written::POINTS {
+    if undefined::points(compiled) < undefined::POINTS {
         unseen.push("u as it is written".to_string());
     }
     if *rest == Rest::Unknown {
@@ -231,7 +231,7 @@ fn gap_lines(compiled: &Compiled, gap: &Gap) -> [String; 2] {
         format!(
             "  u      {what} is UNDEFINED as written at {} of {} points",
             gap.points,
-            written::POINTS,
+            undefined::POINTS,
         ),
         format!(
             "    {}: `{}` has no value at X = {at:?}, t = {time:e}: shrink [domain], or write it in another form",

@@ -6,8 +6,8 @@
 //! search for finite values any further, and it skips fields whose H has more than 2000 nodes. The selection of quantities does
 //! not matter: J and the claims belong to the field.
 
+pub mod fast_check;
 mod phases;
-pub mod quick;
 
 use self::phases::Phases;
 use crate::declared;
@@ -101,7 +101,7 @@ impl Compiled {
     ///
     /// # Errors
     /// The quantity, and another one to ask for.
-    pub fn hold_offered(&self, quantity: Quantity) -> Result<(), String> {
+    pub fn validate_offered(&self, quantity: Quantity) -> Result<(), String> {
         match self.offers(quantity) {
             true => Ok(()),
             false => Err(format!(

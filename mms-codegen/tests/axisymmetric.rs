@@ -285,7 +285,8 @@ fn a_body_may_be_moved_to_the_axis_only_where_all_is_finite_there() {
     };
     let allows = |field: &Compiled, inner: f64| {
         let set = [(0, inner.try_into().expect("a number"))].into_iter().collect();
-        let quick = mms_codegen::compile::quick::Quick::new(field).expect("a simple field");
+        let quick = mms_codegen::compile::fast_check::FastParameterCheck::new(field)
+            .expect("a simple field");
         let [quick, slow] = [quick.accepted(&set).is_some(), field.accepts(&set).is_ok()];
         assert!(slow || !quick, "{inner}");
         slow

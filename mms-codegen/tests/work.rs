@@ -12,7 +12,7 @@ use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::rest;
 use mms_codegen::certify::rest::Rest;
 use mms_codegen::certify::sign::Sign;
-use mms_codegen::certify::written::gaps;
+use mms_codegen::certify::undefined::gaps;
 use mms_codegen::certify::{claims, computed};
 use mms_codegen::compile::{Failure, compile_unproved};
 use mms_codegen::culprit::culprit;

@@ -59,7 +59,7 @@ pub use limit::Limit;
 pub use order::{Basis, Estimate};
 pub use sequence::{Level, Sample, Sequence, observed_order};
 pub use share::Share;
-pub use term::{Kind, Term};
+pub use term::{Term, TermKind};
 pub use verdict::{CONSTANT_TOLERANCE, RULE, TOLERANCE, Verdict, is_near};
 pub use words::{Name, bound};
 

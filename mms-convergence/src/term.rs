@@ -7,7 +7,7 @@ use crate::sequence::Level;
 
 /// The kind of a second term, which explains a drift of the orders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum TermKind {
     /// q = 0: errors level off.
     Plateau,
     /// q = p - 1: an error of lower order, which takes over on finer levels.
@@ -20,7 +20,7 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
     /// The kind of the term.
-    pub kind: Kind,
+    pub kind: TermKind,
     /// q.
     pub order: f64,
     /// D h^q over the error on the finest level; negative if it reduces the error.
@@ -47,10 +47,10 @@ impl Term {
 }
 
 /// Each kind with its q.
-fn kinds(expected: f64) -> impl Iterator<Item = (Kind, f64)> {
-    let lower = (expected - 1.0 > 1e-9).then_some((Kind::LowerOrder, expected - 1.0));
-    let higher = [1.0, 2.0].map(|more| (Kind::PreAsymptotic, expected + more));
-    std::iter::once((Kind::Plateau, 0.0)).chain(lower).chain(higher)
+fn kinds(expected: f64) -> impl Iterator<Item = (TermKind, f64)> {
+    let lower = (expected - 1.0 > 1e-9).then_some((TermKind::LowerOrder, expected - 1.0));
+    let higher = [1.0, 2.0].map(|more| (TermKind::PreAsymptotic, expected + more));
+    std::iter::once((TermKind::Plateau, 0.0)).chain(lower).chain(higher)
 }
 
 /// The sum of squares up to which a power law is exact up to rounding.
@@ -72,7 +72,7 @@ pub(crate) fn second_term(levels: &[Level], expected: f64) -> Option<Term> {
 }
 
 /// Fits one kind of term, and returns its misfit, too.
-fn fit(levels: &[Level], p: f64, (kind, q): (Kind, f64)) -> Option<(Term, f64)> {
+fn fit(levels: &[Level], p: f64, (kind, q): (TermKind, f64)) -> Option<(Term, f64)> {
     let finest = levels.last()?;
     let row = |level: &Level| {
         let (x, e) = (level.length / finest.length, level.error() / finest.error());

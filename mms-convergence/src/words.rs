@@ -4,7 +4,7 @@ use crate::finding::{Expected, Finding, Reason};
 use crate::grid::Fit;
 use crate::judgement::{Judged, Judgement};
 use crate::order::Basis;
-use crate::term::{Kind, Term};
+use crate::term::{Term, TermKind};
 use crate::verdict::Verdict;
 
 /// A function that names a level: by its length, or as the caller prefers.
@@ -191,9 +191,9 @@ impl Term {
     fn sentence(&self, p: f64, symbol: &str, name: Name<'_>) -> String {
         let (q, at) = (self.order, name(self.takes_over));
         let what = match self.kind {
-            Kind::Plateau => "a plateau".into(),
-            Kind::LowerOrder => format!("a hidden error of order {q}"),
-            Kind::PreAsymptotic => format!("an error of order {q} besides, which goes away"),
+            TermKind::Plateau => "a plateau".into(),
+            TermKind::LowerOrder => format!("a hidden error of order {q}"),
+            TermKind::PreAsymptotic => format!("an error of order {q} besides, which goes away"),
         };
         let percent = format!(
             "{:.1} % of the finest error ({:.1} to {:.1} %)",
@@ -205,10 +205,10 @@ impl Term {
             "C {symbol}^{p} + D {symbol}^{q} fits the drift of the orders: {what}, {percent}"
         );
         match self.kind {
-            _ if self.share < 0.0 && self.kind != Kind::PreAsymptotic => {
+            _ if self.share < 0.0 && self.kind != TermKind::PreAsymptotic => {
                 format!("{fits}, of the other sign: both cancel near {at}")
             }
-            Kind::PreAsymptotic => format!("{fits}; the expected order leads below {at}"),
+            TermKind::PreAsymptotic => format!("{fits}; the expected order leads below {at}"),
             _ => format!("{fits}; it takes over below {at}"),
         }
     }

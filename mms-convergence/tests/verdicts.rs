@@ -1,7 +1,7 @@
 //! Errors with a known law, and their correct verdict.
 
 use mms_convergence::{
-    Basis, Expected, Finding, Judgement, Kind, Reason, Sample, Sequence, Verdict,
+    Basis, Expected, Finding, Judgement, Reason, Sample, Sequence, TermKind, Verdict,
 };
 
 const SECOND: Expected = Expected::new(2.0, 0.15);
@@ -83,7 +83,7 @@ fn a_hidden_lower_order_is_found_with_its_share_and_where_it_takes_over() {
             assert_eq!(fitted.order, 1.0);
             assert_near(fitted.share, share, 1e-6);
             let term = found.material_term(SECOND).expect("a term");
-            assert_eq!((term.kind, term.order), (Kind::LowerOrder, 1.0));
+            assert_eq!((term.kind, term.order), (TermKind::LowerOrder, 1.0));
             assert_near(term.share, share, 1e-6);
             assert_near(term.takes_over, 1e-2 * share / (1.0 - share), 1e-6);
         }
@@ -180,7 +180,7 @@ fn a_plateau_is_found_as_the_error_at_which_others_level_off() {
             let verdict = if share < 0.1 { Verdict::Pass } else { Verdict::Fail };
             assert_eq!(found.verdict, verdict, "{count} {share}: {found:?}");
             let term = found.term.expect("a term");
-            assert_eq!(term.kind, Kind::Plateau);
+            assert_eq!(term.kind, TermKind::Plateau);
             assert_near(term.share, share, 1e-6);
         }
         let found = finding(count, |x| x.max(3.0).powi(2));
@@ -207,7 +207,7 @@ fn errors_that_level_off_are_not_consistent_whatever_their_order() {
 fn a_term_that_nobody_sees_decides_nothing() {
     let found = finding(4, |x| 0.995 * x * x + 0.005 * x);
     assert_eq!(found.verdict, Verdict::Pass, "{found:?}");
-    assert!(found.term.is_some_and(|it| it.kind == Kind::LowerOrder && it.is_shown()));
+    assert!(found.term.is_some_and(|it| it.kind == TermKind::LowerOrder && it.is_shown()));
     assert_eq!(found.material_term(SECOND), None);
 }
 
@@ -216,7 +216,7 @@ fn coarse_levels_that_are_not_asymptotic_yet_are_left_out() {
     let found = finding(6, |x| x * x + 0.003 * x.powi(4));
     assert_eq!(found.verdict, Verdict::Pass, "{found:?}");
     let term = found.term.expect("a term");
-    assert_eq!((term.kind, term.order), (Kind::PreAsymptotic, 4.0));
+    assert_eq!((term.kind, term.order), (TermKind::PreAsymptotic, 4.0));
     // Three levels are never reduced.
     let found = finding(3, |x| x * x + 0.3 * x.powi(4));
     let seen = (found.verdict, found.reason, found.lengths.len());

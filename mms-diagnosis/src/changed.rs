@@ -1,7 +1,7 @@
 //! A field with a mistake, in the form in which a solver gets it.
 
 use mms_runtime::axisymmetric::hoop_strain;
-use mms_runtime::column::{BUNCH, Bunch, Matrices};
+use mms_runtime::column::{Matrices, PACK, Pack};
 use mms_runtime::{Axisymmetric, Domain, ManufacturedField, Material, Matrix, Vector};
 
 use crate::body::{faces, is_on};
@@ -164,33 +164,33 @@ impl<const D: usize> Axisymmetric<f64, D> for Changed<'_, D> {
         out.copy_from_slice(&hoop_strain(self.exact.field, time, reference));
     }
 
-    fn kirchhoff_stress_of_bunches(
+    fn kirchhoff_stress_of_packs(
         &self,
         time: f64,
-        reference: &[[Vector<f64, D>; BUNCH]],
-        strains: (&[Matrices<f64, D>], &[[f64; BUNCH]]),
-        stresses: (&mut [Matrices<f64, D>], &mut [[f64; BUNCH]]),
+        reference: &[[Vector<f64, D>; PACK]],
+        strains: (&[Matrices<f64, D>], &[[f64; PACK]]),
+        stresses: (&mut [Matrices<f64, D>], &mut [[f64; PACK]]),
     ) {
         let Some(right) = self.exact.field.axisymmetric() else { return };
         let (stress, hoop_stress) = stresses;
         if self.without.stress {
             stress.fill(Matrices::zeros());
-            return hoop_stress.fill([0.0; BUNCH]);
+            return hoop_stress.fill([0.0; PACK]);
         }
-        right.kirchhoff_stress_of_bunches(time, reference, strains, (stress, hoop_stress));
+        right.kirchhoff_stress_of_packs(time, reference, strains, (stress, hoop_stress));
         let Some((Hypothesis { change: Change::Stress(_, change), .. }, ..)) = self.in_space()
         else {
             return;
         };
         let flat = |all: &[Matrices<f64, D>]| -> Vec<Matrix<f64, D>> {
-            all.iter().flat_map(|it| (0..BUNCH).map(|at| it.get(at))).collect()
+            all.iter().flat_map(|it| (0..PACK).map(|at| it.get(at))).collect()
         };
         let h = flat(strains.0);
         let mut tau = flat(stress);
         let points = reference.as_flattened();
         let hoops = (&mut tau[..], hoop_stress.as_flattened_mut());
         self.change_in_space(time, points, (&h, strains.1.as_flattened()), hoops, change);
-        for (to, tau) in stress.iter_mut().zip(tau.chunks(BUNCH)) {
+        for (to, tau) in stress.iter_mut().zip(tau.chunks(PACK)) {
             tau.iter().enumerate().for_each(|(at, tau)| to.set(at, tau));
         }
     }

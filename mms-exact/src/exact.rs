@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use anyhow::ensure;
 use dashu_ratio::RBig;
-use mms_analysis::present::{Inverse, Unplaced};
+use mms_analysis::inverse_motion::{Inverse, Unplaced};
 use mms_interpreted::AtPoints;
 use mms_mechanics::extent::Extent;
 use mms_mechanics::invariant::Kind;
@@ -50,7 +50,7 @@ impl Exact {
     /// Settings that it does not have.
     pub fn new(input: Input, settings: &[String]) -> anyhow::Result<Exact> {
         input.hold(settings)?;
-        input.hold_body("there is nothing that states and results could fill")?;
+        input.validate_body("there is nothing that states and results could fill")?;
         let set = input.settings(settings)?;
         let parameters = input.compiled.parameters::<f64>(&set);
         let (body, window) = domain(&input.compiled.program, &parameters);

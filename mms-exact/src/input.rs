@@ -164,7 +164,7 @@ impl Input {
             Some(code) => build(&code)(&self.compiled.parameters::<T>(set))
                 .context("the gallery is out of step with its field files: build again"),
             None => {
-                self.hold_rings()?;
+                self.validate_rings()?;
                 Ok(mms_interpreted::scene(self.compiled.clone(), set)?)
             }
         }
@@ -267,7 +267,7 @@ impl Input {
     ) -> anyhow::Result<Vec<Quantity>> {
         for name in names {
             let Ok(quantity) = self.compiled.quantity(name.trim()) else { continue };
-            self.compiled.hold_offered(quantity).map_err(Error::msg)?;
+            self.compiled.validate_offered(quantity).map_err(Error::msg)?;
         }
         quantities.retain(|it| self.compiled.offers(*it));
         Ok(quantities)
@@ -277,9 +277,9 @@ impl Input {
     ///
     /// # Errors
     /// The field is static.
-    pub fn hold_moving(&self) -> anyhow::Result<()> {
-        self.hold_rings()?;
-        self.hold_body("a solver has nothing to fill with particles")?;
+    pub fn validate_moving(&self) -> anyhow::Result<()> {
+        self.validate_rings()?;
+        self.validate_body("a solver has nothing to fill with particles")?;
         ensure!(
             !self.is_static(),
             "`{}` is static: the explicit solver of this project follows motions, and goes to an equilibrium where `mms run` \
@@ -294,8 +294,8 @@ impl Input {
     ///
     /// # Errors
     /// The field moves.
-    pub fn hold_static(&self) -> anyhow::Result<()> {
-        self.hold_rings()?;
+    pub fn validate_static(&self) -> anyhow::Result<()> {
+        self.validate_rings()?;
         ensure!(
             self.is_static(),
             "`--relax`: `{}` moves, and is in equilibrium only by chance; leave `--relax` out to follow it, or give a \
@@ -314,15 +314,15 @@ impl Input {
     ///
     /// # Errors
     /// The field has no body.
-    pub fn hold_body(&self, why: &str) -> anyhow::Result<()> {
-        hold_body(&self.compiled, why)
+    pub fn validate_body(&self, why: &str) -> anyhow::Result<()> {
+        validate_body(&self.compiled, why)
     }
 
     /// Refuses an axisymmetric field with a swirl, which the solver has no particles for.
     ///
     /// # Errors
     /// The field has a swirl.
-    fn hold_rings(&self) -> anyhow::Result<()> {
+    fn validate_rings(&self) -> anyhow::Result<()> {
         ensure!(
             self.compiled.field.space != (Space::Axisymmetric { swirl: true }),
             "`{}` has a swirl, and the solver of this project moves rings along R and Z alone; `mms check`, `mms eval`, `mms \
@@ -342,7 +342,7 @@ impl Input {
 ///
 /// # Errors
 /// The field has no body.
-pub fn hold_body(compiled: &Compiled, why: &str) -> anyhow::Result<()> {
+pub fn validate_body(compiled: &Compiled, why: &str) -> anyhow::Result<()> {
     ensure!(
         !compiled.field.domain.body.is_nothing(),
         "`{}` has no body (`shape = \"none\"`): {why}; `mms eval`, `mms emit` and `mms show` work without one",
@@ -352,7 +352,7 @@ pub fn hold_body(compiled: &Compiled, why: &str) -> anyhow::Result<()> {
 }
 
 /// Refuses numbers of an option for other axes than there are.
-pub fn hold_division(option: &str, numbers: &Division, dimension: usize) -> anyhow::Result<()> {
+pub fn validate_division(option: &str, numbers: &Division, dimension: usize) -> anyhow::Result<()> {
     match *numbers {
         Division::PerAxis(each, given) if given != dimension => bail!(
             "`{option} {numbers}`: {given} numbers for {dimension} dimension(s); expected one for each, or one for \

@@ -16,7 +16,7 @@ mod units;
 pub mod wave;
 
 pub use exact::{Exact, SAME, TURNS, says};
-pub use input::{Input, Mistaken, hold_body, hold_division, settings};
+pub use input::{Input, Mistaken, settings, validate_body, validate_division};
 pub use quantities::{evaluated, quantities};
 pub use source::{Open, Source};
 pub use units::units;

@@ -1,6 +1,6 @@
 //! Reads files: only plain ones, and none longer than its kind allows.
 //!
-//! All files of the command are read here. A `Kind` sets the limit: 1 MiB for a field, a material or a study, 16 MiB for a
+//! All files of the command are read here. A `FileKind` sets the limit: 1 MiB for a field, a material or a study, 16 MiB for a
 //! document, a result in a store or a list of states, 256 MiB for a state. At most one byte more than the limit is read. The
 //! limit of a checkpoint is the free memory, of its first line 64 MiB; of a history as much is read as its checkpoint says. A
 //! FIFO, a device, a socket or a folder is not opened: it is named in the error, and skipped where other files are read as well
@@ -18,7 +18,7 @@ use mms_spec::source::Sources;
 
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum FileKind {
     /// A field or a material.
     Field,
     /// A saved study.
@@ -43,52 +43,56 @@ pub enum Kind {
     Object,
 }
 
-impl Kind {
+impl FileKind {
     /// The name of the kind in messages.
     fn name(self) -> &'static str {
         match self {
-            Kind::Field => "a field or material file",
-            Kind::Study => "a study file",
-            Kind::Campaign => "a campaign file",
-            Kind::Profile => "a profile of a code",
-            Kind::Errors => "a table of errors",
-            Kind::Results => "a file of results",
-            Kind::Result => "a result",
-            Kind::Stored => "a stored result",
-            Kind::States => "a list of states",
-            Kind::State => "a state",
-            Kind::Object => "compiled code",
+            FileKind::Field => "a field or material file",
+            FileKind::Study => "a study file",
+            FileKind::Campaign => "a campaign file",
+            FileKind::Profile => "a profile of a code",
+            FileKind::Errors => "a table of errors",
+            FileKind::Results => "a file of results",
+            FileKind::Result => "a result",
+            FileKind::Stored => "a stored result",
+            FileKind::States => "a list of states",
+            FileKind::State => "a state",
+            FileKind::Object => "compiled code",
         }
     }
 
     /// The largest number of bytes.
     pub fn most(self) -> u64 {
         match self {
-            Kind::Field | Kind::Study | Kind::Campaign | Kind::Profile | Kind::Errors => {
-                MAX_FILE as u64
-            }
-            Kind::Result | Kind::Stored | Kind::States => 16 << 20,
-            Kind::State | Kind::Object => 256 << 20,
-            Kind::Results => 8 << 30,
+            FileKind::Field
+            | FileKind::Study
+            | FileKind::Campaign
+            | FileKind::Profile
+            | FileKind::Errors => MAX_FILE as u64,
+            FileKind::Result | FileKind::Stored | FileKind::States => 16 << 20,
+            FileKind::State | FileKind::Object => 256 << 20,
+            FileKind::Results => 8 << 30,
         }
     }
 
     /// Advice for a file that is too long.
     fn advice(self) -> &'static str {
         match self {
-            Kind::Field => "is it the right file? then write its formulas shorter, with [let]",
-            Kind::Study => "is it the right file? its keys are the options of `mms study`",
-            Kind::Campaign => {
+            FileKind::Field => "is it the right file? then write its formulas shorter, with [let]",
+            FileKind::Study => "is it the right file? its keys are the options of `mms study`",
+            FileKind::Campaign => {
                 "is it the right file? it has [solver] and a [[study]] for each field"
             }
-            Kind::Profile => "is it the right file? it names the arrays of a code",
-            Kind::Errors => "is it the right file? it has a row for each run",
-            Kind::Results => "write fewer times to a file, or fewer quantities",
-            Kind::Result => "write fewer things to one document, as with `--quantity` or `--row`",
-            Kind::Stored => "remove it, and the run is made again",
-            Kind::States => "write fewer states, with `--frames`",
-            Kind::State => "draw it with ParaView, or run with fewer particles",
-            Kind::Object => "compile fewer quantities, with `--quantity`",
+            FileKind::Profile => "is it the right file? it names the arrays of a code",
+            FileKind::Errors => "is it the right file? it has a row for each run",
+            FileKind::Results => "write fewer times to a file, or fewer quantities",
+            FileKind::Result => {
+                "write fewer things to one document, as with `--quantity` or `--row`"
+            }
+            FileKind::Stored => "remove it, and the run is made again",
+            FileKind::States => "write fewer states, with `--frames`",
+            FileKind::State => "draw it with ParaView, or run with fewer particles",
+            FileKind::Object => "compile fewer quantities, with `--quantity`",
         }
     }
 }
@@ -101,7 +105,7 @@ pub enum Unread {
     /// The file is not plain, but of this type.
     NotPlain(&'static str),
     /// The file is longer than its kind allows.
-    TooLong(Kind),
+    TooLong(FileKind),
     /// The file has more bytes than there is memory: its length, and the memory.
     NoRoom([u64; 2]),
 }
@@ -212,12 +216,12 @@ fn lost(path: &Path, error: io::Error) -> Unread {
 }
 
 /// All bytes of a file of some kind.
-pub fn bytes(path: &Path, kind: Kind) -> Result<Vec<u8>, Unread> {
+pub fn bytes(path: &Path, kind: FileKind) -> Result<Vec<u8>, Unread> {
     all(open(path)?, kind)
 }
 
 /// All bytes of a file of some kind; fails if they exceed `room`.
-pub fn bytes_within(path: &Path, kind: Kind, room: u64) -> Result<Vec<u8>, Unread> {
+pub fn bytes_within(path: &Path, kind: FileKind, room: u64) -> Result<Vec<u8>, Unread> {
     let file = open(path)?;
     match file.metadata()?.len() {
         length if length > room => Err(Unread::NoRoom([length, room])),
@@ -225,7 +229,7 @@ pub fn bytes_within(path: &Path, kind: Kind, room: u64) -> Result<Vec<u8>, Unrea
     }
 }
 
-fn all(file: File, kind: Kind) -> Result<Vec<u8>, Unread> {
+fn all(file: File, kind: FileKind) -> Result<Vec<u8>, Unread> {
     let bytes = first_of(file, kind.most() + 1)?;
     if bytes.len() as u64 > kind.most() { Err(Unread::TooLong(kind)) } else { Ok(bytes) }
 }
@@ -248,7 +252,7 @@ fn first_of(file: File, most: u64) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// A file that cannot be read, or is no text, and where.
-pub fn text(path: &Path, kind: Kind) -> anyhow::Result<String> {
+pub fn text(path: &Path, kind: FileKind) -> anyhow::Result<String> {
     let bytes = open_given(path).and_then(|file| all(file, kind));
     let bytes = bytes.with_context(|| cannot_read(path))?;
     String::from_utf8(bytes).map_err(|error| {
@@ -282,9 +286,14 @@ mod tests {
     fn no_file_is_read_beyond_what_its_kind_may_hold() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("x");
-        for kind in
-            [Kind::Field, Kind::Study, Kind::Campaign, Kind::Result, Kind::Stored, Kind::States]
-        {
+        for kind in [
+            FileKind::Field,
+            FileKind::Study,
+            FileKind::Campaign,
+            FileKind::Result,
+            FileKind::Stored,
+            FileKind::States,
+        ] {
             sparse(&path, kind.most());
             assert_eq!(bytes(&path, kind).unwrap().len() as u64, kind.most());
             for length in [kind.most() + 1, 3 << 30] {
@@ -316,12 +325,12 @@ mod tests {
             ("loop", "symbolic link"),
             ("missing", "No such file"),
         ] {
-            let said = bytes(&at(name), Kind::Field).unwrap_err().to_string();
+            let said = bytes(&at(name), FileKind::Field).unwrap_err().to_string();
             assert!(said.contains(what), "{name}: {said}");
         }
-        assert!(bytes(&at("missing"), Kind::Field).unwrap_err().is_missing());
+        assert!(bytes(&at("missing"), FileKind::Field).unwrap_err().is_missing());
         symlink("file", at("link")).unwrap();
         fs::write(at("file"), "text").unwrap();
-        assert_eq!(text(&at("link"), Kind::Field).unwrap(), "text");
+        assert_eq!(text(&at("link"), FileKind::Field).unwrap(), "text");
     }
 }

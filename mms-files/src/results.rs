@@ -8,7 +8,7 @@ use mms_results::Files;
 use mms_spec::foreign;
 
 use crate::machine::memory;
-use crate::read::{self, Kind, cannot_read};
+use crate::read::{self, FileKind, cannot_read};
 
 /// The extensions of files that list pieces of one mesh; the pieces are no meshes of their own.
 const PIECES: &[&str] = &["vtm", "vtpc", "pvtu", "pvtp", "pvti", "pvtr", "pvts"];
@@ -28,7 +28,7 @@ impl Files for Disk {
     }
 
     fn bytes(&self, path: &Path, room: u64) -> Result<Vec<u8>, String> {
-        read::bytes_within(path, Kind::Results, room)
+        read::bytes_within(path, FileKind::Results, room)
             .map_err(|error| format!("cannot read it: {error}"))
     }
 

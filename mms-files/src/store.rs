@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use crate::read::{self, Kind, Unread};
+use crate::read::{self, FileKind, Unread};
 use crate::write::write_own;
 use crate::write::{leads_to, remove_stale};
 
@@ -156,7 +156,7 @@ impl Store {
         path: &Path,
         key: Option<&str>,
     ) -> anyhow::Result<Entry<T>> {
-        let found = match read::bytes(path, Kind::Stored) {
+        let found = match read::bytes(path, FileKind::Stored) {
             // Another process that shares the folder may have set the file aside since.
             Err(error) if error.is_missing() => return Ok(Entry::Missing),
             Err(error @ Unread::Failed(_)) => {

@@ -23,7 +23,7 @@ pub fn plan(
 ) -> anyhow::Result<Plan> {
     let mut plan = Plan::with(path, campaign, only, open, true)?;
     plan.studies.retain(|it| has_force(&it.input));
-    hold_force(&plan)?;
+    validate_force(&plan)?;
     Ok(plan)
 }
 
@@ -34,7 +34,7 @@ fn has_force(input: &Input) -> bool {
 }
 
 /// Refuses a solver that does not get b from the campaign, because its runs cannot get another b.
-fn hold_force(plan: &Plan) -> anyhow::Result<()> {
+fn validate_force(plan: &Plan) -> anyhow::Result<()> {
     let mut words = templates(&plan.campaign).flat_map(Template::placeholders);
     let names_factor = words.any(|it| it == Placeholder::ForceFactor);
     let is_static = |it: &Planned| it.input.is_static();

@@ -9,7 +9,7 @@ use mms_campaign::{Campaign, Study};
 use mms_codegen::Options;
 use mms_codegen::variation::Variation;
 use mms_emit::{TARGETS, Target};
-use mms_exact::hold_division;
+use mms_exact::validate_division;
 use mms_exact::wave::sound;
 use mms_exact::{Input, Open, quantities};
 use mms_judge::results::{Over, Start as How, axes, own_roles, weight};
@@ -292,8 +292,8 @@ impl Setting<'_> {
         let settings = input.settings(&study.set)?;
         let parameters = input.compiled.parameters::<f64>(&settings);
         let (_, [first, last]) = domain(&input.compiled.program, &parameters);
-        self.hold_static(study, &input)?;
-        self.hold_parameters(study, &input)?;
+        self.validate_static(study, &input)?;
+        self.validate_parameters(study, &input)?;
         let end = study.end.unwrap_or(last);
         if !(end > first && end <= last) {
             let message = format!("`end`: the time window of the field is {first:?} to {last:?}");
@@ -308,7 +308,7 @@ impl Setting<'_> {
     }
 
     /// Refuses times for a static field.
-    fn hold_static(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
+    fn validate_static(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
         if !input.is_static() {
             return Ok(());
         }
@@ -329,7 +329,7 @@ impl Setting<'_> {
     }
 
     /// Refuses placeholders for parameters that the field of a study does not have.
-    fn hold_parameters(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
+    fn validate_parameters(&self, study: &Study, input: &Input) -> anyhow::Result<()> {
         let parameters = &input.compiled.model.parameters;
         let known = |name: &str| parameters.iter().any(|it| it.name == name);
         let Some(unknown) =
@@ -353,7 +353,7 @@ impl Setting<'_> {
         let dimension = input.compiled.field.dimension;
         let found = word.value.parse::<Division>().map_err(|error| error.to_string());
         let held = found.and_then(|it| {
-            hold_division("particles_per_cell", &it, dimension)
+            validate_division("particles_per_cell", &it, dimension)
                 .map_err(|error| error.to_string())?;
             Ok(it)
         });

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::bail;
 use mms_campaign::profile::read;
-use mms_files::read::{self as files, Kind};
+use mms_files::read::{self as files, FileKind};
 use mms_results::names::{Profile, Role};
 use mms_spec::foreign::shown;
 use mms_spec::suggest::advice;
@@ -37,7 +37,7 @@ pub fn find(given: &str) -> anyhow::Result<Profile> {
             shown(given)
         );
     }
-    let text = files::text(Path::new(given), Kind::Profile)?;
+    let text = files::text(Path::new(given), FileKind::Profile)?;
     let stem = Path::new(given).file_stem().map_or(given.into(), |it| it.to_string_lossy());
     profile(&stem, given, &text)
 }

@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::anyhow;
 use mms_analysis::visibility::{Span, Status, Term, Visibility};
-use mms_campaign::Can;
-use mms_campaign::cover::{Candidate, smallest};
+use mms_campaign::Capabilities;
+use mms_campaign::coverage::{Candidate, smallest};
 use mms_codegen::Options;
 use mms_exact::gallery;
 use mms_exact::wave::sound;
@@ -85,7 +85,7 @@ struct Shown {
 ///
 /// # Errors
 /// A field of the gallery that does not compile.
-pub fn suggest(can: &Can, open: Open<'_>) -> anyhow::Result<Suggestion> {
+pub fn suggest(can: &Capabilities, open: Open<'_>) -> anyhow::Result<Suggestion> {
     let mut shown = Vec::new();
     let is_known = |field: &FieldSpec| {
         let is_law = can.materials.iter().any(|it| it == material(field));
@@ -110,7 +110,7 @@ pub fn suggest(can: &Can, open: Open<'_>) -> anyhow::Result<Suggestion> {
 }
 
 impl Shown {
-    fn new(name: &str, can: &Can, open: Open<'_>) -> anyhow::Result<Self> {
+    fn new(name: &str, can: &Capabilities, open: Open<'_>) -> anyhow::Result<Self> {
         let input = Input::new(open(name)?, &Options::default())?;
         let visibility = Visibility::of(&input.compiled)
             .map_err(|TooLarge(what)| anyhow!("`{name}`: the {what} have too many terms"))?;
@@ -155,7 +155,7 @@ fn terms(field: &FieldSpec, visibility: &Visibility) -> BTreeMap<String, &'stati
 }
 
 /// The keys of `can` that exclude a field. A field at rest needs no start.
-fn needs(field: &FieldSpec, visibility: &Visibility, can: &Can) -> Vec<&'static str> {
+fn needs(field: &FieldSpec, visibility: &Visibility, can: &Capabilities) -> Vec<&'static str> {
     let claims = |claim: Claim| field.boundary.iter().any(|it| it.claim.value == claim);
     let sees = |term: Term| !visibility.lacks(&term);
     [
@@ -197,7 +197,7 @@ fn rounded(value: f64) -> f64 {
 }
 
 /// The terms of fields that the solver cannot run, without the terms of fields that it can run.
-fn unseen(shown: &[Shown], seen: &BTreeSet<String>, can: &Can) -> Vec<Unseen> {
+fn unseen(shown: &[Shown], seen: &BTreeSet<String>, can: &Capabilities) -> Vec<Unseen> {
     let mut unseen: BTreeMap<String, Unseen> = BTreeMap::new();
     for it in shown {
         let by = Needing { field: it.input.name.raw().to_owned(), keys: it.needs.clone() };
@@ -221,7 +221,7 @@ fn unseen(shown: &[Shown], seen: &BTreeSet<String>, can: &Can) -> Vec<Unseen> {
 }
 
 /// Whether a term exists in the dimensions of a solver.
-fn is_possible(term: &str, can: &Can) -> bool {
+fn is_possible(term: &str, can: &Capabilities) -> bool {
     let has = |dimension: usize| can.dimensions.contains(&dimension);
     match term.strip_prefix("dimension.") {
         Some(dimension) => dimension.parse().is_ok_and(has),

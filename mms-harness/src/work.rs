@@ -466,7 +466,7 @@ fn write_state(planned: &Planned, job: &Job, path: &str) -> anyhow::Result<()> {
     let mut exact = Exact::new(input.clone(), &study.set)?;
     let domain = &Domain::of(&mut exact)?;
     let wanted = Wanted { quantities: &USUAL, without: &[], names: file.names(), domain };
-    wanted.hold_memory(&exact, &points, 1)?;
+    wanted.validate_memory(&exact, &points, 1)?;
     file.write(&[Frame::new(&wanted, &mut exact, &points, *start)?], domain)?;
     Ok(())
 }

@@ -16,12 +16,14 @@ use mms_mechanics::Response;
 use mms_mechanics::invariant::Kind;
 use mms_mechanics::{Bound, Output};
 use mms_program::Op;
-use mms_program::block::{Blockwise, Component, Inputs, Outputs, Plan, Prepared, Rooms, Way};
+use mms_program::block::{
+    BlockLayout, Blockwise, Component, Inputs, Outputs, Plan, Prepared, ScratchPool,
+};
 use mms_program::interpret::Interpreter;
 use mms_runtime::axisymmetric::{energy_at_own_strain, stress_at_own_strain};
-use mms_runtime::column::BUNCH;
 use mms_runtime::column::Matrices;
-use mms_runtime::material::by_bunches;
+use mms_runtime::column::PACK;
+use mms_runtime::material::by_packs;
 use mms_runtime::scene::Scene;
 use mms_runtime::{
     Axisymmetric, Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Real, Vector,
@@ -46,16 +48,16 @@ struct Interpreted<T: Blockwise> {
 /// An output that a solver uses.
 struct Asked<T: Blockwise> {
     output: Output,
-    way: Way,
+    way: BlockLayout,
     /// The prepared program, made at its first use.
     prepared: OnceLock<Prepared<T>>,
-    rooms: Rooms<T>,
+    pool: ScratchPool<T>,
 }
 
 /// The outputs, each with the same bits as compiled code: there the first three are loops over many points, and the others are
 /// computed point by point.
 fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
-    let (fused, portable) = (Way::fused(), Way::portable());
+    let (fused, portable) = (BlockLayout::fused(), BlockLayout::portable());
     [
         (Output::Quantity(Quantity::Displacement), fused),
         (Output::Quantity(Quantity::BodyForce), fused),
@@ -71,7 +73,7 @@ fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
         output,
         way,
         prepared: OnceLock::new(),
-        rooms: Rooms::default(),
+        pool: ScratchPool::default(),
     })
 }
 
@@ -168,7 +170,7 @@ impl<T: Real + Blockwise> Interpreted<T> {
             let plan = Plan::new(&self.compiled.program, &[output], Output::is_quantity);
             Prepared::new(Arc::new(plan), asked.way, &self.parameters)
         });
-        asked.rooms.lend(|room| prepared.run(room, time, count, bring, take));
+        asked.pool.with(|scratch| prepared.run(scratch, time, count, bring, take));
     }
 
     /// Evaluates an output of positions. `place` maps the index of a component to its place in the result of a point; some
@@ -236,29 +238,29 @@ impl<T: Real + Blockwise> Interpreted<T> {
         self.compiled.field.space.rows()
     }
 
-    /// Evaluates the Kirchhoff stress of whole bunches; hoop strains and stresses are used if the field is axisymmetric.
-    fn stress_of_bunches<const D: usize>(
+    /// Evaluates the Kirchhoff stress of whole packs; hoop strains and stresses are used if the field is axisymmetric.
+    fn stress_of_packs<const D: usize>(
         &self,
         time: T,
-        reference: &[[Vector<T, D>; BUNCH]],
-        (displacement_gradient, hoop_strain): (&[Matrices<T, D>], &[[T; BUNCH]]),
-        (stress, hoop_stress): (&mut [Matrices<T, D>], &mut [[T; BUNCH]]),
+        reference: &[[Vector<T, D>; PACK]],
+        (displacement_gradient, hoop_strain): (&[Matrices<T, D>], &[[T; PACK]]),
+        (stress, hoop_stress): (&mut [Matrices<T, D>], &mut [[T; PACK]]),
     ) {
         let (points, rows) = (reference.as_flattened(), self.rows());
         self.evaluate(
             Output::Response(Response::KirchhoffStress),
             time,
-            BUNCH * stress.len(),
+            PACK * stress.len(),
             &mut |start, inputs| {
                 for (symbol, column) in inputs.columns() {
-                    let bunches = column.as_chunks_mut().0.iter_mut();
-                    let first = start / BUNCH;
+                    let packs = column.as_chunks_mut().0.iter_mut();
+                    let first = start / PACK;
                     match symbol {
-                        Symbol::Gradient(row, axis) if row < D && axis < D => bunches
+                        Symbol::Gradient(row, axis) if row < D && axis < D => packs
                             .zip(&displacement_gradient[first..])
-                            .for_each(|(to, bunch)| *to = bunch.0[axis][row]),
+                            .for_each(|(to, pack)| *to = pack.0[axis][row]),
                         Symbol::Gradient(row, axis) if row == axis => {
-                            bunches.zip(&hoop_strain[first..]).for_each(|(to, bunch)| *to = *bunch);
+                            packs.zip(&hoop_strain[first..]).for_each(|(to, pack)| *to = *pack);
                         }
                         Symbol::Gradient(..) => column.fill(T::of(0.0)),
                         Symbol::Coordinate(axis) => coordinate(column, &points[start..], axis),
@@ -267,14 +269,14 @@ impl<T: Real + Blockwise> Interpreted<T> {
                 }
             },
             &mut |start, outputs| {
-                let (first, count) = (start / BUNCH, outputs.count() / BUNCH);
+                let (first, count) = (start / PACK, outputs.count() / PACK);
                 for (index, component) in outputs.components(0).enumerate() {
                     let (row, axis) = (index / rows, index % rows);
                     if row < D && axis < D {
-                        let bunches = stress[first..].iter_mut().take(count);
-                        write_bunches(&component, bunches.map(|bunch| &mut bunch.0[axis][row]));
+                        let packs = stress[first..].iter_mut().take(count);
+                        write_packs(&component, packs.map(|pack| &mut pack.0[axis][row]));
                     } else if row == axis {
-                        write_bunches(&component, hoop_stress[first..].iter_mut().take(count));
+                        write_packs(&component, hoop_stress[first..].iter_mut().take(count));
                     }
                 }
             },
@@ -319,16 +321,16 @@ impl<T: Real + Blockwise> Interpreted<T> {
     }
 }
 
-/// Writes a component of whole bunches.
-fn write_bunches<'a, T: Real>(
+/// Writes a component of whole packs.
+fn write_packs<'a, T: Real>(
     component: &Component<'_, T>,
-    bunches: impl Iterator<Item = &'a mut [T; BUNCH]>,
+    packs: impl Iterator<Item = &'a mut [T; PACK]>,
 ) {
     match component {
         Component::Each(numbers) => {
-            bunches.zip(numbers.as_chunks().0).for_each(|(to, numbers)| *to = *numbers);
+            packs.zip(numbers.as_chunks().0).for_each(|(to, numbers)| *to = *numbers);
         }
-        Component::Same(number) => bunches.for_each(|to| *to = [*number; BUNCH]),
+        Component::Same(number) => packs.for_each(|to| *to = [*number; PACK]),
     }
 }
 
@@ -339,14 +341,14 @@ impl<T: Real + Blockwise, const D: usize> Axisymmetric<T, D> for Interpreted<T> 
         self.at_points(time, output, reference, out, |index| index == last, |it, _| it);
     }
 
-    fn kirchhoff_stress_of_bunches(
+    fn kirchhoff_stress_of_packs(
         &self,
         time: T,
-        reference: &[[Vector<T, D>; BUNCH]],
-        strains: (&[Matrices<T, D>], &[[T; BUNCH]]),
-        stresses: (&mut [Matrices<T, D>], &mut [[T; BUNCH]]),
+        reference: &[[Vector<T, D>; PACK]],
+        strains: (&[Matrices<T, D>], &[[T; PACK]]),
+        stresses: (&mut [Matrices<T, D>], &mut [[T; PACK]]),
     ) {
-        self.stress_of_bunches(time, reference, strains, stresses);
+        self.stress_of_packs(time, reference, strains, stresses);
     }
 
     fn strain_energy(
@@ -392,20 +394,20 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
         displacement_gradient: &[Matrix<T, D>],
         stress: &mut [Matrix<T, D>],
     ) {
-        by_bunches(self, time, reference, displacement_gradient, stress);
+        by_packs(self, time, reference, displacement_gradient, stress);
     }
 
-    fn kirchhoff_stress_of_bunches(
+    fn kirchhoff_stress_of_packs(
         &self,
         time: T,
-        reference: &[[Vector<T, D>; BUNCH]],
+        reference: &[[Vector<T, D>; PACK]],
         displacement_gradient: &[Matrices<T, D>],
         stress: &mut [Matrices<T, D>],
     ) {
         if self.compiled.field.space.is_axisymmetric() {
             return stress_at_own_strain(self, time, reference, displacement_gradient, stress);
         }
-        self.stress_of_bunches(time, reference, (displacement_gradient, &[]), (stress, &mut []));
+        self.stress_of_packs(time, reference, (displacement_gradient, &[]), (stress, &mut []));
     }
 
     fn strain_energy(

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::thread;
 
 use mms_mechanics::{Output, Program};
-use mms_program::block::{Plan, Prepared, Room, Way};
+use mms_program::block::{BlockLayout, Plan, Prepared, Scratch};
 
 /// The number of points from which on threads share them.
 const MANY: usize = 1 << 16;
@@ -18,7 +18,7 @@ impl AtPoints {
     /// Prepares the output, and computes the stages that depend on parameters alone.
     pub fn new(program: &Program, output: Output, parameters: &[f64]) -> Self {
         let plan = Plan::new(program, &[output], Output::is_quantity);
-        AtPoints { prepared: Prepared::new(Arc::new(plan), Way::portable(), parameters) }
+        AtPoints { prepared: Prepared::new(Arc::new(plan), BlockLayout::portable(), parameters) }
     }
 
     /// Evaluates `components` numbers at each point X, with normals N if the output needs them; coordinates of a point are
@@ -40,8 +40,8 @@ impl AtPoints {
             for (at, (points, values)) in shares.enumerate() {
                 let normals = normals.get(at * rows * dimension..).unwrap_or_default();
                 let mut work = move || {
-                    let room = &mut Room::default();
-                    self.prepared.at_points(room, time, dimension, [points, normals], values);
+                    let scratch = &mut Scratch::default();
+                    self.prepared.at_points(scratch, time, dimension, [points, normals], values);
                 };
                 // Few points take less time than the start of a thread.
                 if rows == count { work() } else { drop(scope.spawn(work)) }

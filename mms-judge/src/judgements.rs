@@ -1,6 +1,6 @@
 //! Judged errors, and the document of a judgement.
 
-use mms_convergence::{Basis, Finding, Judgement, Kind, Level, RULE, Verdict};
+use mms_convergence::{Basis, Finding, Judgement, Level, RULE, TermKind, Verdict};
 use mms_diagnosis::follow::Follow;
 use mms_documents::Names;
 use mms_documents::judge as documents;
@@ -412,9 +412,9 @@ fn judged(judged: &mms_convergence::Judged) -> JudgedNorm {
         Basis::Nothing => "nothing",
     };
     let kind = |kind| match kind {
-        Kind::Plateau => "plateau",
-        Kind::LowerOrder => "lower order",
-        Kind::PreAsymptotic => "pre-asymptotic",
+        TermKind::Plateau => "plateau",
+        TermKind::LowerOrder => "lower order",
+        TermKind::PreAsymptotic => "pre-asymptotic",
     };
     let highest = judged.expected.highest;
     JudgedNorm {

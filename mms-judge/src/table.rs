@@ -196,8 +196,8 @@ impl Table {
         let header = rows.remove(0);
         let columns = header.iter().map(|cell| Column::named(&cell.text)).collect();
         let table = Self { path, header, columns, rows };
-        table.hold_header()?;
-        table.hold_rows()?;
+        table.validate_header()?;
+        table.validate_rows()?;
         Ok(table)
     }
 
@@ -245,7 +245,7 @@ impl Table {
         format!("{}:{}:{}", self.path, cell.line, cell.column)
     }
 
-    fn hold_header(&self) -> anyhow::Result<()> {
+    fn validate_header(&self) -> anyhow::Result<()> {
         let first = &self.header[0];
         if self.header.iter().any(|cell| cell.text.parse::<f64>().is_ok()) {
             bail!(
@@ -279,7 +279,7 @@ impl Table {
         Ok(())
     }
 
-    fn hold_rows(&self) -> anyhow::Result<()> {
+    fn validate_rows(&self) -> anyhow::Result<()> {
         let Some(_) = self.rows.first() else {
             let line = self.header[0].line;
             bail!("{}:{line}:1: expected a row for each run below the header", self.path);

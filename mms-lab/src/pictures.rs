@@ -76,18 +76,18 @@ impl Check {
 
 /// The objections of the checks to a row, in the order of [`Check::ALL`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Looks(pub [Option<bool>; Check::ALL.len()]);
+pub struct Visible(pub [Option<bool>; Check::ALL.len()]);
 
-impl Looks {
+impl Visible {
     /// The objections to the levels of a row, coarse to fine; a level that did not end shows nothing.
     pub fn of(levels: &[Option<&Seen>]) -> Self {
-        Looks(Check::ALL.map(|check| check.objects(levels)))
+        Visible(Check::ALL.map(|check| check.objects(levels)))
     }
 
     /// The objections to a defect, of the checks that had no objection `without` it.
     pub fn beside(self, without: Self) -> Self {
         let fair = |at: usize| if without.0[at] == Some(false) { self.0[at] } else { None };
-        Looks(std::array::from_fn(fair))
+        Visible(std::array::from_fn(fair))
     }
 
     /// The objections of either.
@@ -96,7 +96,7 @@ impl Looks {
             (Some(one), Some(another)) => Some(one || another),
             (one, another) => one.or(another),
         };
-        Looks(std::array::from_fn(either))
+        Visible(std::array::from_fn(either))
     }
 }
 
@@ -257,7 +257,7 @@ mod tests {
             asymmetry: Some(1e-9),
             energy: Some(0.01),
         };
-        let looks = |last: Option<Seen>| Looks::of(&[Some(&fine), last.as_ref()]).0;
+        let looks = |last: Option<Seen>| Visible::of(&[Some(&fine), last.as_ref()]).0;
         let none = Some(false);
         assert_eq!(looks(Some(fine.clone())), [none; 5]);
         let objected = |at: usize, seen: Seen| {
@@ -270,15 +270,15 @@ mod tests {
         objected(2, Seen { asymmetry: Some(1e-3), ..fine.clone() });
         objected(4, Seen { motion: 0.06, ..fine.clone() });
         let weighed = Seen { energy: Some(0.1), ..fine.clone() };
-        assert_eq!(Looks::of(&[Some(&weighed), Some(&fine)]).0[3], Some(true));
+        assert_eq!(Visible::of(&[Some(&weighed), Some(&fine)]).0[3], Some(true));
         assert_eq!(looks(None), [None, Some(true), None, None, None]);
-        let stopped = Looks::of(&[None, None]);
+        let stopped = Visible::of(&[None, None]);
         assert_eq!(stopped.0, [None, Some(true), None, None, None]);
         // An objection without the defect is no evidence.
-        let unfair = Looks([Some(true); 5]).beside(stopped);
-        assert_eq!(unfair, Looks([None; 5]));
+        let unfair = Visible([Some(true); 5]).beside(stopped);
+        assert_eq!(unfair, Visible([None; 5]));
         assert_eq!(unfair.or(stopped), stopped);
-        assert_eq!(Looks([Some(false); 5]).or(stopped).0[1], Some(true));
+        assert_eq!(Visible([Some(false); 5]).or(stopped).0[1], Some(true));
         assert_eq!(Check::ALL.map(Check::name)[1], "bounded");
     }
 }

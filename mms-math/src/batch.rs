@@ -28,37 +28,37 @@
 //! products, and are rounded once. `docs/speed.md` lists the gains of these decisions.
 
 use crate::dispatch::{Work, best};
-use crate::machine::{self, Machine};
+use crate::simd::{self, Simd};
 use crate::{Double, Lane, Real};
 
 pub use crate::block::{Block, Blocked, Columns};
-pub use crate::kept::{Kept, KeptColumns};
+pub use crate::kept::{KeptColumns, PointCache};
 pub use crate::places::{Copied, Sink, Source};
 
 /// A scalar that represents a number of type `T` in a loop over points.
-pub trait Stand<T>: Real {
+pub trait Lift<T>: Real {
     /// Converts the number.
-    fn standing_for(value: T) -> Self;
+    fn splat(value: T) -> Self;
     /// The number.
     fn value(self) -> T;
 }
 
 /// The number type of batches: `f32` or `f64`.
-pub trait Float: Real + Blocked + Stand<Self> + PartialOrd + Send + Sync {
+pub trait Float: Real + Blocked + Lift<Self> + PartialOrd + Send + Sync {
     /// Eight numbers at a time on processors with registers of 512 bits.
-    type WideMachine: Machine<Self> + From<machine::Wide>;
+    type WideMachine: Simd<Self> + From<simd::Wide>;
     /// Eight numbers at a time on processors that multiply and add in one step.
-    type FusedMachine: Machine<Self> + From<machine::Fused>;
+    type FusedMachine: Simd<Self> + From<simd::Fused>;
     /// Eight numbers at a time on other processors.
-    type PlainMachine: Machine<Self> + From<machine::Plain>;
+    type PlainMachine: Simd<Self> + From<simd::Plain>;
 }
 
 macro_rules! itself {
     ($($number:ident)*) => {
         $(
-            impl Stand<$number> for $number {
+            impl Lift<$number> for $number {
                 #[inline(always)]
-                fn standing_for(value: $number) -> Self {
+                fn splat(value: $number) -> Self {
                     value
                 }
                 #[inline(always)]
@@ -74,9 +74,9 @@ itself!(f32 f64 Double);
 
 macro_rules! float {
     ($float:ident, $wide:ident) => {
-        impl<const FUSED: bool> Stand<$float> for Lane<$float, FUSED> {
+        impl<const FUSED: bool> Lift<$float> for Lane<$float, FUSED> {
             #[inline(always)]
-            fn standing_for(value: $float) -> Self {
+            fn splat(value: $float) -> Self {
                 Lane(value)
             }
             #[inline(always)]
@@ -86,9 +86,9 @@ macro_rules! float {
         }
 
         impl Float for $float {
-            type WideMachine = machine::$wide;
-            type FusedMachine = machine::Fused;
-            type PlainMachine = machine::Plain;
+            type WideMachine = simd::$wide;
+            type FusedMachine = simd::Fused;
+            type PlainMachine = simd::Plain;
         }
     };
 }
@@ -109,7 +109,7 @@ pub trait Function<S, const I: usize, const O: usize> {
 /// A function in any scalar that represents `T`.
 pub trait Kernel<T, const I: usize, const O: usize> {
     /// Passes the function to a loop over points.
-    fn drive<S: Stand<T>>(&self, points: &mut impl Points<S, I, O>);
+    fn drive<S: Lift<T>>(&self, points: &mut impl Points<S, I, O>);
 }
 
 /// A loop over points.
@@ -185,10 +185,10 @@ where
     type Output = ();
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, machine: M) {
+    fn on<M: Simd<T>>(self, simd: M) {
         let Self { kernel, source, sink, count, scalar } = self;
         kernel.drive::<M::Lane>(&mut Blocks {
-            machine,
+            simd,
             source,
             sink,
             count,
@@ -202,7 +202,7 @@ where
 
 /// All points, block by block.
 struct Blocks<'a, M, T: Float, In, Out, Careful, const I: usize, const O: usize> {
-    machine: M,
+    simd: M,
     source: &'a In,
     sink: &'a mut Out,
     count: usize,
@@ -213,7 +213,7 @@ struct Blocks<'a, M, T: Float, In, Out, Careful, const I: usize, const O: usize>
 impl<M, T, In, Out, Careful, const I: usize, const O: usize>
     Blocks<'_, M, T, In, Out, Careful, I, O>
 where
-    M: Machine<T>,
+    M: Simd<T>,
     T: Float,
     In: Source<T, I>,
     Out: Sink<T, O>,
@@ -223,16 +223,16 @@ where
     /// block: once `results` has been passed by reference, the compiler no longer knows that it does not overlap the inputs.
     #[inline(always)]
     fn store(&mut self, start: usize, inputs: &Columns<'_, T, I>, results: &Block<T, O>) {
-        if !self.sink.store(self.machine, start, results) {
+        if !self.sink.store(self.simd, start, results) {
             let mut again = Block::of(T::from_f64(0.0));
             (self.careful)(inputs, &mut again);
-            self.sink.store(self.machine, start, &again);
+            self.sink.store(self.simd, start, &again);
         }
     }
 
     /// Applies two functions one after the other to every block.
     #[inline(always)]
-    fn apart<S: Stand<T>, const B: usize, const N: usize>(
+    fn apart<S: Lift<T>, const B: usize, const N: usize>(
         &mut self,
         first: &impl Function<S, I, B>,
         second: &impl Function<S, N, O>,
@@ -246,7 +246,7 @@ where
         let [mut now, mut soon] = rooms.each_mut();
         let mut start = 0;
         while start < self.count {
-            self.source.bring(self.machine, start, now);
+            self.source.bring(self.simd, start, now);
             let inputs = self.source.columns(start, now);
             T::on_block(first, &inputs, &mut made);
             T::on_block(second, &taken(&inputs, &made, reads), &mut results);
@@ -258,7 +258,7 @@ where
 
     /// Applies two functions in one loop, the first one a block ahead of the second.
     #[inline(always)]
-    fn together<S: Stand<T>, const B: usize, const N: usize>(
+    fn together<S: Lift<T>, const B: usize, const N: usize>(
         &mut self,
         first: &impl Function<S, I, B>,
         second: &impl Function<S, N, O>,
@@ -272,14 +272,14 @@ where
         let mut rooms = [Block::of(zero); 2];
         let [mut now, mut soon] = rooms.each_mut();
         let mut start = 0;
-        self.source.bring(self.machine, start, now);
+        self.source.bring(self.simd, start, now);
         T::on_block(first, &self.source.columns(start, now), &mut made);
         while start < self.count {
             let inputs = self.source.columns(start, now);
             let next = start + T::BLOCK;
             // The last block is not after the loop: otherwise all code that stores results would exist twice.
             if next < self.count {
-                self.source.bring(self.machine, next, soon);
+                self.source.bring(self.simd, next, soon);
                 let both = (&inputs, &self.source.columns(next, soon));
                 T::side_by_side((first, second), both, &mut made, &mut results, reads);
             } else {
@@ -295,9 +295,9 @@ where
 impl<M, T, S, In, Out, Careful, const I: usize, const O: usize> Points<S, I, O>
     for Blocks<'_, M, T, In, Out, Careful, I, O>
 where
-    M: Machine<T>,
+    M: Simd<T>,
     T: Float,
-    S: Stand<T>,
+    S: Lift<T>,
     In: Source<T, I>,
     Out: Sink<T, O>,
     Careful: Fn(&Columns<'_, T, I>, &mut Block<T, O>),
@@ -308,7 +308,7 @@ where
         let (mut room, mut results) = (Block::of(zero), Block::of(zero));
         let mut start = 0;
         while start < self.count {
-            self.source.bring(self.machine, start, &mut room);
+            self.source.bring(self.simd, start, &mut room);
             let inputs = self.source.columns(start, &room);
             T::on_block(function, &inputs, &mut results);
             self.store(start, &inputs, &results);
@@ -362,9 +362,9 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    use super::{Float, Function, Kept, Kernel, Loops, Points, Sink, Source, Stand, run};
+    use super::{Float, Function, Kernel, Lift, Loops, PointCache, Points, Sink, Source, run};
     use crate::Real;
-    use crate::bunched::tests::Both;
+    use crate::packed::tests::Both;
 
     #[test]
     fn infinities_and_what_is_not_a_number_are_written_as_they_are() {
@@ -409,7 +409,7 @@ mod tests {
 
     impl<T: Float> Kernel<T, 2, 2> for Ring {
         #[inline(always)]
-        fn drive<S: Stand<T>>(&self, points: &mut impl Points<S, 2, 2>) {
+        fn drive<S: Lift<T>>(&self, points: &mut impl Points<S, 2, 2>) {
             self.drives.set(self.drives.get() + 1);
             points.each_then::<2, 3>(&First, &Second, [0, 2, 3], self.loops);
         }
@@ -427,7 +427,7 @@ mod tests {
 
     impl<T: Float> Kernel<T, 2, 2> for Same {
         #[inline(always)]
-        fn drive<S: Stand<T>>(&self, points: &mut impl Points<S, 2, 2>) {
+        fn drive<S: Lift<T>>(&self, points: &mut impl Points<S, 2, 2>) {
             points.each(self);
         }
     }
@@ -457,7 +457,7 @@ mod tests {
             places.for_each(|place| columns[unknown][place] = subnormal);
             let slices = columns.each_ref().map(|column| &column[..]);
             let points: Vec<[T; 2]> = (0..count).map(|k| slices.map(|column| column[k])).collect();
-            let mut kept = Kept::<T, 2>::room_for(count);
+            let mut kept = PointCache::<T, 2>::room_for(count);
             run(&Same, &slices, &mut kept);
             let [apart, together] = [Loops::Apart, Loops::Together].map(|loops| {
                 let zero = T::from_f64(0.0);

@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use crate::batch::{Function, Stand};
+use crate::batch::{Function, Lift};
 
 /// The values of `N` numbers at the points of a block, aligned to cache lines: a load that crosses a line takes twice as long.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +39,7 @@ pub trait Blocked: Copy {
     fn numbers_mut(column: &mut Self::Column) -> &mut [Self];
 
     /// Applies a function at all points of a block.
-    fn on_block<S: Stand<Self>, const I: usize, const O: usize>(
+    fn on_block<S: Lift<Self>, const I: usize, const O: usize>(
         function: &impl Function<S, I, O>,
         inputs: &Columns<'_, Self, I>,
         results: &mut Block<Self, O>,
@@ -54,7 +54,7 @@ pub trait Blocked: Copy {
         results: &mut Block<Self, O>,
         reads: [usize; N],
     ) where
-        S: Stand<Self>;
+        S: Lift<Self>;
 }
 
 // Written out for each type, since within one function the compiler sees that `results` and the inputs do not overlap;
@@ -86,13 +86,13 @@ macro_rules! blocked {
             }
 
             #[inline(always)]
-            fn on_block<S: Stand<$float>, const I: usize, const O: usize>(
+            fn on_block<S: Lift<$float>, const I: usize, const O: usize>(
                 function: &impl Function<S, I, O>,
                 inputs: &Columns<'_, $float, I>,
                 results: &mut Block<$float, O>,
             ) {
                 for place in 0..$block {
-                    let number = |k: usize| S::standing_for(inputs[k][place]);
+                    let number = |k: usize| S::splat(inputs[k][place]);
                     let found = function.at(core::array::from_fn(number));
                     for k in 0..O {
                         results.0[k][place] = found[k].value();
@@ -108,19 +108,19 @@ macro_rules! blocked {
                 results: &mut Block<$float, O>,
                 reads: [usize; N],
             ) where
-                S: Stand<$float>,
+                S: Lift<$float>,
             {
                 for place in 0..$block {
                     let mut before = [S::from_f64(0.0); M];
                     for k in 0..M {
-                        before[k] = S::standing_for(made.0[k][place]);
+                        before[k] = S::splat(made.0[k][place]);
                     }
                     let found =
                         second.at(core::array::from_fn(|k| match reads[k].checked_sub(I) {
-                            None => S::standing_for(inputs[reads[k]][place]),
+                            None => S::splat(inputs[reads[k]][place]),
                             Some(k) => before[k],
                         }));
-                    let number = |k: usize| S::standing_for(coming[k][place]);
+                    let number = |k: usize| S::splat(coming[k][place]);
                     let next = first.at(core::array::from_fn(number));
                     for k in 0..M {
                         made.0[k][place] = next[k].value();

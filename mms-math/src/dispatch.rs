@@ -1,7 +1,7 @@
 //! Compiles work for several instruction sets, and dispatches to the best one of the processor.
 //!
 //! The dispatcher calls a function that was compiled for the detected instructions. That is `unsafe`, as the instructions in
-//! `machine/registers/` are. The environment variable `MMS_INSTRUCTIONS` limits the instructions: `baseline`, `avx2` or
+//! `simd/registers/` are. The environment variable `MMS_INSTRUCTIONS` limits the instructions: `baseline`, `avx2` or
 //! `avx512`.
 
 use core::fmt;
@@ -9,8 +9,8 @@ use core::sync::atomic::{AtomicU8, Ordering};
 
 use crate::batch::Float;
 #[cfg(target_arch = "x86_64")]
-use crate::machine::Wide;
-use crate::machine::{Fused, Machine, Plain};
+use crate::simd::Wide;
+use crate::simd::{Fused, Plain, Simd};
 
 /// Work on many numbers of type `T`, in versions of the same code.
 pub trait Work<T> {
@@ -23,7 +23,7 @@ pub trait Work<T> {
 
     /// Does the work, with loops over `M::Lane` and eight numbers at a time. All called functions have to be inlined, or they
     /// are not compiled for the instruction set.
-    fn on<M: Machine<T>>(self, machine: M) -> Self::Output;
+    fn on<M: Simd<T>>(self, simd: M) -> Self::Output;
 }
 
 /// Does work with the best instructions of the processor.
@@ -38,25 +38,25 @@ pub const LIMIT: &str = "MMS_INSTRUCTIONS";
 
 /// Instructions that the processor has: there are no values of this type for other instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Instructions(Level);
+pub struct Instructions(IsaLevel);
 
 /// From the least to the most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
-enum Level {
+enum IsaLevel {
     Baseline,
     Avx2,
     Avx512,
 }
 
-const LEVELS: [Level; 3] = [Level::Baseline, Level::Avx2, Level::Avx512];
+const LEVELS: [IsaLevel; 3] = [IsaLevel::Baseline, IsaLevel::Avx2, IsaLevel::Avx512];
 
-impl Level {
+impl IsaLevel {
     const fn name(self) -> &'static str {
         match self {
-            Level::Baseline => "baseline",
-            Level::Avx2 => "avx2",
-            Level::Avx512 => "avx512",
+            IsaLevel::Baseline => "baseline",
+            IsaLevel::Avx2 => "avx2",
+            IsaLevel::Avx512 => "avx512",
         }
     }
 
@@ -65,17 +65,17 @@ impl Level {
     /// fast.
     fn is_here(self) -> bool {
         match self {
-            Level::Baseline => true,
+            IsaLevel::Baseline => true,
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => {
+            IsaLevel::Avx2 => {
                 std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
             }
             #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
-            Level::Avx512 => {
+            IsaLevel::Avx512 => {
                 std::is_x86_feature_detected!("avx512f")
                     && std::is_x86_feature_detected!("avx512dq")
                     && std::is_x86_feature_detected!("avx512vl")
-                    && Level::Avx2.is_here()
+                    && IsaLevel::Avx2.is_here()
             }
             #[allow(unreachable_patterns)]
             _ => false,
@@ -91,7 +91,7 @@ impl fmt::Display for Instructions {
 
 impl Instructions {
     /// The instructions that every processor of this kind has.
-    pub const BASELINE: Instructions = Instructions(Level::Baseline);
+    pub const BASELINE: Instructions = Instructions(IsaLevel::Baseline);
 
     /// All instructions that the processor has, from the least to the most.
     pub fn all() -> impl Iterator<Item = Instructions> {
@@ -100,7 +100,7 @@ impl Instructions {
 
     /// The names of instructions, from the least to the most.
     pub fn names() -> impl Iterator<Item = &'static str> {
-        LEVELS.into_iter().map(Level::name)
+        LEVELS.into_iter().map(IsaLevel::name)
     }
 
     /// The value of the environment variable [`LIMIT`], if it is not one of the names of instructions.
@@ -132,11 +132,11 @@ impl Instructions {
             // Safety: the processor has the instructions that the function is compiled for, or there would be no such value.
             #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
             #[allow(unsafe_code)]
-            Level::Avx512 if W::GAINS_BY_AVX512 => unsafe { avx512(work) },
+            IsaLevel::Avx512 if W::GAINS_BY_AVX512 => unsafe { avx512(work) },
             // Safety: likewise; a processor with AVX-512 has AVX2.
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
-            Level::Avx2 | Level::Avx512 => unsafe { avx2(work) },
+            IsaLevel::Avx2 | IsaLevel::Avx512 => unsafe { avx2(work) },
             _ => baseline(work),
         }
     }
@@ -149,17 +149,17 @@ impl Instructions {
             // Safety: as above; a processor with AVX-512 has AVX2.
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
-            Level::Avx2 | Level::Avx512 => unsafe { plain_avx2(work) },
+            IsaLevel::Avx2 | IsaLevel::Avx512 => unsafe { plain_avx2(work) },
             _ => work.on(T::PlainMachine::from(Plain)),
         }
     }
 }
 
 #[cold]
-fn found_with(limit: Option<std::string::String>) -> Level {
+fn found_with(limit: Option<std::string::String>) -> IsaLevel {
     let limit = LEVELS.into_iter().find(|level| Some(level.name()) == limit.as_deref());
     let mut levels = LEVELS.into_iter().rev().filter(|level| level.is_here());
-    levels.find(|level| limit.is_none_or(|limit| *level <= limit)).unwrap_or(Level::Baseline)
+    levels.find(|level| limit.is_none_or(|limit| *level <= limit)).unwrap_or(IsaLevel::Baseline)
 }
 
 fn baseline<T: Float, W: Work<T>>(work: W) -> W::Output {
@@ -198,7 +198,7 @@ mod tests {
     use std::string::String;
     use std::vec::Vec;
 
-    use super::{Instructions, LEVELS, Level, found_with};
+    use super::{Instructions, IsaLevel, LEVELS, found_with};
 
     #[test]
     fn instructions_are_limited_and_never_more_than_the_processor_has() {
@@ -210,6 +210,6 @@ mod tests {
             assert_eq!(found_with(limit), level.min(most));
         }
         assert_eq!([found_with(None), found_with(Some("sse".into()))], [most; 2]);
-        assert_eq!(found_with(Some("baseline".into())), Level::Baseline);
+        assert_eq!(found_with(Some("baseline".into())), IsaLevel::Baseline);
     }
 }

@@ -22,7 +22,7 @@ macro_rules! kernel {
 
         impl<T: $crate::batch::Float> $crate::batch::Kernel<T, $inputs, $results> for $name<'_, T> {
             #[inline(always)]
-            fn drive<S: $crate::batch::Stand<T>>(
+            fn drive<S: $crate::batch::Lift<T>>(
                 &self,
                 points: &mut impl $crate::batch::Points<S, $inputs, $results>,
             ) {
@@ -46,7 +46,7 @@ macro_rules! kernels {
 
         impl<T: $crate::batch::Float> $crate::batch::Kernel<T, $inputs, $results> for $name<'_, T> {
             #[inline(always)]
-            fn drive<S: $crate::batch::Stand<T>>(
+            fn drive<S: $crate::batch::Lift<T>>(
                 &self,
                 points: &mut impl $crate::batch::Points<S, $inputs, $results>,
             ) {

@@ -6,12 +6,12 @@ use std::vec;
 use std::vec::Vec;
 
 use crate::batch::{Block, Columns, Copied, Float, Sink, Source};
-use crate::machine::Machine;
 use crate::places::are_numbers;
+use crate::simd::Simd;
 
 /// `N` numbers of each of many points.
 #[derive(Clone, Debug)]
-pub struct Kept<T: Float, const N: usize> {
+pub struct PointCache<T: Float, const N: usize> {
     /// Column after column. The block with the last points of a column is padded with copies of its first point.
     blocks: Vec<Block<T, 1>>,
     /// The number of points.
@@ -24,10 +24,10 @@ fn stride<T: Float>(count: usize) -> usize {
     count.div_ceil(T::BLOCK) | 1
 }
 
-impl<T: Float, const N: usize> Kept<T, N> {
+impl<T: Float, const N: usize> PointCache<T, N> {
     /// Allocates storage for `count` points.
     pub fn room_for(count: usize) -> Self {
-        Kept { blocks: vec![Block::of(T::from_f64(0.0)); N * stride::<T>(count)], count }
+        PointCache { blocks: vec![Block::of(T::from_f64(0.0)); N * stride::<T>(count)], count }
     }
 
     /// The number of points.
@@ -50,18 +50,18 @@ impl<T: Float, const N: usize> Kept<T, N> {
     }
 }
 
-impl<T: Float, const N: usize> Sink<T, N> for Kept<T, N> {
+impl<T: Float, const N: usize> Sink<T, N> for PointCache<T, N> {
     fn room(&self) -> usize {
         self.count
     }
 
     #[inline(always)]
-    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
+    fn store<M: Simd<T>>(&mut self, simd: M, start: usize, block: &Block<T, N>) -> bool {
         let columns = self.blocks.chunks_exact_mut(stride::<T>(self.count));
         for (column, lane) in columns.zip(&block.0) {
             column[start / T::BLOCK] = Block([*lane]);
         }
-        are_numbers(machine, block)
+        are_numbers(simd, block)
     }
 }
 
@@ -78,7 +78,7 @@ impl<T: Float, const K: usize> Source<T, K> for KeptColumns<'_, T, K> {
     }
 
     #[inline(always)]
-    fn bring<M: Machine<T>>(&self, _: M, _: usize, _: &mut Block<T, K>) {}
+    fn bring<M: Simd<T>>(&self, _: M, _: usize, _: &mut Block<T, K>) {}
 
     #[inline(always)]
     fn columns<'a>(&'a self, start: usize, _: &'a Block<T, K>) -> Columns<'a, T, K> {
@@ -94,7 +94,7 @@ impl<T: Float, const K: usize> Copied<T> for KeptColumns<'_, T, K> {
     }
 
     #[inline(always)]
-    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [T::Column]) {
+    fn copy<M: Simd<T>>(&self, _: M, start: usize, lanes: &mut [T::Column]) {
         for (column, lane) in self.columns.iter().zip(lanes) {
             *lane = column[start / T::BLOCK].0[0];
         }
@@ -106,9 +106,9 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    use super::Kept;
+    use super::PointCache;
     use crate::batch::{Blocked as _, run};
-    use crate::bunched::tests::Both;
+    use crate::packed::tests::Both;
 
     #[test]
     fn what_is_kept_is_read_as_slices_are() {
@@ -116,7 +116,7 @@ mod tests {
         for count in [0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 5] {
             let column = |from: f64| (0..count).map(|k| (from + 0.7 * k as f64).sin()).collect();
             let [x, y]: [Vec<f64>; 2] = [0.3, 0.4].map(column);
-            let mut kept = Kept::<f64, 2>::room_for(count);
+            let mut kept = PointCache::<f64, 2>::room_for(count);
             run(&Both, &[&x[..], &y], &mut kept);
             assert_eq!((kept.len(), kept.is_empty()), (count, count == 0));
             let results = || [vec![0.0; count], vec![0.0; count]];

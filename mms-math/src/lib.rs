@@ -15,7 +15,7 @@
 //! | `polygon` | whether edges cross, triangles, distances |
 //! | `batch`, `dispatch` | many points, block by block, and which instructions may be used |
 //! | `block` | the numbers of a block, and the loops over it |
-//! | `machine` | eight numbers as one value, in registers if the processor has them (SIMD pack) |
+//! | `simd` | eight numbers as one value, in registers if the processor has them (SIMD pack) |
 #![no_std]
 
 #[cfg(feature = "std")]
@@ -25,8 +25,6 @@ extern crate std;
 pub mod batch;
 #[cfg(feature = "std")]
 mod block;
-#[cfg(feature = "std")]
-pub mod bunched;
 pub mod coordinates;
 mod defect;
 #[cfg(feature = "std")]
@@ -41,13 +39,15 @@ mod kept;
 #[cfg(feature = "std")]
 mod lane;
 #[cfg(feature = "std")]
-pub mod machine;
+pub mod packed;
 #[cfg(feature = "std")]
 mod places;
 #[cfg(feature = "std")]
 pub mod polygon;
 #[cfg(feature = "std")]
 mod quick;
+#[cfg(feature = "std")]
+pub mod simd;
 #[cfg(feature = "std")]
 pub mod structures;
 

@@ -1,7 +1,7 @@
 //! Sources of points, and sinks for results: in columns, adjacent per point, or in any other layout that can be copied.
 
 use crate::batch::{Block, Columns, Float};
-use crate::machine::Machine;
+use crate::simd::Simd;
 use crate::structures::{put_columns, take_columns};
 
 /// `N` numbers at each of some points, in any layout.
@@ -10,7 +10,7 @@ pub trait Source<T: Float, const N: usize> {
     fn count(&self) -> usize;
     /// Copies the points from `start` on to a `room`, unless they are stored in columns. If there are fewer than a block has,
     /// copies of the first one pad the block: other values might be outside the domain.
-    fn bring<M: Machine<T>>(&self, machine: M, start: usize, room: &mut Block<T, N>);
+    fn bring<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>);
     /// The points from `start` on: in place, or in the `room` that they were copied to.
     fn columns<'a>(&'a self, start: usize, room: &'a Block<T, N>) -> Columns<'a, T, N>;
 }
@@ -21,7 +21,7 @@ pub trait Sink<T: Float, const N: usize> {
     fn room(&self) -> usize;
     /// Writes the points from `start` on, as many as can be stored. Returns false if any written value is NaN. May also return
     /// false for infinities of both signs, since it tests the sum.
-    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool;
+    fn store<M: Simd<T>>(&mut self, simd: M, start: usize, block: &Block<T, N>) -> bool;
 }
 
 /// Structure of arrays: one slice for each number.
@@ -31,7 +31,7 @@ impl<T: Float, const N: usize> Source<T, N> for [&[T]; N] {
     }
 
     #[inline(always)]
-    fn bring<M: Machine<T>>(&self, _: M, start: usize, room: &mut Block<T, N>) {
+    fn bring<M: Simd<T>>(&self, _: M, start: usize, room: &mut Block<T, N>) {
         for (column, lane) in self.iter().zip(&mut room.0) {
             if column[start..].len() < T::BLOCK {
                 fill(lane, &column[start..]);
@@ -62,7 +62,7 @@ impl<T: Float, const N: usize> Copied<T> for [&[T]; N] {
     }
 
     #[inline(always)]
-    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [T::Column]) {
+    fn copy<M: Simd<T>>(&self, _: M, start: usize, lanes: &mut [T::Column]) {
         for (column, lane) in self.iter().zip(lanes) {
             fill(lane, &column[start..]);
         }
@@ -76,8 +76,8 @@ impl<T: Float, const N: usize> Source<T, N> for &[[T; N]] {
     }
 
     #[inline(always)]
-    fn bring<M: Machine<T>>(&self, machine: M, start: usize, room: &mut Block<T, N>) {
-        turn(machine, &self[start..], &mut room.0);
+    fn bring<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>) {
+        turn(simd, &self[start..], &mut room.0);
     }
 
     #[inline(always)]
@@ -94,7 +94,7 @@ pub trait Copied<T: Float> {
     fn points(&self) -> usize;
     /// Copies the points from `start` on to lanes, as many as fit: one lane for each of their numbers. Pads the rest with the
     /// first point.
-    fn copy<M: Machine<T>>(&self, machine: M, start: usize, lanes: &mut [T::Column]);
+    fn copy<M: Simd<T>>(&self, simd: M, start: usize, lanes: &mut [T::Column]);
 }
 
 impl<T: Float, const N: usize> Copied<T> for &[[T; N]] {
@@ -105,8 +105,8 @@ impl<T: Float, const N: usize> Copied<T> for &[[T; N]] {
     }
 
     #[inline(always)]
-    fn copy<M: Machine<T>>(&self, machine: M, start: usize, lanes: &mut [T::Column]) {
-        turn(machine, &self[start..], lanes);
+    fn copy<M: Simd<T>>(&self, simd: M, start: usize, lanes: &mut [T::Column]) {
+        turn(simd, &self[start..], lanes);
     }
 }
 
@@ -117,11 +117,11 @@ impl<T: Float, A: Copied<T>, B: Copied<T>, const N: usize> Source<T, N> for (A, 
     }
 
     #[inline(always)]
-    fn bring<M: Machine<T>>(&self, machine: M, start: usize, room: &mut Block<T, N>) {
+    fn bring<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>) {
         const { assert!(A::NUMBERS + B::NUMBERS == N) };
         let (first, second) = room.0.split_at_mut(A::NUMBERS);
-        self.0.copy(machine, start, first);
-        self.1.copy(machine, start, second);
+        self.0.copy(simd, start, first);
+        self.1.copy(simd, start, second);
     }
 
     #[inline(always)]
@@ -136,26 +136,26 @@ impl<T: Float, const N: usize> Sink<T, N> for [&mut [T]; N] {
     }
 
     #[inline(always)]
-    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
-        let mut sum = machine.splat(T::from_f64(0.0));
+    fn store<M: Simd<T>>(&mut self, simd: M, start: usize, block: &Block<T, N>) -> bool {
+        let mut sum = simd.splat(T::from_f64(0.0));
         for (column, lane) in self.iter_mut().zip(&block.0) {
             let to = &mut column[start..];
             let Some(to) = T::first_of_mut(to) else {
                 to.copy_from_slice(&T::numbers(lane)[..to.len()]);
-                sum = machine.plus(sum, sum_of(machine, lane));
+                sum = simd.plus(sum, sum_of(simd, lane));
                 continue;
             };
-            let mut own = machine.splat(T::from_f64(0.0));
+            let mut own = simd.splat(T::from_f64(0.0));
             // After a call that copies, all constants of the kernel would have to be loaded again.
             let to = T::numbers_mut(to).as_chunks_mut().0;
             for (to, eight) in to.iter_mut().zip(T::numbers(lane).as_chunks().0) {
-                let eight = machine.eight(eight);
-                *to = machine.numbers(eight);
-                own = machine.plus(own, eight);
+                let eight = simd.eight(eight);
+                *to = simd.numbers(eight);
+                own = simd.plus(own, eight);
             }
-            sum = machine.plus(sum, own);
+            sum = simd.plus(sum, own);
         }
-        machine.all_at_most(sum, sum)
+        simd.all_at_most(sum, sum)
     }
 }
 
@@ -165,52 +165,48 @@ impl<T: Float, const N: usize> Sink<T, N> for &mut [[T; N]] {
     }
 
     #[inline(always)]
-    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
-        turn_back(machine, &block.0, &mut self[start..]);
-        are_numbers(machine, block)
+    fn store<M: Simd<T>>(&mut self, simd: M, start: usize, block: &Block<T, N>) -> bool {
+        turn_back(simd, &block.0, &mut self[start..]);
+        are_numbers(simd, block)
     }
 }
 
 /// Whether no value is NaN, with the restriction of [`Sink::store`]. Copies of the first point after the last one do not change
 /// the result.
 #[inline(always)]
-pub(crate) fn are_numbers<T: Float, M: Machine<T>, const N: usize>(
-    machine: M,
+pub(crate) fn are_numbers<T: Float, M: Simd<T>, const N: usize>(
+    simd: M,
     block: &Block<T, N>,
 ) -> bool {
-    let mut sum = machine.splat(T::from_f64(0.0));
+    let mut sum = simd.splat(T::from_f64(0.0));
     for lane in &block.0 {
-        sum = machine.plus(sum, sum_of(machine, lane));
+        sum = simd.plus(sum, sum_of(simd, lane));
     }
-    machine.all_at_most(sum, sum)
+    simd.all_at_most(sum, sum)
 }
 
 /// The sums of every eighth value of a lane. Lanes are summed separately, for each sum waits for the previous one.
 #[inline(always)]
-fn sum_of<T: Float, M: Machine<T>>(machine: M, lane: &T::Column) -> M::Eight {
-    let mut sum = machine.splat(T::from_f64(0.0));
+fn sum_of<T: Float, M: Simd<T>>(simd: M, lane: &T::Column) -> M::Eight {
+    let mut sum = simd.splat(T::from_f64(0.0));
     for eight in T::numbers(lane).as_chunks().0 {
-        sum = machine.plus(sum, machine.eight(eight));
+        sum = simd.plus(sum, simd.eight(eight));
     }
     sum
 }
 
 /// Copies points to lanes, as many as fit: one lane for each of their numbers. Pads the rest with the first point.
 #[inline(always)]
-fn turn<T: Float, M: Machine<T>, const N: usize>(
-    machine: M,
-    points: &[[T; N]],
-    lanes: &mut [T::Column],
-) {
+fn turn<T: Float, M: Simd<T>, const N: usize>(simd: M, points: &[[T; N]], lanes: &mut [T::Column]) {
     let points = &points[..points.len().min(T::BLOCK)];
     let (eights, others) = points.as_chunks::<8>();
     for (eight, points) in eights.iter().enumerate() {
-        let mut columns = [machine.splat(points[0][0]); N];
-        take_columns(machine, points.as_flattened(), &mut columns);
+        let mut columns = [simd.splat(points[0][0]); N];
+        take_columns(simd, points.as_flattened(), &mut columns);
         for number in 0..N {
             let lane = T::numbers_mut(&mut lanes[number]);
             let place = &mut lane[8 * eight..8 * eight + 8];
-            place.copy_from_slice(&machine.numbers(columns[number]));
+            place.copy_from_slice(&simd.numbers(columns[number]));
         }
     }
     for (point, place) in others.iter().zip(8 * eights.len()..) {
@@ -225,20 +221,20 @@ fn turn<T: Float, M: Machine<T>, const N: usize>(
 
 /// Copies lanes back to points.
 #[inline(always)]
-fn turn_back<T: Float, M: Machine<T>, const N: usize>(
-    machine: M,
+fn turn_back<T: Float, M: Simd<T>, const N: usize>(
+    simd: M,
     lanes: &[T::Column; N],
     points: &mut [[T; N]],
 ) {
     let count = points.len().min(T::BLOCK);
     let (eights, others) = points[..count].as_chunks_mut::<8>();
     for (eight, points) in eights.iter_mut().enumerate() {
-        let mut columns = [machine.splat(T::numbers(&lanes[0])[0]); N];
+        let mut columns = [simd.splat(T::numbers(&lanes[0])[0]); N];
         for number in 0..N {
             let place = T::numbers(&lanes[number])[8 * eight..].first_chunk();
-            columns[number] = machine.eight(place.expect("there are eight more"));
+            columns[number] = simd.eight(place.expect("there are eight more"));
         }
-        put_columns(machine, &columns, points.as_flattened_mut());
+        put_columns(simd, &columns, points.as_flattened_mut());
     }
     for (point, place) in others.iter_mut().zip(8 * eights.len()..) {
         for number in 0..N {

@@ -3,7 +3,7 @@
 //! Four numbers of each of the eight structures are moved at a time. The compiler would load them one by one, from all over the
 //! memory.
 
-use crate::machine::Machine;
+use crate::simd::Simd;
 
 /// Loads the columns of eight structures, whose `numbers` are stored one structure after the other: for each number, its values
 /// in the eight structures.
@@ -11,34 +11,34 @@ use crate::machine::Machine;
 /// # Panics
 /// If there are fewer numbers than in eight structures.
 #[inline(always)]
-pub fn take_columns<T: Copy, M: Machine<T>>(machine: M, numbers: &[T], columns: &mut [M::Eight]) {
+pub fn take_columns<T: Copy, M: Simd<T>>(simd: M, numbers: &[T], columns: &mut [M::Eight]) {
     let n = columns.len();
     let numbers = &numbers[..8 * n];
     if n == 2 {
-        let rows = [machine.eight(some(numbers, 0)), machine.eight(some(numbers, 8))];
-        columns.copy_from_slice(&machine.unzipped(rows));
+        let rows = [simd.eight(some(numbers, 0)), simd.eight(some(numbers, 8))];
+        columns.copy_from_slice(&simd.unzipped(rows));
         return;
     }
     for first in (0..together(n)).step_by(4) {
         let first = first.min(n.saturating_sub(4));
-        let mut rows = [machine.splat(numbers[0]); 4];
+        let mut rows = [simd.splat(numbers[0]); 4];
         for k in 0..4 {
             let (from, second) = (k * n + first, (k + 4) * n + first);
             rows[k] = if second + 4 <= 8 * n {
-                machine.halves(some(numbers, from), some(numbers, second))
+                simd.halves(some(numbers, from), some(numbers, second))
             } else {
                 let number = |j: usize| numbers[(second + j).min(8 * n - 1)];
                 let last = [number(0), number(1), number(2), number(3)];
-                machine.halves(some(numbers, from), &last)
+                simd.halves(some(numbers, from), &last)
             };
         }
-        let turned = machine.transposed(rows);
+        let turned = simd.transposed(rows);
         columns[first..first + n.min(4)].copy_from_slice(&turned[..n.min(4)]);
     }
     if together(n) < n {
         let last = |k: usize| numbers[k * n + n - 1];
         let [a, b] = [0, 4].map(|k| [last(k), last(k + 1), last(k + 2), last(k + 3)]);
-        columns[n - 1] = machine.halves(&a, &b);
+        columns[n - 1] = simd.halves(&a, &b);
     }
 }
 
@@ -47,13 +47,13 @@ pub fn take_columns<T: Copy, M: Machine<T>>(machine: M, numbers: &[T], columns: 
 /// # Panics
 /// If `numbers` is shorter than eight structures.
 #[inline(always)]
-pub fn put_columns<T: Copy, M: Machine<T>>(machine: M, columns: &[M::Eight], numbers: &mut [T]) {
+pub fn put_columns<T: Copy, M: Simd<T>>(simd: M, columns: &[M::Eight], numbers: &mut [T]) {
     let n = columns.len();
     let numbers = &mut numbers[..8 * n];
     if n == 2 {
-        let rows = machine.zipped([columns[0], columns[1]]);
+        let rows = simd.zipped([columns[0], columns[1]]);
         for k in 0..2 {
-            numbers[8 * k..8 * k + 8].copy_from_slice(&machine.numbers(rows[k]));
+            numbers[8 * k..8 * k + 8].copy_from_slice(&simd.numbers(rows[k]));
         }
         return;
     }
@@ -61,19 +61,19 @@ pub fn put_columns<T: Copy, M: Machine<T>>(machine: M, columns: &[M::Eight], num
         let first = first.min(n.saturating_sub(4));
         let mut some = [columns[first]; 4];
         some[..n.min(4)].copy_from_slice(&columns[first..first + n.min(4)]);
-        let rows = machine.transposed(some);
+        let rows = simd.transposed(some);
         // If a row is longer than a structure, the next one overwrites the excess.
         for half in 0..2 {
             for k in 0..4 {
                 let from = (4 * half + k) * n + first;
                 let width = (8 * n - from).min(4);
-                let row = machine.numbers(rows[k]);
+                let row = simd.numbers(rows[k]);
                 numbers[from..from + width].copy_from_slice(&row[4 * half..4 * half + width]);
             }
         }
     }
     if together(n) < n {
-        let last = machine.numbers(columns[n - 1]);
+        let last = simd.numbers(columns[n - 1]);
         for k in 0..8 {
             numbers[k * n + n - 1] = last[k];
         }
@@ -99,23 +99,23 @@ mod tests {
     use super::{put_columns, take_columns};
     use crate::batch::Float;
     use crate::dispatch::{Work, best};
-    use crate::machine::{Machine, Plain};
+    use crate::simd::{Plain, Simd};
 
     /// Loads the columns of eight structures of `N` numbers, which are 0, 1, 2, .. and so on; and stores them again.
     struct ThereAndBack<const N: usize>;
 
     impl<const N: usize> ThereAndBack<N> {
-        fn by<T: Float, M: Machine<T>>(machine: M) {
+        fn by<T: Float, M: Simd<T>>(simd: M) {
             let numbers: Vec<T> = (0..8 * N + 1).map(|k| T::from_f64(k as f64)).collect();
-            let mut columns = [machine.splat(T::from_f64(-1.0)); N];
-            take_columns(machine, &numbers, &mut columns);
+            let mut columns = [simd.splat(T::from_f64(-1.0)); N];
+            take_columns(simd, &numbers, &mut columns);
             for (number, column) in columns.iter().enumerate() {
                 let expected = [0, 1, 2, 3, 4, 5, 6, 7].map(|p| numbers[p * N + number]);
-                assert!(machine.numbers(*column) == expected, "{number} of {N}");
+                assert!(simd.numbers(*column) == expected, "{number} of {N}");
             }
             let mut back = numbers.clone();
             back[..8 * N].fill(T::from_f64(-1.0));
-            put_columns(machine, &columns, &mut back);
+            put_columns(simd, &columns, &mut back);
             assert!(back == numbers, "{N}");
         }
     }
@@ -123,8 +123,8 @@ mod tests {
     impl<T: Float, const N: usize> Work<T> for ThereAndBack<N> {
         type Output = ();
 
-        fn on<M: Machine<T>>(self, machine: M) {
-            Self::by::<T, M>(machine);
+        fn on<M: Simd<T>>(self, simd: M) {
+            Self::by::<T, M>(simd);
         }
     }
 

@@ -12,8 +12,8 @@
 use mms_math::{Double, Scalar as _};
 
 use crate::model::Model;
-use crate::place::{
-    Spot, anywhere, bounds, defaults, edges, evaluate, is_identity, places, size, vanishes,
+use crate::samples::{
+    SamplePoint, anywhere, bounds, defaults, edges, evaluate, is_identity, places, size, vanishes,
 };
 use mms_symbolic::expr::{ByExpr, Expr, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::curvature::{self, curvature};
@@ -39,10 +39,10 @@ pub struct Amplitude {
     index: usize,
     usual: Double,
     /// Places of the body, and places anywhere, with the parameter set to 0.
-    body: Vec<Spot>,
-    anywhere: Vec<Spot>,
+    body: Vec<SamplePoint>,
+    anywhere: Vec<SamplePoint>,
     /// Corners, middle and middles of faces of the body, with the parameter at its default.
-    edges: Vec<Spot>,
+    edges: Vec<SamplePoint>,
 }
 
 impl Amplitude {
@@ -65,7 +65,7 @@ impl Amplitude {
             of_motion.contains(&symbol) && !of_body.contains(&symbol)
         });
         let edges = edges(graph, model, &defaults);
-        let moves = |places: &[Spot]| {
+        let moves = |places: &[SamplePoint]| {
             let values = evaluate(graph, &model.displacement, places);
             model.displacement.iter().any(|u| !vanishes(&values[*u]))
         };
@@ -88,35 +88,35 @@ impl Amplitude {
         })
     }
 
-    /// The expressions `settled` if they keep their digits, else more exact ones: the expressions `plain`, of the same values,
+    /// The expressions `stable` if they keep their digits, else more exact ones: the expressions `plain`, of the same values,
     /// without their part at amplitude 0 if that part is 0.
-    pub fn mend(&self, graph: &mut Graph, plain: &[Expr], settled: &[Expr]) -> Vec<Expr> {
-        let keeps = self.kept(graph, settled).keeps;
-        let lost = |index: &usize| keeps[settled[*index]] != Keeps::All;
-        let lost: Vec<usize> = (0..settled.len()).filter(lost).collect();
-        let mut mended = settled.to_vec();
+    pub fn rewrite(&self, graph: &mut Graph, plain: &[Expr], stable: &[Expr]) -> Vec<Expr> {
+        let keeps = self.kept(graph, stable).keeps;
+        let lost = |index: &usize| keeps[stable[*index]] != DigitLoss::All;
+        let lost: Vec<usize> = (0..stable.len()).filter(lost).collect();
+        let mut rewritten = stable.to_vec();
         if lost.is_empty() {
-            return mended;
+            return rewritten;
         }
         let lossy: Vec<Expr> = lost.iter().map(|index| plain[*index]).collect();
         for (index, apart) in lost.into_iter().zip(self.apart(graph, &lossy)) {
-            mended[index] = apart.unwrap_or(mended[index]);
+            rewritten[index] = apart.unwrap_or(rewritten[index]);
         }
         // If terms of first order cancel, terms of the next order remain.
         for _ in 0..ORDERS {
-            mended = factor(graph, &mended);
-            let Kept { lossy, .. } = self.kept(graph, &mended);
-            let inner: Vec<Expr> = lossy.into_iter().filter(|it| !mended.contains(it)).collect();
+            rewritten = factor(graph, &rewritten);
+            let Digits { lossy, .. } = self.kept(graph, &rewritten);
+            let inner: Vec<Expr> = lossy.into_iter().filter(|it| !rewritten.contains(it)).collect();
             let apart = self.apart(graph, &inner);
             let changes = inner.into_iter().zip(apart).filter_map(|(it, made)| Some((it, made?)));
             let changes: SortedMap<Expr, Expr> = changes.filter(|(it, made)| it != made).collect();
             if changes.is_empty() {
                 break;
             }
-            mended = replace(graph, &mended, &changes);
+            rewritten = replace(graph, &rewritten, &changes);
         }
         // A quotient may have no value at an edge where the whole has one.
-        if self.has_values(graph, settled, &mended) { mended } else { settled.to_vec() }
+        if self.has_values(graph, stable, &rewritten) { rewritten } else { stable.to_vec() }
     }
 
     /// Whether `after` have values where `before` have.
@@ -186,38 +186,40 @@ impl Amplitude {
     /// operand that does.
     pub fn keeps(&self, graph: &Graph, roots: &[Expr]) -> bool {
         let keeps = self.kept(graph, roots).keeps;
-        roots.iter().all(|root| keeps[*root] != Keeps::None)
+        roots.iter().all(|root| keeps[*root] != DigitLoss::None)
     }
 
-    fn kept(&self, graph: &Graph, roots: &[Expr]) -> Kept {
+    fn kept(&self, graph: &Graph, roots: &[Expr]) -> Digits {
         let values = evaluate(graph, roots, &self.body);
-        let mut kept = Kept { keeps: ByExpr::of(roots), lossy: Vec::new() };
+        let mut kept = Digits { keeps: ByExpr::of(roots), lossy: Vec::new() };
         for expr in values.reached.iter().copied() {
             let at = &values[expr];
             let of = |child: &Expr| vanishes(&values[*child]).then(|| kept.keeps[*child]);
             let node = graph.node(expr);
             let keeps = match node {
-                _ if !vanishes(at) => Keeps::All,
-                Node::Number(_) | Node::Pi | Node::Symbol(_) => Keeps::All,
+                _ if !vanishes(at) => DigitLoss::All,
+                Node::Number(_) | Node::Pi | Node::Symbol(_) => DigitLoss::All,
                 Node::Sum(constant, terms) => {
-                    let terms = terms.iter().map(|(term, _)| of(term).unwrap_or(Keeps::None));
-                    let least = terms.min().unwrap_or(Keeps::All);
-                    if constant.is_zero() { least } else { Keeps::None }
+                    let terms = terms.iter().map(|(term, _)| of(term).unwrap_or(DigitLoss::None));
+                    let least = terms.min().unwrap_or(DigitLoss::All);
+                    if constant.is_zero() { least } else { DigitLoss::None }
                 }
                 // The error of a factor is multiplied by the other factors.
                 Node::Product(factors) => {
                     let small = || factors.iter().filter_map(|(base, _)| of(base));
                     match small().min() {
-                        Some(Keeps::None) if small().max() > Some(Keeps::None) => Keeps::First,
-                        least => least.unwrap_or(Keeps::All),
+                        Some(DigitLoss::None) if small().max() > Some(DigitLoss::None) => {
+                            DigitLoss::First
+                        }
+                        least => least.unwrap_or(DigitLoss::All),
                     }
                 }
                 Node::Call(..) | Node::Offset(_) | Node::Small(..) => {
                     let operands = node.children().filter_map(|operand| of(&operand));
-                    operands.max().unwrap_or(Keeps::None)
+                    operands.max().unwrap_or(DigitLoss::None)
                 }
             };
-            if keeps == Keeps::None && matches!(node, Node::Sum(..)) {
+            if keeps == DigitLoss::None && matches!(node, Node::Sum(..)) {
                 kept.lossy.push(expr);
             }
             kept.keeps.set(expr, keeps);
@@ -226,19 +228,19 @@ impl Amplitude {
     }
 }
 
-/// Returns `settled`, or a more exact form if a motion has an amplitude: see [`Amplitude::mend`].
-pub(super) fn mended(
+/// Returns `stable`, or a more exact form if a motion has an amplitude: see [`Amplitude::rewrite`].
+pub(super) fn rewritten(
     graph: &mut Graph,
     amplitude: Option<&Amplitude>,
     plain: &[Expr],
-    settled: &[Expr],
+    stable: &[Expr],
 ) -> Vec<Expr> {
-    amplitude.map_or_else(|| settled.to_vec(), |amplitude| amplitude.mend(graph, plain, settled))
+    amplitude.map_or_else(|| stable.to_vec(), |amplitude| amplitude.rewrite(graph, plain, stable))
 }
 
 /// How well an expression that is small with the amplitude keeps its digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Keeps {
+enum DigitLoss {
     /// The error is as large as the terms that cancel.
     None,
     /// The error of one factor is as large as the terms that cancel in it, and another factor is small.
@@ -248,7 +250,7 @@ enum Keeps {
 }
 
 /// For all sub-expressions, how well each keeps its digits, and the sums that lose them.
-struct Kept {
-    keeps: ByExpr<Keeps>,
+struct Digits {
+    keeps: ByExpr<DigitLoss>,
     lossy: Vec<Expr>,
 }

@@ -3,8 +3,8 @@
 //! | candidate | is made by |
 //! |---|---|
 //! | `Derived` | nothing: as it was derived |
-//! | `Nested` | `nest`: multivariate Horner form, early values innermost |
-//! | `Absorbed` | `factor`, then `absorb`: common factors out, and early ones into sums |
+//! | `Nested` | `horner`: multivariate Horner form, early values innermost |
+//! | `Absorbed` | `factor`, then `distribute`: common factors out, and early ones into sums |
 //! | `Factored` | `factor`: common factors out |
 //! | `Reduced` | `reduce`: the normal form by the identities of the motion |
 //! | `ReducedThoroughly` | `reduce` with every identity of its circular functions, if there are more |
@@ -17,11 +17,11 @@ use crate::amplitude::Amplitude;
 use crate::rounding::Rounding;
 use mms_program::schedule::{Cost, cost};
 use mms_symbolic::expr::{Expr, Graph};
-use mms_symbolic::pass::absorb::absorb;
+use mms_symbolic::pass::distribute::distribute;
 use mms_symbolic::pass::factor::factor;
-use mms_symbolic::pass::nest::nest;
+use mms_symbolic::pass::horner::horner;
 use mms_symbolic::pass::reduce::reduce;
-use mms_symbolic::pass::relations::{Relations, lateness};
+use mms_symbolic::pass::relations::{Relations, latest_stage};
 use mms_symbolic::sorted::SortedMap;
 
 /// The largest number of operations at a point of an accurate candidate, as a multiple of the cheapest candidate's.
@@ -79,11 +79,11 @@ pub(super) fn unexpanded<K: Ord + Copy>(
 ) -> Vec<Candidate<K>> {
     let mut all = vec![Candidate { rewriting: Rewriting::Derived, components: derived.clone() }];
     all.extend(Candidate::by(graph, Rewriting::Nested, derived, |graph, components| {
-        nest(graph, components, &lateness)
+        horner(graph, components, &latest_stage)
     }));
     all.extend(Candidate::by(graph, Rewriting::Absorbed, derived, |graph, components| {
         let factored = factor(graph, components);
-        absorb(graph, &factored)
+        distribute(graph, &factored)
     }));
     all.extend(Candidate::by(graph, Rewriting::Factored, derived, factor));
     all

@@ -1,17 +1,17 @@
 //! Derives every quantity of a resolved field.
 
-use crate::amplitude::{Amplitude, mended};
+use crate::amplitude::{Amplitude, rewritten};
+use crate::faults;
 use crate::invariant::{Kind, SUPPLIED_VOLUME};
 use crate::kinematics::{Motion, Route, Strain, gradient_of, half_angles, traceless};
 use crate::material::{self, Law};
-use crate::misread;
 use crate::model::Model;
 use crate::tensor::{Tensor, dot};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Graph, HALF, Symbol};
+use mms_symbolic::pass::cancellation::avoid_cancellation;
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::relations::Relations;
-use mms_symbolic::pass::settle::settle;
 use mms_symbolic::sorted::SortedMap;
 
 /// Functions of a displacement gradient H that the caller supplies: the material of the field for a solver.
@@ -70,7 +70,7 @@ pub fn derive(
     quantities.extend(balance_quantities(graph, model.density, &motion, &present, divergence));
     let own = model.own.iter();
     quantities.extend(own.map(|(own, components)| (Quantity::Own(*own), components.clone())));
-    hold_directions(model, &mut quantities);
+    validate_directions(model, &mut quantities);
     let responses = responses(graph, &law, model);
     within_bound(graph, "body force")?;
     Ok(Derivation { quantities, responses })
@@ -78,7 +78,7 @@ pub fn derive(
 
 /// Derives the quantities that vanish with the displacement or the strain, such that only the given numbers can cancel in them:
 /// rotations, and functions less their value at 0, are separated in exact numbers. `None` if there is nothing to separate.
-pub fn derive_settled(
+pub fn derive_without_cancellation(
     graph: &mut Graph,
     model: &Model,
     relations: &Relations,
@@ -87,14 +87,14 @@ pub fn derive_settled(
     let plain = factor(graph, &model.displacement);
     let gradient = gradient_of(graph, model, &plain);
     let gradient = traceless(graph, model, gradient);
-    let displacement = settle(graph, &plain);
-    let displacement = mended(graph, amplitude, &plain, &displacement);
+    let displacement = avoid_cancellation(graph, &plain);
+    let displacement = rewritten(graph, amplitude, &plain, &displacement);
     let halves = half_angles(graph, &plain, &gradient);
     let of = [relations, &halves];
-    let strain = Strain::settled(graph, gradient.clone(), &model.kind, of, amplitude);
-    let settled = settle(graph, gradient.components());
-    let settled = mended(graph, amplitude, gradient.components(), &settled);
-    let as_it_was = settled == gradient.components();
+    let strain = Strain::without_cancellation(graph, gradient.clone(), &model.kind, of, amplitude);
+    let stable = avoid_cancellation(graph, gradient.components());
+    let stable = rewritten(graph, amplitude, gradient.components(), &stable);
+    let as_it_was = stable == gradient.components();
     within_bound(graph, "strain")?;
     if !halves.has_angles() && displacement == plain && as_it_was {
         return Ok(None);
@@ -107,13 +107,13 @@ pub fn derive_settled(
     quantities.extend(stress_quantities(graph, &law, &strain, energy, &present, facing));
     quantities.insert(Quantity::Displacement, displacement);
     quantities.insert(Quantity::DisplacementGradient, strain.gradient.components().to_vec());
-    hold_directions(model, &mut quantities);
+    validate_directions(model, &mut quantities);
     within_bound(graph, "stress")?;
     Ok(Some(quantities))
 }
 
 /// Truncates vectors to the components that the field has: without a swirl the hoop component is 0.
-fn hold_directions(model: &Model, quantities: &mut SortedMap<Quantity, Vec<Expr>>) {
+fn validate_directions(model: &Model, quantities: &mut SortedMap<Quantity, Vec<Expr>>) {
     for (quantity, components) in quantities.iter_mut() {
         components.truncate(model.space.components(quantity.shape()));
     }
@@ -245,7 +245,7 @@ fn balance_quantities(
         let specific = graph.div(*divergence, density);
         let force = graph.sub(*acceleration, specific);
         let balance = [*acceleration, *divergence];
-        body_force.push(misread::body_force(graph, force, balance, [density, stretched]));
+        body_force.push(faults::body_force(graph, force, balance, [density, stretched]));
         let inertia = graph.mul(density, *acceleration);
         body_force_density.push(graph.sub(inertia, *divergence));
     }

@@ -35,16 +35,16 @@
 //! that a field lacks have no effect on stretches.
 
 use crate::divergence::Terms;
+use crate::faults;
 use crate::invariant::{FIBRE, FIRST, SECOND, VOLUME};
 use crate::kinematics::{Fibre, Motion, Strain, total};
 use crate::material::{Gradient, at, chained_gradient, explicit_gradient, gradient};
-use crate::misread;
 use crate::tensor::{Tensor, dot};
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::pass::cancellation::avoid_cancellation;
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::expand::expand;
 use mms_symbolic::pass::factor::factor;
-use mms_symbolic::pass::settle::settle;
 
 /// The coefficients of the stress, as functions of the invariants.
 #[derive(Clone, Debug)]
@@ -85,7 +85,7 @@ impl Finite {
         let [constant, linear] = expand(graph, &[constant, linear], symbols)[..] else {
             unreachable!("as many roots as were given")
         };
-        let constant = settle(graph, &[constant])[0];
+        let constant = avoid_cancellation(graph, &[constant])[0];
         let coefficients = factor(graph, &[alpha, beta, gamma, constant, linear]);
         let [alpha, beta, gamma, constant, linear] = coefficients[..] else {
             unreachable!("as many roots as were given")
@@ -167,7 +167,7 @@ impl Finite {
             graded,
             fibres: self.fibre_divergence(graph, motion),
         };
-        misread::divergence(graph, terms, strain.jacobian).sum(graph)
+        faults::divergence(graph, terms, strain.jacobian).sum(graph)
     }
 
     /// dP_iJ/dX_J at fixed H, for moduli that depend on X: like P itself it is small at small strains, while the gradients of

@@ -2,21 +2,21 @@
 //!
 //! If tr H is 0 for all parameters, but not as it is written (sin 2X in one component, 2 sin X cos X in the other), one
 //! component of the diagonal is written as minus the others: a large bulk modulus would multiply the rounding error. Values
-//! decide whether it is 0 (`place.rs`). Then I : F,J is omitted from the gradients of the invariants as well.
+//! decide whether it is 0 (`samples.rs`). Then I : F,J is omitted from the gradients of the invariants as well.
 
-use crate::amplitude::{Amplitude, mended};
+use crate::amplitude::{Amplitude, rewritten};
 use crate::axisymmetric;
 use crate::invariant::{
     EXCESS, FIBRE, FIRST, Kind, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
 };
 use crate::model::Model;
-use crate::place::cancel;
+use crate::samples::cancel;
 use crate::tensor::{Tensor, derivative, dot};
 use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
+use mms_symbolic::pass::cancellation::avoid_cancellation;
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
-use mms_symbolic::pass::settle::settle;
 use mms_symbolic::sorted::SortedMap;
 
 /// The strain that follows from a displacement gradient H = du/dX at one point.
@@ -47,7 +47,7 @@ pub enum Route<'a> {
     Gradient,
     /// F: in fewer operations, and with errors of the size of eps.
     Deformation,
-    /// H, with all terms that cancel at small strains separated: see [`Strain::settled`].
+    /// H, with all terms that cancel at small strains separated: see [`Strain::without_cancellation`].
     Settled(Option<&'a Amplitude>),
 }
 
@@ -58,8 +58,8 @@ pub(super) fn half_angles(
     displacement: &[Expr],
     gradient: &Tensor,
 ) -> Relations {
-    let settled = settle(graph, gradient.components());
-    Relations::of_half_angles(graph, displacement, &settled)
+    let stable = avoid_cancellation(graph, gradient.components());
+    Relations::of_half_angles(graph, displacement, &stable)
 }
 
 /// The tensors of a strain.
@@ -104,7 +104,7 @@ impl Strain {
 
     /// Computes a strain that may be tiny beside the rotation: all terms that cancel do so in exact numbers. The first
     /// relations are for the angles, the second for half the angles.
-    pub fn settled(
+    pub fn without_cancellation(
         graph: &mut Graph,
         gradient: Tensor,
         kind: &Kind,
@@ -116,8 +116,8 @@ impl Strain {
         let plain = gradient.reduce(graph, whole);
         let deformation = identity.add(graph, &plain);
         let mend = |graph: &mut Graph, plain: &Tensor| {
-            let settled = plain.settle(graph, relations);
-            mended_tensor(graph, plain, &settled, amplitude)
+            let stable = plain.avoid_cancellation(graph, relations);
+            rewritten_tensor(graph, plain, &stable, amplitude)
         };
         let gradient = mend(graph, &gradient);
         let transposed = gradient.transpose();
@@ -130,8 +130,8 @@ impl Strain {
         let left = mend(graph, &left);
         let plain = gradient.determinant_less_one(graph);
         let volume = reduce(graph, &[plain], relations);
-        let volume = settle(graph, &volume);
-        let volume = mended(graph, amplitude, &[plain], &volume)[0];
+        let volume = avoid_cancellation(graph, &volume);
+        let volume = rewritten(graph, amplitude, &[plain], &volume)[0];
         // Rotations cancel in C - I and in j, but not in expressions of H.
         let excess = match relations.is_empty() {
             true => excess_of_gradient(graph, &gradient),
@@ -319,7 +319,7 @@ impl Motion {
             Route::Deformation => Strain::direct(graph, gradient, kind, relations),
             Route::Settled(amplitude) => {
                 let halves = half_angles(graph, &displacement, &gradient);
-                Strain::settled(graph, gradient, kind, [relations, &halves], amplitude)
+                Strain::without_cancellation(graph, gradient, kind, [relations, &halves], amplitude)
             }
         };
         let fibre_gradient = match kind {
@@ -331,9 +331,9 @@ impl Motion {
             Route::Gradient | Route::Deformation => None,
         };
         let [velocity, acceleration] =
-            [velocity, acceleration].map(|rate| mended(graph, amplitude, &rate, &rate));
+            [velocity, acceleration].map(|rate| rewritten(graph, amplitude, &rate, &rate));
         let second_gradient: Vec<Tensor> = (second_gradient.iter())
-            .map(|second| mended_tensor(graph, second, second, amplitude))
+            .map(|second| rewritten_tensor(graph, second, second, amplitude))
             .collect();
         let mut motion = Motion {
             displacement,
@@ -487,15 +487,15 @@ pub(super) fn traceless(graph: &mut Graph, model: &Model, gradient: Tensor) -> T
     })
 }
 
-/// A tensor whose components keep their digits: a lossy component is replaced, see [`Amplitude::mend`].
-fn mended_tensor(
+/// A tensor whose components keep their digits: a lossy component is replaced, see [`Amplitude::rewrite`].
+fn rewritten_tensor(
     graph: &mut Graph,
     plain: &Tensor,
-    settled: &Tensor,
+    stable: &Tensor,
     amplitude: Option<&Amplitude>,
 ) -> Tensor {
-    let mended = mended(graph, amplitude, plain.components(), settled.components());
-    Tensor::from_components(settled.dimension(), mended)
+    let rewritten = rewritten(graph, amplitude, plain.components(), stable.components());
+    Tensor::from_components(stable.dimension(), rewritten)
 }
 
 /// A_K,J of a vector field A.

@@ -8,7 +8,7 @@
 //! the program a difference.
 
 use crate::model::Model;
-use crate::place::{defaults, value_with};
+use crate::samples::{defaults, value_with};
 use mms_symbolic::expr::{Expr, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::substitute::{coordinates, substitute};
 use mms_symbolic::sorted::{SortedMap, SortedSet};

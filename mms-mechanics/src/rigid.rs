@@ -12,8 +12,8 @@
 //! written in the small strain, and those whose file does not claim indifference.
 
 use crate::derivation::{Derivation, Response};
+use crate::faults;
 use crate::kinematics::total;
-use crate::misread;
 use crate::model::{RigidMotion, Rotation};
 use crate::tensor::{Tensor, dot};
 use mms_spec::quantity::Quantity;
@@ -124,7 +124,7 @@ impl<'a> Twin<'a> {
         let reference: Vec<Expr> =
             (0..displacement.len()).map(|axis| graph.symbol(Symbol::Coordinate(axis))).collect();
         let position = sum(graph, [&reference, displacement]);
-        let velocity = misread::turned_velocity(graph, &inner.quantities[&Quantity::Velocity]);
+        let velocity = faults::turned_velocity(graph, &inner.quantities[&Quantity::Velocity]);
         let twice: Vec<Expr> = velocity.iter().map(|rate| graph.scale(*rate, 2)).collect();
         let swung = excess.apply(graph, &reference);
         let carried = first.apply(graph, &position);

@@ -4,7 +4,7 @@
 use mms_math::{Double, Scalar as _};
 
 use crate::model::Model;
-use crate::place::{STEPS_OF_VALUE, Spot, Values, at, defaults, evaluate, places};
+use crate::samples::{STEPS_OF_VALUE, SamplePoint, Values, at, defaults, evaluate, places};
 use mms_program::interpret::Number as _;
 use mms_symbolic::expr::{ByExpr, Expr, Graph, Node};
 
@@ -27,7 +27,7 @@ const PLACES: usize = 4;
 /// The places at which rounding errors are bounded.
 #[derive(Clone, Debug, Default)]
 pub struct Rounding {
-    places: Vec<Spot>,
+    places: Vec<SamplePoint>,
 }
 
 impl Rounding {
@@ -87,7 +87,7 @@ impl Rounding {
         graph: &Graph,
         roots: &[Expr],
         values: &Values,
-        (index, place): (usize, &Spot),
+        (index, place): (usize, &SamplePoint),
     ) -> ByExpr<f64> {
         let mut errors = ByExpr::of(roots);
         for expr in values.reached.iter().copied() {
@@ -114,7 +114,7 @@ fn error(
     value: Double,
     of: impl Fn(Expr) -> Double,
     errors: &ByExpr<f64>,
-    place: &Spot,
+    place: &SamplePoint,
 ) -> f64 {
     // For every node except a sum, each operand is changed, and the node is evaluated again.
     let changed = |child: Expr| {
@@ -150,7 +150,9 @@ mod tests {
     /// Bounds at X = 1/2 and t = 1/3.
     fn rounding() -> Rounding {
         let [coordinate, time] = [0.5, 1.0 / 3.0].map(Double::from_f64);
-        Rounding { places: vec![Spot { parameters: vec![], coordinates: vec![coordinate], time }] }
+        Rounding {
+            places: vec![SamplePoint { parameters: vec![], coordinates: vec![coordinate], time }],
+        }
     }
 
     #[test]

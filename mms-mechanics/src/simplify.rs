@@ -13,7 +13,7 @@
 //! the part that X determines separate from the part that t determines (`separate`). That candidate is chosen if it leaves less
 //! to compute at each time, an operation that needs t counted twice, and at most a sixteenth more from a position. For these
 //! two quantities a second cost counts additions of products as free, as in loops over points on processors with fused
-//! multiply-add: one number may then replace two that differ by a constant (`shift`), and constants are added up (`gather`), if
+//! multiply-add: one number may then replace two that differ by a constant (`shift`), and constants are added up (`reassociate`), if
 //! that takes fewer steps and no more steps that need t. Except for Div P and b, no chosen program costs more than the plain
 //! one; these two may take at most a sixteenth more operations at a point, and some more that are done once.
 //!
@@ -24,7 +24,7 @@
 //!
 //! In the stable form, the default, every quantity is within 64 eps of its largest magnitude over the declared body and time
 //! window, at any amplitude down to 1e-12 of the size (`tests/stable/`). Quantities that vanish with the strain (u, H, E, W,
-//! stress) are computed from H after cancellation rewriting (`settle`), and from C - I and J - 1 that are reduced in half of
+//! stress) are computed from H after cancellation rewriting (`avoid_cancellation`), and from C - I and J - 1 that are reduced in half of
 //! the angles that the field turns by: cos a = 1 - 2 h^2 with h = sin(a/2), so that a normal form is a polynomial in terms that
 //! are small with the angle, and a rotation of order one cancels. All other quantities are of the size of 1, of X or of a
 //! second derivative; errors of eps do not matter there, and they may be computed from F = I + H, with ln J of a product. If
@@ -43,7 +43,7 @@ use crate::amplitude::Amplitude;
 use crate::candidates::{
     Accuracy, Candidate, Components, Rewriting, candidates, choose_all, reduced, unexpanded,
 };
-use crate::derivation::derive_settled;
+use crate::derivation::derive_without_cancellation;
 use crate::derivation::{Derivation, derive};
 use crate::kinematics::Route;
 use crate::model::Model;
@@ -53,7 +53,7 @@ use mms_program::schedule::{cost, steps};
 use mms_spec::Form;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
-use mms_symbolic::pass::gather::gather;
+use mms_symbolic::pass::reassociate::reassociate;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::separate::separate;
 use mms_symbolic::pass::shift::shift;
@@ -183,7 +183,7 @@ fn cheapest_of<K: Ord + Copy>(
 }
 
 /// Quantities that vanish with the displacement or the strain, after cancellation rewriting: see
-/// [`derive_settled`].
+/// [`derive_without_cancellation`].
 fn rewritten(
     graph: &mut Graph,
     model: &Model,
@@ -192,8 +192,9 @@ fn rewritten(
     wanted: impl Fn(Quantity) -> bool,
 ) -> Option<Quantities> {
     let amplitude = accuracy.amplitude;
-    let settled = graph.attempt(|graph| derive_settled(graph, model, relations, amplitude));
-    let settled = only(&[settled?.ok()??], wanted);
+    let stable =
+        graph.attempt(|graph| derive_without_cancellation(graph, model, relations, amplitude));
+    let stable = only(&[stable?.ok()??], wanted);
     // Multiplying out would undo the rewriting. Reducing modulo the relations of whole angles does not: these do not occur in
     // small terms.
     let candidates = |graph: &mut Graph, derived: &_| {
@@ -201,7 +202,7 @@ fn rewritten(
         all.extend(reduced(graph, Rewriting::Reduced, derived, relations));
         all
     };
-    Some(cheapest_of(graph, &settled, candidates, accuracy))
+    Some(cheapest_of(graph, &stable, candidates, accuracy))
 }
 
 /// The rewritten quantities that are about as exact as the usual ones, or exact enough. They have precedence, for strains may
@@ -333,7 +334,7 @@ fn fused(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> Ve
     let mut ways: Vec<Vec<Expr>> = shifted.flatten().collect();
     ways.push(components.clone());
     for way in ways.clone() {
-        ways.extend(graph.attempt(|graph| gather(graph, &way)));
+        ways.extend(graph.attempt(|graph| reassociate(graph, &way)));
     }
     ways.retain(|way| *way != components);
     let before = steps(graph, &components);

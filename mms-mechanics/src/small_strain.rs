@@ -8,10 +8,10 @@
 //! is evaluated as written at any H, though it describes an elastic solid at small H only: it changes under rotations. There is
 //! one stress, P = P^T = S = tau = sigma, and rho = rho0 (`derivation::Present`).
 
+use crate::faults;
 use crate::invariant::{Kind, SMALL_SQUARE, SMALL_TRACE};
 use crate::kinematics::{Motion, Strain};
 use crate::material::{Gradient, at, gradient};
-use crate::misread;
 use crate::tensor::{Tensor, dot};
 use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
@@ -51,7 +51,7 @@ impl SmallStrain {
         let identity = Tensor::identity(graph, dimension);
         let (laplacian, dilatation) =
             (motion.laplacian(graph), motion.contract_second_gradient(graph, &identity));
-        let dilatation = misread::dilatation(graph, dilatation);
+        let dilatation = faults::dilatation(graph, dilatation);
         let shear = at(graph, &motion.strain, &[self.shear])[0];
         let symbols = Kind::SmallStrain.symbols();
         let [pressure_slope, shear_slope] =

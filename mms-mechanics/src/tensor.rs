@@ -1,11 +1,11 @@
 //! Small square matrices of expressions.
 
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::pass::cancellation::avoid_cancellation;
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
-use mms_symbolic::pass::settle::settle;
 
 /// A `dimension` x `dimension` matrix, row-major.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,10 +59,10 @@ impl Tensor {
     }
 
     /// Reduces the components modulo the relations of half the angles, and rewrites sums that cancel at small arguments.
-    pub fn settle(&self, graph: &mut Graph, relations: &Relations) -> Self {
+    pub fn avoid_cancellation(&self, graph: &mut Graph, relations: &Relations) -> Self {
         let halved = relations.halve(graph, &self.components);
         let reduced = reduce(graph, &halved, relations);
-        Self::from_components(self.dimension, settle(graph, &reduced))
+        Self::from_components(self.dimension, avoid_cancellation(graph, &reduced))
     }
 
     /// `A + B`.

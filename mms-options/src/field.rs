@@ -10,7 +10,7 @@ use mms_bar as linked;
 use mms_codegen::{Options, Selection};
 use mms_exact::gallery::{self, Entry};
 use mms_exact::{Input, Source};
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 #[cfg(feature = "gallery")]
 use mms_gallery as linked;
 use mms_program::precision::Precision;
@@ -154,10 +154,10 @@ pub fn open(field: &str) -> anyhow::Result<Source> {
 /// # Errors
 /// A file that cannot be read.
 pub fn file(path: &Path) -> anyhow::Result<Source> {
-    let text = read::text(path, Kind::Field)?;
+    let text = read::text(path, FileKind::Field)?;
     let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
     Ok(Source::file(path.to_path_buf(), text, move |material| {
-        let text = read::text(&folder.join(material), Kind::Field);
+        let text = read::text(&folder.join(material), FileKind::Field);
         text.map_err(|error| error.root_cause().to_string())
     }))
 }

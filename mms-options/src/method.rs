@@ -12,7 +12,7 @@ use anyhow::bail;
 use clap::Args;
 use mms_codegen::certify::certificate::not_computed;
 use mms_exact::Input;
-use mms_exact::hold_division;
+use mms_exact::validate_division;
 use mms_exact::wave::{fastest_wave, without_bound};
 use mms_files::machine::{memory, processors};
 use mms_mechanics::sample::domain;
@@ -201,13 +201,13 @@ impl MethodOptions {
         settings: &[String],
     ) -> anyhow::Result<(Method, Option<String>)> {
         match self.relax {
-            true => input.hold_static()?,
-            false => input.hold_moving()?,
+            true => input.validate_static()?,
+            false => input.validate_moving()?,
         }
         input.hold(settings)?;
         let mut method = self.method(input.compiled.field.dimension)?;
-        self.hold_end(input, settings)?;
-        self.hold_precision(input, settings)?;
+        self.validate_end(input, settings)?;
+        self.validate_precision(input, settings)?;
         method.setup.memory = Some(memory());
         if self.allow_unstable {
             return Ok((method, None));
@@ -218,7 +218,7 @@ impl MethodOptions {
     }
 
     /// Refuses single precision where it does not compute the field. Of double precision that is an error of the file.
-    fn hold_precision(&self, input: &Input, settings: &[String]) -> anyhow::Result<()> {
+    fn validate_precision(&self, input: &Input, settings: &[String]) -> anyhow::Result<()> {
         if self.arithmetic.precision == Precision::F64 {
             return Ok(());
         }
@@ -232,7 +232,7 @@ impl MethodOptions {
     }
 
     /// Refuses an end that is not behind the beginning.
-    fn hold_end(&self, input: &Input, settings: &[String]) -> anyhow::Result<()> {
+    fn validate_end(&self, input: &Input, settings: &[String]) -> anyhow::Result<()> {
         let Some(end) = self.end_time else { return Ok(()) };
         let parameters = input.compiled.parameters::<f64>(&input.settings(settings)?);
         let (_, [start, usual]) = domain(&input.compiled.program, &parameters);
@@ -271,7 +271,7 @@ impl MethodOptions {
             }
             periodic[*axis] = true;
         }
-        hold_division("--particles-per-cell", &self.particles_per_cell, dimension)?;
+        validate_division("--particles-per-cell", &self.particles_per_cell, dimension)?;
         let setup = Setup {
             transfer,
             particles_per_cell: self.particles_per_cell,

@@ -2,7 +2,7 @@
 
 use mms_math::{Double, Scalar};
 
-use crate::effort;
+use crate::operation_cost;
 use crate::program::{Instr, Key, Op, Program, Value, range};
 use mms_symbolic::expr::{Function, Rational, Small, Stage, Symbol};
 use mms_symbolic::work::Work;
@@ -251,7 +251,9 @@ impl<'a, T: Number> Run<'a, T> {
             Op::Unary(function, _, a) | Op::Binary(function, a, _) => {
                 self.values[a.index()].steps(Some(*function))
             }
-            Op::Constant(number) => self.values[index].steps(None) + effort::of_constant(number),
+            Op::Constant(number) => {
+                self.values[index].steps(None) + operation_cost::of_constant(number)
+            }
             _ => self.values[index].steps(None),
         };
         work.spend(self.times * steps);

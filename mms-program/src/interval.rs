@@ -10,8 +10,8 @@ mod quick;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::effort;
 use crate::interpret::Number;
+use crate::operation_cost;
 use mms_symbolic::expr::{Function, Rational};
 
 /// Below this magnitude the rounding error of a product may itself be rounded: 2^-960.
@@ -188,7 +188,7 @@ impl Number for Interval {
     }
 
     fn steps(&self, function: Option<Function>) -> u64 {
-        effort::of_interval(function, [self.lower, self.upper])
+        operation_cost::of_interval(function, [self.lower, self.upper])
     }
 
     fn from_rational(number: &Rational) -> Self {

@@ -36,12 +36,12 @@
 pub mod block;
 pub mod computed;
 pub mod dual;
-mod effort;
-pub mod fan;
 pub mod fusion;
 pub mod interpret;
 pub mod interval;
 pub mod loops;
+pub mod multi_dual;
+mod operation_cost;
 pub mod precise;
 pub mod precision;
 mod program;

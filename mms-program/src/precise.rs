@@ -9,8 +9,8 @@ use dashu_float::round::mode::HalfEven;
 use dashu_int::ops::CubicRoot as _;
 use mms_math::Scalar;
 
-use crate::effort;
 use crate::interpret::Number;
+use crate::operation_cost;
 use mms_symbolic::expr::{Function, Rational};
 
 /// The limit of binary exponents: a result beyond it is not representable, and a result below its negative is 0. So exponents
@@ -217,7 +217,7 @@ impl<const BITS: usize> Number for Binary<BITS> {
     }
 
     fn steps(&self, function: Option<Function>) -> u64 {
-        effort::of_digits(function, BITS, self.0.as_ref().map_or(0, exponent))
+        operation_cost::of_digits(function, BITS, self.0.as_ref().map_or(0, exponent))
     }
 
     fn from_rational(number: &Rational) -> Self {

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 
 use crate::sampled::sampled_count;
 
-use mms_program::block::{Blockwise, Plan, Prepared, Room, Rooms, Way};
+use mms_program::block::{BlockLayout, Blockwise, Plan, Prepared, Scratch, ScratchPool};
 use mms_program::interpret::{Interpreter, Point};
 use mms_program::{Instr, Op, Value};
 use mms_symbolic::expr::Stage;
@@ -151,13 +151,13 @@ const TIME: f64 = 0.37;
 /// All components of all outputs, point by point, in blocks.
 fn in_blocks<T: Blockwise>(
     prepared: &Prepared<T>,
-    room: &mut Room<T>,
+    scratch: &mut Scratch<T>,
     outputs: usize,
     points: &[Given<T>],
 ) -> Vec<Vec<T>> {
     let mut found = vec![Vec::new(); points.len()];
     prepared.run(
-        room,
+        scratch,
         T::from_f64(TIME),
         points.len(),
         &mut |start, inputs| {
@@ -205,7 +205,7 @@ fn agree<T: Blockwise>(found: &[Vec<T>], expected: &[Vec<T>], what: impl std::fm
     }
 }
 
-fn prepared<T: Blockwise>(plan: &Arc<Plan>, way: Way) -> Prepared<T> {
+fn prepared<T: Blockwise>(plan: &Arc<Plan>, way: BlockLayout) -> Prepared<T> {
     Prepared::new(plan.clone(), way, &PARAMETERS.map(T::from_f64))
 }
 
@@ -215,12 +215,13 @@ fn hold<T: Blockwise>(program: &Program, numbers: &[f64], count: usize) {
     let plan = Arc::new(plan_of(program, &outputs));
     let points = given::<T>(count, numbers);
     let expected = one_by_one(program, &outputs, &points);
-    let mut room = Room::default();
-    let mut run = |way: Way| in_blocks(&prepared(&plan, way), &mut room, outputs.len(), &points);
+    let mut scratch = Scratch::default();
+    let mut run =
+        |way: BlockLayout| in_blocks(&prepared(&plan, way), &mut scratch, outputs.len(), &points);
     let mut fused: Option<(Instructions, Vec<Vec<T>>)> = None;
     for instructions in Instructions::all() {
-        agree(&run(Way::portable_with(instructions)), &expected, instructions);
-        let found = run(Way::fused_with(instructions));
+        agree(&run(BlockLayout::portable_with(instructions)), &expected, instructions);
+        let found = run(BlockLayout::fused_with(instructions));
         match &fused {
             // Either no products are fused, or all are.
             _ if instructions == Instructions::BASELINE && !cfg!(target_arch = "aarch64") => {
@@ -284,21 +285,21 @@ fn of_positions(mut program: Program) -> Program {
 }
 
 /// Compares runs from stored values of points with runs from the start, at several times.
-fn hold_kept<T: Blockwise>(program: &Program, numbers: &[f64], count: usize) {
+fn validate_kept<T: Blockwise>(program: &Program, numbers: &[f64], count: usize) {
     let points: Vec<T> =
         given::<T>(count, numbers).iter().flat_map(|point| point.coordinates).collect();
     for output in [quantity(), Output::Expected(0), Output::Expected(1)] {
         let plan = Arc::new(plan_of(program, &[output]));
         let (prepared, components) =
-            (prepared::<T>(&plan, Way::portable()), program.outputs[&output].len());
-        let (mut room, zero) = (Room::default(), T::from_f64(0.0));
-        let kept = prepared.keep(&mut room, DIMENSION, &points);
+            (prepared::<T>(&plan, BlockLayout::portable()), program.outputs[&output].len());
+        let (mut scratch, zero) = (Scratch::default(), T::from_f64(0.0));
+        let kept = prepared.keep(&mut scratch, DIMENSION, &points);
         for time in [0.37, -2.0, 0.37] {
             let time = T::from_f64(time);
             let mut expected = vec![zero; count * components];
-            prepared.at_points(&mut room, time, DIMENSION, [&points, &[]], &mut expected);
+            prepared.at_points(&mut scratch, time, DIMENSION, [&points, &[]], &mut expected);
             let mut found = vec![zero; count * components];
-            prepared.at_kept(&mut room, time, (DIMENSION, &points, &kept), &mut found);
+            prepared.at_kept(&mut scratch, time, (DIMENSION, &points, &kept), &mut found);
             agree(&[found], &[expected], format!("{output:?}, {} kept", plan.kept()));
         }
     }
@@ -311,9 +312,9 @@ proptest! {
     fn what_is_kept_of_points_changes_no_bit(recipe in recipes(), count in 1_usize..300) {
         let program = of_positions(program(&recipe));
         for numbers in [&MILD[..], &WILD] {
-            hold_kept::<f64>(&program, numbers, count);
-            hold_kept::<f32>(&program, numbers, count);
-            hold_kept::<Double>(&program, numbers, count / 4 + 1);
+            validate_kept::<f64>(&program, numbers, count);
+            validate_kept::<f32>(&program, numbers, count);
+            validate_kept::<Double>(&program, numbers, count / 4 + 1);
         }
     }
 }
@@ -414,7 +415,7 @@ fn fused_products_round_once_or_twice_as_they_should() {
                 let plan = plan_of(&program, &[Output::Expected(0)]);
                 hold::<f64>(&program, &MILD, 40);
                 hold::<f32>(&program, &MILD, 40);
-                hold_to_one_rounding(&program, &Arc::new(plan));
+                validate_to_one_rounding(&program, &Arc::new(plan));
                 kinds += 1;
             }
         }
@@ -423,13 +424,13 @@ fn fused_products_round_once_or_twice_as_they_should() {
 }
 
 /// If products are fused, the result equals the sum in twice the digits: a product of two numbers is exact there.
-fn hold_to_one_rounding(program: &Program, plan: &Arc<Plan>) {
+fn validate_to_one_rounding(program: &Program, plan: &Arc<Plan>) {
     let points = given::<f64>(40, &MILD);
     let wide: Vec<_> = given::<Double>(40, &MILD);
     let expected = one_by_one(program, &[Output::Expected(0)], &wide);
     for instructions in Instructions::all().filter(|it| *it != Instructions::BASELINE) {
-        let prepared = prepared(plan, Way::fused_with(instructions));
-        let found = in_blocks(&prepared, &mut Room::default(), 1, &points);
+        let prepared = prepared(plan, BlockLayout::fused_with(instructions));
+        let found = in_blocks(&prepared, &mut Scratch::default(), 1, &points);
         for (found, expected) in found.iter().zip(&expected) {
             assert_eq!(found[0].to_bits(), expected[0].to_f64().to_bits());
         }
@@ -458,18 +459,18 @@ fn other_parameters_and_times_are_those_of_a_plan_made_anew() {
     let program = in_stage_order(ops, SortedMap::from([(outputs[0], results)]));
     let plan = Arc::new(plan_of(&program, &outputs));
     let points = given::<f64>(70, &MILD);
-    let mut changed = Prepared::new(plan.clone(), Way::portable(), &[0.2, 0.4]);
-    let mut room = Room::default();
-    let before = in_blocks(&changed, &mut room, outputs.len(), &points);
+    let mut changed = Prepared::new(plan.clone(), BlockLayout::portable(), &[0.2, 0.4]);
+    let mut scratch = Scratch::default();
+    let before = in_blocks(&changed, &mut scratch, outputs.len(), &points);
     changed.set(&PARAMETERS);
-    let after = in_blocks(&changed, &mut room, outputs.len(), &points);
+    let after = in_blocks(&changed, &mut scratch, outputs.len(), &points);
     assert_ne!(before, after);
     agree(&after, &one_by_one(&program, &outputs, &points), "parameters set again");
     let mut at = |time: f64| {
         let mut found = Vec::new();
         let point = &points[0];
         changed.run(
-            &mut room,
+            &mut scratch,
             time,
             1,
             &mut |_, inputs| inputs.columns().for_each(|(it, column)| column[0] = point.of(it)),
@@ -490,18 +491,19 @@ fn other_parameters_and_times_are_those_of_a_plan_made_anew() {
 fn threads_share_a_plan_and_its_parameters() {
     let program = everything();
     let outputs: Vec<Output> = program.outputs.keys().copied().collect();
-    let prepared = prepared::<f64>(&Arc::new(plan_of(&program, &outputs)), Way::fused());
+    let prepared = prepared::<f64>(&Arc::new(plan_of(&program, &outputs)), BlockLayout::fused());
     let points = given::<f64>(1000, &MILD);
-    let expected = in_blocks(&prepared, &mut Room::default(), outputs.len(), &points);
-    let rooms = Rooms::default();
+    let expected = in_blocks(&prepared, &mut Scratch::default(), outputs.len(), &points);
+    let pool = ScratchPool::default();
     std::thread::scope(|scope| {
         for thread in 0..8 {
-            let (prepared, rooms, points, expected) = (&prepared, &rooms, &points, &expected);
+            let (prepared, pool, points, expected) = (&prepared, &pool, &points, &expected);
             scope.spawn(move || {
                 for round in 0..20 {
                     // Whole blocks, so that the same blocks are computed again.
                     let from = f64::BLOCK * ((thread + round) % 8);
-                    let found = rooms.lend(|room| in_blocks(prepared, room, 3, &points[from..]));
+                    let found =
+                        pool.with(|scratch| in_blocks(prepared, scratch, 3, &points[from..]));
                     agree(&found, &expected[from..], thread);
                 }
             });
@@ -519,7 +521,12 @@ fn an_output_has_the_bits_that_it_has_alone_beside_others() {
     let outputs: Vec<Output> = program.outputs.keys().copied().collect();
     let found = |outputs: &[Output]| {
         let plan = Arc::new(plan_of(&program, outputs));
-        in_blocks(&prepared(&plan, Way::fused()), &mut Room::default(), outputs.len(), &points)
+        in_blocks(
+            &prepared(&plan, BlockLayout::fused()),
+            &mut Scratch::default(),
+            outputs.len(),
+            &points,
+        )
     };
     let together = found(&outputs);
     let alone: Vec<_> = outputs.iter().map(|output| found(&[*output])).collect();

@@ -3,9 +3,9 @@
 mod block;
 mod double;
 mod dual;
-mod fan;
 mod functions;
 mod interval;
+mod multi_dual;
 mod precise;
 #[path = "../../tests/support/sampled.rs"]
 mod sampled;

@@ -202,6 +202,6 @@ pub fn stretch<'a, T: Precision>(
 }
 
 /// An array of zeros to be filled.
-pub fn room<T: Element>(py: Python<'_>, shape: Vec<usize>) -> Bound<'_, PyArrayDyn<T>> {
+pub fn scratch<T: Element>(py: Python<'_>, shape: Vec<usize>) -> Bound<'_, PyArrayDyn<T>> {
     PyArrayDyn::<T>::zeros(py, shape, false)
 }

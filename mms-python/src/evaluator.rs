@@ -5,7 +5,9 @@ use std::sync::Arc;
 use std::thread;
 
 use mms_mechanics::{Output, Program};
-use mms_program::block::{Blockwise, Inputs, Kept, Outputs, Plan, Prepared, Room, Rooms, Way};
+use mms_program::block::{
+    BlockLayout, Blockwise, Inputs, Outputs, Plan, PointCache, Prepared, Scratch, ScratchPool,
+};
 use mms_symbolic::expr::Symbol;
 use numpy::Element;
 
@@ -42,7 +44,7 @@ precisions!(f32 f64);
 /// An output of a field for one set of parameters.
 pub struct Evaluator<T: Blockwise> {
     prepared: Prepared<T>,
-    rooms: Rooms<T>,
+    pool: ScratchPool<T>,
     /// The numbers of a result.
     components: usize,
 }
@@ -96,8 +98,8 @@ impl<T: Precision> Evaluator<T> {
     /// With the stages that parameters decide computed.
     pub fn new(program: &Program, output: Output, components: usize, parameters: &[T]) -> Self {
         let plan = Arc::new(Plan::new(program, &[output], Output::is_quantity));
-        let prepared = Prepared::new(plan, Way::portable(), parameters);
-        Evaluator { prepared, rooms: Rooms::default(), components }
+        let prepared = Prepared::new(plan, BlockLayout::portable(), parameters);
+        Evaluator { prepared, pool: ScratchPool::default(), components }
     }
 
     /// The numbers of a result.
@@ -109,7 +111,7 @@ impl<T: Precision> Evaluator<T> {
     pub fn fill(&self, time: T, places: Places<'_, T>, values: &mut [T]) -> Result<(), Odd> {
         let count = places.count;
         if count < MANY {
-            return self.rooms.lend(|room| self.share(room, time, places, values));
+            return self.pool.with(|scratch| self.share(scratch, time, places, values));
         }
         let threads = thread::available_parallelism().map_or(1, usize::from);
         let each = count.div_ceil(threads).next_multiple_of(SHARE);
@@ -117,9 +119,9 @@ impl<T: Precision> Evaluator<T> {
             let (mut places, mut values, mut spawned) = (places, values, Vec::new());
             while places.count > 0 {
                 let (own, others) = places.split_at(each);
-                let (room, rest) = values.split_at_mut(own.count * self.components);
+                let (scratch, rest) = values.split_at_mut(own.count * self.components);
                 (places, values) = (others, rest);
-                let work = move || self.rooms.lend(|it| self.share(it, time, own, room));
+                let work = move || self.pool.with(|it| self.share(it, time, own, scratch));
                 spawned.push(scope.spawn(work));
             }
             let found = spawned.into_iter().enumerate().try_for_each(|(at, thread)| {
@@ -135,7 +137,7 @@ impl<T: Precision> Evaluator<T> {
     /// Evaluates on this thread.
     fn share(
         &self,
-        room: &mut Room<T>,
+        scratch: &mut Scratch<T>,
         time: T,
         mut places: Places<'_, T>,
         mut values: &mut [T],
@@ -151,7 +153,7 @@ impl<T: Precision> Evaluator<T> {
                 }
             }
             let (found, rest) = values.split_at_mut(count * self.components);
-            self.evaluate(room, time, own, found);
+            self.evaluate(scratch, time, own, found);
             if let Some(at) = first_odd(found) {
                 return Err(Odd { index: start + at / self.components, is_given: false });
             }
@@ -160,10 +162,10 @@ impl<T: Precision> Evaluator<T> {
         Ok(())
     }
 
-    fn evaluate(&self, room: &mut Room<T>, time: T, places: Places<'_, T>, values: &mut [T]) {
+    fn evaluate(&self, scratch: &mut Scratch<T>, time: T, places: Places<'_, T>, values: &mut [T]) {
         let Places { count, dimension, points, normals, gradients, rows } = places;
         if gradients.is_empty() {
-            return self.prepared.at_points(room, time, dimension, [points, normals], values);
+            return self.prepared.at_points(scratch, time, dimension, [points, normals], values);
         }
         let mut bring = |start: usize, inputs: &mut Inputs<'_, T>| {
             for (symbol, column) in inputs.columns() {
@@ -183,12 +185,12 @@ impl<T: Precision> Evaluator<T> {
                 component.write(own[index..].iter_mut().step_by(components));
             }
         };
-        self.prepared.run(room, time, count, &mut bring, &mut take);
+        self.prepared.run(scratch, time, count, &mut bring, &mut take);
     }
 }
 
 /// The numbers of an output that X alone determines, share by share.
-pub struct KeptPoints<T: Blockwise>(Vec<Kept<T>>);
+pub struct KeptPoints<T: Blockwise>(Vec<PointCache<T>>);
 
 impl<T: Precision> Evaluator<T> {
     /// Keeps what X determines at points, for [`fill_kept`](Self::fill_kept); says where a coordinate is no number.
@@ -197,9 +199,10 @@ impl<T: Precision> Evaluator<T> {
             return Err(Odd { index: at / dimension, is_given: true });
         }
         let shares = points.chunks(SHARE * dimension);
-        let keep =
-            |room: &mut Room<T>| shares.map(|it| self.prepared.keep(room, dimension, it)).collect();
-        Ok(KeptPoints(self.rooms.lend(keep)))
+        let keep = |scratch: &mut Scratch<T>| {
+            shares.map(|it| self.prepared.keep(scratch, dimension, it)).collect()
+        };
+        Ok(KeptPoints(self.pool.with(keep)))
     }
 
     /// Fills `values` at the points from that one on, which is the first of a share; says where a number is none.
@@ -217,13 +220,13 @@ impl<T: Precision> Evaluator<T> {
         };
         let each = count.div_ceil(threads).next_multiple_of(SHARE);
         let work = |start: usize, values: &mut [T]| {
-            self.rooms.lend(|room| {
+            self.pool.with(|scratch| {
                 for (at, values) in values.chunks_mut(SHARE * self.components).enumerate() {
                     let start = start + at * SHARE;
                     let end = start + values.len() / self.components;
                     let points = &points[start * dimension..end * dimension];
                     let of = (dimension, points, &kept.0[start / SHARE]);
-                    self.prepared.at_kept(room, time, of, values);
+                    self.prepared.at_kept(scratch, time, of, values);
                     if let Some(at) = first_odd(values) {
                         let index = start + at / self.components;
                         return Err(Odd { index, is_given: false });

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use mms_emit::port::faces::claims;
 use mms_exact::gallery::FIELDS;
-use mms_exact::{Source, hold_division};
+use mms_exact::{Source, validate_division};
 use mms_files::write::write_whole;
 use mms_mechanics::extent::halton;
 use mms_mechanics::sample::domain;
@@ -174,7 +174,7 @@ impl Field {
         let (cells, per_cell) = (division("cells", cells)?, division("per_cell", per_cell)?);
         let setup = Setup { particles_per_cell: per_cell, ..Setup::default() };
         let made = py.detach(|| {
-            hold_division("cells", &cells, opened.dimension())?;
+            validate_division("cells", &cells, opened.dimension())?;
             let scene = opened.input.scene(&opened.arguments(), |code| code.double)?;
             Ok((scene.cell_size(&cells), scene.layout(&setup, &cells)?))
         });

@@ -9,7 +9,7 @@ use mms_spec::quantity::Quantity;
 use numpy::{PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 
-use crate::array::{Numbers, STRETCH, room};
+use crate::array::{Numbers, STRETCH, scratch};
 use crate::evaluator::{KeptPoints, Odd};
 use crate::opened::{Asked, Evaluated, Opened, Points};
 
@@ -73,7 +73,7 @@ fn filled<'py, T: Evaluated + Number + Blockwise>(
         }
     };
     let (time, count, components) = (T::near(asked.time), layout.count(), evaluator.components());
-    let result = room::<T>(py, layout.shape(asked.own));
+    let result = scratch::<T>(py, layout.shape(asked.own));
     let mut writable = result.readwrite();
     let values = writable.as_slice_mut()?;
     for start in (0..count).step_by(STRETCH) {

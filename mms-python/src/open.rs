@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use mms_codegen::Options;
 use mms_exact::{Input, Mistaken, Source, gallery};
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 use mms_spec::foreign::shown;
 use mms_spec::suggest::advice;
 use mms_symbolic::work::Stop;
@@ -40,10 +40,10 @@ pub fn file(path: &Path) -> PyResult<Source> {
         true => PyOSError::new_err(format!("{error:#}")),
         false => PyFileNotFoundError::new_err(format!("{error:#}")),
     };
-    let text = read::text(path, Kind::Field).map_err(unread)?;
+    let text = read::text(path, FileKind::Field).map_err(unread)?;
     let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
     Ok(Source::file(path.to_path_buf(), text, move |material| {
-        let text = read::text(&folder.join(material), Kind::Field);
+        let text = read::text(&folder.join(material), FileKind::Field);
         text.map_err(|error| error.root_cause().to_string())
     }))
 }

@@ -20,7 +20,7 @@ use mms_symbolic::sorted::SortedMap;
 use numpy::{PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-use crate::array::{Layout, Numbers, STRETCH, room, stretch};
+use crate::array::{Layout, Numbers, STRETCH, scratch, stretch};
 use crate::evaluator::{Evaluator, Odd, Places, Precision};
 use crate::mistake::{failure, mistake};
 
@@ -252,7 +252,7 @@ impl Opened {
         t: Option<f64>,
         work: impl FnOnce(&Asked<'_>) -> PyResult<R>,
     ) -> PyResult<R> {
-        self.compiled().hold_offered(quantity).map_err(mistake)?;
+        self.compiled().validate_offered(quantity).map_err(mistake)?;
         let own = self.axes(quantity.shape());
         let (output, time) = (Output::Quantity(quantity), self.time(t)?);
         work(&Asked { output, name: quantity.name(), own: &own, time })
@@ -315,7 +315,7 @@ impl Opened {
             None => None,
         };
         let (time, count) = (T::near(asked.time), layout.count());
-        let result = room::<T>(py, layout.shape(asked.own));
+        let result = scratch::<T>(py, layout.shape(asked.own));
         let mut writable = result.readwrite();
         let values = writable.as_slice_mut()?;
         for start in (0..count).step_by(STRETCH) {
@@ -432,7 +432,7 @@ impl<'a, 'py, T: Precision> At<'a, 'py, T> {
 
 /// A copy that lies in memory as it is read.
 fn copy<T: Evaluated>(array: &PyReadonlyArrayDyn<'_, T>) -> PyResult<Py<PyAny>> {
-    let copy = room::<T>(array.py(), array.shape().to_vec());
+    let copy = scratch::<T>(array.py(), array.shape().to_vec());
     array.copy_to(&copy)?;
     Ok(copy.into_any().unbind())
 }

@@ -2,9 +2,9 @@
 
 use mms_documents::provenance::Provenance;
 use mms_documents::verify::{ShownDefect, ShownRow, VerifyDefects};
-use mms_lab::pictures::{Check, Looks};
+use mms_lab::pictures::{Check, Visible};
 use mms_verify::defects::{Defect, Shown as RowUnder};
-use mms_verify::matrix::Row;
+use mms_verify::matrix::MatrixRow;
 
 use crate::shown::Shown;
 use crate::table::Table;
@@ -19,7 +19,7 @@ pub struct Showing<'a> {
     /// The rows, with it.
     pub rows: Vec<RowUnder<'a>>,
     /// The objections of plausibility checks to these runs, of checks that do not object to right runs as well.
-    pub looks: Looks,
+    pub looks: Visible,
 }
 
 impl<'a> Showing<'a> {
@@ -47,7 +47,7 @@ impl<'a> Showing<'a> {
 
     /// Rows that claim to catch it, and do not.
     fn missed(&self) -> impl Iterator<Item = &RowUnder<'a>> {
-        let claims = |row: &Row| row.catches.iter().any(|name| name == self.defect.name());
+        let claims = |row: &MatrixRow| row.catches.iter().any(|name| name == self.defect.name());
         self.rows.iter().filter(move |shown| claims(shown.row) && shown.judgement.as_expected())
     }
 }
@@ -55,7 +55,7 @@ impl<'a> Showing<'a> {
 /// Defects with their results.
 pub struct Report<'a> {
     /// The rows that were shown defects.
-    pub rows: Vec<&'a Row>,
+    pub rows: Vec<&'a MatrixRow>,
     /// The defects.
     pub showings: Vec<Showing<'a>>,
     /// Whether every defect was shown to every row.
@@ -70,18 +70,19 @@ impl<'a> Report<'a> {
     }
 
     /// Pairs of a row and a defect that it claims to catch, and does not.
-    fn missed(&self) -> impl Iterator<Item = (&'a Row, Defect)> {
+    fn missed(&self) -> impl Iterator<Item = (&'a MatrixRow, Defect)> {
         self.showings
             .iter()
             .flat_map(|showing| showing.missed().map(|shown| (shown.row, showing.defect)))
     }
 
     /// Rows that catch no defect that few others catch, and are not the witness of a property; only for the whole table.
-    fn idle(&self) -> Vec<&'a Row> {
-        let catches =
-            |row: &Row, showing: &&Showing| showing.caught().any(|it| it.row.name == row.name);
+    fn idle(&self) -> Vec<&'a MatrixRow> {
+        let catches = |row: &MatrixRow, showing: &&Showing| {
+            showing.caught().any(|it| it.row.name == row.name)
+        };
         let rare: Vec<_> = self.showings.iter().filter(|it| it.caught().count() <= FEW).collect();
-        let idle = |row: &&&Row| {
+        let idle = |row: &&&MatrixRow| {
             row.witness.is_none() && !rare.iter().any(|showing| catches(row, showing))
         };
         if self.whole { self.rows.iter().filter(idle).copied().collect() } else { Vec::new() }
@@ -187,8 +188,9 @@ impl Shown for Report<'_> {
     }
 
     fn document(&self) -> VerifyDefects {
-        let names = |rows: &[&Row]| rows.iter().map(|row| row.name.clone()).collect();
-        let missed = |(row, defect): (&Row, Defect)| [row.name.clone(), defect.name().to_owned()];
+        let names = |rows: &[&MatrixRow]| rows.iter().map(|row| row.name.clone()).collect();
+        let missed =
+            |(row, defect): (&MatrixRow, Defect)| [row.name.clone(), defect.name().to_owned()];
         VerifyDefects {
             rows: names(&self.rows),
             every_row: self.whole,
@@ -207,7 +209,7 @@ fn capitalised(text: &str) -> String {
 }
 
 /// The words for the answers of checks: an objection, no objection, or unknown.
-fn words(looks: Looks) -> [String; Check::ALL.len()] {
+fn words(looks: Visible) -> [String; Check::ALL.len()] {
     looks.0.map(|objects| match objects {
         Some(true) => "objects".to_owned(),
         Some(false) => "content".to_owned(),

@@ -2,7 +2,7 @@
 
 use mms_documents::extremes::{ExtremeRow, Extremes, StabilityLimit};
 use mms_documents::provenance::Provenance;
-use mms_lab::extremes::rows::Row;
+use mms_lab::extremes::rows::ExtremeSetting;
 use mms_lab::extremes::verdict::{Declared, Seen, Verdict, bound};
 use mms_options::method::Arithmetic;
 use mms_runtime::Method;
@@ -38,7 +38,7 @@ pub struct Report {
 /// A row with its result.
 pub struct Judged {
     /// The row.
-    pub row: Row,
+    pub row: ExtremeSetting,
     /// The extreme in words.
     pub setting: String,
     /// The result of the run.

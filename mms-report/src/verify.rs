@@ -7,7 +7,7 @@ use mms_files::words::duration;
 use mms_lab::outcome::Outcome;
 use mms_lab::rows::Named as _;
 use mms_options::Study;
-use mms_verify::matrix::Row;
+use mms_verify::matrix::MatrixRow;
 use mms_verify::verdict::Judgement;
 
 use crate::method::division;
@@ -29,7 +29,7 @@ pub struct Report<'a> {
 /// A row with its result.
 pub struct Judged<'a> {
     /// The row.
-    pub row: &'a Row,
+    pub row: &'a MatrixRow,
     /// The study of the row.
     pub study: Study,
     /// The levels, coarse to fine.
@@ -156,7 +156,7 @@ impl Shown for Report<'_> {
     fn text(&self) -> String {
         let mut text = format!("{}\n", self.table());
         for judged in self.unexpected() {
-            let Row { name, study, theory, .. } = judged.row;
+            let MatrixRow { name, study, theory, .. } = judged.row;
             let Judgement { verdict, expected, reason, .. } = &judged.judgement;
             let reason = reason.as_deref().unwrap_or_default();
             text += &format!(
@@ -189,7 +189,7 @@ impl Shown for Report<'_> {
 /// The rows of the matrix before they are run.
 pub struct List<'a> {
     /// The rows.
-    pub rows: &'a [&'a Row],
+    pub rows: &'a [&'a MatrixRow],
     /// Whether `--quick` was given.
     pub quick: bool,
 }
@@ -199,7 +199,7 @@ impl Shown for List<'_> {
 
     fn text(&self) -> String {
         let lines = self.rows.iter().map(|row| {
-            let Row { name, study, order, theory, .. } = row;
+            let MatrixRow { name, study, order, theory, .. } = row;
             format!("{name}: order {order}; {theory}\n  mms study {study}\n")
         });
         lines.collect()
@@ -248,7 +248,7 @@ not shrink, or that the run stops; `exact` means that rounding is the only error
 ";
 
 /// The cells of a line of the page that follow from the row alone.
-fn fixed(row: &Row) -> String {
+fn fixed(row: &MatrixRow) -> String {
     let mode = row.name.split('/').nth(1).unwrap_or_default();
     let refined = match row.halvings {
         0 => String::from("h and dt"),

@@ -187,7 +187,7 @@ impl Meaning {
                 format!("`{}` has {rows} rows, and `{}` {}", self.source, other.name, other.rows());
             return Err(Mistake::new(what).of(&snapshot.path));
         }
-        self.hold_flat(snapshot, dimension)?;
+        self.validate_flat(snapshot, dimension)?;
         let numbers = gathered(snapshot, &columns, rows);
         let is_of_cells = matches!(first.place, Place::Cells(_));
         let largest = match is_of_cells {
@@ -202,7 +202,7 @@ impl Meaning {
                 false => here(snapshot, row, what),
             }
         })?;
-        self.hold_rows(snapshot, &numbers, dimension)
+        self.validate_rows(snapshot, &numbers, dimension)
             .map_err(|mistake| mistake.of(&snapshot.path))?;
         let stored = columns.iter().flatten().map(|it| of(it).stored).reduce(Stored::coarser);
         let stored = stored.unwrap_or(Stored::Double).at_first(&numbers);
@@ -409,7 +409,7 @@ impl Meaning {
 
     /// Refuses four numbers of a symmetric tensor in a plane that cannot be 11, 12, 21, 22, because 12 differs from 21; or that
     /// are no likelier to be these than 11, 22, 33, 12.
-    fn hold_rows(
+    fn validate_rows(
         &self,
         snapshot: &Snapshot,
         numbers: &[f64],
@@ -443,7 +443,7 @@ impl Meaning {
     }
 
     /// Refuses a vector with more components than the field has, unless the others are 0 everywhere up to roundoff.
-    fn hold_flat(&self, snapshot: &Snapshot, dimension: usize) -> Result<(), Mistake> {
+    fn validate_flat(&self, snapshot: &Snapshot, dimension: usize) -> Result<(), Mistake> {
         let from = self.least_number();
         let is_beyond = |part: &Part| matches!(part, Part::Nth(at) if *at >= dimension + from);
         let beyond = self.columns.iter().filter(|(part, _)| is_beyond(part));

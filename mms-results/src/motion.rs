@@ -77,14 +77,14 @@ pub fn resolve<'a>(
     if turns {
         return known.turning(outside);
     }
-    known.hold_rows().map_err(|mistake| mistake.of(&snapshot.path))?;
+    known.validate_rows().map_err(|mistake| mistake.of(&snapshot.path))?;
     known.is_called_x &= known.reference.is_some();
     let given = (known.reference.take(), known.displacement.take());
     let motion =
         known.motion(given, outside, back).map_err(|mistake| mistake.of(&snapshot.path))?;
-    known.hold_agreement(&motion)?;
+    known.validate_agreement(&motion)?;
     if !motion.is_inverse {
-        hold_inside(snapshot, &motion, outside)?;
+        validate_inside(snapshot, &motion, outside)?;
     }
     Ok(motion)
 }
@@ -114,7 +114,7 @@ const STEPS: f64 = 1e-6;
 const TRIED: usize = 64;
 
 impl<'a> Known<'a> {
-    fn hold_rows(&self) -> Result<(), Mistake> {
+    fn validate_rows(&self) -> Result<(), Mistake> {
         let all = [&self.reference, &self.position, &self.place, &self.displacement];
         if all.into_iter().flatten().any(|it| it.is_of_cells) {
             return Err(Mistake::new(
@@ -150,7 +150,7 @@ impl<'a> Known<'a> {
         let what = "X is not known: give R and Z, for points of the body move along the hoop";
         let (x, how) = found.ok_or_else(|| Mistake::new(what).of(path))?;
         let motion = motion(x, self.displacement, how);
-        hold_inside(snapshot, &motion, outside)?;
+        validate_inside(snapshot, &motion, outside)?;
         Ok(motion)
     }
 
@@ -320,7 +320,7 @@ impl<'a> Known<'a> {
     }
 
     /// Refuses an x that is not X + u, and places of another name that are neither X nor x.
-    fn hold_agreement(&self, motion: &Motion<'_>) -> Result<(), Mistake> {
+    fn validate_agreement(&self, motion: &Motion<'_>) -> Result<(), Mistake> {
         let Some(u) = &motion.displacement else { return Ok(()) };
         if self.position.is_none() && self.place.is_none() {
             return Ok(());
@@ -387,7 +387,7 @@ fn stray(reference: &Values<'_>, outside: &dyn Body) -> Option<(usize, f64)> {
     points.map(|(at, point)| (at, outside.distance(point))).find(|(_, distance)| *distance > most)
 }
 
-fn hold_inside(
+fn validate_inside(
     snapshot: &Snapshot,
     motion: &Motion<'_>,
     outside: &dyn Body,
@@ -440,7 +440,7 @@ fn digest(point: &[f64]) -> u32 {
 ///
 /// # Errors
 /// The second point, with the first.
-pub fn hold_distinct(snapshot: &Snapshot, reference: &Values<'_>) -> Result<(), Mistake> {
+pub fn validate_distinct(snapshot: &Snapshot, reference: &Values<'_>) -> Result<(), Mistake> {
     let point = |at: usize| &reference.numbers[at * reference.components..][..reference.components];
     let mut order = suspects(reference);
     let compare = |&a: &usize, &b: &usize| {

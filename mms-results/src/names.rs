@@ -181,7 +181,7 @@ pub fn recognise(
             continue;
         }
         let is_wanted = |role: Role| wants(role) && !named.contains(&role);
-        hold_clear(snapshot, names, (place, array), &named, &is_wanted)
+        validate_clear(snapshot, names, (place, array), &named, &is_wanted)
             .map_err(|mistake| mistake.of(&snapshot.path))?;
         let understood = understand(names, place, array).filter(|it| is_wanted(it.role));
         let Some(understood) = understood else { continue };
@@ -254,7 +254,7 @@ fn add(
 ///
 /// # Errors
 /// A name that neither the file nor the user resolves.
-fn hold_clear(
+fn validate_clear(
     snapshot: &Snapshot,
     names: &Names,
     (place, array): (Place, &Array),

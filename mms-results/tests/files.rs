@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use mms_results::cell::Shape;
-use mms_results::motion::{Motion, hold_distinct, resolve};
+use mms_results::motion::{Motion, resolve, validate_distinct};
 use mms_results::names::{KNOWN, Mapping, Names, Role, everything, recognise, wanted};
 use mms_results::{Contents, Mistake, Snapshot, Stored, parse, read};
 use proptest::prelude::*;
@@ -271,8 +271,8 @@ fn mistakes_name_their_lines() {
     let said = |text: &str| {
         let mut snapshot = table(text);
         snapshot.path = "file".into();
-        let found =
-            motion(&snapshot, &[]).and_then(|motion| hold_distinct(&snapshot, &motion.reference));
+        let found = motion(&snapshot, &[])
+            .and_then(|motion| validate_distinct(&snapshot, &motion.reference));
         found.unwrap_err().to_string()
     };
     let far = said("X,Y,ux,uy\n0,0,0,0\n1.25,0,0,0\n");

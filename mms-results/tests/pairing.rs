@@ -1,6 +1,6 @@
 //! Points and cells of two results in different orders.
 
-use mms_results::motion::hold_distinct;
+use mms_results::motion::validate_distinct;
 use mms_results::names::KNOWN;
 use mms_results::names::Values;
 use mms_results::pairing::{By, Pairs, cells, points};
@@ -156,10 +156,10 @@ fn two_points_in_one_place_are_found_among_many() {
     let mut numbers: Vec<f64> =
         (0..count).flat_map(|at| [(at % 500) as f64, (at / 500) as f64]).collect();
     let all = snapshot("a", Vec::new());
-    assert_eq!(hold_distinct(&all, &values(numbers.clone())), Ok(()));
+    assert_eq!(validate_distinct(&all, &values(numbers.clone())), Ok(()));
     // The first point again, in the middle.
     numbers[200_000..200_002].copy_from_slice(&[-0.0, 0.0]);
-    let said = hold_distinct(&all, &values(numbers)).unwrap_err().to_string();
+    let said = validate_distinct(&all, &values(numbers)).unwrap_err().to_string();
     assert!(
         said.contains("a: point 100000: X = [-0.0, 0.0] is where another point is: a: point 0"),
         "{said}"

@@ -21,7 +21,7 @@
 //! The axis is a wall that constrains its normal component: u_R = 0 there. No traction acts along it, for it has no area.
 
 use crate::body::Filling;
-use crate::column::{BUNCH, Bunches, Column, Matrices};
+use crate::column::{Column, Matrices, PACK, Packs};
 use crate::defect::{Defect, on};
 use crate::field::{Face, ManufacturedField};
 use crate::material::Axisymmetric;
@@ -45,15 +45,15 @@ pub fn kirchhoff_stress<T: Real, const D: usize, F>(
         return field.kirchhoff_stress(time, reference, displacement_gradient, stress);
     };
     let points: Column<Vector<T, D>> = reference.iter().copied().collect();
-    let gradients: Bunches<Matrices<T, D>> = displacement_gradient.iter().copied().collect();
+    let gradients: Packs<Matrices<T, D>> = displacement_gradient.iter().copied().collect();
     let strains: Column<T> = hoop_strain.iter().copied().collect();
-    let (mut meridian, mut hoop): (Bunches<Matrices<T, D>>, Column<T>) =
+    let (mut meridian, mut hoop): (Packs<Matrices<T, D>>, Column<T>) =
         (gradients.clone(), strains.clone());
-    axisymmetric.kirchhoff_stress_of_bunches(
+    axisymmetric.kirchhoff_stress_of_packs(
         time,
-        points.bunches(),
-        (gradients.bunches(), strains.bunches()),
-        (meridian.bunches_mut(), hoop.bunches_mut()),
+        points.packs(),
+        (gradients.packs(), strains.packs()),
+        (meridian.packs_mut(), hoop.packs_mut()),
     );
     stress.iter_mut().zip(meridian.iter()).for_each(|(to, from)| *to = from);
     hoop_stress.copy_from_slice(&hoop);
@@ -124,20 +124,20 @@ pub fn hoop_stretch<T: Real>(hoop_strain: &[T], particle: usize) -> T {
     hoop_strain.get(particle).map_or(T::one(), |&strain| T::one() + strain)
 }
 
-/// The entries of a bunch of tensors of the meridian, column by column, and then the entry around the axis.
-pub type Ring<T> = [[T; BUNCH]; 5];
+/// The entries of a pack of tensors of the meridian, column by column, and then the entry around the axis.
+pub type Ring<T> = [[T; PACK]; 5];
 
-/// How many bunches are evaluated together.
+/// How many packs are evaluated together.
 const TOGETHER: usize = 32;
 
-/// Evaluates a material that reads and writes [`Ring`]s, for some bunches of particles.
+/// Evaluates a material that reads and writes [`Ring`]s, for some packs of particles.
 pub fn by_rings<T: Real>(
-    reference: &[[Vector<T, 2>; BUNCH]],
-    (displacement_gradient, hoop_strain): (&[Matrices<T, 2>], &[[T; BUNCH]]),
-    (stress, hoop_stress): (&mut [Matrices<T, 2>], &mut [[T; BUNCH]]),
-    evaluate: impl Fn(&[[Vector<T, 2>; BUNCH]], &[Ring<T>], &mut [Ring<T>]),
+    reference: &[[Vector<T, 2>; PACK]],
+    (displacement_gradient, hoop_strain): (&[Matrices<T, 2>], &[[T; PACK]]),
+    (stress, hoop_stress): (&mut [Matrices<T, 2>], &mut [[T; PACK]]),
+    evaluate: impl Fn(&[[Vector<T, 2>; PACK]], &[Ring<T>], &mut [Ring<T>]),
 ) {
-    let [mut strains, mut stresses] = [[[[T::zero(); BUNCH]; 5]; TOGETHER]; 2];
+    let [mut strains, mut stresses] = [[[[T::zero(); PACK]; 5]; TOGETHER]; 2];
     for start in (0..reference.len()).step_by(TOGETHER) {
         let some = start..reference.len().min(start + TOGETHER);
         let (strains, stresses) = (&mut strains[..some.len()], &mut stresses[..some.len()]);
@@ -155,19 +155,19 @@ pub fn by_rings<T: Real>(
 }
 
 /// Computes the Kirchhoff stress in the meridian at the field's own hoop strains: the
-/// [`Material::kirchhoff_stress_of_bunches`](crate::Material::kirchhoff_stress_of_bunches) of an axisymmetric field.
+/// [`Material::kirchhoff_stress_of_packs`](crate::Material::kirchhoff_stress_of_packs) of an axisymmetric field.
 pub fn stress_at_own_strain<T: Real, const D: usize>(
     field: &(impl Axisymmetric<T, D> + ?Sized),
     time: T,
-    reference: &[[Vector<T, D>; BUNCH]],
+    reference: &[[Vector<T, D>; PACK]],
     displacement_gradient: &[Matrices<T, D>],
     stress: &mut [Matrices<T, D>],
 ) {
-    let mut strains = vec![[T::zero(); BUNCH]; reference.len()];
+    let mut strains = vec![[T::zero(); PACK]; reference.len()];
     field.hoop_strain(time, reference.as_flattened(), strains.as_flattened_mut());
     let mut unread = strains.clone();
     let strains = (displacement_gradient, &strains[..]);
-    field.kirchhoff_stress_of_bunches(time, reference, strains, (stress, &mut unread));
+    field.kirchhoff_stress_of_packs(time, reference, strains, (stress, &mut unread));
 }
 
 /// Computes the strain energy at the field's own hoop strains: the

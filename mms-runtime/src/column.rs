@@ -1,44 +1,44 @@
-//! Arrays of particles, grouped in bunches of [`BUNCH`] (array of structures of arrays).
+//! Arrays of particles, grouped in packs of [`PACK`] (array of structures of arrays).
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
-use mms_math::bunched::Numbers;
+use mms_math::packed::Numbers;
 
 use crate::real::{Matrix, Real, Vector};
 
-/// The number of particles in a bunch.
-pub const BUNCH: usize = 8;
+/// The number of particles in a pack.
+pub const PACK: usize = 8;
 
-/// The number of particles in each half of a bunch.
-pub const HALF: usize = BUNCH / 2;
+/// The number of particles in each half of a pack.
+pub const HALF: usize = PACK / 2;
 
-/// An array with an entry for every particle. Copies of the last entry pad the last bunch, so that loops process all bunches
+/// An array with an entry for every particle. Copies of the last entry pad the last pack, so that loops process all packs
 /// alike.
 #[derive(Clone, Debug, Default)]
 pub struct Column<V> {
-    /// The entries, padded to whole bunches.
+    /// The entries, padded to whole packs.
     entries: Vec<V>,
     len: usize,
 }
 
 impl<V: Copy> Column<V> {
-    /// The entries, bunch by bunch.
-    pub(crate) fn bunches(&self) -> &[[V; BUNCH]] {
+    /// The entries, pack by pack.
+    pub(crate) fn packs(&self) -> &[[V; PACK]] {
         self.entries.as_chunks().0
     }
 
-    /// The entries, bunch by bunch. The caller has to change the padding like the last particle's entry.
-    pub(crate) fn bunches_mut(&mut self) -> &mut [[V; BUNCH]] {
+    /// The entries, pack by pack. The caller has to change the padding like the last particle's entry.
+    pub(crate) fn packs_mut(&mut self) -> &mut [[V; PACK]] {
         self.entries.as_chunks_mut().0
     }
 
-    /// Pads the last bunch with copies of the last entry again.
+    /// Pads the last pack with copies of the last entry again.
     pub(crate) fn fill_up(&mut self) {
         let last = self.last().copied();
         self.entries.truncate(self.len);
         if let Some(last) = last {
-            self.entries.resize(self.len.next_multiple_of(BUNCH), last);
+            self.entries.resize(self.len.next_multiple_of(PACK), last);
         }
     }
 }
@@ -80,12 +80,12 @@ impl<'a, V> IntoIterator for &'a Column<V> {
     }
 }
 
-/// The data of a bunch of particles: for each component, the values of all particles are adjacent.
-pub trait Bunch: Copy + fmt::Debug + Send + Sync {
+/// The data of a pack of particles: for each component, the values of all particles are adjacent.
+pub trait Pack: Copy + fmt::Debug + Send + Sync {
     /// The data of one particle.
     type One: Copy;
 
-    /// A bunch whose particles all have the same data.
+    /// A pack whose particles all have the same data.
     fn alike(one: &Self::One) -> Self;
 
     /// Reads the data of one particle.
@@ -95,17 +95,17 @@ pub trait Bunch: Copy + fmt::Debug + Send + Sync {
     fn set(&mut self, particle: usize, one: &Self::One);
 }
 
-/// The vectors of a bunch: for each of the `D` components, the values of all particles are adjacent. Aligned to cache lines,
-/// since a load that crosses a line takes twice as long; bunches in single precision may therefore be padded.
+/// The vectors of a pack: for each of the `D` components, the values of all particles are adjacent. Aligned to cache lines,
+/// since a load that crosses a line takes twice as long; packs in single precision may therefore be padded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct Vectors<T, const D: usize>(pub [[T; BUNCH]; D]);
+pub struct Vectors<T, const D: usize>(pub [[T; PACK]; D]);
 
-impl<T: Real, const D: usize> Bunch for Vectors<T, D> {
+impl<T: Real, const D: usize> Pack for Vectors<T, D> {
     type One = Vector<T, D>;
 
     fn alike(one: &Vector<T, D>) -> Self {
-        Self(std::array::from_fn(|i| [one[i]; BUNCH]))
+        Self(std::array::from_fn(|i| [one[i]; PACK]))
     }
 
     fn get(&self, particle: usize) -> Vector<T, D> {
@@ -117,23 +117,23 @@ impl<T: Real, const D: usize> Bunch for Vectors<T, D> {
     }
 }
 
-/// The matrices of a bunch, by columns: entry (i, j) of all particles is `.0[j][i]`. Padded as [`Vectors`] are.
+/// The matrices of a pack, by columns: entry (i, j) of all particles is `.0[j][i]`. Padded as [`Vectors`] are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct Matrices<T, const D: usize>(pub [[[T; BUNCH]; D]; D]);
+pub struct Matrices<T, const D: usize>(pub [[[T; PACK]; D]; D]);
 
 impl<T: Real, const D: usize> Matrices<T, D> {
     /// Zero.
     pub fn zeros() -> Self {
-        Self([[[T::zero(); BUNCH]; D]; D])
+        Self([[[T::zero(); PACK]; D]; D])
     }
 }
 
-impl<T: Real, const D: usize> Bunch for Matrices<T, D> {
+impl<T: Real, const D: usize> Pack for Matrices<T, D> {
     type One = Matrix<T, D>;
 
     fn alike(one: &Matrix<T, D>) -> Self {
-        Self(std::array::from_fn(|j| std::array::from_fn(|i| [one[(i, j)]; BUNCH])))
+        Self(std::array::from_fn(|j| std::array::from_fn(|i| [one[(i, j)]; PACK])))
     }
 
     fn get(&self, particle: usize) -> Matrix<T, D> {
@@ -149,7 +149,7 @@ impl<T: Real, const D: usize> Bunch for Matrices<T, D> {
     }
 }
 
-impl Bunch for () {
+impl Pack for () {
     type One = ();
 
     fn alike((): &()) {}
@@ -163,13 +163,13 @@ macro_rules! numbers {
     ($($dimension:literal $entries:literal),*) => {
         $(impl<T: Real> Numbers<T, $entries> for Matrices<T, $dimension> {
             #[inline(always)]
-            fn numbers(&self) -> [&[T; BUNCH]; $entries] {
+            fn numbers(&self) -> [&[T; PACK]; $entries] {
                 let entries = self.0.as_flattened().first_chunk();
                 entries.expect("as many entries").each_ref()
             }
 
             #[inline(always)]
-            fn numbers_mut(&mut self) -> [&mut [T; BUNCH]; $entries] {
+            fn numbers_mut(&mut self) -> [&mut [T; PACK]; $entries] {
                 let entries = self.0.as_flattened_mut().first_chunk_mut();
                 entries.expect("as many entries").each_mut()
             }
@@ -179,14 +179,14 @@ macro_rules! numbers {
 
 numbers!(1 1, 2 4, 3 9);
 
-/// An array of [`Bunch`]es with an entry for every particle. As in a [`Column`], the last bunch is full.
+/// An array of [`Pack`]es with an entry for every particle. As in a [`Column`], the last pack is full.
 #[derive(Clone, Debug)]
-pub struct Bunches<B> {
-    bunches: Vec<B>,
+pub struct Packs<B> {
+    packs: Vec<B>,
     len: usize,
 }
 
-impl<B: Bunch> Bunches<B> {
+impl<B: Pack> Packs<B> {
     /// How many entries there are.
     pub fn len(&self) -> usize {
         self.len
@@ -203,7 +203,7 @@ impl<B: Bunch> Bunches<B> {
     /// If there is no such particle.
     pub fn get(&self, particle: usize) -> B::One {
         assert!(particle < self.len, "a particle that there is not");
-        self.bunches[particle / BUNCH].get(particle % BUNCH)
+        self.packs[particle / PACK].get(particle % PACK)
     }
 
     /// The entries of all particles, one after the other.
@@ -213,45 +213,45 @@ impl<B: Bunch> Bunches<B> {
 
     /// The number of bytes per particle.
     pub fn bytes(&self) -> usize {
-        if self.is_empty() { 0 } else { size_of::<B>() / BUNCH }
+        if self.is_empty() { 0 } else { size_of::<B>() / PACK }
     }
 
-    /// The bunches.
-    pub(crate) fn bunches(&self) -> &[B] {
-        &self.bunches
+    /// The packs.
+    pub(crate) fn packs(&self) -> &[B] {
+        &self.packs
     }
 
-    /// The bunches. The caller has to change the padding like the last particle's entry.
-    pub(crate) fn bunches_mut(&mut self) -> &mut [B] {
-        &mut self.bunches
+    /// The packs. The caller has to change the padding like the last particle's entry.
+    pub(crate) fn packs_mut(&mut self) -> &mut [B] {
+        &mut self.packs
     }
 
     /// Exchanges the entries of two particles.
     pub(crate) fn swap(&mut self, a: usize, b: usize) {
         let (first, second) = (self.get(a), self.get(b));
-        self.bunches[a / BUNCH].set(a % BUNCH, &second);
-        self.bunches[b / BUNCH].set(b % BUNCH, &first);
+        self.packs[a / PACK].set(a % PACK, &second);
+        self.packs[b / PACK].set(b % PACK, &first);
     }
 
-    /// Pads the last bunch with copies of the last entry again.
+    /// Pads the last pack with copies of the last entry again.
     pub(crate) fn fill_up(&mut self) {
         if let Some(last) = self.len.checked_sub(1) {
             let entry = self.get(last);
-            for k in last % BUNCH + 1..BUNCH {
-                self.bunches[last / BUNCH].set(k, &entry);
+            for k in last % PACK + 1..PACK {
+                self.packs[last / PACK].set(k, &entry);
             }
         }
     }
 }
 
-impl<B: Bunch> FromIterator<B::One> for Bunches<B> {
+impl<B: Pack> FromIterator<B::One> for Packs<B> {
     fn from_iter<I: IntoIterator<Item = B::One>>(entries: I) -> Self {
-        let mut all = Self { bunches: Vec::new(), len: 0 };
+        let mut all = Self { packs: Vec::new(), len: 0 };
         for entry in entries {
-            match all.len % BUNCH {
-                0 => all.bunches.push(B::alike(&entry)),
-                // Pads the rest of the bunch, in case no entry follows.
-                k => (k..BUNCH).for_each(|k| all.bunches[all.len / BUNCH].set(k, &entry)),
+            match all.len % PACK {
+                0 => all.packs.push(B::alike(&entry)),
+                // Pads the rest of the pack, in case no entry follows.
+                k => (k..PACK).for_each(|k| all.packs[all.len / PACK].set(k, &entry)),
             }
             all.len += 1;
         }
@@ -261,29 +261,29 @@ impl<B: Bunch> FromIterator<B::One> for Bunches<B> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bunches, Column, Matrices};
+    use super::{Column, Matrices, Packs};
     use crate::real::Matrix;
 
     #[test]
     fn the_last_entry_stands_in_for_those_that_there_are_not() {
         let mut column = Column::from((0..10).collect::<Vec<_>>());
-        assert_eq!(column.bunches(), [[0, 1, 2, 3, 4, 5, 6, 7], [8, 9, 9, 9, 9, 9, 9, 9]]);
+        assert_eq!(column.packs(), [[0, 1, 2, 3, 4, 5, 6, 7], [8, 9, 9, 9, 9, 9, 9, 9]]);
         column.swap(0, 9);
         column.fill_up();
-        assert_eq!(column.bunches(), [[9, 1, 2, 3, 4, 5, 6, 7], [8, 0, 0, 0, 0, 0, 0, 0]]);
+        assert_eq!(column.packs(), [[9, 1, 2, 3, 4, 5, 6, 7], [8, 0, 0, 0, 0, 0, 0, 0]]);
         assert_eq!(*column, [9, 1, 2, 3, 4, 5, 6, 7, 8, 0]);
-        assert!(Column::<i32>::default().bunches().is_empty());
+        assert!(Column::<i32>::default().packs().is_empty());
     }
 
     #[test]
     fn matrices_are_kept_entry_by_entry() {
         let matrix = |p: usize| Matrix::<f64, 2>::new(0.0, 1.0, 2.0, 3.0) * (1.0 + p as f64);
-        let mut column: Bunches<Matrices<_, 2>> = (0..10).map(matrix).collect();
-        assert_eq!(column.bunches()[0].0[1][0], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
-        assert_eq!(column.bunches()[1].0[0][1], [18.0, 20.0, 20.0, 20.0, 20.0, 20.0, 20.0, 20.0]);
+        let mut column: Packs<Matrices<_, 2>> = (0..10).map(matrix).collect();
+        assert_eq!(column.packs()[0].0[1][0], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+        assert_eq!(column.packs()[1].0[0][1], [18.0, 20.0, 20.0, 20.0, 20.0, 20.0, 20.0, 20.0]);
         column.swap(0, 9);
         column.fill_up();
-        assert_eq!(column.bunches()[1].0[0][1], [18.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0]);
+        assert_eq!(column.packs()[1].0[0][1], [18.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0]);
         let order = [9, 1, 2, 3, 4, 5, 6, 7, 8, 0].map(matrix);
         assert!(column.iter().eq(order));
     }

@@ -15,10 +15,10 @@
 //! and the weights w/r of the strain around the axis are the averages above over r_m. A ring that would cross the axis ends
 //! there.
 
-use mms_math::machine::{Machine, Plain};
+use mms_math::simd::{Plain, Simd};
 use nalgebra::ComplexField;
 
-use crate::column::BUNCH;
+use crate::column::PACK;
 use crate::column::{Matrices, Vectors};
 use crate::defect::{Defect, on};
 use crate::failure::Cause;
@@ -48,37 +48,36 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     }
 
     #[inline(always)]
-    fn place<T: Real, M: Machine<T>, const D: usize>(
-        machine: M,
+    fn place<T: Real, M: Simd<T>, const D: usize>(
+        simd: M,
         stencil: &mut Tensor<T, D>,
         lattice: &Lattice<T, D>,
         position: &[M::Eight; D],
         initial: &Vectors<T, D>,
         displacement_gradient: &Matrices<T, D>,
     ) -> Result<(), Cause> {
-        let mut half_width = components(machine, initial);
+        let mut half_width = components(simd, initial);
         if FOLLOWS && !on(Defect::HalfWidthKept) {
-            let mut f = columns(machine, displacement_gradient);
+            let mut f = columns(simd, displacement_gradient);
             for a in 0..D {
-                f[a][a] = machine.plus(f[a][a], machine.splat(T::one()));
+                f[a][a] = simd.plus(f[a][a], simd.splat(T::one()));
             }
-            let stretch = stretches(machine, &f);
+            let stretch = stretches(simd, &f);
             for a in 0..D {
-                half_width[a] = machine.times(half_width[a], stretch[a]);
+                half_width[a] = simd.times(half_width[a], stretch[a]);
             }
         }
         let mut middle = *position;
         if D == 2 && lattice.is_meridian {
-            (middle[0], half_width[0]) = ring(machine, position[0], half_width[0]);
+            (middle[0], half_width[0]) = ring(simd, position[0], half_width[0]);
         }
         let position = &middle;
         let mut in_cells = half_width;
         for a in 0..D {
-            in_cells[a] = machine.times(in_cells[a], machine.splat(lattice.per_length[a]));
+            in_cells[a] = simd.times(in_cells[a], simd.splat(lattice.per_length[a]));
         }
-        if !machine.all_between(&in_cells, &[[T::default_epsilon(), T::ratio(1, 2)]; D]) {
-            let [position, half_width] =
-                [vectors(machine, *position), vectors(machine, half_width)];
+        if !simd.all_between(&in_cells, &[[T::default_epsilon(), T::ratio(1, 2)]; D]) {
+            let [position, half_width] = [vectors(simd, *position), vectors(simd, half_width)];
             if FOLLOWS && !half_width.0.as_flattened().iter().all(|l| l.is_finite()) {
                 return Err(Cause::FlatDomain);
             }
@@ -89,28 +88,28 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
         stencil.begin::<NEAREST>(lattice, if short { Known::Nothing } else { Known::Regular });
         let mut first = in_cells;
         for a in 0..D {
-            let cells = lattice.cells_along(machine, a, position[a]);
+            let cells = lattice.cells_along(simd, a, position[a]);
             let mut weights;
-            (first[a], weights) = around_nearest(machine, cells, in_cells[a]);
+            (first[a], weights) = around_nearest(simd, cells, in_cells[a]);
             if D == 2 && a == 0 && lattice.is_meridian {
-                let radius = machine.times(position[0], machine.splat(lattice.per_length[0]));
-                let moments = moments_around_nearest(machine, cells, in_cells[0]);
+                let radius = simd.times(position[0], simd.splat(lattice.per_length[0]));
+                let moments = moments_around_nearest(simd, cells, in_cells[0]);
                 let flat = weights;
-                revolve(machine, &mut weights, moments, radius);
-                stencil.set_around(machine, position[0], Some(flat[0]));
+                revolve(simd, &mut weights, moments, radius);
+                stencil.set_around(simd, position[0], Some(flat[0]));
             }
             if short {
-                weights.iter_mut().for_each(|weights| weights[2] = machine.splat(T::zero()));
+                weights.iter_mut().for_each(|weights| weights[2] = simd.splat(T::zero()));
             }
-            stencil.set(machine, lattice, a, first[a], weights);
+            stencil.set(simd, lattice, a, first[a], weights);
         }
         // NaN is on no grid.
         let last = T::of(NEAREST as f64);
         let on_grid = std::array::from_fn(|a| [T::zero(), lattice.nodes[a] - last]);
-        if machine.all_between(&first, &on_grid) {
+        if simd.all_between(&first, &on_grid) {
             Ok(())
         } else {
-            Err(lost(&vectors(machine, *position)))
+            Err(lost(&vectors(simd, *position)))
         }
     }
 
@@ -131,19 +130,19 @@ fn place_wide<T: Real, const D: usize>(
     half_width: &Vectors<T, D>,
 ) -> Result<(), Cause> {
     // This function is not inlined into a loop and so cannot use the loop's better instructions.
-    let machine = T::PlainMachine::from(Plain);
+    let simd = T::PlainMachine::from(Plain);
     stencil.begin::<MOST>(lattice, Known::Regular);
     let mut fits = true;
     for a in 0..D {
-        let cells = machine.numbers(lattice.cells_along(machine, a, machine.eight(&position.0[a])));
+        let cells = simd.numbers(lattice.cells_along(simd, a, simd.eight(&position.0[a])));
         let h = lattice.cell_size[a];
         // A particle with fewer nodes may be near the last one.
         let last = lattice.nodes[a] - T::one();
         let last_first = lattice.nodes[a] - T::of(MOST as f64);
-        let mut first = [T::zero(); BUNCH];
-        let [mut weights, mut slopes] = [[[T::zero(); BUNCH]; MOST]; 2];
-        let mut moments = [[[T::zero(); BUNCH]; MOST]; 2];
-        for p in 0..BUNCH {
+        let mut first = [T::zero(); PACK];
+        let [mut weights, mut slopes] = [[[T::zero(); PACK]; MOST]; 2];
+        let mut moments = [[[T::zero(); PACK]; MOST]; 2];
+        for p in 0..PACK {
             let l = half_width.0[a][p];
             if !(l > T::zero() && l < h) {
                 let (half_width, cell_size) = (l.to_f64(), h.to_f64());
@@ -160,15 +159,15 @@ fn place_wide<T: Real, const D: usize>(
                 }
             }
         }
-        let mut all = [weights, slopes].map(|all| all.map(|along| machine.eight(&along)));
+        let mut all = [weights, slopes].map(|all| all.map(|along| simd.eight(&along)));
         if D == 2 && a == 0 && lattice.is_meridian {
-            let radius = machine.eight(&position.0[0]);
-            stencil.set_around(machine, radius, Some(all[0]));
-            let radius = machine.times(radius, machine.splat(lattice.per_length[0]));
-            let moments = moments.map(|all| all.map(|along| machine.eight(&along)));
-            revolve(machine, &mut all, moments, radius);
+            let radius = simd.eight(&position.0[0]);
+            stencil.set_around(simd, radius, Some(all[0]));
+            let radius = simd.times(radius, simd.splat(lattice.per_length[0]));
+            let moments = moments.map(|all| all.map(|along| simd.eight(&along)));
+            revolve(simd, &mut all, moments, radius);
         }
-        stencil.set(machine, lattice, a, machine.eight(&first), all);
+        stencil.set(simd, lattice, a, simd.eight(&first), all);
     }
     if fits { Ok(()) } else { Err(lost(position)) }
 }
@@ -189,52 +188,52 @@ fn half_widths<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, 
 /// cell: they reach no further than from the nearest node to its neighbours. Computes them without a branch and with one
 /// division. Also returns the first node.
 #[inline(always)]
-fn around_nearest<T: Real, M: Machine<T>>(
-    machine: M,
+fn around_nearest<T: Real, M: Simd<T>>(
+    simd: M,
     position: M::Eight,
     half_width: M::Eight,
 ) -> (M::Eight, [[M::Eight; NEAREST]; 2]) {
-    let halves = |count: i32| machine.splat(T::ratio(count, 2));
+    let halves = |count: i32| simd.splat(T::ratio(count, 2));
     let (zero, half, one) = (halves(0), halves(1), halves(2));
-    let nearest = machine.floor(machine.plus(position, half));
-    let offset = machine.minus(position, nearest);
-    let [before, after] = [machine.minus(zero, half_width), half_width];
+    let nearest = simd.floor(simd.plus(position, half));
+    let offset = simd.minus(position, nearest);
+    let [before, after] = [simd.minus(zero, half_width), half_width];
     // The domain has the length `right` beyond the nearest node, and `left` before it.
-    let inside = machine.least(machine.greatest(offset, before), after);
-    let (right, left) = (machine.plus(half_width, inside), machine.minus(half_width, inside));
-    let per_width = machine.over(half, half_width);
-    let (rise, fall) = (machine.times(right, per_width), machine.times(left, per_width));
-    let beyond = machine.greatest(machine.minus(offset, after), zero);
-    let short = machine.greatest(machine.minus(before, offset), zero);
-    let above = machine.times_plus(machine.times(half, right), rise, beyond);
-    let below = machine.times_plus(machine.times(half, left), fall, short);
-    let middle = machine.minus(machine.minus(one, below), above);
-    let slopes = [machine.minus(zero, fall), machine.minus(fall, rise), rise];
-    (machine.minus(nearest, one), [[below, middle, above], slopes])
+    let inside = simd.least(simd.greatest(offset, before), after);
+    let (right, left) = (simd.plus(half_width, inside), simd.minus(half_width, inside));
+    let per_width = simd.over(half, half_width);
+    let (rise, fall) = (simd.times(right, per_width), simd.times(left, per_width));
+    let beyond = simd.greatest(simd.minus(offset, after), zero);
+    let short = simd.greatest(simd.minus(before, offset), zero);
+    let above = simd.times_plus(simd.times(half, right), rise, beyond);
+    let below = simd.times_plus(simd.times(half, left), fall, short);
+    let middle = simd.minus(simd.minus(one, below), above);
+    let slopes = [simd.minus(zero, fall), simd.minus(fall, rise), rise];
+    (simd.minus(nearest, one), [[below, middle, above], slopes])
 }
 
 /// The middle and the half width, along R, of a box of the meridian whose ring has its centroid at `position`. A ring that
 /// would cross the axis is shortened to end there.
 #[inline(always)]
-fn ring<T: Real, M: Machine<T>>(
-    machine: M,
+fn ring<T: Real, M: Simd<T>>(
+    simd: M,
     position: M::Eight,
     half_width: M::Eight,
 ) -> (M::Eight, M::Eight) {
-    let widest = machine.times(machine.splat(T::ratio(3, 4)), position);
-    let half_width = machine.least(half_width, widest);
-    let square = machine.times(half_width, half_width);
+    let widest = simd.times(simd.splat(T::ratio(3, 4)), position);
+    let half_width = simd.least(half_width, widest);
+    let square = simd.times(half_width, half_width);
     // The larger root of r_m^2 - r_p r_m + l^2/3 = 0.
-    let part = machine.times(machine.splat(T::ratio(4, 3)), square);
-    let apart = machine.root(machine.minus(machine.times(position, position), part));
-    let middle = machine.times(machine.splat(T::ratio(1, 2)), machine.plus(position, apart));
+    let part = simd.times(simd.splat(T::ratio(4, 3)), square);
+    let apart = simd.root(simd.minus(simd.times(position, position), part));
+    let middle = simd.times(simd.splat(T::ratio(1, 2)), simd.plus(position, apart));
     (middle, half_width)
 }
 
 /// Adds the first moments over the radius, in cells, to weights and slopes.
 #[inline(always)]
-fn revolve<T: Real, M: Machine<T>, const W: usize>(
-    machine: M,
+fn revolve<T: Real, M: Simd<T>, const W: usize>(
+    simd: M,
     weights: &mut [[M::Eight; W]; 2],
     moments: [[M::Eight; W]; 2],
     radius: M::Eight,
@@ -242,37 +241,37 @@ fn revolve<T: Real, M: Machine<T>, const W: usize>(
     if on(Defect::FlatWeights) {
         return;
     }
-    let per_radius = machine.over(machine.splat(T::one()), radius);
+    let per_radius = simd.over(simd.splat(T::one()), radius);
     for s in 0..2 {
         for k in 0..W {
-            weights[s][k] = machine.times_plus(moments[s][k], per_radius, weights[s][k]);
+            weights[s][k] = simd.times_plus(moments[s][k], per_radius, weights[s][k]);
         }
     }
 }
 
 /// The averages of (x - position) times hat functions, and times their slopes, over the domains of [`around_nearest`].
 #[inline(always)]
-fn moments_around_nearest<T: Real, M: Machine<T>>(
-    machine: M,
+fn moments_around_nearest<T: Real, M: Simd<T>>(
+    simd: M,
     position: M::Eight,
     half_width: M::Eight,
 ) -> [[M::Eight; NEAREST]; 2] {
-    let halves = |count: i32| machine.splat(T::ratio(count, 2));
+    let halves = |count: i32| simd.splat(T::ratio(count, 2));
     let (zero, half) = (halves(0), halves(1));
-    let nearest = machine.floor(machine.plus(position, half));
-    let offset = machine.minus(position, nearest);
-    let before = machine.minus(zero, half_width);
-    let inside = machine.least(machine.greatest(offset, before), half_width);
-    let (right, left) = (machine.plus(half_width, inside), machine.minus(half_width, inside));
-    let per_width = machine.over(half, half_width);
-    let beyond = machine.minus(half_width, machine.times(half, right));
-    let above = moments_of_part(machine, [right, beyond], offset, per_width);
-    let short = machine.minus(machine.times(half, left), half_width);
-    let below = moments_of_part(machine, [left, short], offset, per_width);
+    let nearest = simd.floor(simd.plus(position, half));
+    let offset = simd.minus(position, nearest);
+    let before = simd.minus(zero, half_width);
+    let inside = simd.least(simd.greatest(offset, before), half_width);
+    let (right, left) = (simd.plus(half_width, inside), simd.minus(half_width, inside));
+    let per_width = simd.over(half, half_width);
+    let beyond = simd.minus(half_width, simd.times(half, right));
+    let above = moments_of_part(simd, [right, beyond], offset, per_width);
+    let short = simd.minus(simd.times(half, left), half_width);
+    let below = moments_of_part(simd, [left, short], offset, per_width);
     let mut moments = [[zero; NEAREST]; 2];
     for s in 0..2 {
-        let falling = machine.minus(zero, below[s]);
-        moments[s] = [falling, machine.minus(below[s], above[s]), above[s]];
+        let falling = simd.minus(zero, below[s]);
+        moments[s] = [falling, simd.minus(below[s], above[s]), above[s]];
     }
     moments
 }
@@ -280,17 +279,17 @@ fn moments_around_nearest<T: Real, M: Machine<T>>(
 /// The averages of (x - offset) x and of x - offset over a part of a domain. `length` is the part's length, `apart` the
 /// distance from the domain's middle `offset` to the part's middle.
 #[inline(always)]
-fn moments_of_part<T: Real, M: Machine<T>>(
-    machine: M,
+fn moments_of_part<T: Real, M: Simd<T>>(
+    simd: M,
     [length, apart]: [M::Eight; 2],
     offset: M::Eight,
     per_width: M::Eight,
 ) -> [M::Eight; 2] {
-    let share = machine.times(length, per_width);
-    let variance = machine.times(machine.splat(T::ratio(1, 12)), machine.times(length, length));
-    let middle = machine.plus(offset, apart);
-    let product = machine.times_plus(middle, apart, variance);
-    [machine.times(share, product), machine.times(share, apart)]
+    let share = simd.times(length, per_width);
+    let variance = simd.times(simd.splat(T::ratio(1, 12)), simd.times(length, length));
+    let middle = simd.plus(offset, apart);
+    let product = simd.times_plus(middle, apart, variance);
+    [simd.times(share, product), simd.times(share, apart)]
 }
 
 /// The averages of (x - offset) times the hat 1 - |x|, and times its slope, over the domain of [`average_of_hat`].

@@ -1,117 +1,117 @@
-//! Vectors and matrices of a bunch of particles, component by component: a particle in each lane.
+//! Vectors and matrices of a pack of particles, component by component: a particle in each lane.
 
 use bytemuck::cast_slice;
-use mms_math::machine::Machine;
+use mms_math::simd::Simd;
 use mms_math::structures::take_columns;
 
-use crate::column::BUNCH;
+use crate::column::PACK;
 use crate::column::{Matrices, Vectors};
 use crate::real::{Real, Vector};
 
-/// Transposes a bunch of vectors that are stored one after the other into components.
+/// Transposes a pack of vectors that are stored one after the other into components.
 #[inline(always)]
-pub fn turned<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    vectors: &[Vector<T, D>; BUNCH],
+pub fn turned<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
+    vectors: &[Vector<T, D>; PACK],
 ) -> [M::Eight; D] {
-    let mut components = [machine.splat(T::zero()); D];
-    take_columns(machine, cast_slice(vectors), &mut components);
+    let mut components = [simd.splat(T::zero()); D];
+    take_columns(simd, cast_slice(vectors), &mut components);
     components
 }
 
-/// Loads the components of the vectors of a bunch.
+/// Loads the components of the vectors of a pack.
 #[inline(always)]
-pub fn components<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+pub fn components<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     vectors: &Vectors<T, D>,
 ) -> [M::Eight; D] {
-    let mut components = [machine.splat(T::zero()); D];
+    let mut components = [simd.splat(T::zero()); D];
     for i in 0..D {
-        components[i] = machine.eight(&vectors.0[i]);
+        components[i] = simd.eight(&vectors.0[i]);
     }
     components
 }
 
-/// Computes the components of the positions X + d of a bunch; of X if nothing `moves`.
+/// Computes the components of the positions X + d of a pack; of X if nothing `moves`.
 #[inline(always)]
-pub fn positions<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    reference: &[Vector<T, D>; BUNCH],
+pub fn positions<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
+    reference: &[Vector<T, D>; PACK],
     displacement: &Vectors<T, D>,
     moves: bool,
 ) -> [M::Eight; D] {
-    let mut positions = turned(machine, reference);
+    let mut positions = turned(simd, reference);
     if moves {
-        let apart = components(machine, displacement);
+        let apart = components(simd, displacement);
         for a in 0..D {
-            positions[a] = machine.plus(positions[a], apart[a]);
+            positions[a] = simd.plus(positions[a], apart[a]);
         }
     }
     positions
 }
 
-/// Stores components in the vectors of a bunch.
+/// Stores components in the vectors of a pack.
 #[inline(always)]
-pub fn set_components<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+pub fn set_components<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     vectors: &mut Vectors<T, D>,
     components: [M::Eight; D],
 ) {
     for i in 0..D {
-        vectors.0[i] = machine.numbers(components[i]);
+        vectors.0[i] = simd.numbers(components[i]);
     }
 }
 
 /// Stores components as vectors of numbers, for rare cases, which are handled in functions that are not inlined.
 #[inline(always)]
-pub fn vectors<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+pub fn vectors<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     components: [M::Eight; D],
 ) -> Vectors<T, D> {
-    let mut vectors = Vectors([[T::zero(); BUNCH]; D]);
-    set_components(machine, &mut vectors, components);
+    let mut vectors = Vectors([[T::zero(); PACK]; D]);
+    set_components(simd, &mut vectors, components);
     vectors
 }
 
-/// Loads the matrices of a bunch, column by column.
+/// Loads the matrices of a pack, column by column.
 #[inline(always)]
-pub fn columns<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+pub fn columns<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     matrices: &Matrices<T, D>,
 ) -> [[M::Eight; D]; D] {
-    let mut columns = [[machine.splat(T::zero()); D]; D];
+    let mut columns = [[simd.splat(T::zero()); D]; D];
     for j in 0..D {
         for i in 0..D {
-            columns[j][i] = machine.eight(&matrices.0[j][i]);
+            columns[j][i] = simd.eight(&matrices.0[j][i]);
         }
     }
     columns
 }
 
-/// Stores columns in the matrices of a bunch.
+/// Stores columns in the matrices of a pack.
 #[inline(always)]
-pub fn set_columns<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+pub fn set_columns<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     matrices: &mut Matrices<T, D>,
     columns: [[M::Eight; D]; D],
 ) {
     for j in 0..D {
         for i in 0..D {
-            matrices.0[j][i] = machine.numbers(columns[j][i]);
+            matrices.0[j][i] = simd.numbers(columns[j][i]);
         }
     }
 }
 
 /// Multiplies each matrix with these columns by its own number.
 #[inline(always)]
-pub fn scaled<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+pub fn scaled<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     mut columns: [[M::Eight; D]; D],
     factor: M::Eight,
 ) -> [[M::Eight; D]; D] {
     for j in 0..D {
         for i in 0..D {
-            columns[j][i] = machine.times(columns[j][i], factor);
+            columns[j][i] = simd.times(columns[j][i], factor);
         }
     }
     columns
@@ -119,33 +119,33 @@ pub fn scaled<T: Real, M: Machine<T>, const D: usize>(
 
 /// The determinants of matrices with these columns; D = 1, 2, 3.
 #[inline(always)]
-pub fn determinants<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+pub fn determinants<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     columns: &[[M::Eight; D]; D],
 ) -> M::Eight {
-    dot(machine, &columns[0], &cofactors(machine, columns)[0])
+    dot(simd, &columns[0], &cofactors(simd, columns)[0])
 }
 
 /// The columns of the cofactor matrices, J F^-T for F; D = 1, 2, 3.
 #[inline(always)]
-pub fn cofactors<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+pub fn cofactors<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     columns: &[[M::Eight; D]; D],
 ) -> [[M::Eight; D]; D] {
     const { assert!(D >= 1 && D <= 3, "one to three dimensions") };
-    let mut cofactors = [[machine.splat(T::one()); D]; D];
+    let mut cofactors = [[simd.splat(T::one()); D]; D];
     let f = |i: usize, j: usize| columns[j % D][i % D];
     for j in 0..D {
         for i in 0..D {
             if D == 2 {
                 let other = f(i + 1, j + 1);
-                let negative = machine.minus(machine.splat(T::zero()), other);
+                let negative = simd.minus(simd.splat(T::zero()), other);
                 cofactors[j][i] = if i == j { other } else { negative };
             }
             if D == 3 {
-                let product = machine.times(f(i + 2, j + 1), f(i + 1, j + 2));
-                let other = machine.times(f(i + 1, j + 1), f(i + 2, j + 2));
-                cofactors[j][i] = machine.minus(other, product);
+                let product = simd.times(f(i + 2, j + 1), f(i + 1, j + 2));
+                let other = simd.times(f(i + 1, j + 1), f(i + 2, j + 2));
+                cofactors[j][i] = simd.minus(other, product);
             }
         }
     }
@@ -154,14 +154,14 @@ pub fn cofactors<T: Real, M: Machine<T>, const D: usize>(
 
 /// a . b.
 #[inline(always)]
-fn dot<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+fn dot<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     a: &[M::Eight; D],
     b: &[M::Eight; D],
 ) -> M::Eight {
-    let mut sum = machine.times(a[0], b[0]);
+    let mut sum = simd.times(a[0], b[0]);
     for i in 1..D {
-        sum = machine.times_plus(a[i], b[i], sum);
+        sum = simd.times_plus(a[i], b[i], sum);
     }
     sum
 }
@@ -176,61 +176,61 @@ const POLAR_ITERATIONS: usize = 20;
 /// round-off, that is used: the stretches of eight diagonal F are exact. Otherwise R is the limit of (R + R^-T)/2 from R = F
 /// (Higham, "Computing the polar decomposition, with applications", SIAM J. Sci. Stat. Comput. 7 (1986)).
 #[inline(always)]
-pub fn stretches<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+pub fn stretches<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     f: &[[M::Eight; D]; D],
 ) -> [M::Eight; D] {
-    let round_off = machine.splat(T::default_epsilon());
-    let mut stretches = [machine.splat(T::zero()); D];
+    let round_off = simd.splat(T::default_epsilon());
+    let mut stretches = [simd.splat(T::zero()); D];
     let mut straight = true;
     for a in 0..D {
-        stretches[a] = dot(machine, &f[a], &f[a]);
+        stretches[a] = dot(simd, &f[a], &f[a]);
         for b in 0..a {
-            let aside = dot(machine, &f[a], &f[b]);
-            let squares = machine.times(stretches[a], stretches[b]);
-            let aside = machine.times(aside, aside);
-            straight &= machine.all_at_most(aside, machine.times(round_off, squares));
+            let aside = dot(simd, &f[a], &f[b]);
+            let squares = simd.times(stretches[a], stretches[b]);
+            let aside = simd.times(aside, aside);
+            straight &= simd.all_at_most(aside, simd.times(round_off, squares));
         }
     }
     if straight {
         for a in 0..D {
-            stretches[a] = machine.root(stretches[a]);
+            stretches[a] = simd.root(stretches[a]);
         }
         return stretches;
     }
     let mut rotation = *f;
     for _ in 0..POLAR_ITERATIONS {
-        let inverse = cofactors(machine, &rotation);
-        let twice = dot(machine, &rotation[0], &inverse[0]);
-        let half = machine.splat(T::ratio(1, 2));
-        let per_twice = machine.over(half, twice);
-        let mut change = machine.splat(T::zero());
+        let inverse = cofactors(simd, &rotation);
+        let twice = dot(simd, &rotation[0], &inverse[0]);
+        let half = simd.splat(T::ratio(1, 2));
+        let per_twice = simd.over(half, twice);
+        let mut change = simd.splat(T::zero());
         for j in 0..D {
             for i in 0..D {
-                let next = machine.times(half, rotation[j][i]);
-                let next = machine.times_plus(inverse[j][i], per_twice, next);
-                let apart = machine.minus(next, rotation[j][i]);
-                change = machine.greatest(change, machine.times(apart, apart));
+                let next = simd.times(half, rotation[j][i]);
+                let next = simd.times_plus(inverse[j][i], per_twice, next);
+                let apart = simd.minus(next, rotation[j][i]);
+                change = simd.greatest(change, simd.times(apart, apart));
                 rotation[j][i] = next;
             }
         }
         // The remaining error is the square of the change.
-        if machine.all_at_most(change, round_off) {
+        if simd.all_at_most(change, round_off) {
             break;
         }
     }
     for a in 0..D {
-        stretches[a] = dot(machine, &rotation[a], &f[a]);
+        stretches[a] = dot(simd, &rotation[a], &f[a]);
     }
     stretches
 }
 
 #[cfg(test)]
 mod tests {
-    use mms_math::machine::Plain;
+    use mms_math::simd::Plain;
 
     use super::{columns, stretches};
-    use crate::column::{Bunch as _, Matrices};
+    use crate::column::{Matrices, Pack as _};
     use crate::real::{Matrix, Vector};
     use crate::tensor::deformation_gradient;
 

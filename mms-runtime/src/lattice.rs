@@ -4,7 +4,7 @@
 //! and p more. Node `j` is at the mean of the p inner knots of its spline (Greville 1967), so that
 //! sum_i w_i x_i = x. For degree 1 these are the knots themselves.
 
-use mms_math::machine::{Machine, Plain};
+use mms_math::simd::{Plain, Simd};
 
 use crate::failure::Refusal;
 use crate::failure::at_most;
@@ -125,26 +125,21 @@ impl<T: Real, const D: usize> Lattice<T, D> {
 
     /// A position in cells from the first knot, within the period if there is one.
     pub fn in_cells(&self, position: &Vector<T, D>) -> Vector<T, D> {
-        let machine = T::PlainMachine::from(Plain);
-        let along = |a: usize| self.cells_along(machine, a, machine.splat(position[a]));
-        Vector::from_fn(|a, _| machine.numbers(along(a))[0])
+        let simd = T::PlainMachine::from(Plain);
+        let along = |a: usize| self.cells_along(simd, a, simd.splat(position[a]));
+        Vector::from_fn(|a, _| simd.numbers(along(a))[0])
     }
 
-    /// Converts coordinates of a bunch of particles along one axis to cells, as [`in_cells`](Lattice::in_cells) does.
+    /// Converts coordinates of a pack of particles along one axis to cells, as [`in_cells`](Lattice::in_cells) does.
     #[inline(always)]
-    pub fn cells_along<M: Machine<T>>(
-        &self,
-        machine: M,
-        axis: usize,
-        position: M::Eight,
-    ) -> M::Eight {
-        let from_lower = machine.minus(position, machine.splat(self.lower[axis]));
-        let cells = machine.times(from_lower, machine.splat(self.per_length[axis]));
+    pub fn cells_along<M: Simd<T>>(&self, simd: M, axis: usize, position: M::Eight) -> M::Eight {
+        let from_lower = simd.minus(position, simd.splat(self.lower[axis]));
+        let cells = simd.times(from_lower, simd.splat(self.per_length[axis]));
         let Some(period) = self.period[axis] else { return cells };
-        let period = machine.splat(period);
-        let start = machine.splat(T::of(self.axes[axis].body[0]));
-        let periods = machine.floor(machine.over(machine.minus(cells, start), period));
-        machine.minus(cells, machine.times(periods, period))
+        let period = simd.splat(period);
+        let start = simd.splat(T::of(self.axes[axis].body[0]));
+        let periods = simd.floor(simd.over(simd.minus(cells, start), period));
+        simd.minus(cells, simd.times(periods, period))
     }
 
     /// The node on the lower (`false`) or upper face of the body along an axis; `None` unless the face lies on a knot and

@@ -17,9 +17,9 @@
 //! | `axisymmetric` | bodies of revolution: rings, hoop strain, hoop stress |
 //! | `body` | bodies filled with particles: boxes, annuli and sectors, Cartesian or fitted; the pieces of faces that particles carry; jitter |
 //! | `lattice` | positions of nodes: cells of any edge lengths, offset, period, knots |
-//! | `stencil`, `shape` | the nodes of a bunch with w and grad w; the sums between particles and nodes |
-//! | `particle`, `column` | the particles' arrays, grouped in bunches |
-//! | `lanes` | vectors and tensors of a bunch, a particle in each lane |
+//! | `stencil`, `shape` | the nodes of a pack with w and grad w; the sums between particles and nodes |
+//! | `particle`, `column` | the particles' arrays, grouped in packs |
+//! | `lanes` | vectors and tensors of a pack, a particle in each lane |
 //! | `spline`, `gimp` | B-splines of any degree on knots that may end; averages of hat functions |
 //! | `nodal`, `grid` | four numbers of a node, windows of nodes; the nodes |
 //! | `formulation` | updated: tau, weights that follow x, dF/dt = L F. Total: P, weights at X |

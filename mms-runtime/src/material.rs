@@ -1,7 +1,7 @@
 //! The constitutive response of a field's material.
 
-use crate::column::BUNCH;
-use crate::column::{Bunch as _, Matrices};
+use crate::column::PACK;
+use crate::column::{Matrices, Pack as _};
 use crate::real::{Matrix, Real, Vector};
 
 /// The constitutive response that the forcing was derived with.
@@ -43,27 +43,27 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
         stress: &mut [Matrix<T, D>],
     );
 
-    /// [`kirchhoff_stress`](Material::kirchhoff_stress) of whole bunches of particles, whose matrices are stored entry by
+    /// [`kirchhoff_stress`](Material::kirchhoff_stress) of whole packs of particles, whose matrices are stored entry by
     /// entry. Solvers call it in every step. A material that wraps another one should forward this method too, otherwise
     /// matrices are transposed twice.
-    fn kirchhoff_stress_of_bunches(
+    fn kirchhoff_stress_of_packs(
         &self,
         time: T,
-        reference: &[[Vector<T, D>; BUNCH]],
+        reference: &[[Vector<T, D>; PACK]],
         displacement_gradient: &[Matrices<T, D>],
         stress: &mut [Matrices<T, D>],
     ) {
         let parts = reference.chunks(TOGETHER).zip(displacement_gradient.chunks(TOGETHER));
         for ((reference, h), stress) in parts.zip(stress.chunks_mut(TOGETHER)) {
-            let count = BUNCH * h.len();
-            let [mut gradients, mut stresses] = [[Matrix::zeros(); TOGETHER * BUNCH]; 2];
+            let count = PACK * h.len();
+            let [mut gradients, mut stresses] = [[Matrix::zeros(); TOGETHER * PACK]; 2];
             for (k, gradient) in gradients[..count].iter_mut().enumerate() {
-                *gradient = h[k / BUNCH].get(k % BUNCH);
+                *gradient = h[k / PACK].get(k % PACK);
             }
             let found = &mut stresses[..count];
             self.kirchhoff_stress(time, reference.as_flattened(), &gradients[..count], found);
             for (k, found) in found.iter().enumerate() {
-                stress[k / BUNCH].set(k % BUNCH, found);
+                stress[k / PACK].set(k % PACK, found);
             }
         }
     }
@@ -86,13 +86,13 @@ pub trait Axisymmetric<T: Real, const D: usize>: Send + Sync {
     /// u_R/R; its limit on the axis.
     fn hoop_strain(&self, time: T, reference: &[Vector<T, D>], out: &mut [T]);
 
-    /// The Kirchhoff stress of whole bunches of particles, in the meridian and around the axis.
-    fn kirchhoff_stress_of_bunches(
+    /// The Kirchhoff stress of whole packs of particles, in the meridian and around the axis.
+    fn kirchhoff_stress_of_packs(
         &self,
         time: T,
-        reference: &[[Vector<T, D>; BUNCH]],
-        strains: (&[Matrices<T, D>], &[[T; BUNCH]]),
-        stresses: (&mut [Matrices<T, D>], &mut [[T; BUNCH]]),
+        reference: &[[Vector<T, D>; PACK]],
+        strains: (&[Matrices<T, D>], &[[T; PACK]]),
+        stresses: (&mut [Matrices<T, D>], &mut [[T; PACK]]),
     );
 
     /// The volume per radian of a ring over the area of its box in the meridian, whose middle has this radius: that radius
@@ -111,15 +111,15 @@ pub trait Axisymmetric<T: Real, const D: usize>: Send + Sync {
     ) -> bool;
 }
 
-/// How many bunches are evaluated together.
+/// How many packs are evaluated together.
 const TOGETHER: usize = 32;
 
-/// Computes [`Material::kirchhoff_stress`] by [`Material::kirchhoff_stress_of_bunches`], for materials that implement the
+/// Computes [`Material::kirchhoff_stress`] by [`Material::kirchhoff_stress_of_packs`], for materials that implement the
 /// latter.
 ///
 /// # Panics
 /// If the slices have different lengths.
-pub fn by_bunches<T: Real, M: Material<T, D> + ?Sized, const D: usize>(
+pub fn by_packs<T: Real, M: Material<T, D> + ?Sized, const D: usize>(
     material: &M,
     time: T,
     reference: &[Vector<T, D>],
@@ -128,34 +128,34 @@ pub fn by_bunches<T: Real, M: Material<T, D> + ?Sized, const D: usize>(
 ) {
     assert_eq!(reference.len(), stress.len(), "a reference position for each stress");
     assert_eq!(displacement_gradient.len(), stress.len(), "H for each stress");
-    let parts = reference.chunks(TOGETHER * BUNCH);
-    let parts = parts.zip(displacement_gradient.chunks(TOGETHER * BUNCH));
-    for ((x, h), stress) in parts.zip(stress.chunks_mut(TOGETHER * BUNCH)) {
-        let mut points = [[x[0]; BUNCH]; TOGETHER];
+    let parts = reference.chunks(TOGETHER * PACK);
+    let parts = parts.zip(displacement_gradient.chunks(TOGETHER * PACK));
+    for ((x, h), stress) in parts.zip(stress.chunks_mut(TOGETHER * PACK)) {
+        let mut points = [[x[0]; PACK]; TOGETHER];
         points.as_flattened_mut()[..x.len()].copy_from_slice(x);
         let mut gradients = [Matrices::zeros(); TOGETHER];
         for (k, h) in h.iter().enumerate() {
-            gradients[k / BUNCH].set(k % BUNCH, h);
+            gradients[k / PACK].set(k % PACK, h);
         }
         let mut stresses = [Matrices::zeros(); TOGETHER];
-        let bunches = x.len().div_ceil(BUNCH);
-        material.kirchhoff_stress_of_bunches(
+        let packs = x.len().div_ceil(PACK);
+        material.kirchhoff_stress_of_packs(
             time,
-            &points[..bunches],
-            &gradients[..bunches],
-            &mut stresses[..bunches],
+            &points[..packs],
+            &gradients[..packs],
+            &mut stresses[..packs],
         );
         for (k, stress) in stress.iter_mut().enumerate() {
-            *stress = stresses[k / BUNCH].get(k % BUNCH);
+            *stress = stresses[k / PACK].get(k % PACK);
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Material, by_bunches};
-    use crate::column::BUNCH;
-    use crate::column::{Bunch as _, Bunches, Matrices};
+    use super::{Material, by_packs};
+    use crate::column::PACK;
+    use crate::column::{Matrices, Pack as _, Packs};
     use crate::real::{Matrix, Vector};
 
     /// A stress that depends on H and on X.
@@ -182,10 +182,10 @@ mod tests {
         }
     }
 
-    /// A material that computes bunches only.
-    struct OfBunches;
+    /// A material that computes packs only.
+    struct OfPacks;
 
-    impl Material<f64, 2> for OfBunches {
+    impl Material<f64, 2> for OfPacks {
         fn density(&self, _: &[Vector<f64, 2>], _: &mut [f64]) {}
         fn wave_speed(&self, _: &[Vector<f64, 2>], _: &mut [f64]) {}
         fn kirchhoff_stress(
@@ -195,17 +195,17 @@ mod tests {
             displacement_gradient: &[Matrix<f64, 2>],
             out: &mut [Matrix<f64, 2>],
         ) {
-            by_bunches(self, time, reference, displacement_gradient, out);
+            by_packs(self, time, reference, displacement_gradient, out);
         }
-        fn kirchhoff_stress_of_bunches(
+        fn kirchhoff_stress_of_packs(
             &self,
             _: f64,
-            reference: &[[Vector<f64, 2>; BUNCH]],
+            reference: &[[Vector<f64, 2>; PACK]],
             displacement_gradient: &[Matrices<f64, 2>],
             out: &mut [Matrices<f64, 2>],
         ) {
             for (b, out) in out.iter_mut().enumerate() {
-                for k in 0..BUNCH {
+                for k in 0..PACK {
                     out.set(k, &stress(&reference[b][k], &displacement_gradient[b].get(k)));
                 }
             }
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn stresses_are_the_same_by_points_and_of_bunches() {
+    fn stresses_are_the_same_by_points_and_of_packs() {
         for count in [1, 8, 250, 600] {
             let number = |k: usize| (0.3 + 0.7 * k as f64).sin();
             let x: Vec<_> = (0..count).map(|p| Vector::from_fn(|i, _| number(7 * p + i))).collect();
@@ -221,21 +221,21 @@ mod tests {
                 (0..count).map(|p| Matrix::from_fn(|i, j| number(5 * p + 2 * i + j))).collect();
             let expected: Vec<_> = x.iter().zip(&h).map(|(x, h)| stress(x, h)).collect();
             let mut found = vec![Matrix::zeros(); count];
-            OfBunches.kirchhoff_stress(0.0, &x, &h, &mut found);
+            OfPacks.kirchhoff_stress(0.0, &x, &h, &mut found);
             assert_eq!(found, expected);
 
-            let whole = count / BUNCH;
-            let gradients: Bunches<Matrices<f64, 2>> = h.iter().copied().collect();
+            let whole = count / PACK;
+            let gradients: Packs<Matrices<f64, 2>> = h.iter().copied().collect();
             let mut found = vec![Matrices::zeros(); whole];
-            let gradients = &gradients.bunches()[..whole];
-            ByPoints.kirchhoff_stress_of_bunches(
+            let gradients = &gradients.packs()[..whole];
+            ByPoints.kirchhoff_stress_of_packs(
                 0.0,
                 &x.as_chunks().0[..whole],
                 gradients,
                 &mut found,
             );
-            for (p, expected) in expected[..BUNCH * whole].iter().enumerate() {
-                assert_eq!(found[p / BUNCH].get(p % BUNCH), *expected, "{p} of {count}");
+            for (p, expected) in expected[..PACK * whole].iter().enumerate() {
+                assert_eq!(found[p / PACK].get(p % PACK), *expected, "{p} of {count}");
             }
         }
     }

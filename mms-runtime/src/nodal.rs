@@ -2,7 +2,7 @@
 
 use std::ops::{Add, AddAssign, Mul};
 
-use mms_math::machine::Machine;
+use mms_math::simd::Simd;
 
 use crate::real::{Real, Vector};
 
@@ -92,13 +92,12 @@ impl<'a, T> Window<'a, T> {
 
 /// A vector for each half, and `other` in all further places.
 #[inline(always)]
-pub fn halves<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+pub fn halves<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     [first, second]: [&Vector<T, D>; 2],
     other: T,
 ) -> M::Eight {
     let first = |a: usize| if a < D { first[a] } else { other };
     let second = |a: usize| if a < D { second[a] } else { other };
-    machine
-        .halves(&[first(0), first(1), first(2), other], &[second(0), second(1), second(2), other])
+    simd.halves(&[first(0), first(1), first(2), other], &[second(0), second(1), second(2), other])
 }

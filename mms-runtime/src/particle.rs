@@ -4,12 +4,12 @@ use std::borrow::Cow;
 use std::iter::repeat_n;
 use std::ops::Range;
 
-use mms_math::machine::Machine;
+use mms_math::simd::Simd;
 
 use crate::axisymmetric::hoop_stretch;
 use crate::body::Filling;
-use crate::column::BUNCH;
-use crate::column::{Bunch, Bunches, Column, Matrices, Vectors};
+use crate::column::PACK;
+use crate::column::{Column, Matrices, Pack, Packs, Vectors};
 use crate::real::{Matrix, Real, Vector};
 use crate::tensor::jacobian;
 use crate::threads::Parts;
@@ -26,11 +26,11 @@ pub struct Particles<T, const D: usize> {
     /// X.
     pub reference_position: Column<Vector<T, D>>,
     /// d = x - X.
-    pub displacement: Bunches<Vectors<T, D>>,
+    pub displacement: Packs<Vectors<T, D>>,
     /// v.
-    pub velocity: Bunches<Vectors<T, D>>,
+    pub velocity: Packs<Vectors<T, D>>,
     /// H = F - I.
-    pub displacement_gradient: Bunches<Matrices<T, D>>,
+    pub displacement_gradient: Packs<Matrices<T, D>>,
     /// h = F_tt - 1, the strain around the axis; empty unless the body is a body of revolution.
     pub hoop_strain: Column<T>,
     /// m.
@@ -38,9 +38,9 @@ pub struct Particles<T, const D: usize> {
     /// V0.
     pub reference_volume: Column<T>,
     /// C, the linear velocity on each particle; empty except with APIC.
-    pub affine: Bunches<Matrices<T, D>>,
+    pub affine: Packs<Matrices<T, D>>,
     /// (I - S S+)^m v, the part of the velocity that the grid does not represent; empty except with XPIC.
-    pub residual: Bunches<Vectors<T, D>>,
+    pub residual: Packs<Vectors<T, D>>,
 }
 
 impl<T: Real, const D: usize> Particles<T, D> {
@@ -116,18 +116,18 @@ impl<T: Real, const D: usize> Particles<T, D> {
         } = self;
         reorder(id, order);
         reorder(reference_position, order);
-        reorder_bunches(displacement, order);
-        reorder_bunches(velocity, order);
-        reorder_bunches(displacement_gradient, order);
+        reorder_packs(displacement, order);
+        reorder_packs(velocity, order);
+        reorder_packs(displacement_gradient, order);
         reorder(hoop_strain, order);
         reorder(mass, order);
         reorder(reference_volume, order);
-        reorder_bunches(affine, order);
-        reorder_bunches(residual, order);
+        reorder_packs(affine, order);
+        reorder_packs(residual, order);
         self.fill_up();
     }
 
-    /// Pads the last bunch with copies of the last particle, after particles were changed one by one.
+    /// Pads the last pack with copies of the last particle, after particles were changed one by one.
     pub(crate) fn fill_up(&mut self) {
         self.reference_position.fill_up();
         self.displacement.fill_up();
@@ -140,28 +140,28 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.residual.fill_up();
     }
 
-    /// Prefetches the data that P2G reads of a bunch, except X and H, which other code needs sooner.
+    /// Prefetches the data that P2G reads of a pack, except X and H, which other code needs sooner.
     #[inline(always)]
-    pub(crate) fn fetch<M: Machine<T>>(&self, machine: M, bunch: usize) {
-        machine.fetch(self.displacement.bunches(), bunch);
-        machine.fetch(self.velocity.bunches(), bunch);
-        machine.fetch(self.mass.bunches(), bunch);
-        machine.fetch(self.reference_volume.bunches(), bunch);
-        machine.fetch(self.affine.bunches(), bunch);
+    pub(crate) fn fetch<M: Simd<T>>(&self, simd: M, pack: usize) {
+        simd.fetch(self.displacement.packs(), pack);
+        simd.fetch(self.velocity.packs(), pack);
+        simd.fetch(self.mass.packs(), pack);
+        simd.fetch(self.reference_volume.packs(), pack);
+        simd.fetch(self.affine.packs(), pack);
     }
 
     /// X, and the arrays that a step changes.
-    pub(crate) fn columns(&mut self) -> (&[[Vector<T, D>; BUNCH]], Columns<'_, T, D>) {
+    pub(crate) fn columns(&mut self) -> (&[[Vector<T, D>; PACK]], Columns<'_, T, D>) {
         let columns = Columns {
             start: 0,
-            displacement: self.displacement.bunches_mut(),
-            velocity: self.velocity.bunches_mut(),
-            displacement_gradient: self.displacement_gradient.bunches_mut(),
-            hoop_strain: self.hoop_strain.bunches_mut(),
-            affine: self.affine.bunches_mut(),
-            residual: self.residual.bunches_mut(),
+            displacement: self.displacement.packs_mut(),
+            velocity: self.velocity.packs_mut(),
+            displacement_gradient: self.displacement_gradient.packs_mut(),
+            hoop_strain: self.hoop_strain.packs_mut(),
+            affine: self.affine.packs_mut(),
+            residual: self.residual.packs_mut(),
         };
-        (self.reference_position.bunches(), columns)
+        (self.reference_position.packs(), columns)
     }
 }
 
@@ -176,7 +176,7 @@ pub(crate) fn reorder<V>(items: &mut [V], order: &mut [u32]) {
 }
 
 /// Moves entry `order[p]` to place `p`, as [`reorder`] does.
-pub(crate) fn reorder_bunches<B: Bunch>(items: &mut Bunches<B>, order: &mut [u32]) {
+pub(crate) fn reorder_packs<B: Pack>(items: &mut Packs<B>, order: &mut [u32]) {
     if !items.is_empty() {
         follow(order, |place, from| items.swap(place, from));
     }
@@ -198,31 +198,31 @@ fn follow(order: &mut [u32], mut swap: impl FnMut(usize, usize)) {
     order.iter_mut().for_each(|from| *from &= !DONE);
 }
 
-/// The arrays that a step changes, for the bunches from `start` on.
+/// The arrays that a step changes, for the packs from `start` on.
 pub(crate) struct Columns<'a, T, const D: usize> {
     pub start: usize,
     pub displacement: &'a mut [Vectors<T, D>],
     pub velocity: &'a mut [Vectors<T, D>],
     pub displacement_gradient: &'a mut [Matrices<T, D>],
-    pub hoop_strain: &'a mut [[T; BUNCH]],
+    pub hoop_strain: &'a mut [[T; PACK]],
     pub affine: &'a mut [Matrices<T, D>],
     pub residual: &'a mut [Vectors<T, D>],
 }
 
 impl<T: Real, const D: usize> Columns<'_, T, D> {
-    /// Prefetches the data of a bunch that a step changes.
+    /// Prefetches the data of a pack that a step changes.
     #[inline(always)]
-    pub fn fetch<M: Machine<T>>(&self, machine: M, bunch: usize) {
-        machine.fetch(self.displacement, bunch);
-        machine.fetch(self.velocity, bunch);
-        machine.fetch(self.displacement_gradient, bunch);
-        machine.fetch(self.affine, bunch);
+    pub fn fetch<M: Simd<T>>(&self, simd: M, pack: usize) {
+        simd.fetch(self.displacement, pack);
+        simd.fetch(self.velocity, pack);
+        simd.fetch(self.displacement_gradient, pack);
+        simd.fetch(self.affine, pack);
     }
 
-    /// The displacements and the displacement gradients of some bunches.
+    /// The displacements and the displacement gradients of some packs.
     #[inline(always)]
-    pub fn moved(&self, bunches: Range<usize>) -> (&[Vectors<T, D>], &[Matrices<T, D>]) {
-        (&self.displacement[bunches.clone()], &self.displacement_gradient[bunches])
+    pub fn moved(&self, packs: Range<usize>) -> (&[Vectors<T, D>], &[Matrices<T, D>]) {
+        (&self.displacement[packs.clone()], &self.displacement_gradient[packs])
     }
 }
 
@@ -260,13 +260,13 @@ impl<T: Real, const D: usize> Parts for Columns<'_, T, D> {
     }
 }
 
-/// The points where material and b are evaluated, for some bunches: X, or x if a defect uses x instead.
+/// The points where material and b are evaluated, for some packs: X, or x if a defect uses x instead.
 pub(crate) fn material_points<'a, T: Real, const D: usize>(
-    reference: &'a [[Vector<T, D>; BUNCH]],
+    reference: &'a [[Vector<T, D>; PACK]],
     displacement: &[Vectors<T, D>],
     at_present: bool,
-) -> Cow<'a, [[Vector<T, D>; BUNCH]]> {
-    let present = |(reference, displacement): (&[Vector<T, D>; BUNCH], &Vectors<T, D>)| {
+) -> Cow<'a, [[Vector<T, D>; PACK]]> {
+    let present = |(reference, displacement): (&[Vector<T, D>; PACK], &Vectors<T, D>)| {
         std::array::from_fn(|k| reference[k] + displacement.get(k))
     };
     match at_present {

@@ -9,7 +9,7 @@
 //!
 //! Quantities that determine the code of the inner loops are types: dimension, precision, and the number of nodes along an
 //! axis. All others are values: an integrator is the order in which a step calls `Operations`, compiled once for each
-//! precision, and the transfer is tested once per bunch. A shape function only computes weights (`weights`).
+//! precision, and the transfer is tested once per pack. A shape function only computes weights (`weights`).
 //! [`crate::study::Solve`] maps the names of a method to the types; its solvers are compiled in this crate, once, and callers
 //! that take the steps themselves use them as `dyn AnySolver`.
 //!
@@ -28,8 +28,8 @@
 //!
 //! Both passes over the particles compute weights, for that is less work than reading them. If an integrator needs them after
 //! the particles have changed (`KEEPS_WEIGHTS`), the solver keeps the data that they depend on. In a large body, a pass's data
-//! have left the caches since the last pass, and are prefetched some bunches ahead; H, which stress needs first, a part ahead.
-//! Data of a bunch that a step changes (d, v, H, and C with APIC) are stored component by component, the values of its
+//! have left the caches since the last pass, and are prefetched some packs ahead; H, which stress needs first, a part ahead.
+//! Data of a pack that a step changes (d, v, H, and C with APIC) are stored component by component, the values of its
 //! particles adjacent, as registers load them (`column`); the material reads H, and writes stresses, in the same layout. X, m
 //! and V0 are slices, as in the methods of fields.
 //!
@@ -37,7 +37,7 @@
 //!
 //! Particles are sorted by the nodes that they reach, in slabs along the last axis (`slabs`). Sums have one order for any
 //! number of threads: results are the same bits. A particle may drift by a cell or more; when one has nodes outside its slab's
-//! window, all are sorted, slabs are cut anew and the sums begin again. Every 16 steps the solver counts how many bunches and
+//! window, all are sorted, slabs are cut anew and the sums begin again. Every 16 steps the solver counts how many packs and
 //! halves are of one cell, and how many could be: it sorts the particles if 5 % are missing. That depends on the state alone,
 //! so that a resumed run does the same. Small bodies, and stencils without a bound (`cpdi`), have one slab.
 //!
@@ -48,17 +48,17 @@
 
 mod any;
 mod clock;
+mod faults;
 mod g2p;
-mod misread;
 mod need;
 mod operations;
-mod order;
 mod p2g;
-mod present;
 mod relaxation;
 mod setup;
 mod slabs;
+mod sorting;
 mod state;
+mod state_view;
 mod weights;
 
 use crate::axisymmetric::hoop_stretch;
@@ -74,19 +74,19 @@ use crate::real::Real;
 use crate::tensor::{is_finite, matrix_is_finite};
 use crate::transfer::Transfer;
 use clock::Clock;
-use order::When;
 use slabs::Slabs;
-use weights::{Domains, Kept, Kind};
+use sorting::When;
+use weights::{CachedDomains, Domains, Kind};
 
 pub use any::AnySolver;
 pub(crate) use any::of_method;
 pub use clock::Seconds;
-pub use present::Present;
 pub use relaxation::{Ramp, Residual};
 pub use setup::{cell_size, filling};
 pub use state::State;
+pub use state_view::StateView;
 
-/// The number of steps after which the solver tests whether to sort particles again, for bunches that share their nodes are
+/// The number of steps after which the solver tests whether to sort particles again, for packs that share their nodes are
 /// faster than others.
 const STEPS_IN_ORDER: usize = 16;
 
@@ -103,7 +103,7 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized> {
     slabs: Slabs,
     /// The displacements and gradients at the beginning of the step, if the integrator uses weights again after they have
     /// changed.
-    kept: Vec<Kept<T, D>>,
+    kept: Vec<CachedDomains<T, D>>,
     keeps_weights: bool,
     /// XPIC: the sum of the residual velocity at the nodes, and that sum over their mass.
     residual: [Vec<Nodal<T>>; 2],
@@ -172,10 +172,10 @@ where
     }
 
     /// The state, for measurements.
-    pub fn present(&self) -> Present<'_, T, D, F> {
+    pub fn present(&self) -> StateView<'_, T, D, F> {
         let Clock { step, time_step, lag, .. } = self.clock;
         let time = self.clock.time_of(step);
-        Present {
+        StateView {
             field: self.field,
             particles: &self.particles,
             step,

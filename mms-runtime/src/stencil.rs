@@ -1,4 +1,4 @@
-//! The nodes of a bunch of particles, with their weights w_ip and weight gradients grad w_ip; the sums between particles and
+//! The nodes of a pack of particles, with their weights w_ip and weight gradients grad w_ip; the sums between particles and
 //! nodes.
 //!
 //! There are two sums, each the transpose of the other: [`Stencil::scatter`] (P2G) adds w q, and more along each axis a: Q_a
@@ -7,18 +7,18 @@
 //! of this kind; the linear velocity of APIC uses moments. Sums over three and four nodes along an axis are functions that are
 //! not inlined, one for all passes and shape functions.
 //!
-//! A bunch is eight adjacent particles, in two halves of four (an AoSoA tile). A register of particle data has one particle in
+//! A pack is eight adjacent particles, in two halves of four (an AoSoA tile). A register of particle data has one particle in
 //! each lane. A register of nodal data has the four numbers of a node in the lanes of each half: in the first half a node of
 //! particle k of the first half, and in the second half a node of particle k of the second. Numbers move only within their half
-//! of a register, which takes one instruction, so the halves of a bunch may be in different cells: with four particles in a
+//! of a register, which takes one instruction, so the halves of a pack may be in different cells: with four particles in a
 //! cell, they are.
 //!
-//! In most bunches the particles of a half share their nodes, since particles are sorted by cells: then a node is looked up
+//! In most packs the particles of a half share their nodes, since particles are sorted by cells: then a node is looked up
 //! once for all four. If they do not, sums over nodes run over the nodes of the particles that share them, with the weights of
 //! the others 0, and sums onto nodes process one particle of each half after the other. No sum is in a closure, and none calls
 //! a method with a closure, such as `map` of arrays: closures are not always inlined under the dispatch, and then are compiled
-//! without the processor's instructions. Bunches begin at every eighth particle for any slabs and threads; a slab adds only its
-//! own particles of a bunch. The last bunch is padded with copies of the last particle.
+//! without the processor's instructions. Packs begin at every eighth particle for any slabs and threads; a slab adds only its
+//! own particles of a pack. The last pack is padded with copies of the last particle.
 //!
 //! On x86-64 without AVX2, eight particles at a time are not faster: there `alone.rs` sums particle by particle, and little
 //! code is compiled for processors that few users still have.
@@ -30,18 +30,18 @@ mod tensor;
 
 use std::ops::Range;
 
-use mms_math::machine::Machine;
+use mms_math::simd::Simd;
 
-use crate::column::{BUNCH, HALF};
+use crate::column::{HALF, PACK};
 use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
 use crate::real::{Real, Vector};
 
 pub use tensor::{Known, MOST, Tensor};
 
-/// The data that a bunch adds to its nodes.
+/// The data that a pack adds to its nodes.
 #[derive(Clone, Copy)]
-pub struct Carried<F, const D: usize> {
+pub struct Payload<F, const D: usize> {
     /// q: the four numbers of a node for each particle of both halves.
     pub value: [F; HALF],
     /// Q_a for every axis a: vectors, a number for each particle.
@@ -50,77 +50,77 @@ pub struct Carried<F, const D: usize> {
     pub moments: Option<[[F; D]; D]>,
 }
 
-impl<F, const D: usize> Carried<F, D> {
+impl<F, const D: usize> Payload<F, D> {
     /// q alone.
     pub fn value(value: [F; HALF]) -> Self {
         Self { value, slopes: None, moments: None }
     }
 }
 
-impl<T: Real, const D: usize> Carried<[T; BUNCH], D> {
-    /// Stores the data of a bunch as numbers.
+impl<T: Real, const D: usize> Payload<[T; PACK], D> {
+    /// Stores the data of a pack as numbers.
     #[inline(always)]
-    fn of<M: Machine<T>>(machine: M, carried: &Carried<M::Eight, D>) -> Self {
-        let mut all = Self { value: [[T::zero(); BUNCH]; HALF], slopes: None, moments: None };
+    fn of<M: Simd<T>>(simd: M, carried: &Payload<M::Eight, D>) -> Self {
+        let mut all = Self { value: [[T::zero(); PACK]; HALF], slopes: None, moments: None };
         for k in 0..HALF {
-            all.value[k] = machine.numbers(carried.value[k]);
+            all.value[k] = simd.numbers(carried.value[k]);
         }
         if let Some(slopes) = &carried.slopes {
-            all.slopes = Some(numbers(machine, slopes));
+            all.slopes = Some(numbers(simd, slopes));
         }
         if let Some(moments) = &carried.moments {
-            all.moments = Some(numbers(machine, moments));
+            all.moments = Some(numbers(simd, moments));
         }
         all
     }
 
-    /// Loads the data of a bunch as registers.
+    /// Loads the data of a pack as registers.
     #[inline(always)]
-    fn eights<M: Machine<T>>(&self, machine: M) -> Carried<M::Eight, D> {
-        let nothing = machine.splat(T::zero());
-        let mut all = Carried { value: [nothing; HALF], slopes: None, moments: None };
+    fn eights<M: Simd<T>>(&self, simd: M) -> Payload<M::Eight, D> {
+        let nothing = simd.splat(T::zero());
+        let mut all = Payload { value: [nothing; HALF], slopes: None, moments: None };
         for k in 0..HALF {
-            all.value[k] = machine.eight(&self.value[k]);
+            all.value[k] = simd.eight(&self.value[k]);
         }
         if let Some(slopes) = &self.slopes {
-            all.slopes = Some(eights(machine, slopes));
+            all.slopes = Some(eights(simd, slopes));
         }
         if let Some(moments) = &self.moments {
-            all.moments = Some(eights(machine, moments));
+            all.moments = Some(eights(simd, moments));
         }
         all
     }
 }
 
 #[inline(always)]
-fn numbers<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+fn numbers<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     columns: &[[M::Eight; D]; D],
-) -> [[[T; BUNCH]; D]; D] {
-    let mut all = [[[T::zero(); BUNCH]; D]; D];
+) -> [[[T; PACK]; D]; D] {
+    let mut all = [[[T::zero(); PACK]; D]; D];
     for j in 0..D {
         for i in 0..D {
-            all[j][i] = machine.numbers(columns[j][i]);
+            all[j][i] = simd.numbers(columns[j][i]);
         }
     }
     all
 }
 
 #[inline(always)]
-fn eights<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    columns: &[[[T; BUNCH]; D]; D],
+fn eights<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
+    columns: &[[[T; PACK]; D]; D],
 ) -> [[M::Eight; D]; D] {
-    let mut all = [[machine.splat(T::zero()); D]; D];
+    let mut all = [[simd.splat(T::zero()); D]; D];
     for j in 0..D {
         for i in 0..D {
-            all[j][i] = machine.eight(&columns[j][i]);
+            all[j][i] = simd.eight(&columns[j][i]);
         }
     }
     all
 }
 
-/// Sums over the nodes' vectors q at a bunch of particles: a number for each particle.
+/// Sums over the nodes' vectors q at a pack of particles: a number for each particle.
 #[derive(Clone, Copy)]
 pub struct Gathered<F, const D: usize> {
     /// sum_i w q_i.
@@ -143,7 +143,7 @@ pub enum Wanted {
     Slopes,
 }
 
-/// The nodes of a bunch of particles.
+/// The nodes of a pack of particles.
 pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     /// Whether the sums, and the search for the weights, are faster with AVX-512 than with AVX2.
     const GAINS_BY_AVX512: bool;
@@ -156,20 +156,20 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     fn beyond(&self, members: Members, nodes: &Range<usize>) -> Option<usize>;
 
     /// q_i += w q + sum_a ((grad w)_a Q_a + w (x_i - x_p)_a M_a) for every node i of the `members`.
-    fn scatter<M: Machine<T>>(
+    fn scatter<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Carried<M::Eight, D>,
+        carried: &Payload<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     );
 
     /// Computes the sums over the nodes; sums that are not `wanted` are 0. For hat functions, the nearest linear function is
     /// the interpolant between the nodes.
-    fn gather<M: Machine<T>>(
+    fn gather<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
         wanted: Wanted,
         nodes: &[Nodal<T>],
@@ -181,8 +181,8 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     }
 }
 
-/// The range of particles of a bunch: the first one, and the one after the last.
+/// The range of particles of a pack: the first one, and the one after the last.
 pub type Members = [usize; 2];
 
-/// All particles of a bunch.
-pub const ALL: Members = [0, BUNCH];
+/// All particles of a pack.
+pub const ALL: Members = [0, PACK];

@@ -31,7 +31,7 @@ fn allocated(
         solver.step().unwrap();
     }
     let seen = (MEMORY.peak_usage() - before, MEMORY.current_usage() - before);
-    // Particles need the stated memory; their number is a multiple of a bunch.
+    // Particles need the stated memory; their number is a multiple of a pack.
     let particles = solver.present().particles;
     let before = MEMORY.current_usage();
     let copy = particles.clone();

@@ -1,9 +1,9 @@
 //! Bodies of revolution: the weights of rings against quadrature, their volumes, and a uniform pressure in equilibrium.
 
 use mms_runtime::axisymmetric::{energy_at_own_strain, stress_at_own_strain};
-use mms_runtime::column::{BUNCH, Bunch as _, Matrices};
+use mms_runtime::column::{Matrices, PACK, Pack as _};
 use mms_runtime::lattice::Axis;
-use mms_runtime::material::by_bunches;
+use mms_runtime::material::by_packs;
 use mms_runtime::scene::Scene;
 use mms_runtime::shape::{Shape, Ugimp};
 use mms_runtime::stencil::Stencil as _;
@@ -52,13 +52,13 @@ impl Material<f64, 2> for Swollen {
     }
 
     fn kirchhoff_stress(&self, time: f64, x: &[Point], h: &[Tensor], stress: &mut [Tensor]) {
-        by_bunches(self, time, x, h, stress);
+        by_packs(self, time, x, h, stress);
     }
 
-    fn kirchhoff_stress_of_bunches(
+    fn kirchhoff_stress_of_packs(
         &self,
         time: f64,
-        x: &[[Point; BUNCH]],
+        x: &[[Point; PACK]],
         h: &[Matrices<f64, 2>],
         stress: &mut [Matrices<f64, 2>],
     ) {
@@ -75,15 +75,15 @@ impl Axisymmetric<f64, 2> for Swollen {
         out.fill(self.stretch);
     }
 
-    fn kirchhoff_stress_of_bunches(
+    fn kirchhoff_stress_of_packs(
         &self,
         _: f64,
-        _: &[[Point; BUNCH]],
-        (h, hoop): (&[Matrices<f64, 2>], &[[f64; BUNCH]]),
-        (stress, hoop_stress): (&mut [Matrices<f64, 2>], &mut [[f64; BUNCH]]),
+        _: &[[Point; PACK]],
+        (h, hoop): (&[Matrices<f64, 2>], &[[f64; PACK]]),
+        (stress, hoop_stress): (&mut [Matrices<f64, 2>], &mut [[f64; PACK]]),
     ) {
         for b in 0..h.len() {
-            for k in 0..BUNCH {
+            for k in 0..PACK {
                 let (meridian, around) = Self::stress(&h[b].get(k), hoop[b][k]);
                 stress[b].set(k, &meridian);
                 hoop_stress[b][k] = around;

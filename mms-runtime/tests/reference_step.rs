@@ -1,5 +1,5 @@
 //! A step of the material point method, a particle and a node at a time. Read it before the solver, which does the same with
-//! bunches of particles, any weights and any integrator. It shares only the traits of a field with the solver.
+//! packs of particles, any weights and any integrator. It shares only the traits of a field with the solver.
 //!
 //! Linear weights, updated formulation, FLIP, leapfrog, and rollers on all faces of a box, in any dimension. Sulsky, Chen,
 //! Schreyer, Comput. Methods Appl. Mech. Eng. 118 (1994) 179, doi 10.1016/0045-7825(94)90112-0, with the stress of the

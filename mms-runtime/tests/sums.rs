@@ -1,13 +1,13 @@
-//! The sums between the particles of a bunch and their nodes, which are factorised and may be computed together, against their
+//! The sums between the particles of a pack and their nodes, which are factorised and may be computed together, against their
 //! definitions, particle by particle and node by node; with every instruction set of the processor.
 
 use crate::common::weights::{CELLS, Particle, lattice};
-use mms_runtime::column::{BUNCH, HALF};
+use mms_runtime::column::{HALF, PACK};
 use mms_runtime::math::dispatch::{Work, best};
-use mms_runtime::math::machine::{Machine, Plain};
+use mms_runtime::math::simd::{Plain, Simd};
 use mms_runtime::nodal::{Nodal, Window};
 use mms_runtime::shape::{Shape, ShapeVisitor};
-use mms_runtime::stencil::{ALL, Carried, Gathered, Members, Stencil, Wanted};
+use mms_runtime::stencil::{ALL, Gathered, Members, Payload, Stencil, Wanted};
 use mms_runtime::{Lattice, Real, ShapeName, Vector};
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ fn numbers<T: Real>(count: usize) -> Vec<Nodal<T>> {
     (0..count).map(|node| Nodal(std::array::from_fn(|k| number(4 * node + k)))).collect()
 }
 
-/// The sums of a bunch.
+/// The sums of a pack.
 #[derive(Clone, Copy)]
 struct Sums<'a, T, const D: usize, S> {
     stencil: &'a S,
@@ -35,44 +35,43 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
     /// Computes the sums of nodes for every particle, and the sums to nodes: of values, with slopes, with moments, and with
     /// both. Then computes the slopes of the linear functions nearest to the nodes. `wanted` is not a constant, so that sums
     /// are compiled once.
-    fn by<M: Machine<T>>(&self, machine: M) -> [Vec<T>; 2] {
+    fn by<M: Simd<T>>(&self, simd: M) -> [Vec<T>; 2] {
         let Self { stencil, lattice, nodes, carried, members } = *self;
         let (mut all, mut nearest) = (Vec::new(), Vec::new());
         for wanted in [Wanted::Value, Wanted::Gradient, Wanted::Slopes] {
-            let Gathered { value, gradient, slopes } =
-                stencil.gather(machine, lattice, wanted, nodes);
+            let Gathered { value, gradient, slopes } = stencil.gather(simd, lattice, wanted, nodes);
             let (found, vectors) = match wanted {
                 Wanted::Value => (&mut all, vec![value]),
                 Wanted::Gradient => (&mut all, [&[value], &gradient[..]].concat()),
                 Wanted::Slopes => (&mut nearest, slopes.to_vec()),
             };
-            found.extend(vectors.iter().flatten().flat_map(|&eight| machine.numbers(eight)));
+            found.extend(vectors.iter().flatten().flat_map(|&eight| simd.numbers(eight)));
         }
         let value = std::array::from_fn(|p| {
-            machine.halves(&carried[EACH * p].0, &carried[EACH * (p + HALF)].0)
+            simd.halves(&carried[EACH * p].0, &carried[EACH * (p + HALF)].0)
         });
         let vectors = |first: usize| {
             let number = |a: usize, c: usize, p: usize| carried[EACH * p + first + a].0[c];
-            let eight = |a, c| machine.eight(&std::array::from_fn(|p| number(a, c, p)));
+            let eight = |a, c| simd.eight(&std::array::from_fn(|p| number(a, c, p)));
             Some(std::array::from_fn(|a| std::array::from_fn(|c| eight(a, c))))
         };
         let mut sums: [Vec<_>; 4] = std::array::from_fn(|_| nodes.to_vec());
         for (which, nodes) in sums.iter_mut().enumerate() {
             let slopes = if which & 1 != 0 { vectors(1) } else { None };
             let moments = if which & 2 != 0 { vectors(1 + D) } else { None };
-            let carried = Carried { value, slopes, moments };
-            stencil.scatter(machine, lattice, &carried, members, Window { start: 0, nodes });
+            let carried = Payload { value, slopes, moments };
+            stencil.scatter(simd, lattice, &carried, members, Window { start: 0, nodes });
         }
         all.extend(sums.iter().flatten().flat_map(|node| node.0));
         [all, nearest]
     }
 
     /// Computes the sums by their definitions.
-    fn by_definition(&self, positions: &[Vector<T, D>; BUNCH]) -> Vec<T> {
+    fn by_definition(&self, positions: &[Vector<T, D>; PACK]) -> Vec<T> {
         let Self { stencil, lattice, nodes, carried, members } = *self;
-        let mut gathered = vec![[[T::zero(); BUNCH]; D]; 1 + D];
+        let mut gathered = vec![[[T::zero(); PACK]; D]; 1 + D];
         let mut sums: [Vec<_>; 4] = std::array::from_fn(|_| nodes.to_vec());
-        for p in 0..BUNCH {
+        for p in 0..PACK {
             stencil.each(p, |i, w, gradient| {
                 for c in 0..D {
                     gathered[0][c][p] += nodes[i].0[c] * w;
@@ -107,15 +106,15 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
 impl<T: Real, const D: usize, S: Stencil<T, D>> Work<T> for &Sums<'_, T, D, S> {
     type Output = [Vec<T>; 2];
 
-    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-        self.by(machine)
+    fn on<M: Simd<T>>(self, simd: M) -> Self::Output {
+        self.by(simd)
     }
 }
 
-/// The distances of the particles of a bunch along each axis, in cells. All share their nodes; the particles of each half do
+/// The distances of the particles of a pack along each axis, in cells. All share their nodes; the particles of each half do
 /// (almost always); the particles of one half do; or none do.
-const APART: [[f64; BUNCH]; 5] = [
-    [0.0; BUNCH],
+const APART: [[f64; PACK]; 5] = [
+    [0.0; PACK],
     [0.0, 0.02, 0.01, 0.03, 0.02, 0.0, 0.01, 0.03],
     [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0],
     [0.0, 1e-3, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
@@ -146,8 +145,8 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
         };
 
         for (apart, members) in APART.into_iter().zip([ALL, ALL, ALL, [0, 6], [1, 7]]) {
-            let (stencil, positions) = self.particle.bunch::<T, S>(&lattice, apart).unwrap();
-            let (nodes, carried) = (&numbers(lattice.len())[..], &numbers(EACH * BUNCH)[..]);
+            let (stencil, positions) = self.particle.pack::<T, S>(&lattice, apart).unwrap();
+            let (nodes, carried) = (&numbers(lattice.len())[..], &numbers(EACH * PACK)[..]);
             let sums = Sums { stencil: &stencil, lattice: &lattice, nodes, carried, members };
             let expected = sums.by_definition(&positions);
             for [found, _] in [sums.on(T::PlainMachine::from(Plain)), best(&sums)] {
@@ -162,9 +161,9 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
             let place = |node: usize| Nodal::new(&lattice.position(node), T::zero());
             let places: Vec<_> = (0..lattice.len()).map(place).collect();
             let sums = Sums { nodes: &places, ..sums };
-            let diagonal = |k: usize| (k / BUNCH).is_multiple_of(D + 1);
+            let diagonal = |k: usize| (k / PACK).is_multiple_of(D + 1);
             let unit = |k: usize| if diagonal(k) { T::one() } else { T::zero() };
-            let expected: Vec<T> = (0..BUNCH * D * D).map(unit).collect();
+            let expected: Vec<T> = (0..PACK * D * D).map(unit).collect();
             for [_, found] in [sums.on(T::PlainMachine::from(Plain)), best(&sums)] {
                 close(&found, &expected);
             }
@@ -181,7 +180,7 @@ proptest! {
 
     #[test]
     fn sums_are_those_of_their_definitions(
-        // Other particles of the bunch are up to 1.7 further.
+        // Other particles of the pack are up to 1.7 further.
         cells in prop::array::uniform3(3.1..7.2f64),
         half in prop::array::uniform3(0.1..0.7f64),
         h in prop::array::uniform9(-0.1..0.1f64),

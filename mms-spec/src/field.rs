@@ -149,7 +149,7 @@ pub fn read_field(
     let dimension = space.coordinates();
     let displacement = displacement(chosen.as_ref(), space, root.span, &mut reader);
     let place = Setup::read(&root, space, &mut reader);
-    hold_density(&material, &place.domain, &mut reader);
+    validate_density(&material, &place.domain, &mut reader);
     let balances = match root.get("balance") {
         Some(entry) => {
             let tables = reader.tables(&entry, BALANCE);
@@ -198,7 +198,7 @@ fn material_file(document: &Document<'_>, sources: &Sources, id: SourceId) -> Op
 }
 
 /// Refuses a field that moves without a density.
-fn hold_density(material: &MaterialUse, domain: &DomainSpec, reader: &mut Reader<'_>) {
+fn validate_density(material: &MaterialUse, domain: &DomainSpec, reader: &mut Reader<'_>) {
     if material.density.is_some() || domain.time.is_none() || reader.is_incomplete() {
         return;
     }

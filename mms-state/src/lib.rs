@@ -138,7 +138,12 @@ impl Wanted<'_> {
     ///
     /// # Errors
     /// The memory that they need, and the free memory.
-    pub fn hold_memory(&self, exact: &Exact, points: &Points, times: usize) -> anyhow::Result<()> {
+    pub fn validate_memory(
+        &self,
+        exact: &Exact,
+        points: &Points,
+        times: usize,
+    ) -> anyhow::Result<()> {
         let points = points.reference.len() / exact.dimension;
         let numbers: usize = self.quantities.iter().map(|it| exact.components(*it)).sum();
         // X and x for the file, two volumes and the mass.

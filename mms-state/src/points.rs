@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use anyhow::{bail, ensure};
-use mms_analysis::present::{Inverse, Unplaced};
+use mms_analysis::inverse_motion::{Inverse, Unplaced};
 use mms_exact::{Exact, TURNS, says};
 use mms_files::machine::memory;
 use mms_files::results::Disk;

@@ -15,7 +15,7 @@ pub const MATRIX: &str = include_str!("matrix.toml");
 /// A row as it is written.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Row {
+pub struct MatrixRow {
     /// `group/mode`.
     pub name: String,
     /// The arguments of `mms study`, with all levels.
@@ -83,7 +83,7 @@ fn tolerance() -> f64 {
     TOLERANCE
 }
 
-impl Row {
+impl MatrixRow {
     /// The study, parsed.
     ///
     /// # Errors
@@ -107,7 +107,7 @@ impl Row {
     /// The arguments of `mms run` for a level, as text and parsed.
     ///
     /// # Errors
-    /// As [`Row::study`]; cells that are no word of their own behind `--cells`.
+    /// As [`MatrixRow::study`]; cells that are no word of their own behind `--cells`.
     pub fn level(&self, level: usize) -> anyhow::Result<(String, Study)> {
         let (study, _) = self.study()?;
         let mut words: Vec<String> = self.study.split_whitespace().map(str::to_owned).collect();
@@ -126,7 +126,7 @@ impl Row {
     }
 }
 
-impl Row {
+impl MatrixRow {
     /// The length that the row refines, for a run: h or dt.
     pub fn size(&self, outcome: &Outcome) -> Option<f64> {
         let time_alone = self.halvings > 0;
@@ -145,7 +145,7 @@ impl Row {
     }
 }
 
-impl Named for Row {
+impl Named for MatrixRow {
     fn name(&self) -> &str {
         &self.name
     }
@@ -180,6 +180,6 @@ impl Named for Row {
 ///
 /// # Errors
 /// A row without a meaning; a test reads them all.
-pub fn rows() -> anyhow::Result<Vec<Row>> {
+pub fn rows() -> anyhow::Result<Vec<MatrixRow>> {
     read(MATRIX)
 }

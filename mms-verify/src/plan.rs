@@ -9,7 +9,7 @@ use mms_lab::outcome::{Key, Quantity};
 use mms_options::Study;
 use mms_runtime::{Division, Method};
 
-use super::matrix::Row;
+use super::matrix::MatrixRow;
 
 /// A run: a level of a row, or of several.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ impl Plan {
     ///
     /// # Errors
     /// A row without a meaning.
-    pub fn new(rows: &[&Row], quick: bool, program: &str) -> anyhow::Result<Self> {
+    pub fn new(rows: &[&MatrixRow], quick: bool, program: &str) -> anyhow::Result<Self> {
         let fields = gallery::fields();
         let dimensions: BTreeMap<_, _> =
             fields.iter().map(|field| (field.name.raw(), field.dimension)).collect();
@@ -80,7 +80,7 @@ impl Plan {
 
 /// A level of a row.
 fn job(
-    row: &Row,
+    row: &MatrixRow,
     level: usize,
     program: &str,
     dimensions: &BTreeMap<&str, usize>,

@@ -19,7 +19,7 @@ use std::fmt;
 use mms_convergence::{is_near, observed_order};
 use mms_lab::outcome::Outcome;
 
-use super::matrix::{Expected, Row, Word};
+use super::matrix::{Expected, MatrixRow, Word};
 
 /// An observed order below this counts as none: orders in theory are 1 or more.
 const LEAST_ORDER: f64 = 0.5;
@@ -86,7 +86,7 @@ impl Judgement {
 /// * `not asymptotic`: l2 is above its expected order by more than the tolerance; or its order differs by more than the
 ///   tolerance from the order of the pair before, if there is one.
 /// * `pass`.
-pub fn judge(row: &Row, levels: &[Outcome]) -> Judgement {
+pub fn judge(row: &MatrixRow, levels: &[Outcome]) -> Judgement {
     let orders = match row.order {
         Expected::Word(Word::Exact) => vec![[None; 3]; levels.len()],
         _ => orders(row, levels),
@@ -101,7 +101,7 @@ pub fn judge(row: &Row, levels: &[Outcome]) -> Judgement {
     Judgement { orders, constant, verdict, expected, reason }
 }
 
-fn orders(row: &Row, levels: &[Outcome]) -> Vec<[Option<f64>; 3]> {
+fn orders(row: &MatrixRow, levels: &[Outcome]) -> Vec<[Option<f64>; 3]> {
     let order = |[coarse, fine]: [&Outcome; 2], norm: usize| {
         let [e1, e2] = [row.errors(coarse)?, row.errors(fine)?];
         observed_order([e1[norm], e2[norm]], [row.size(coarse)?, row.size(fine)?])
@@ -112,7 +112,7 @@ fn orders(row: &Row, levels: &[Outcome]) -> Vec<[Option<f64>; 3]> {
 }
 
 /// The error constant at the level for which the row states one.
-fn constant(row: &Row, levels: &[Outcome]) -> Option<f64> {
+fn constant(row: &MatrixRow, levels: &[Outcome]) -> Option<f64> {
     let Expected::Order(order) = row.order else { return None };
     let at = if row.quick > 0 { row.quick } else { levels.len() };
     let level = levels.get(at.checked_sub(1)?)?;
@@ -121,7 +121,7 @@ fn constant(row: &Row, levels: &[Outcome]) -> Option<f64> {
 }
 
 fn see(
-    row: &Row,
+    row: &MatrixRow,
     levels: &[Outcome],
     orders: &[[Option<f64>; 3]],
     constant: Option<f64>,
@@ -168,7 +168,7 @@ fn see(
 }
 
 /// A solution that the method represents exactly.
-fn exact(row: &Row, levels: &[Outcome]) -> (Verdict, String) {
+fn exact(row: &MatrixRow, levels: &[Outcome]) -> (Verdict, String) {
     if levels.is_empty() {
         return (Verdict::NotAsymptotic, "there is no level".into());
     }

@@ -36,7 +36,7 @@ fn exact(field: &FieldText, set: &BTreeMap<String, f64>) -> Result<Exact, Mistak
     Ok(Exact::new(field.compiled()?, &settings)?)
 }
 
-fn hold_finite(numbers: &[f64]) -> Result<(), Mistake> {
+fn validate_finite(numbers: &[f64]) -> Result<(), Mistake> {
     match numbers.iter().all(|it| it.is_finite()) {
         true => Ok(()),
         false => Err(Mistake::of("expected finite coordinates and a finite time")),
@@ -51,7 +51,7 @@ pub fn values(
     set: &BTreeMap<String, f64>,
 ) -> Result<Values, Mistake> {
     let mut exact = exact(field, set)?;
-    hold_finite(&[at, &[time]].concat())?;
+    validate_finite(&[at, &[time]].concat())?;
     if at.len() != exact.dimension {
         return Err(Mistake::of(format!(
             "X has {} coordinates; expected {}",

@@ -9,8 +9,8 @@ pub const CRATES: &[Crate] = &[
         knows: &[],
         layers: &[
             "coordinates defect double lane polygon quick",
-            "batch block dispatch float kept machine places structures",
-            "bunched generate",
+            "batch block dispatch float kept simd places structures",
+            "packed generate",
         ],
     },
     Crate { name: "mms-symbolic", knows: &[], layers: &["sorted work", "expr", "pass"] },
@@ -18,10 +18,10 @@ pub const CRATES: &[Crate] = &[
         name: "mms-program",
         knows: &["mms-math", "mms-symbolic"],
         layers: &[
-            "effort program",
+            "operation_cost program",
             "fusion interpret loops",
             "block dual interval precise schedule",
-            "computed fan precision",
+            "computed multi_dual precision",
         ],
     },
     Crate {
@@ -45,11 +45,11 @@ pub const CRATES: &[Crate] = &[
         layers: &[
             "defect invariant meanings region resolve tensor",
             "axisymmetric expansion extent model",
-            "face place",
+            "face samples",
             "amplitude offset rounding",
             "candidates",
             "divergence kinematics",
-            "misread",
+            "faults",
             "finite material small_strain",
             "derivation",
             "boundary requested rest rigid simplify",
@@ -78,7 +78,7 @@ pub const CRATES: &[Crate] = &[
             "mms-spec",
             "mms-symbolic",
         ],
-        layers: &["accuracy operations period present visibility"],
+        layers: &["accuracy operations period inverse_motion visibility"],
     },
     Crate {
         name: "mms-stability",
@@ -196,8 +196,8 @@ pub const CRATES: &[Crate] = &[
         name: "mms-campaign",
         knows: &["mms-spec"],
         layers: &[
-            "cover descendants printed table template",
-            "can set supervisor",
+            "coverage descendants printed table template",
+            "capabilities set supervisor",
             "file process",
             "profile",
         ],

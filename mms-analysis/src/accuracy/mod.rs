@@ -88,7 +88,7 @@ impl Default for Request {
 
 /// The errors of one quantity in one regime.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct AccuracyRow {
     /// The name of the regime.
     pub regime: Foreign,
     /// The quantity.
@@ -118,7 +118,7 @@ pub struct LeftOut {
 #[derive(Clone, Debug, Default)]
 pub struct Accuracy {
     /// The errors by regime, quantity, precision and form.
-    pub rows: Vec<Row>,
+    pub rows: Vec<AccuracyRow>,
     /// The regimes and quantities that were not measured, and why.
     pub left_out: Vec<LeftOut>,
 }
@@ -213,7 +213,7 @@ impl Accuracy {
             for quantity in unsettled {
                 leave_out(Some(quantity), Some(*precision), UNSETTLED.into());
             }
-            rows.extend(errors.into_iter().map(|(quantity, form, errors)| Row {
+            rows.extend(errors.into_iter().map(|(quantity, form, errors)| AccuracyRow {
                 regime: name.clone(),
                 quantity,
                 precision: *precision,
@@ -282,9 +282,9 @@ impl Made {
         let run = Run { made: self, parameters, inputs };
         let mut found = Found { errors: Vec::new(), unsettled: request.quantities.clone() };
         // Enough bits that more do not change the values. The largest numbers have 1024 before the point.
-        run.settle::<256, 1536>(&mut found)?;
-        run.settle::<1536, 4096>(&mut found)?;
-        run.settle::<4096, 8192>(&mut found)?;
+        run.decide::<256, 1536>(&mut found)?;
+        run.decide::<1536, 4096>(&mut found)?;
+        run.decide::<4096, 8192>(&mut found)?;
         Ok(found)
     }
 }
@@ -318,7 +318,7 @@ impl<'a, T: mms_program::interpret::Number> Evaluation<'a, T> {
 
 impl<T: Digits> Run<'_, T> {
     /// Adds the errors of quantities for which references of different digits agree.
-    fn settle<const BITS: usize, const MORE: usize>(
+    fn decide<const BITS: usize, const MORE: usize>(
         &self,
         found: &mut Found,
     ) -> Result<(), String> {

@@ -39,7 +39,7 @@ pub struct Chart {
     triangles: Vec<[usize; 3]>,
     /// The bounds of each variable, in terms of the parameters among those before it; then X and
     /// all parameters.
-    program: Program<Output>,
+    program: Program<ChartOutput>,
     /// How many components X has, and how many parameters there are.
     dimension: usize,
     parameters: usize,
@@ -49,7 +49,7 @@ pub struct Chart {
 
 /// An output of the chart's program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Output {
+pub enum ChartOutput {
     /// The two bounds of the variable of this index.
     Bounds(usize),
     /// The vertices of a polygon, one after another.
@@ -94,19 +94,19 @@ impl Chart {
         };
         let mut outputs = SortedMap::new();
         for (index, (_, bounds)) in variables.iter().enumerate() {
-            outputs.insert(Output::Bounds(index), substitute(graph, bounds, &fixed));
+            outputs.insert(ChartOutput::Bounds(index), substitute(graph, bounds, &fixed));
         }
         if let Region::Polygon(_) = body {
-            outputs.insert(Output::Vertices, substitute(graph, &body.values(), &fixed));
+            outputs.insert(ChartOutput::Vertices, substitute(graph, &body.values(), &fixed));
         }
         let leaves = |graph: &mut Graph, count: usize, symbol: fn(usize) -> Symbol| -> Vec<Expr> {
             (0..count).map(|index| graph.symbol(symbol(index))).collect()
         };
         let place = leaves(graph, field.dimension, Symbol::Coordinate);
         let place = substitute(graph, &place, &places);
-        outputs.insert(Output::Coordinates, substitute(graph, &place, &fixed));
+        outputs.insert(ChartOutput::Coordinates, substitute(graph, &place, &fixed));
         let parameters = leaves(graph, model.parameters.len(), Symbol::Parameter);
-        outputs.insert(Output::Parameters, substitute(graph, &parameters, &fixed));
+        outputs.insert(ChartOutput::Parameters, substitute(graph, &parameters, &fixed));
         Chart {
             variables: variables.into_iter().map(|(symbol, _)| symbol).collect(),
             fixed,
@@ -282,12 +282,12 @@ impl Chart {
                 known = count;
             }
             if !self.triangles.is_empty() && index + 2 == fractions.len() {
-                let vertices = interpreter.as_ref().map(|it| it.output(Output::Vertices));
+                let vertices = interpreter.as_ref().map(|it| it.output(ChartOutput::Vertices));
                 let vertices = vertices.unwrap_or_default();
                 values.extend(self.in_triangles(&vertices, &fractions[index..]));
                 break;
             }
-            let bounds = interpreter.as_ref().map(|it| it.output(Output::Bounds(index)));
+            let bounds = interpreter.as_ref().map(|it| it.output(ChartOutput::Bounds(index)));
             let Some([lower, upper]) = bounds.as_deref() else { continue };
             let length = upper.clone() - lower.clone();
             values.push(lower.clone() + length * fraction.clone());
@@ -344,7 +344,7 @@ impl Chart {
     }
 
     /// Prepares the map from the variables of the chart to parameters, time and X: see [`Run::point`].
-    pub fn points<T: Number>(&self) -> Run<'_, T, Output> {
+    pub fn points<T: Number>(&self) -> Run<'_, T, ChartOutput> {
         self.run(&self.program)
     }
 }
@@ -363,7 +363,7 @@ pub struct Run<'a, T: Number, K> {
 
 /// All parameters, t and X.
 #[derive(Clone, Debug)]
-pub struct Spot<T> {
+pub struct ChartPoint<T> {
     /// The parameters, in the order of the file.
     pub parameters: Vec<T>,
     /// t.
@@ -372,7 +372,7 @@ pub struct Spot<T> {
     pub coordinates: Vec<T>,
 }
 
-impl Spot<Precise> {
+impl ChartPoint<Precise> {
     /// Whether every number was computed.
     pub fn is_known(&self) -> bool {
         let all = self.parameters.iter().chain(&self.coordinates).chain([&self.time]);
@@ -380,14 +380,14 @@ impl Spot<Precise> {
     }
 }
 
-impl<T: Number> Run<'_, T, Output> {
+impl<T: Number> Run<'_, T, ChartOutput> {
     /// All parameters, t and X at values of the variables.
-    pub fn point(&mut self, values: &[T]) -> Spot<T> {
+    pub fn point(&mut self, values: &[T]) -> ChartPoint<T> {
         let [parameters, coordinates] = self
-            .at(values, &[Output::Parameters, Output::Coordinates])
+            .at(values, &[ChartOutput::Parameters, ChartOutput::Coordinates])
             .try_into()
             .unwrap_or_else(|_| unreachable!("two outputs were requested"));
-        Spot { parameters, time: self.chart.split(values).0, coordinates }
+        ChartPoint { parameters, time: self.chart.split(values).0, coordinates }
     }
 }
 

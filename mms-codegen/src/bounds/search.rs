@@ -90,7 +90,7 @@ pub struct Measure {
 
 /// The result of a search.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct SearchResult {
     /// An upper bound of the function everywhere.
     pub bound: f64,
     /// The greatest value that was met.
@@ -160,11 +160,11 @@ pub fn largest<'a>(
     limit: impl Into<Limit<'a>>,
     enough: impl Fn(f64, f64) -> bool,
     mut measure: impl FnMut(&Cell) -> Measure,
-) -> Found {
+) -> SearchResult {
     let limit = limit.into();
     let whole = Cell::whole(dimension);
     let first = measure(&whole);
-    let mut found = Found {
+    let mut found = SearchResult {
         bound: first.bound,
         attained: first.attained,
         at: first.at,

@@ -1,6 +1,6 @@
 //! Counterexamples: a point of the domain where something was found, which a message can name.
 
-use super::chart::{Chart, Spot};
+use super::chart::{Chart, ChartPoint};
 use mms_math::Scalar as _;
 use mms_program::precise::Precise;
 
@@ -20,13 +20,13 @@ pub struct Witness {
 
 impl Witness {
     /// The witness at fractions of the way through a chart, and its spot in 77 digits.
-    pub fn at(chart: &Chart, fractions: &[f64]) -> (Witness, Spot<Precise>) {
+    pub fn at(chart: &Chart, fractions: &[f64]) -> (Witness, ChartPoint<Precise>) {
         let fractions: Vec<Precise> = fractions.iter().map(|it| Precise::from_f64(*it)).collect();
         Self::at_precise(chart, &fractions)
     }
 
     /// The witness at fractions of 77 digits, and its spot.
-    pub fn at_precise(chart: &Chart, fractions: &[Precise]) -> (Witness, Spot<Precise>) {
+    pub fn at_precise(chart: &Chart, fractions: &[Precise]) -> (Witness, ChartPoint<Precise>) {
         // The place where a search ended is reported even if its budget is spent.
         let place = || chart.points().point(&chart.place(fractions));
         let spot = chart.work().aside(STEPS, place);

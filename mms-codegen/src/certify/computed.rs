@@ -18,7 +18,7 @@
 use mms_math::Scalar as _;
 
 use super::finite::{blame, corners};
-use crate::bounds::chart::{Chart, Run, Spot};
+use crate::bounds::chart::{Chart, ChartPoint, Run};
 use crate::bounds::enclosure::Formulas;
 use crate::bounds::search::{Cell, Measure, largest};
 use crate::bounds::witness::{Witness, digits};
@@ -117,8 +117,8 @@ pub fn failure(compiled: &Compiled, chart: &Chart, precision: Precision) -> Opti
 }
 
 /// Points of a box whose coordinates and times are numbers of a format.
-fn computed<F: Format>(spot: &Spot<Interval>) -> Spot<Computed<F>> {
-    Spot {
+fn computed<F: Format>(spot: &ChartPoint<Interval>) -> ChartPoint<Computed<F>> {
+    ChartPoint {
         parameters: spot.parameters.iter().copied().map(Computed::rounded).collect(),
         time: Computed::input(spot.time),
         coordinates: spot.coordinates.iter().copied().map(Computed::input).collect(),
@@ -226,7 +226,7 @@ impl<'a> QuantityProgram<'a> {
     /// Bounds all values at a spot, for any normal, with `known` bounds of some exact values.
     fn bounded<F: Format>(
         &self,
-        spot: &Spot<Computed<F>>,
+        spot: &ChartPoint<Computed<F>>,
         known: impl Fn(usize) -> Option<Interval>,
     ) -> Values<Computed<F>> {
         // The components of any unit vector.
@@ -255,7 +255,7 @@ impl<'a> QuantityProgram<'a> {
     /// Computes all values that are needed at a spot; `meet` changes each value before others use it.
     fn values<T: Number>(
         &self,
-        spot: &Spot<T>,
+        spot: &ChartPoint<T>,
         normal: T,
         meet: impl Fn(usize, T) -> T,
         meet_wide: impl Fn(usize, T::Wide) -> T::Wide,
@@ -314,7 +314,7 @@ impl<'a> QuantityProgram<'a> {
     }
 
     /// Whether a quantity has a value in 77 digits, and J > 0.
-    fn has_value(&self, spot: &Spot<Precise>, quantity: Quantity) -> bool {
+    fn has_value(&self, spot: &ChartPoint<Precise>, quantity: Quantity) -> bool {
         let same = |_, value| value;
         let values = self.values(spot, Precise::from_f64(1.0), same, same).narrow;
         let zero = Precise::from_f64(0.0);
@@ -331,10 +331,10 @@ impl<'a> QuantityProgram<'a> {
     /// The first quantity that is not computed at a spot, and why.
     fn failure<T: Number + Into<f64> + Copy>(
         &self,
-        spot: &Spot<f64>,
+        spot: &ChartPoint<f64>,
     ) -> Option<(Quantity, String)> {
         let all = |numbers: &[f64]| numbers.iter().map(|x| T::from_f64(*x)).collect();
-        let spot = Spot {
+        let spot = ChartPoint {
             parameters: all(&spot.parameters),
             time: T::from_f64(spot.time),
             coordinates: all(&spot.coordinates),
@@ -511,7 +511,7 @@ struct Judge<'a> {
     quantities: &'a QuantityProgram<'a>,
     chart: &'a Chart,
     operands: &'a Operands,
-    spots: Run<'a, Interval, crate::bounds::chart::Output>,
+    spots: Run<'a, Interval, crate::bounds::chart::ChartOutput>,
 }
 
 impl Judge<'_> {

@@ -20,7 +20,7 @@ use super::softening::{Softening, softening};
 use super::tangent::{MeanValue, Tangent};
 use crate::bounds::chart::Chart;
 use crate::bounds::enclosure::{Enclosures, Formulas};
-use crate::bounds::search::{Found, Measure, largest};
+use crate::bounds::search::{Measure, SearchResult, largest};
 use crate::compile::Compiled;
 
 /// The largest number of boxes of states, by dimension (a box in space takes about ten times as long as others), and of boxes
@@ -70,7 +70,7 @@ pub(super) fn bound(
     (lost.map_or_else(|| judged(&found), Ellipticity::Lost), found.cells)
 }
 
-fn judged(found: &Found) -> Ellipticity {
+fn judged(found: &SearchResult) -> Ellipticity {
     match found.bound {
         bound if bound.is_finite() && bound > 0.0 => Ellipticity::Strong((1.0 / bound).next_down()),
         _ => Ellipticity::Unproved,
@@ -166,7 +166,7 @@ impl<'a> Compliance<'a> {
     }
 
     /// The largest value over all possible states.
-    fn of_all(&mut self, states: &States<'_>) -> Found {
+    fn of_all(&mut self, states: &States<'_>) -> SearchResult {
         let this = RefCell::new(self);
         let most = CELLS[states.dimension - 1];
         let open = Open::default();
@@ -192,7 +192,7 @@ impl<'a> Compliance<'a> {
         graph: &mut Graph,
         searches: &Searches<'_>,
         stretches: &Stretches,
-    ) -> Found {
+    ) -> SearchResult {
         let all = Interval::new(stretches.least, stretches.greatest);
         let mut seen = searches.strain.clone();
         let known = seen.len();

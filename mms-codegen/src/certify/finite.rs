@@ -1,7 +1,7 @@
 //! Whether every quantity has a finite value everywhere, its derivatives included.
 
 use super::motion::{ChartMotion, without_volume};
-use crate::bounds::chart::{Chart, Spot};
+use crate::bounds::chart::{Chart, ChartPoint};
 use crate::bounds::enclosure::Formulas;
 use crate::bounds::search::{Cell, Measure, largest};
 use crate::bounds::witness::{STEPS, Witness};
@@ -170,7 +170,7 @@ impl<'a> Quantities<'a> {
 
     /// A quantity that is not proved to be bounded in a cell. With J replaced, the other parts of a quantity may be bounded
     /// less well, so a bound by either program will do.
-    fn unbounded(&self, spot: &Spot<Interval>, jacobian: Interval) -> Option<Quantity> {
+    fn unbounded(&self, spot: &ChartPoint<Interval>, jacobian: Interval) -> Option<Quantity> {
         let gap = self.without_value(spot, Some(jacobian), is_bounded)?;
         self.without_value(spot, None, is_bounded).map(|_| gap)
     }
@@ -178,7 +178,7 @@ impl<'a> Quantities<'a> {
     /// The first quantity that is not `well` at a spot, in the order of derivation.
     fn without_value<T: Number>(
         &self,
-        spot: &Spot<T>,
+        spot: &ChartPoint<T>,
         jacobian: Option<T>,
         well: impl Fn(&T) -> bool,
     ) -> Option<Quantity> {

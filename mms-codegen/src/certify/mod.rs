@@ -45,4 +45,4 @@ pub mod sign;
 pub mod softening;
 pub mod solid;
 mod tangent;
-pub mod written;
+pub mod undefined;

@@ -22,7 +22,7 @@ use super::motion::ChartMotion;
 use super::tangent::Tangent;
 use crate::bounds::chart::Chart;
 use crate::bounds::enclosure::{Enclosures, Formulas, key};
-use crate::bounds::search::{Found, Measure, largest};
+use crate::bounds::search::{Measure, SearchResult, largest};
 use mms_program::interpret::Number as _;
 use mms_program::interval::Interval;
 use mms_symbolic::expr::{Expr, Graph};
@@ -164,7 +164,7 @@ impl<'a> Searches<'a> {
     }
 
     /// The largest |D| where no principal stretch is less than `floor`.
-    fn strain_rate(&self, graph: &mut Graph, floor: f64) -> Found {
+    fn strain_rate(&self, graph: &mut Graph, floor: f64) -> SearchResult {
         let (motion, known) = (self.motion, self.strain.len());
         let size = motion.gradient.len();
         let mut moving = [&self.strain[..], &motion.gradient_rate, &motion.right_rate].concat();
@@ -190,7 +190,7 @@ impl<'a> Searches<'a> {
         stretches: &Stretches,
         frames: [Frame; N],
         speed: f64,
-    ) -> [Found; N] {
+    ) -> [SearchResult; N] {
         let stretches = Interval::new(stretches.least, stretches.greatest);
         let (motion, known) = (self.motion, self.strain.len());
         let mut seen = self.strain.clone();
@@ -232,7 +232,7 @@ fn search(
     limit: usize,
     steering: Range<usize>,
     measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
-) -> Found {
+) -> SearchResult {
     let sharp = |value: f64| if value > 0.0 { value * (1.0 + SHARPNESS) } else { 0.0 };
     search_until(chart, bounds, limit, steering, sharp, measure)
 }
@@ -245,7 +245,7 @@ pub(super) fn search_until(
     steering: Range<usize>,
     sharp: impl Fn(f64) -> f64,
     mut measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
-) -> Found {
+) -> SearchResult {
     let enough = |bound: f64, value: f64| bound <= sharp(value);
     let mut greatest = 0.0_f64;
     largest(chart.variables().len(), chart.limit(limit), enough, |cell| {

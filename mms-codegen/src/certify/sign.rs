@@ -5,7 +5,7 @@ use mms_math::Scalar as _;
 
 use crate::bounds::chart::Chart;
 use crate::bounds::enclosure::{Evaluation, Formulas};
-use crate::bounds::search::{Found, Measure, largest};
+use crate::bounds::search::{Measure, SearchResult, largest};
 use crate::bounds::witness::Witness;
 use mms_program::interval::Interval;
 use mms_program::precise::Precise;
@@ -90,7 +90,7 @@ impl<'a> Positive<'a> {
     }
 
     /// Bounds `sign` times the formula from above.
-    fn extremum(&self, limit: usize, sign: f64, enough: impl Fn(f64, f64) -> bool) -> Found {
+    fn extremum(&self, limit: usize, sign: f64, enough: impl Fn(f64, f64) -> bool) -> SearchResult {
         let Positive { chart, formula, .. } = *self;
         let (mut bounds, mut values) = (formula.run::<Interval>(chart), self.values());
         let signed = Interval::from_f64(sign);

@@ -6,17 +6,17 @@ use crate::bounds::chart::{Chart, Run};
 use mms_mechanics::invariant::SUPPLIED_VOLUME;
 use mms_program::Program;
 use mms_program::dual::Dual;
-use mms_program::fan::Fan;
 use mms_program::interpret::Number;
 use mms_program::interval::Interval;
+use mms_program::multi_dual::MultiDual;
 use mms_program::schedule::schedule_plainly;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::sorted::SortedMap;
 
 /// dP/dF by dual numbers, and its derivatives by dual numbers over these.
 pub struct Tangent<'a> {
-    first: Run<'a, Fan<Interval>, ()>,
-    second: Run<'a, Fan<Dual<Interval>>, ()>,
+    first: Run<'a, MultiDual<Interval>, ()>,
+    second: Run<'a, MultiDual<Dual<Interval>>, ()>,
 }
 
 /// A mean-value form of dP/dF: its value in the middle plus, for each entry of H that varies, the slope times the distance from
@@ -49,8 +49,8 @@ impl<'a> Tangent<'a> {
         jacobian: Interval,
         place: &[Interval],
     ) -> Vec<Interval> {
-        let place: Vec<_> = place.iter().copied().map(Fan::constant).collect();
-        let variable = |(entry, value): (usize, &Interval)| Fan::variable(*value, entry);
+        let place: Vec<_> = place.iter().copied().map(MultiDual::constant).collect();
+        let variable = |(entry, value): (usize, &Interval)| MultiDual::variable(*value, entry);
         let gradient: Vec<_> = gradient.iter().enumerate().map(variable).collect();
         let mut volume = volume(&gradient);
         volume.value = volume.value.meet(jacobian - Interval::from_f64(1.0));
@@ -106,10 +106,11 @@ impl<'a> Tangent<'a> {
         place: &[Interval],
         direction: usize,
     ) -> Vec<Interval> {
-        let place: Vec<_> = place.iter().map(|side| Fan::constant(Dual::constant(*side))).collect();
+        let place: Vec<_> =
+            place.iter().map(|side| MultiDual::constant(Dual::constant(*side))).collect();
         let variable = |(entry, value): (usize, &Interval)| {
             let unit = Interval::from_f64(f64::from(u8::from(entry == direction)));
-            Fan::variable(Dual { value: *value, slope: unit }, entry)
+            MultiDual::variable(Dual { value: *value, slope: unit }, entry)
         };
         let gradient: Vec<_> = gradient.iter().enumerate().map(variable).collect();
         let volume = volume(&gradient);

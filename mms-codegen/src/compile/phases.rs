@@ -9,9 +9,9 @@ use crate::culprit::culprit;
 use crate::declared;
 use crate::materials::{MATERIALS, shipped};
 use mms_mechanics::boundary::data;
-use mms_mechanics::kinematics::Route;
 #[cfg(feature = "defects")]
-use mms_mechanics::misread;
+use mms_mechanics::faults;
+use mms_mechanics::kinematics::Route;
 use mms_mechanics::model::parameter_values;
 use mms_mechanics::offset::about_its_place;
 use mms_mechanics::output::parts;
@@ -159,7 +159,7 @@ impl<'a> Phases<'a> {
             .map_err(|TooLarge(what)| self.diagnostics.push(too_large(&read.field, graph, what)))
             .ok()?;
         #[cfg(feature = "defects")]
-        let derived = misread(graph, read, derived)?;
+        let derived = faults(graph, read, derived)?;
         let Options { selection, form, .. } = self.options;
         // The force of a rigid twin needs the motion of the field.
         let needed = |quantity| read.model.rigid.is_some() || selection.wants(quantity);
@@ -252,9 +252,9 @@ impl<'a> Phases<'a> {
 
 /// Derives the field with the wrong moduli of a deliberate mistake; the responses that a solver uses keep the right ones.
 #[cfg(feature = "defects")]
-fn misread(graph: &mut Graph, read: &mut Read, derived: Derivation) -> Option<Derivation> {
+fn faults(graph: &mut Graph, read: &mut Read, derived: Derivation) -> Option<Derivation> {
     let Read { field, material, model } = read;
-    let Some(wrong) = misread::moduli(graph, field, material, model) else {
+    let Some(wrong) = faults::moduli(graph, field, material, model) else {
         return Some(derived);
     };
     let of_wrong = derive(graph, &wrong, &Relations::default(), Route::Gradient).ok()?;

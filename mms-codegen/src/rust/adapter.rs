@@ -44,9 +44,9 @@ impl Emitter<'_> {
         let is_axisymmetric = self.compiled.field.space.is_axisymmetric();
         let components = Literal::usize_unsuffixed(self.components().count());
         let material = quote! {
-            use ::#runtime::math::bunched::Bunched;
-            let gradients = Bunched::<_, #components>(gradients);
-            let mut stress = Bunched::<_, #components>(stress);
+            use ::#runtime::math::packed::Packed;
+            let gradients = Packed::<_, #components>(gradients);
+            let mut stress = Packed::<_, #components>(stress);
             batch::run(&Response(&#stress_owner), #source, &mut stress);
         };
         let [own_stress, own_energy, revolved] = match is_axisymmetric {
@@ -141,15 +141,15 @@ impl Emitter<'_> {
                     displacement_gradient: &[Matrix<T>],
                     stress: &mut [Matrix<T>],
                 ) {
-                    ::#runtime::material::by_bunches(
+                    ::#runtime::material::by_packs(
                         self, time, reference, displacement_gradient, stress,
                     );
                 }
 
-                fn kirchhoff_stress_of_bunches(
+                fn kirchhoff_stress_of_packs(
                     &self,
                     time: T,
-                    reference: &[[Vector<T>; ::#runtime::column::BUNCH]],
+                    reference: &[[Vector<T>; ::#runtime::column::PACK]],
                     displacement_gradient: &[::#runtime::column::Matrices<T, #dimension>],
                     stress: &mut [::#runtime::column::Matrices<T, #dimension>],
                 ) {
@@ -211,17 +211,17 @@ impl Emitter<'_> {
                     }
                 }
 
-                fn kirchhoff_stress_of_bunches(
+                fn kirchhoff_stress_of_packs(
                     &self,
                     time: T,
-                    reference: &[[Vector<T>; ::#runtime::column::BUNCH]],
+                    reference: &[[Vector<T>; ::#runtime::column::PACK]],
                     strains: (
                         &[::#runtime::column::Matrices<T, #dimension>],
-                        &[[T; ::#runtime::column::BUNCH]],
+                        &[[T; ::#runtime::column::PACK]],
                     ),
                     stresses: (
                         &mut [::#runtime::column::Matrices<T, #dimension>],
-                        &mut [[T; ::#runtime::column::BUNCH]],
+                        &mut [[T; ::#runtime::column::PACK]],
                     ),
                 ) {
                     #module::by_rings(reference, strains, stresses, |reference, gradients, stress| {
@@ -328,7 +328,7 @@ impl Emitter<'_> {
 
             impl<T: batch::Float> batch::Kernel<T, #inputs, #results> for Response<'_, T> {
                 #[inline(always)]
-                fn drive<S: batch::Stand<T>>(
+                fn drive<S: batch::Lift<T>>(
                     &self,
                     points: &mut impl batch::Points<S, #inputs, #results>,
                 ) {

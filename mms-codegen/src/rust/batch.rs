@@ -54,10 +54,10 @@ impl Emitter<'_> {
         quote! {
             impl<T: Real> Field<T> {
                 #[inline(always)]
-                fn standing<S: batch::Stand<T>>(&self) -> Field<S> {
+                fn standing<S: batch::Lift<T>>(&self) -> Field<S> {
                     Field {
-                        #(#field: S::standing_for(self.#field),)*
-                        #(#wide: S::standing_for(T::narrow(self.#wide)).widen(),)*
+                        #(#field: S::splat(self.#field),)*
+                        #(#wide: S::splat(T::narrow(self.#wide)).widen(),)*
                         #marker
                     }
                 }
@@ -65,8 +65,8 @@ impl Emitter<'_> {
 
             impl<T: Real> AtTime<'_, T> {
                 #[inline(always)]
-                fn standing<'a, S: batch::Stand<T>>(&self, field: &'a Field<S>) -> AtTime<'a, S> {
-                    AtTime { field, #(#time: S::standing_for(self.#time),)* }
+                fn standing<'a, S: batch::Lift<T>>(&self, field: &'a Field<S>) -> AtTime<'a, S> {
+                    AtTime { field, #(#time: S::splat(self.#time),)* }
                 }
             }
         }
@@ -93,7 +93,7 @@ impl Emitter<'_> {
             /// for sines, exponentials and roots, not for a product or two.
             #[derive(Clone, Debug)]
             pub struct Points<T: batch::Float> {
-                kept: batch::Kept<T, #count>,
+                kept: batch::PointCache<T, #count>,
             }
 
             impl<T: batch::Float> Points<T> {
@@ -118,7 +118,7 @@ impl Emitter<'_> {
                 ///
                 /// If the slices have different lengths.
                 pub fn at_points(&self, points: [&[T]; #dimension]) -> Points<T> {
-                    let mut kept = batch::Kept::room_for(points[0].len());
+                    let mut kept = batch::PointCache::room_for(points[0].len());
                     batch::run(&PointsOf(self), &points, &mut kept);
                     Points { kept }
                 }
@@ -136,7 +136,7 @@ impl Emitter<'_> {
 
             impl<T: batch::Float> batch::Kernel<T, #dimension, #count> for PointsOf<'_, T> {
                 #[inline(always)]
-                fn drive<S: batch::Stand<T>>(
+                fn drive<S: batch::Lift<T>>(
                     &self,
                     points: &mut impl batch::Points<S, #dimension, #count>,
                 ) {

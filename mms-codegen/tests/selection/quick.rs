@@ -1,7 +1,7 @@
 //! Values that the quick test accepts.
 
 use mms_codegen::compile;
-use mms_codegen::compile::quick::Quick;
+use mms_codegen::compile::fast_check::FastParameterCheck;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
@@ -18,7 +18,7 @@ fn what_is_accepted_quickly_is_accepted() {
     for (name, text) in FIELDS {
         let compiled = compile(name, name, text, &|_| Err("no files here".into()))
             .unwrap_or_else(|failure| panic!("{failure}"));
-        let quick = Quick::new(&compiled).expect("an isotropic field");
+        let quick = FastParameterCheck::new(&compiled).expect("an isotropic field");
         let defaults = compiled.parameters::<f64>(&SortedMap::new());
         let (mut accepted, mut refused) = (0, 0);
         for index in 0..compiled.model.parameters.len() {

@@ -9,8 +9,8 @@ use mms_analysis::accuracy::{Request, measure, names};
 use mms_codegen::selection::Selection;
 use mms_codegen::{Compiled, Options};
 use mms_exact::Source;
-use mms_exact::{hold_body, quantities, settings};
-use mms_lab::workbench::{Module, Time, Way, Workbench, time};
+use mms_exact::{quantities, settings, validate_body};
+use mms_lab::workbench::{Module, ModuleForm, Time, Workbench, time};
 use mms_options::field::{Motion, open, precision};
 use mms_program::precision::Precision;
 use mms_report::accuracy::Report;
@@ -20,7 +20,7 @@ use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 
 use super::format::Printing;
-use super::{Outcome, hold_output, say, this_command};
+use super::{Outcome, say, this_command, validate_output};
 
 /// Measure the errors of a field against arbitrary precision: every quantity, in single, double and
 /// twice double precision, in the stable and the fast form, as declared and at extremes.
@@ -87,12 +87,12 @@ fn listed() -> String {
 impl Accuracy {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let text = open(&self.field)?;
-        self.output.as_deref().map_or(Ok(()), hold_output)?;
+        self.output.as_deref().map_or(Ok(()), validate_output)?;
         let set = settings(&self.set)?;
         let options = self.motion.options(Selection { set, ..Selection::default() });
         let refused = |failure| anyhow!("the field does not compile as selected\n{failure}");
         let compiled = text.compile(&options).map_err(refused)?;
-        hold_body(&compiled, "errors are measured over a body")?;
+        validate_body(&compiled, "errors are measured over a body")?;
         let quantities = self.quantities(&compiled)?;
         let quantities: Vec<_> = quantities.into_iter().filter(|it| compiled.offers(*it)).collect();
         let request = Request {
@@ -180,8 +180,8 @@ fn timed(text: &Source, request: &Request) -> Option<Vec<(Form, Time)>> {
             modules.push(Module { name: form.name(), compiled });
         }
         let ways = request.precisions.iter().map(|precision| match precision {
-            Precision::Wide => (*precision, Way::Single),
-            _ => (*precision, Way::Batch),
+            Precision::Wide => (*precision, ModuleForm::Single),
+            _ => (*precision, ModuleForm::Batch),
         });
         time(&bench, &modules, &ways.collect::<Vec<_>>())
     };

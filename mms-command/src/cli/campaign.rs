@@ -11,7 +11,7 @@ use anyhow::{Context as _, bail};
 use clap::Args;
 use mms_campaign::Campaign as File;
 use mms_documents::campaign::{CampaignRuns, ListedRun};
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 use mms_files::shell::{command, quoted};
 use mms_files::store::Store;
 use mms_harness::canary;
@@ -25,9 +25,9 @@ use mms_report::campaign::{View, line};
 use mms_spec::foreign;
 
 use super::figure::FigureFile;
-use super::follow::Interrupted;
 use super::format::{Detail, Printing};
-use super::{Outcome, hold_output, next, print, replaced, say, this_command};
+use super::observers::Interrupted;
+use super::{Outcome, next, print, replaced, say, this_command, validate_output};
 use crate::provenance::{Input, Provenance};
 
 /// Run your own solver on the meshes of several studies, and judge each as `mms judge` does it.
@@ -88,9 +88,9 @@ pub struct Campaign {
 
 impl Campaign {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        self.output.as_deref().map_or(Ok(()), hold_output)?;
+        self.output.as_deref().map_or(Ok(()), validate_output)?;
         self.figure.hold()?;
-        let text = read::text(&self.file, Kind::Campaign)?;
+        let text = read::text(&self.file, FileKind::Campaign)?;
         let file = mms_campaign::read(&self.file.to_string_lossy(), &text)?;
         if self.suggest {
             return self.propose(&file);

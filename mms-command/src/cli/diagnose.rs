@@ -34,7 +34,7 @@ use mms_spec::quantity::Quantity;
 use super::format::{Detail, Printing};
 use super::naming::Naming;
 use super::next::typed;
-use super::{Outcome, hold_output, print, replaced, say, this_command};
+use super::{Outcome, print, replaced, say, this_command, validate_output};
 
 /// Name the mistake of a solver by the error that it makes.
 ///
@@ -182,7 +182,7 @@ fn sign(text: &str) -> Result<f64, &'static str> {
 
 impl Diagnose {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        self.output.as_deref().map_or(Ok(()), hold_output)?;
+        self.output.as_deref().map_or(Ok(()), validate_output)?;
         let variation = if self.affine { Variation::Affine } else { Variation::Nothing };
         let options = Options { variation, ..self.variant.options(Selection::default()) };
         let input = Input::new(open(self.field.as_deref().unwrap_or(LISTED))?, &options)?;

@@ -188,7 +188,7 @@ impl Eval {
         }
         let input = find_some(&self.field, &self.variant, &derived)?;
         let quantities = input.offered(&self.quantity, quantities)?;
-        self.hold_normal(&quantities)?;
+        self.validate_normal(&quantities)?;
         match self.precision {
             Precision::F32 => self.evaluate::<f32>(&input, &quantities),
             Precision::F64 => self.evaluate::<f64>(&input, &quantities),
@@ -349,7 +349,7 @@ impl Eval {
     }
 
     /// Refuses a normal that no quantity takes.
-    fn hold_normal(&self, quantities: &[Quantity]) -> anyhow::Result<()> {
+    fn validate_normal(&self, quantities: &[Quantity]) -> anyhow::Result<()> {
         let given = [("--normal", &self.normal), ("--face", &self.face)];
         match given.into_iter().find(|(_, value)| value.is_some()) {
             Some((option, Some(value))) if !quantities.iter().any(|it| it.takes_normal()) => bail!(

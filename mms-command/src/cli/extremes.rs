@@ -8,7 +8,7 @@ use mms_codegen::{Options, Selection};
 use mms_exact::settings;
 use mms_exact::wave::without_bound;
 use mms_files::write::{pretty, write_files};
-use mms_lab::extremes::rows::{Row, rows};
+use mms_lab::extremes::rows::{ExtremeSetting, rows};
 use mms_lab::extremes::stable;
 use mms_lab::extremes::subject::Subject;
 use mms_lab::extremes::theory::{Elasticity, courant};
@@ -26,7 +26,7 @@ use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
 
 use super::format::Printing;
-use super::{Outcome, hold_output, print, say, this_command};
+use super::{Outcome, print, say, this_command, validate_output};
 use crate::session::progress::Progress;
 
 /// Run a field at the limits of the solver: each run meets its bound, or stops with the right diagnosis.
@@ -71,7 +71,7 @@ impl Extremes {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let all = rows()?;
         let wanted = self.select(&all)?;
-        self.output.as_deref().map_or(Ok(()), hold_output)?;
+        self.output.as_deref().map_or(Ok(()), validate_output)?;
         let arithmetic = self.method.arithmetic;
         let declared = match Subject::new(&self.field, &self.options()?, None)? {
             Ok(declared) => declared,
@@ -145,7 +145,7 @@ impl Extremes {
     }
 
     /// The selected rows.
-    fn select<'a>(&self, all: &'a [Row]) -> anyhow::Result<Vec<&'a Row>> {
+    fn select<'a>(&self, all: &'a [ExtremeSetting]) -> anyhow::Result<Vec<&'a ExtremeSetting>> {
         let names =
             || all.iter().flat_map(|row| [row.name.as_str(), row.group()]).chain([STABILITY]);
         for name in &self.row {
@@ -163,7 +163,7 @@ impl Extremes {
 
     fn judge(
         &self,
-        row: &Row,
+        row: &ExtremeSetting,
         base: &Method,
         declared: Declared,
         progress: &Progress,

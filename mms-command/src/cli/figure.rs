@@ -10,7 +10,7 @@ use mms_report::page::figure;
 use mms_report::plot::{Figure, FileFormat, Width};
 use mms_spec::foreign;
 
-use super::{Outcome, print, say, spare};
+use super::{Outcome, print, refuse_overwriting, say};
 
 /// The figure of a result.
 #[derive(Args, Clone, Debug)]
@@ -69,7 +69,7 @@ impl FigureFile {
 
 impl Plot {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        spare("--output", &self.output, &self.files)?;
+        refuse_overwriting("--output", &self.output, &self.files)?;
         let figure = figure::read(&self.files)?;
         write(&self.output, &figure, self.width)?;
         print(&format!("wrote {}", foreign::path(&self.output)))?;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use clap::Args;
 use mms_convergence::{TOLERANCE, Verdict};
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 use mms_files::store::digest;
 use mms_judge::Judgements;
 use mms_judge::next;
@@ -18,7 +18,7 @@ use mms_spec::foreign;
 
 use super::figure::FigureFile;
 use super::format::{Detail, Printing};
-use super::{Outcome, hold_output, print, replaced, this_command};
+use super::{Outcome, print, replaced, this_command, validate_output};
 use crate::provenance::Input;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
@@ -87,7 +87,7 @@ pub struct Judge {
 
 impl Judge {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        self.output.as_deref().map_or(Ok(()), hold_output)?;
+        self.output.as_deref().map_or(Ok(()), validate_output)?;
         self.figure.hold()?;
         match (&self.errors, &self.field) {
             (Some(table), _) => self.errors(table),
@@ -97,7 +97,7 @@ impl Judge {
     }
 
     fn errors(&self, table: &Path) -> anyhow::Result<Outcome> {
-        let text = read::text(table, Kind::Errors)?;
+        let text = read::text(table, FileKind::Errors)?;
         let (measured, notes) =
             table::read_one(table, &text, &self.orders(), self.method.as_deref())?;
         let source = foreign::path(table);

@@ -23,7 +23,6 @@ mod examples;
 mod explain;
 mod extremes;
 mod figure;
-mod follow;
 mod format;
 mod judge;
 mod list;
@@ -31,6 +30,7 @@ mod methods;
 mod naming;
 mod new;
 mod next;
+mod observers;
 mod replaced;
 mod report;
 mod run;
@@ -233,7 +233,7 @@ fn this_command(kind: &str, input: Input) -> Provenance {
 }
 
 /// Checks that the folder of `--output` can be made and written to, and fails before any work is done. Leaves nothing there.
-fn hold_output(folder: &Path) -> anyhow::Result<()> {
+fn validate_output(folder: &Path) -> anyhow::Result<()> {
     let shown = foreign::path(folder);
     if folder.exists() && !folder.is_dir() {
         anyhow::bail!("`--output {shown}`: not a folder");
@@ -246,7 +246,7 @@ fn hold_output(folder: &Path) -> anyhow::Result<()> {
 }
 
 /// Refuses a file for results that one of the `inputs` was read from: it would be lost.
-fn spare<'a>(
+fn refuse_overwriting<'a>(
     option: &str,
     path: &Path,
     inputs: impl IntoIterator<Item = &'a PathBuf>,
@@ -260,12 +260,12 @@ fn spare<'a>(
     Ok(())
 }
 
-/// The output folder of a field; see [`hold_output`].
+/// The output folder of a field; see [`validate_output`].
 fn output_folder(given: Option<&Path>, name: &str) -> anyhow::Result<PathBuf> {
     let own = name.trim_start_matches('.');
     let own = if own.is_empty() { "field" } else { own };
     let folder = given.map_or_else(|| Path::new("target/mms").join(own), Path::to_owned);
-    hold_output(&folder)?;
+    validate_output(&folder)?;
     Ok(folder)
 }
 

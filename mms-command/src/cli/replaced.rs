@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 use mms_spec::foreign::{path, shown};
 use serde::Deserialize;
 
@@ -22,7 +22,7 @@ pub fn tell(folder: &Path, name: &str, new: &Provenance) {
         return;
     }
     // No document of these commands is no earlier result.
-    let Ok(text) = read::text(&file, Kind::Result) else { return };
+    let Ok(text) = read::text(&file, FileKind::Result) else { return };
     let Ok(Found { provenance: old }) = serde_json::from_str(&text) else { return };
     if (&old.kind, &old.input.field) != (&new.kind, &new.input.field) {
         let of = old.input.field.map_or(String::new(), |field| format!(" of {}", shown(&field)));

@@ -11,7 +11,7 @@ use mms_report::page::gallery::Listed;
 use mms_report::page::{self, Page, Verdicts};
 use mms_spec::foreign;
 
-use super::{Outcome, print, say, spare};
+use super::{Outcome, print, refuse_overwriting, say};
 
 /// Put all results of a folder on one page of HTML, complete in itself: verdicts first, then tables, pictures of
 /// convergence, diagnoses, campaigns of other solvers, the verification matrix, error against cost, the solver at its limits, states of runs, the formulas
@@ -50,7 +50,7 @@ impl Report {
     fn results(&self, folder: &Path) -> anyhow::Result<Verdicts> {
         let path = self.output.clone().unwrap_or_else(|| folder.join("report.html"));
         let page = Page::read(folder)?;
-        spare("--output", &path, page.files())?;
+        refuse_overwriting("--output", &path, page.files())?;
         for line in page.set_aside() {
             say(format_args!("not on the page: {line}"));
         }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::bail;
 use clap::Args;
 use mms_exact::Input;
-use mms_exact::hold_division;
+use mms_exact::validate_division;
 use mms_files::machine::memory;
 use mms_files::program::{arguments, identity};
 use mms_files::shell::words;
@@ -21,8 +21,8 @@ use mms_runtime::study::Watch;
 use mms_runtime::{Division, Method};
 use mms_spec::foreign;
 
-use super::follow::{Followers, Interrupted};
-use super::{Outcome, hold_output, print, print_json, say, spare};
+use super::observers::{Interrupted, Observers};
+use super::{Outcome, print, print_json, refuse_overwriting, say, validate_output};
 use crate::checkpoint::{Found, Head, Keeper};
 use crate::history::History;
 use crate::provenance;
@@ -81,10 +81,10 @@ impl Run {
         let (method, note) = self.method.method_for(&input, &self.set)?;
         note.iter().for_each(say);
         let cells = self.cells.unwrap_or(Division::Uniform(usual_cells(dimension)));
-        hold_division("--cells", &cells, dimension)?;
-        self.output.as_deref().map_or(Ok(()), hold_output)?;
-        self.hold_way()?;
-        self.hold_files(&input)?;
+        validate_division("--cells", &cells, dimension)?;
+        self.output.as_deref().map_or(Ok(()), validate_output)?;
+        self.validate_way()?;
+        self.validate_files(&input)?;
         let progress = Progress::new();
         let provenance = provenance::new("run", &from_the_start(), input.provenance(&self.set));
         let head = Head::new(self.key(&input, &method, cells)?, provenance.command.clone());
@@ -145,7 +145,7 @@ impl Run {
     }
 
     /// Refuses files about the way of a run that has none.
-    fn hold_way(&self) -> anyhow::Result<()> {
+    fn validate_way(&self) -> anyhow::Result<()> {
         let given = [
             ("--history", &self.history),
             ("--checkpoint", &self.checkpoint),
@@ -160,10 +160,10 @@ impl Run {
     }
 
     /// Refuses files to write that are read, or are one.
-    fn hold_files(&self, input: &Input) -> anyhow::Result<()> {
+    fn validate_files(&self, input: &Input) -> anyhow::Result<()> {
         let inputs = input.files();
         for (option, path) in [("--history", &self.history), ("--checkpoint", &self.checkpoint)] {
-            path.as_deref().map_or(Ok(()), |path| spare(option, path, &inputs))?;
+            path.as_deref().map_or(Ok(()), |path| refuse_overwriting(option, path, &inputs))?;
         }
         if let (Some(history), Some(checkpoint)) = (&self.history, &self.checkpoint)
             && is_same(history, checkpoint)
@@ -183,7 +183,7 @@ impl Run {
         cells: Division,
         head: Head,
         progress: &'a Progress,
-    ) -> anyhow::Result<Followers<'a>> {
+    ) -> anyhow::Result<Observers<'a>> {
         let resumed = self.resume.as_deref().map(|path| Found::open(path, memory())).transpose()?;
         if let (Some(path), Some(found)) = (&self.resume, &resumed)
             && found.head.key != head.key
@@ -211,7 +211,7 @@ impl Run {
         let keeper = self.checkpoint.as_deref();
         let keeper = keeper.map(|path| Keeper::new(path, self.every as usize, head)).transpose()?;
         let interrupted = Interrupted::listen()?;
-        Ok(Followers { progress: progress.of(cells), vtk, history, keeper, resumed, interrupted })
+        Ok(Observers { progress: progress.of(cells), vtk, history, keeper, resumed, interrupted })
     }
 
     /// The identity of this run: everything that its numbers depend on.

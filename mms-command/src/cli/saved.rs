@@ -6,7 +6,7 @@ use std::ffi::OsString;
 use anyhow::{anyhow, bail};
 use clap::{Arg, Args, Command};
 use mms_codegen::compile::Failure;
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::source::Sources;
 use mms_spec::suggest::advice;
@@ -34,7 +34,7 @@ pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<O
     if arguments.iter().any(named) {
         bail!("`--study` is given twice");
     }
-    let text = read::text(path.as_ref(), Kind::Study)?;
+    let text = read::text(path.as_ref(), FileKind::Study)?;
     let own = &arguments[2..];
     let saved = options(&path.to_string_lossy(), &text, &Given::new(own))?;
     Ok(arguments[..2].iter().cloned().chain(saved).chain(own.iter().cloned()).collect())

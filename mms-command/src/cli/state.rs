@@ -9,7 +9,7 @@ use mms_codegen::variation::Variation;
 use mms_codegen::{Options, Selection};
 use mms_documents::state as documents;
 use mms_exact::Exact;
-use mms_exact::hold_division;
+use mms_exact::validate_division;
 use mms_exact::{Input, evaluated};
 use mms_mechanics::extent::is_between;
 use mms_options::field::{Variant, open};
@@ -24,7 +24,7 @@ use mms_state::points::{Given, PER_CELL, Places, Points};
 use mms_state::{Term, USUAL, Wanted};
 
 use super::naming::Naming;
-use super::{Outcome, print, print_json, spare};
+use super::{Outcome, print, print_json, refuse_overwriting};
 
 /// Write exact states: to start a solver in the middle of a motion, to look at, or to feed a solver that reads tables.
 ///
@@ -108,7 +108,7 @@ impl State {
         let input = Input::new(open(&self.field)?, &options)?;
         let read: Vec<PathBuf> =
             input.files().into_iter().chain(self.points.iter().map(PathBuf::from)).collect();
-        spare("--output", self.output.path(), &read)?;
+        refuse_overwriting("--output", self.output.path(), &read)?;
         let quantities = match self.quantity.as_slice() {
             [] => {
                 let own = input.own_quantities().into_iter();
@@ -127,7 +127,7 @@ impl State {
             self.time.push(0.0);
         }
         let mut exact = Exact::new(input, &self.set)?.in_space_if(self.all_components);
-        self.hold_times(&exact)?;
+        self.validate_times(&exact)?;
         let domain = Domain::of(&mut exact)?;
         let frames = self.frames(&mut exact, &quantities, &domain)?;
         let written = self.output.write(&frames, &domain)?;
@@ -135,7 +135,7 @@ impl State {
         Ok(Outcome::AsExpected)
     }
 
-    fn hold_times(&self, exact: &Exact) -> anyhow::Result<()> {
+    fn validate_times(&self, exact: &Exact) -> anyhow::Result<()> {
         let [first, last] = exact.window;
         let is_outside =
             |time: &&f64| !exact.input().is_static() && !is_between(first, last, **time);
@@ -144,12 +144,12 @@ impl State {
                 "`--time {time}`: outside the time window of `{}`, {first:?} to {last:?}: nothing is claimed or proved then",
                 exact.input().name.shown()
             ),
-            None => self.hold_single(),
+            None => self.validate_single(),
         }
     }
 
     /// Refuses a time that is given twice: two states of one time are no course of a motion.
-    fn hold_single(&self) -> anyhow::Result<()> {
+    fn validate_single(&self) -> anyhow::Result<()> {
         let is_twice = |(at, time): &(usize, &f64)| self.time[..*at].contains(time);
         match self.time.iter().enumerate().find(is_twice) {
             Some((_, time)) => bail!("`--time`: {time} is given twice; name each time once"),
@@ -170,9 +170,9 @@ impl State {
         let mut frames = Vec::new();
         for &time in &self.time {
             let points = given.at(exact, &self.set, time)?;
-            wanted.hold_memory(exact, &points, self.time.len())?;
+            wanted.validate_memory(exact, &points, self.time.len())?;
             if !self.quantity.is_empty() {
-                hold_faces(quantities, &points, exact)?;
+                validate_faces(quantities, &points, exact)?;
             }
             frames.push(Frame::new(&wanted, exact, &points, time)?);
         }
@@ -197,8 +197,8 @@ impl State {
             }
             (None, cells) => {
                 let cells = cells.unwrap_or(Division::Uniform(usual_cells(dimension)));
-                hold_division("--cells", &cells, dimension)?;
-                hold_division("--particles-per-cell", &self.particles_per_cell, dimension)?;
+                validate_division("--cells", &cells, dimension)?;
+                validate_division("--particles-per-cell", &self.particles_per_cell, dimension)?;
                 let scene = exact.input().scene(&self.set, |code| code.double)?;
                 let points = Points::of_grid(&scene, &cells, self.particles_per_cell);
                 Ok(Given::Reference(points?))
@@ -247,7 +247,7 @@ impl State {
 }
 
 /// Refuses tractions that are requested by name if no point has one.
-fn hold_faces(quantities: &[Quantity], points: &Points, exact: &Exact) -> anyhow::Result<()> {
+fn validate_faces(quantities: &[Quantity], points: &Points, exact: &Exact) -> anyhow::Result<()> {
     let wanted = quantities.iter().find(|quantity| quantity.takes_normal());
     ensure!(
         wanted.is_none() || !points.faces(exact).is_empty(),

@@ -15,7 +15,7 @@ use clap::{Args, Parser};
 use mms_analysis::period::period;
 use mms_codegen::selection::Selection;
 use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
-use mms_exact::{Input, Open, hold_division, units};
+use mms_exact::{Input, Open, units, validate_division};
 use mms_judge::{Follow as Search, Unfollowed, next as judged};
 use mms_lab::trial::Progress as Follow;
 use mms_mechanics::sample::domain;
@@ -35,7 +35,7 @@ use super::format::{Detail, Printing};
 use super::methods::Methods;
 use super::{Outcome, next, output_folder, print, replaced, say};
 use crate::provenance::{self, Provenance};
-use crate::session::effort::estimate;
+use crate::session::estimate::estimate;
 use crate::session::progress::Progress;
 
 /// Run a method of this project's own solver on levels of refinement: errors, observed orders, verdict.
@@ -224,7 +224,7 @@ impl Study {
                 }
             };
             for cells in &self.cells {
-                hold_division("--cells", cells, input.compiled.field.dimension)?;
+                validate_division("--cells", cells, input.compiled.field.dimension)?;
             }
             let options = filled(options, self.methods.given(), &input.compiled.field);
             let (method, note) = match options.method_for(&input, &self.set) {

@@ -124,7 +124,7 @@ impl Tradeoff {
 
     fn input(&self, field: &str) -> anyhow::Result<Input> {
         let input = find(field, &Variant::new(self.motion.clone(), Form::Stable))?;
-        input.hold_moving()?;
+        input.validate_moving()?;
         Ok(input)
     }
 

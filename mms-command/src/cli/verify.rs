@@ -20,13 +20,13 @@ use mms_options::field::find;
 use mms_report::Shown;
 use mms_report::verify::{Judged, List, Report};
 use mms_spec::suggest::advice;
-use mms_verify::matrix::{MATRIX, Row, rows};
+use mms_verify::matrix::{MATRIX, MatrixRow, rows};
 use mms_verify::plan::{Job, Plan};
 use mms_verify::verdict::judge;
 use mms_verify::work::{Fields, Watcher, outcomes};
 
 use super::format::Printing;
-use super::{Outcome, hold_output, print, say, this_command};
+use super::{Outcome, print, say, this_command, validate_output};
 use crate::provenance;
 
 /// Run the verification matrix: every mode of the solver, one at a time, by the field that isolates it, each
@@ -77,7 +77,7 @@ impl Verify {
             self.printing.print(&List { rows: &rows, quick: self.quick })?;
             return Ok(Outcome::AsExpected);
         }
-        self.output.as_deref().map_or(Ok(()), hold_output)?;
+        self.output.as_deref().map_or(Ok(()), validate_output)?;
         let threads = self.threads.or(std::thread::available_parallelism().ok());
         let threads = threads.unwrap_or(NonZero::<usize>::MIN);
         if let Some(names) = &self.defects {
@@ -126,8 +126,8 @@ impl Verify {
     fn show_defects(
         &self,
         _: &[String],
-        _: &[Row],
-        _: &[&Row],
+        _: &[MatrixRow],
+        _: &[&MatrixRow],
         _: NonZero<usize>,
     ) -> anyhow::Result<Outcome> {
         bail!(
@@ -136,8 +136,8 @@ impl Verify {
     }
 
     /// The selected rows.
-    fn select<'a>(&self, all: &'a [Row]) -> anyhow::Result<Vec<&'a Row>> {
-        let is = |row: &Row, name: &str| row.name == name || row.group() == name;
+    fn select<'a>(&self, all: &'a [MatrixRow]) -> anyhow::Result<Vec<&'a MatrixRow>> {
+        let is = |row: &MatrixRow, name: &str| row.name == name || row.group() == name;
         for name in &self.row {
             if all.iter().any(|row| is(row, name)) {
                 continue;
@@ -146,7 +146,8 @@ impl Verify {
             let advice = advice(name, names, |_| "`mms verify --list` lists them".into());
             bail!("`--row {name}`: no such row or group; {advice}");
         }
-        let asked = |row: &&Row| self.row.is_empty() || self.row.iter().any(|name| is(row, name));
+        let asked =
+            |row: &&MatrixRow| self.row.is_empty() || self.row.iter().any(|name| is(row, name));
         let rows: Vec<_> = all.iter().filter(asked).collect();
         let quick: Vec<_> =
             rows.iter().copied().filter(|row| !self.quick || row.quick > 0).collect();

@@ -21,11 +21,11 @@ struct Quantity {
 #[derive(Debug, Deserialize)]
 struct Norm {
     norm: String,
-    levels: Vec<Level>,
+    levels: Vec<BaselineLevel>,
 }
 
 #[derive(Debug, Deserialize)]
-struct Level {
+struct BaselineLevel {
     length: f64,
     error: Option<f64>,
 }

@@ -16,7 +16,7 @@ const OVER_CELLS: [f64; 2] = [1.5, 2.4];
 ///
 /// # Errors
 /// Both readings, with their orders and with the option that chooses each.
-pub fn hold_linear(levels: &[Level], sizes: &[f64], orders: &Orders) -> anyhow::Result<()> {
+pub fn validate_linear(levels: &[Level], sizes: &[f64], orders: &Orders) -> anyhow::Result<()> {
     if orders.degree != Some(1) {
         return Ok(());
     }

@@ -77,7 +77,7 @@ pub fn named(orders: &Orders) -> Orders {
 }
 
 /// Refuses orders of quantities or norms that are not judged.
-pub fn hold_orders(
+pub fn validate_orders(
     quantities: &[(Quantity, Sampling)],
     orders: &Orders,
     has_steps: bool,

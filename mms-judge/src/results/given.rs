@@ -3,10 +3,10 @@
 use mms_spec::Claim;
 use mms_spec::quantity::Quantity;
 
-use super::taken::Taken;
+use super::snapshot_errors::SnapshotErrors;
 use crate::measured::Objection;
 
-impl Taken<'_> {
+impl SnapshotErrors<'_> {
     /// Whether a solver is given all values of a quantity at places X: at the start, on walls, as loads.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use anyhow::{anyhow, bail};
 use mms_exact::Exact;
 use mms_results::mesh::Mesh;
-use mms_results::motion::{Motion, hold_distinct};
+use mms_results::motion::{Motion, validate_distinct};
 use mms_results::names::{
     Axes, Form, Meaning, Names, OwnRole, Role, Values, all_names, everything, recognise, wanted,
 };
@@ -14,7 +14,7 @@ use mms_spec::{FieldSpec, Space};
 
 use super::extent::{self, Covered};
 use super::files::{Results, placed, room};
-use super::taken::Taken;
+use super::snapshot_errors::SnapshotErrors;
 use super::units;
 
 /// The type number of a polygon in VTK.
@@ -283,10 +283,10 @@ impl Reading<'_> {
             let scope = (&*exact, self.is_part);
             extent::of_cells(&mesh, scope, rounding_of_places, &snapshot.path)?
         } else {
-            hold_distinct(snapshot, &motion.reference).map_err(placed)?;
+            validate_distinct(snapshot, &motion.reference).map_err(placed)?;
             extent::of_points(mesh.points, exact, rounding_of_places)
         };
-        let mut taken = Taken {
+        let mut taken = SnapshotErrors {
             snapshot,
             mesh,
             is_mesh: sizes.is_some() && mesh.has_functions() && self.over != Some(Over::Points),
@@ -311,7 +311,7 @@ impl Reading<'_> {
             match quantity(meaning.role, taken.exact) {
                 Some(quantity) => {
                     let values = values(meaning, snapshot, taken.exact)?;
-                    taken.hold_density(meaning, &values)?;
+                    taken.validate_density(meaning, &values)?;
                     errors.push(taken.errors(quantity, &values, weights)?);
                 }
                 None => passed_over.push(meaning.role.name().into()),

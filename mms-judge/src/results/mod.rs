@@ -16,9 +16,9 @@ mod iterative;
 mod largest;
 mod level;
 mod remarks;
-mod same;
+mod repeated;
+mod snapshot_errors;
 mod start;
-mod taken;
 mod times;
 mod traction;
 mod units;
@@ -34,7 +34,7 @@ pub use explained::Explained;
 pub use extent::{distances, motion};
 pub use files::{Results, placed, room};
 pub use level::{Over, Reading, Sampling, axes, own_roles, weight, without_positions};
-pub use same::{Same, same};
+pub use repeated::{Same, same};
 pub use start::Start;
 pub use units::known as unit;
 
@@ -130,13 +130,13 @@ pub fn measure(
     let mut warnings = Vec::new();
     let sizes = lengths(&levels, sizes, &mut notes, &mut warnings)?;
     notes.push(format!("X: {}", levels[0].found.how));
-    hold_evidence(&levels[0], &quantities, reading.over)?;
+    validate_evidence(&levels[0], &quantities, reading.over)?;
     let degree = levels.iter().filter_map(|it| it.found.degree).min();
     notes.extend(remarks::order(degree, orders));
     let orders = &expected::named(orders).of_degree(degree);
-    expected::hold_orders(&quantities, orders, has_steps)?;
+    expected::validate_orders(&quantities, orders, has_steps)?;
     if reading.over.is_none() {
-        degree::hold_linear(&levels, &sizes, orders)?;
+        degree::validate_linear(&levels, &sizes, orders)?;
     }
     let lowered = Lowered::new(orders, (&levels, &sizes), exact)?;
     notes.extend(quantities.iter().filter_map(|(it, _)| lowered.note(*it, orders)));
@@ -281,7 +281,7 @@ fn quantities(levels: &[Level]) -> anyhow::Result<Vec<(Quantity, Sampling)>> {
 
 /// Refuses to judge a mesh by points or by middles of cells alone, because orders there may be higher than elsewhere. Polygons
 /// are exempt, since their functions are not known.
-fn hold_evidence(
+fn validate_evidence(
     level: &Level,
     quantities: &[(Quantity, Sampling)],
     over: Option<Over>,

@@ -31,11 +31,11 @@ pub fn common(all: &mut [Results], wanted: &[f64], exact: &Exact) -> anyhow::Res
     for results in all.iter_mut() {
         complete(results, wanted)?;
         say(results, wanted);
-        hold_roundings(results);
-        hold_times(results, window)?;
+        validate_roundings(results);
+        validate_times(results, window)?;
     }
     if wanted.is_empty() {
-        hold_ends(all, window)?;
+        validate_ends(all, window)?;
     }
     let span = window[1] - window[0];
     let same =
@@ -104,7 +104,7 @@ fn complete(results: &mut Results, wanted: &[f64]) -> anyhow::Result<()> {
 }
 
 /// Refuses results that end earlier than others by at least one of their own steps: their run stopped.
-fn hold_ends(all: &[Results], [first, last]: [f64; 2]) -> anyhow::Result<()> {
+fn validate_ends(all: &[Results], [first, last]: [f64; 2]) -> anyhow::Result<()> {
     let times = |results: &Results| -> Vec<Time> {
         results.snapshots.iter().filter_map(|it| it.time).collect()
     };
@@ -149,7 +149,7 @@ fn say(results: &mut Results, wanted: &[f64]) {
 
 /// Treats times as exact, unless other numbers show that they were rounded: numbers of the file with no more digits than the
 /// times; the times' own bits; or uneven steps that differ only in the last digit.
-fn hold_roundings(results: &mut Results) {
+fn validate_roundings(results: &mut Results) {
     let times: Vec<f64> = results.snapshots.iter().filter_map(|it| Some(it.time?.value)).collect();
     let most = |of: &dyn Fn(f64) -> i32| times.iter().map(|it| of(*it)).max().unwrap_or(0);
     let (digits, decimals) = (most(&|it| digits(it).0), most(&|it| digits(it).1));
@@ -190,7 +190,7 @@ fn is_uneven(times: &[f64], decimals: i32) -> bool {
     })
 }
 
-fn hold_times(results: &Results, [first, last]: [f64; 2]) -> anyhow::Result<()> {
+fn validate_times(results: &Results, [first, last]: [f64; 2]) -> anyhow::Result<()> {
     let mut before: Option<(&Snapshot, f64)> = None;
     for (snapshot, time) in results.snapshots.iter().filter_map(|it| Some((it, it.time?))) {
         let Time { value, rounding } = time;

@@ -8,7 +8,7 @@ use mms_spec::quantity::Quantity;
 
 use super::files::placed;
 use super::level::{Errors, Sampling};
-use super::taken::{Solution, Taken};
+use super::snapshot_errors::{SnapshotErrors, Solution};
 
 /// The largest difference between the length of a normal and 1.
 const UNIT: f64 = 1e-3;
@@ -41,7 +41,7 @@ impl Loaded {
     }
 }
 
-impl Taken<'_> {
+impl SnapshotErrors<'_> {
     /// The errors of tractions, if there are any: tractions of a named face at its points; others by the normals beside them,
     /// or at the points that lie on one face alone.
     ///

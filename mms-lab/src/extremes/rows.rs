@@ -16,7 +16,7 @@ pub type PerDimension = [usize; 3];
 /// A row as it is written.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Row {
+pub struct ExtremeSetting {
     /// `group/mode`.
     pub name: String,
     /// The field is put in this regime of `mms accuracy`.
@@ -49,7 +49,7 @@ pub struct Row {
     pub theory: String,
 }
 
-impl Row {
+impl ExtremeSetting {
     /// Whether the row's steps may be above the stable one, if that is `allowed` for the method's own: a row that has a Courant
     /// number decides itself.
     pub fn allows_unstable(&self, allowed: bool) -> bool {
@@ -57,7 +57,7 @@ impl Row {
     }
 }
 
-impl Named for Row {
+impl Named for ExtremeSetting {
     fn name(&self) -> &str {
         &self.name
     }
@@ -78,7 +78,7 @@ impl Named for Row {
 ///
 /// # Errors
 /// A row without a meaning; a test reads them all.
-pub fn rows() -> anyhow::Result<Vec<Row>> {
+pub fn rows() -> anyhow::Result<Vec<ExtremeSetting>> {
     read(ROWS)
 }
 

@@ -17,7 +17,7 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
-use super::rows::Row;
+use super::rows::ExtremeSetting;
 use super::theory::Elasticity;
 use super::verdict::{Diagnosis, Seen};
 
@@ -50,7 +50,7 @@ impl Subject {
     pub fn new(
         field: &str,
         declared: &Options,
-        row: Option<&Row>,
+        row: Option<&ExtremeSetting>,
     ) -> anyhow::Result<Result<Self, String>> {
         let mut options = declared.clone();
         let mut set = SortedMap::new();
@@ -81,7 +81,7 @@ impl Subject {
             Err(error) if varied => return Ok(Err(first_line(&error))),
             input => input?,
         };
-        input.hold_moving()?;
+        input.validate_moving()?;
         Ok(Ok(Self::of(input, set, settings)))
     }
 
@@ -98,7 +98,7 @@ impl Subject {
     pub fn method(
         &self,
         base: &Method,
-        row: &Row,
+        row: &ExtremeSetting,
         quick: bool,
         allow_unstable: bool,
     ) -> (Method, Division) {

@@ -9,7 +9,7 @@
 use mms_runtime::{Cause, Refusal};
 use serde::Deserialize;
 
-use super::rows::Row;
+use super::rows::ExtremeSetting;
 
 /// The reason for missing errors, in a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -160,7 +160,12 @@ impl Verdict {
 const NOISE: f64 = 5.0;
 
 /// The largest l2 that a row allows, over the largest displacement, on a grid and with round-off.
-pub fn bound(row: &Row, declared: Declared, cell_size: f64, round_off: f64) -> Option<f64> {
+pub fn bound(
+    row: &ExtremeSetting,
+    declared: Declared,
+    cell_size: f64,
+    round_off: f64,
+) -> Option<f64> {
     let coarser = (cell_size / declared.cell_size).max(1.0);
     row.l2.map(|factor| factor * declared.l2 * coarser.powi(2) + NOISE * round_off)
 }
@@ -173,7 +178,7 @@ fn is_vacuous(bound: f64, declared: Declared, least_jacobian: f64) -> bool {
 }
 
 /// The verdict on the result of a row.
-pub fn judge(row: &Row, declared: Declared, seen: &Seen) -> Verdict {
+pub fn judge(row: &ExtremeSetting, declared: Declared, seen: &Seen) -> Verdict {
     match seen {
         Seen::LeftOut { .. } => Verdict::LeftOut,
         Seen::Stopped { diagnosis, .. } if row.stops.contains(diagnosis) => Verdict::Stops,
@@ -195,7 +200,7 @@ pub fn judge(row: &Row, declared: Declared, seen: &Seen) -> Verdict {
 mod tests {
     use super::*;
 
-    fn row(keys: &str) -> Row {
+    fn row(keys: &str) -> ExtremeSetting {
         toml::from_str(&format!("name = \"a/b\"\ntheory = \"t\"\n{keys}")).unwrap()
     }
 

@@ -1,10 +1,10 @@
 //! The machine code of emitted code.
 
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 use mms_program::precision::Precision;
 
 use super::Workbench;
-use super::module::{Call, Module, Way, scalar};
+use super::module::{Call, Module, ModuleForm, scalar};
 
 /// An object file with every function called from parameters, time and position to every quantity of a module: `prepare`,
 /// `at_time`, the functions that keep points if points are kept, a function for each quantity, and every function that the
@@ -13,7 +13,7 @@ pub fn object(
     bench: &Workbench,
     module: &Module<'_>,
     precision: Precision,
-    way: Way,
+    way: ModuleForm,
 ) -> anyhow::Result<Vec<u8>> {
     module.write(bench)?;
     let mut source = format!(
@@ -41,8 +41,8 @@ pub fn to_time(field: &Field<Number>, t: Number) -> AtTime<'_, Number> {{
         dimension = module.dimension(),
     );
     source += match way {
-        Way::Single | Way::Batch => "",
-        Way::SingleKept => {
+        ModuleForm::Single | ModuleForm::Batch => "",
+        ModuleForm::SingleKept => {
             "
 #[unsafe(no_mangle)]
 pub fn to_kept(field: &Field<Number>, point: One) -> Point<Number> {
@@ -50,7 +50,7 @@ pub fn to_kept(field: &Field<Number>, point: One) -> Point<Number> {
 }
 "
         }
-        Way::BatchKept => {
+        ModuleForm::BatchKept => {
             "
 #[unsafe(no_mangle)]
 pub fn to_kept(field: &Field<Number>, points: Many) -> Points<Number> {
@@ -63,16 +63,16 @@ pub fn to_kept(field: &Field<Number>, points: Many) -> Points<Number> {
     bench.write("code.rs", &source)?;
     // In one piece, so that there is one file.
     let options = ["--crate-type", "lib", "--emit", "obj", "-C", "codegen-units=1"];
-    Ok(read::bytes(&bench.compile("code.rs", "code.o", &options)?, Kind::Object)?)
+    Ok(read::bytes(&bench.compile("code.rs", "code.o", &options)?, FileKind::Object)?)
 }
 
 /// A function that can be called from elsewhere, so that it is compiled.
 fn entry(call: &Call<'_>) -> String {
     let (position, normal) = match call.way {
-        Way::Single => ("One", "One"),
-        Way::SingleKept => ("&Point<Number>", "One"),
-        Way::Batch => ("Many", "Many"),
-        Way::BatchKept => ("&Points<Number>", "Many"),
+        ModuleForm::Single => ("One", "One"),
+        ModuleForm::SingleKept => ("&Point<Number>", "One"),
+        ModuleForm::Batch => ("Many", "Many"),
+        ModuleForm::BatchKept => ("&Points<Number>", "Many"),
     };
     let mut arguments = vec![("position", position.to_string())];
     if call.takes_normals() {

@@ -20,7 +20,7 @@ use mms_spec::foreign;
 use tempfile::TempDir;
 
 pub use code::object;
-pub use module::{Module, Way};
+pub use module::{Module, ModuleForm};
 pub use timing::{Time, time};
 
 /// The sources of `mms-math`: paths below `src/`, and texts.

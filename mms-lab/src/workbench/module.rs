@@ -36,7 +36,7 @@ impl Module<'_> {
 
 /// The way in which code is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum ModuleForm {
     /// Point by point.
     Single,
     /// Point by point, from values kept for each point.
@@ -47,10 +47,10 @@ pub enum Way {
     BatchKept,
 }
 
-impl Way {
+impl ModuleForm {
     /// Whether results go to columns.
     pub(super) fn is_batch(self) -> bool {
-        matches!(self, Way::Batch | Way::BatchKept)
+        matches!(self, ModuleForm::Batch | ModuleForm::BatchKept)
     }
 }
 
@@ -59,7 +59,7 @@ pub(super) struct Call<'a> {
     pub module: &'a Module<'a>,
     pub quantity: Quantity,
     pub precision: Precision,
-    pub way: Way,
+    pub way: ModuleForm,
 }
 
 impl<'a> Call<'a> {
@@ -67,7 +67,7 @@ impl<'a> Call<'a> {
     pub fn all(
         module: &'a Module<'a>,
         precision: Precision,
-        way: Way,
+        way: ModuleForm,
     ) -> impl Iterator<Item = Call<'a>> {
         module.quantities().map(move |quantity| Call { module, quantity, precision, way })
     }
@@ -75,10 +75,10 @@ impl<'a> Call<'a> {
     /// The name of the function.
     pub fn function(&self) -> String {
         let suffix = match self.way {
-            Way::Single => "",
-            Way::SingleKept => "_at",
-            Way::Batch => "_batch",
-            Way::BatchKept => "_batch_at",
+            ModuleForm::Single => "",
+            ModuleForm::SingleKept => "_at",
+            ModuleForm::Batch => "_batch",
+            ModuleForm::BatchKept => "_batch_at",
         };
         format!("{}{suffix}", self.quantity.name())
     }

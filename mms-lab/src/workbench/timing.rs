@@ -9,7 +9,7 @@ use mms_program::precision::Precision;
 use mms_spec::quantity::Quantity;
 
 use super::Workbench;
-use super::module::{Call, Module, Way, scalar};
+use super::module::{Call, Module, ModuleForm, scalar};
 
 /// The number of points in an evaluation of a batch.
 const POINTS: usize = 4096;
@@ -30,7 +30,7 @@ pub struct Time {
     /// The precision.
     pub precision: Precision,
     /// The way in which it was called.
-    pub way: Way,
+    pub way: ModuleForm,
     /// The median, in nanoseconds.
     pub ns_per_point: f64,
 }
@@ -39,7 +39,7 @@ pub struct Time {
 pub fn time(
     bench: &Workbench,
     modules: &[Module<'_>],
-    ways: &[(Precision, Way)],
+    ways: &[(Precision, ModuleForm)],
 ) -> anyhow::Result<Vec<Time>> {
     let mut source = HEAD.to_string();
     let (mut input, mut contenders) = (String::new(), String::new());
@@ -79,10 +79,10 @@ fn contender(call: &Call<'_>) -> String {
     let (dimension, components) = (call.module.dimension(), call.components());
     let inputs = if call.way.is_batch() { "columns" } else { "rows" };
     let (given, argument) = match call.way {
-        Way::Single => ("points", "given[index]"),
-        Way::SingleKept => ("points.map(|point| field.at_point(point))", "&given[index]"),
-        Way::Batch => ("points", "slices(&given)"),
-        Way::BatchKept => ("field.at_points(slices(&points))", "&given"),
+        ModuleForm::Single => ("points", "given[index]"),
+        ModuleForm::SingleKept => ("points.map(|point| field.at_point(point))", "&given[index]"),
+        ModuleForm::Batch => ("points", "slices(&given)"),
+        ModuleForm::BatchKept => ("field.at_points(slices(&points))", "&given"),
     };
     let normal = match (call.takes_normals(), call.way.is_batch()) {
         (false, _) => "",

@@ -51,7 +51,7 @@ impl Double {
     /// The sum of two numbers, exact unless it overflows.
     pub const fn new(a: f64, b: f64) -> Self {
         let (high, low) = two_sum(a, b);
-        Double::settled(high, low)
+        Double::normalised(high, low)
     }
 
     /// The nearest `f64`.
@@ -71,7 +71,7 @@ impl Double {
 
     /// The number `sum` + `rest`, where `rest` must be the smaller. A correction that is not finite, such as the round-off of
     /// an infinity, is dropped. A correction of 0 is not added, so that a negative zero keeps its sign.
-    const fn settled(sum: f64, rest: f64) -> Self {
+    const fn normalised(sum: f64, rest: f64) -> Self {
         if rest == 0.0 || !rest.is_finite() {
             return Double::of(sum);
         }
@@ -86,8 +86,8 @@ impl Double {
             return Double::of(sum);
         }
         let (low, low_rest) = two_sum(self.low, other.low);
-        let first = Double::settled(sum, sum_rest + low);
-        Double::settled(first.high, low_rest + first.low)
+        let first = Double::normalised(sum, sum_rest + low);
+        Double::normalised(first.high, low_rest + first.low)
     }
 
     const fn minus(self, other: Self) -> Self {
@@ -101,7 +101,7 @@ impl Double {
     /// Multiplies without the product of the low parts, which is below the last digit (Dekker, 1971).
     const fn times(self, other: Self) -> Self {
         let (product, rest) = two_product(self.high, other.high);
-        Double::settled(product, rest + (self.high * other.low + self.low * other.high))
+        Double::normalised(product, rest + (self.high * other.low + self.low * other.high))
     }
 
     /// Divides by three quotients of high parts, each of the remainder of the last.
@@ -111,20 +111,20 @@ impl Double {
         let second = rest.high / other.high;
         let rest = rest.minus(other.times(Double::of(second)));
         let third = rest.high / other.high;
-        let quotient = Double::settled(first, second);
-        Double::settled(quotient.high, quotient.low + third)
+        let quotient = Double::normalised(first, second);
+        Double::normalised(quotient.high, quotient.low + third)
     }
 
     /// The quotient of two integers below 2^53, each part rounded once: the remainder of a quotient is exact.
     const fn quotient(numerator: f64, denominator: f64) -> Self {
         let high = numerator / denominator;
         let (product, rest) = two_product(high, denominator);
-        Double::settled(high, ((numerator - product) - rest) / denominator)
+        Double::normalised(high, ((numerator - product) - rest) / denominator)
     }
 
     /// `self` 2^`shift`, for |shift| <= 2044.
     const fn scaled(self, shift: i32) -> Self {
-        Double::settled(exact::scaled(self.high, shift), exact::scaled(self.low, shift))
+        Double::normalised(exact::scaled(self.high, shift), exact::scaled(self.low, shift))
     }
 
     const fn magnitude(self) -> Self {

@@ -51,7 +51,7 @@ impl Reader<'_> {
             }
             let value = found.and_then(|(_, formula)| self.formula(formula));
             if let (Some((name, _)), Some(value)) = (found, value) {
-                self.hold_one_meaning(field, &name.value, name.span, value);
+                self.validate_one_meaning(field, &name.value, name.span, value);
             }
             values.push(value);
         }
@@ -62,7 +62,7 @@ impl Reader<'_> {
     }
 
     /// Reports the name of a given field that the field file uses for something else.
-    fn hold_one_meaning(&mut self, field: &FieldSpec, name: &str, span: Span, value: Expr) {
+    fn validate_one_meaning(&mut self, field: &FieldSpec, name: &str, span: Span, value: Expr) {
         let is_parameter = field.parameters.iter().any(|it| it.name.value == name);
         let differs = self.scope.known(name).is_some_and(|known| known != value);
         if is_parameter || differs {

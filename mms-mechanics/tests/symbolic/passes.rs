@@ -8,9 +8,9 @@ use mms_symbolic::expr::print::Names;
 use mms_symbolic::expr::{Graph, Rational, Symbol};
 use mms_symbolic::pass::expand::expand;
 use mms_symbolic::pass::factor::factor;
-use mms_symbolic::pass::nest::nest;
+use mms_symbolic::pass::horner::horner;
 use mms_symbolic::pass::reduce::reduce;
-use mms_symbolic::pass::relations::{Relations, lateness};
+use mms_symbolic::pass::relations::{Relations, latest_stage};
 use mms_symbolic::pass::separate::separate;
 use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
@@ -51,7 +51,7 @@ fn squares_are_written_as_such() -> Result<(), TestCaseError> {
         let [sum, square] = [sum, square].map(|text| read(&mut graph, text));
         let (sum, square) =
             (sum.map_err(TestCaseError::fail)?, square.map_err(TestCaseError::fail)?);
-        let nested = nest(&mut graph, &[sum], &lateness)[0];
+        let nested = horner(&mut graph, &[sum], &latest_stage)[0];
         prop_assert_eq!(nested, square, "{}", graph.print(nested, &Names::default()));
         same_value(&graph, sum, nested)?;
     }
@@ -69,7 +69,7 @@ proptest! {
         let symbols: Vec<_> = graph.symbols(root).into_iter().collect();
         let mut written = vec![
             factor(&mut graph, &[root]),
-            nest(&mut graph, &[root], &lateness),
+            horner(&mut graph, &[root], &latest_stage),
             reduce(&mut graph, &[root], &relations),
             expand(&mut graph, &[root], &symbols),
             separate(&mut graph, &[root]),

@@ -4,10 +4,10 @@ use std::fmt::Debug;
 use std::ops::Range;
 
 use mms_math::Double;
-use mms_math::batch::Stand;
+use mms_math::batch::Lift;
 
 use super::plan::Plan;
-use super::{Way, steps};
+use super::{BlockLayout, steps};
 use crate::interpret::Number;
 
 /// The numbers of a block in `K` pieces of `C`, in whole lines of the cache. A piece of single or double precision fills
@@ -42,7 +42,7 @@ impl<T: Copy + Debug + Send + Sync, const C: usize, const K: usize> Numbers<T> f
 }
 
 /// A number type in which programs are run over blocks of points: `f32`, `f64` or [`Double`].
-pub trait Blockwise: Number<Wide: Copy + Send + Sync> + Stand<Self> + Send + Sync {
+pub trait Blockwise: Number<Wide: Copy + Send + Sync> + Lift<Self> + Send + Sync {
     /// The number of points of a block: as in compiled code, where a block with a result that is not a number is computed again
     /// as a whole.
     const BLOCK: usize;
@@ -55,13 +55,19 @@ pub trait Blockwise: Number<Wide: Copy + Send + Sync> + Stand<Self> + Send + Syn
     fn is_same(self, other: Self) -> bool;
 
     /// Runs the steps of a plan over the first `pieces` of a block.
-    fn run(plan: &Plan, way: Way, scalars: &[Self], columns: &mut [Self::Column], pieces: usize);
+    fn run(
+        plan: &Plan,
+        way: BlockLayout,
+        scalars: &[Self],
+        columns: &mut [Self::Column],
+        pieces: usize,
+    );
 
     /// Runs some parts of a plan over the first `pieces` of a block. If they are the last parts, returns whether all results
     /// are numbers.
     fn run_parts(
         of: (&Plan, Range<usize>),
-        way: Way,
+        way: BlockLayout,
         scalars: &[Self],
         columns: &mut [Self::Column],
         pieces: usize,
@@ -81,7 +87,7 @@ macro_rules! blockwise {
 
             fn run(
                 plan: &Plan,
-                way: Way,
+                way: BlockLayout,
                 scalars: &[Self],
                 columns: &mut [Self::Column],
                 pieces: usize,
@@ -94,7 +100,7 @@ macro_rules! blockwise {
 
             fn run_parts(
                 (plan, parts): (&Plan, Range<usize>),
-                way: Way,
+                way: BlockLayout,
                 scalars: &[Self],
                 columns: &mut [Self::Column],
                 pieces: usize,
@@ -122,14 +128,20 @@ impl Blockwise for Double {
         bits(self) == bits(other)
     }
 
-    fn run(plan: &Plan, _: Way, scalars: &[Self], columns: &mut [Self::Column], pieces: usize) {
+    fn run(
+        plan: &Plan,
+        _: BlockLayout,
+        scalars: &[Self],
+        columns: &mut [Self::Column],
+        pieces: usize,
+    ) {
         steps::carefully(plan, scalars, columns, pieces);
     }
 
     // There are no quick functions in twice the digits.
     fn run_parts(
         _: (&Plan, Range<usize>),
-        _: Way,
+        _: BlockLayout,
         _: &[Self],
         _: &mut [Self::Column],
         _: usize,

@@ -1,7 +1,7 @@
 //! A block interpreter: runs programs over many points; every operation is a loop over a block of points (structure of arrays).
 //!
 //! A [`Plan`] lists the steps, and is made once for some outputs; all threads, parameters and precisions share it. [`Prepared`]
-//! has the stage Parameter of one set of parameters. A [`Room`] has the stage Time, as long as the time stays the same, and the
+//! has the stage Parameter of one set of parameters. A [`Scratch`] has the stage Time, as long as the time stays the same, and the
 //! registers, and belongs to one thread at a time. So setting a parameter runs the stage Parameter, another time runs the stage
 //! Time, and nothing is allocated after the first use of a room.
 //!
@@ -29,32 +29,32 @@ use plan::{Operand, Scalar, Source};
 
 /// The way of computing blocks: the instructions, and whether a product that is added is rounded first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
+pub struct BlockLayout {
     instructions: Instructions,
     fused: bool,
 }
 
-impl Way {
+impl BlockLayout {
     /// Computes the bits of the interpreter of one point, and of the functions of one point in compiled code: products are
     /// rounded, and the results are the same on all processors.
     pub fn portable() -> Self {
-        Way::portable_with(Instructions::best())
+        BlockLayout::portable_with(Instructions::best())
     }
 
     /// Computes the bits of the loops over many points in compiled code: with one rounding if the processor has such
     /// instructions.
     pub fn fused() -> Self {
-        Way::fused_with(Instructions::best())
+        BlockLayout::fused_with(Instructions::best())
     }
 
     /// Computes like [`portable`](Way::portable), with these instructions.
     pub fn portable_with(instructions: Instructions) -> Self {
-        Way { instructions, fused: false }
+        BlockLayout { instructions, fused: false }
     }
 
     /// Computes like [`fused`](Way::fused), with these instructions.
     pub fn fused_with(instructions: Instructions) -> Self {
-        Way { instructions, fused: true }
+        BlockLayout { instructions, fused: true }
     }
 
     fn run<T: Float, W: Work<T>>(self, work: W) -> W::Output {
@@ -66,7 +66,7 @@ impl Way {
 #[derive(Clone, Debug)]
 pub struct Prepared<T: Blockwise> {
     plan: Arc<Plan>,
-    way: Way,
+    way: BlockLayout,
     /// The values of the stage Parameter.
     early: Vec<T::Wide>,
     /// The numbers that are the same at all points; numbers of the stage Time are not known yet.
@@ -77,7 +77,7 @@ pub struct Prepared<T: Blockwise> {
 
 /// The numbers of one time and of one block.
 #[derive(Clone, Debug)]
-pub struct Room<T: Blockwise> {
+pub struct Scratch<T: Blockwise> {
     /// The stamp of the prepared plan whose numbers these are.
     stamp: u64,
     time: Option<T>,
@@ -87,9 +87,9 @@ pub struct Room<T: Blockwise> {
     columns: Vec<T::Column>,
 }
 
-impl<T: Blockwise> Default for Room<T> {
+impl<T: Blockwise> Default for Scratch<T> {
     fn default() -> Self {
-        Room { stamp: 0, time: None, once: Vec::new(), scalars: Vec::new(), columns: Vec::new() }
+        Scratch { stamp: 0, time: None, once: Vec::new(), scalars: Vec::new(), columns: Vec::new() }
     }
 }
 
@@ -119,7 +119,7 @@ pub enum Component<'a, T> {
 
 impl<T: Blockwise> Prepared<T> {
     /// Runs the stage Parameter. `parameters` are in the order of the field file.
-    pub fn new(plan: Arc<Plan>, way: Way, parameters: &[T]) -> Self {
+    pub fn new(plan: Arc<Plan>, way: BlockLayout, parameters: &[T]) -> Self {
         let constant = |scalar: &Scalar| match &scalar.source {
             Source::Constant(number) => signed(scalar, T::from_rational(number)),
             Source::Pi => signed(scalar, T::pi()),
@@ -166,15 +166,15 @@ impl<T: Blockwise> Prepared<T> {
     /// position of its first point.
     pub fn run(
         &self,
-        room: &mut Room<T>,
+        scratch: &mut Scratch<T>,
         time: T,
         count: usize,
         bring: &mut dyn FnMut(usize, &mut Inputs<'_, T>),
         take: &mut dyn FnMut(usize, &Outputs<'_, T>),
     ) {
         let plan = &*self.plan;
-        room.enter(self, time);
-        let Room { scalars, columns, .. } = room;
+        scratch.enter(self, time);
+        let Scratch { scalars, columns, .. } = scratch;
         for start in (0..count).step_by(T::BLOCK) {
             let count = (count - start).min(T::BLOCK);
             let pieces = count.div_ceil(T::TOGETHER);
@@ -197,7 +197,7 @@ impl<T: Blockwise> Prepared<T> {
     /// in `normals` if the output needs them. `values` has exactly the length of all components.
     pub fn at_points(
         &self,
-        room: &mut Room<T>,
+        scratch: &mut Scratch<T>,
         time: T,
         dimension: usize,
         [points, normals]: [&[T]; 2],
@@ -231,42 +231,42 @@ impl<T: Blockwise> Prepared<T> {
                 }
             }
         };
-        self.run(room, time, count, &mut bring, &mut take);
+        self.run(scratch, time, count, &mut bring, &mut take);
     }
 }
 
 /// The numbers of the first output that X alone determines, stored for later times, one block of points after the other.
 #[derive(Clone, Debug)]
-pub struct Kept<T: Blockwise>(Vec<T::Column>);
+pub struct PointCache<T: Blockwise>(Vec<T::Column>);
 
 impl<T: Blockwise> Prepared<T> {
     /// Stores the numbers that X determines at points, which have the form of [`at_points`](Self::at_points).
-    pub fn keep(&self, room: &mut Room<T>, dimension: usize, points: &[T]) -> Kept<T> {
+    pub fn keep(&self, scratch: &mut Scratch<T>, dimension: usize, points: &[T]) -> PointCache<T> {
         let plan = &*self.plan;
         // No step of X alone reads a value of the stage Time.
-        room.enter(self, T::from_f64(0.0));
-        let Room { scalars, columns, .. } = room;
+        scratch.enter(self, T::from_f64(0.0));
+        let Scratch { scalars, columns, .. } = scratch;
         let mut kept = Vec::with_capacity(plan.kept.len() * points.len().div_ceil(T::BLOCK));
         for points in points.chunks(T::BLOCK * dimension) {
             let pieces = self.supply(columns, dimension, points);
             T::run_parts((plan, 0..plan.of_points), self.way, scalars, columns, pieces);
             kept.extend(plan.kept.iter().map(|register| columns[*register as usize].clone()));
         }
-        Kept(kept)
+        PointCache(kept)
     }
 
     /// Computes the components of the first output at points with stored numbers, in `values`: with the same bits as
     /// [`at_points`](Self::at_points).
     pub fn at_kept(
         &self,
-        room: &mut Room<T>,
+        scratch: &mut Scratch<T>,
         time: T,
-        (dimension, points, kept): (usize, &[T], &Kept<T>),
+        (dimension, points, kept): (usize, &[T], &PointCache<T>),
         values: &mut [T],
     ) {
         let plan = &*self.plan;
-        room.enter(self, time);
-        let Room { scalars, columns, .. } = room;
+        scratch.enter(self, time);
+        let Scratch { scalars, columns, .. } = scratch;
         let components = plan.outputs.first().map_or(0, |places| places.len());
         let late = plan.of_points..plan.parts.len();
         let blocks = points.chunks(T::BLOCK * dimension);
@@ -312,7 +312,7 @@ fn signed<T: Blockwise>(scalar: &Scalar, number: T) -> T {
     if scalar.negated { -number } else { number }
 }
 
-impl<T: Blockwise> Room<T> {
+impl<T: Blockwise> Scratch<T> {
     /// Prepares the memory for a plan and a time, and runs the stage Time unless that has been done.
     fn enter(&mut self, prepared: &Prepared<T>, time: T) {
         let plan = &*prepared.plan;
@@ -404,21 +404,21 @@ impl<T: Copy> Component<'_, T> {
 
 /// A pool of working memory for threads that come and go.
 #[derive(Debug)]
-pub struct Rooms<T: Blockwise>(Mutex<Vec<Room<T>>>);
+pub struct ScratchPool<T: Blockwise>(Mutex<Vec<Scratch<T>>>);
 
-impl<T: Blockwise> Default for Rooms<T> {
+impl<T: Blockwise> Default for ScratchPool<T> {
     fn default() -> Self {
-        Rooms(Mutex::new(Vec::new()))
+        ScratchPool(Mutex::new(Vec::new()))
     }
 }
 
-impl<T: Blockwise> Rooms<T> {
+impl<T: Blockwise> ScratchPool<T> {
     /// Lends working memory that no other thread uses meanwhile.
-    pub fn lend<R>(&self, work: impl FnOnce(&mut Room<T>) -> R) -> R {
-        let rooms = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut room = rooms().pop().unwrap_or_default();
-        let result = work(&mut room);
-        rooms().push(room);
+    pub fn with<R>(&self, work: impl FnOnce(&mut Scratch<T>) -> R) -> R {
+        let pool = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut scratch = pool().pop().unwrap_or_default();
+        let result = work(&mut scratch);
+        pool().push(scratch);
         result
     }
 }

@@ -8,11 +8,11 @@
 use std::ops::Range;
 
 use mms_math::Scalar;
-use mms_math::batch::{Float, Stand};
+use mms_math::batch::{Float, Lift};
 use mms_math::dispatch::Work;
-use mms_math::machine::Machine;
+use mms_math::simd::Simd;
 
-use super::Way;
+use super::BlockLayout;
 use super::column::Column;
 use super::plan::{Kind, Operand, Plan, Step};
 use crate::interpret;
@@ -49,30 +49,30 @@ impl<T: Copy, const C: usize, const K: usize> Registers<'_, T, C, K> {
     }
 
     #[inline(always)]
-    fn scalar<S: Stand<T>>(&self, place: u32) -> S {
-        S::standing_for(self.scalars[place as usize])
+    fn scalar<S: Lift<T>>(&self, place: u32) -> S {
+        S::splat(self.scalars[place as usize])
     }
 
     #[inline(always)]
-    fn one<S: Stand<T>>(&mut self, step: &Step, function: impl Fn(S) -> S) {
+    fn one<S: Lift<T>>(&mut self, step: &Step, function: impl Fn(S) -> S) {
         let (result, [a]) = self.of(step.result, [step.operands[0]]);
         one(result, a, function);
     }
 
     #[inline(always)]
-    fn two<S: Stand<T>>(&mut self, step: &Step, places: [usize; 2], function: impl Fn(S, S) -> S) {
+    fn two<S: Lift<T>>(&mut self, step: &Step, places: [usize; 2], function: impl Fn(S, S) -> S) {
         let (result, [a, b]) = self.of(step.result, places.map(|place| step.operands[place]));
         two(result, a, b, function);
     }
 
     #[inline(always)]
-    fn three<S: Stand<T>>(&mut self, step: &Step, function: impl Fn(S, S, S) -> S) {
+    fn three<S: Lift<T>>(&mut self, step: &Step, function: impl Fn(S, S, S) -> S) {
         let (result, [a, b, c]) = self.of(step.result, step.operands);
         for (((result, a), b), c) in result.iter_mut().zip(a).zip(b).zip(c) {
             let mut found = *a;
             for k in 0..C {
                 let [a, b, c] = [a[k], b[k], c[k]];
-                let [a, b, c] = [S::standing_for(a), S::standing_for(b), S::standing_for(c)];
+                let [a, b, c] = [S::splat(a), S::splat(b), S::splat(c)];
                 found[k] = function(a, b, c).value();
             }
             *result = found;
@@ -81,7 +81,7 @@ impl<T: Copy, const C: usize, const K: usize> Registers<'_, T, C, K> {
 
     /// Runs a step that is no elementary function.
     #[inline(always)]
-    fn step<S: Stand<T>>(&mut self, step: &Step) {
+    fn step<S: Lift<T>>(&mut self, step: &Step) {
         let [a, b, c] = step.operands;
         match step.kind {
             Kind::Fill => {
@@ -144,7 +144,7 @@ impl<T: Copy, const C: usize, const K: usize> Registers<'_, T, C, K> {
 }
 
 #[inline(always)]
-fn one<T: Copy, S: Stand<T>, const C: usize>(
+fn one<T: Copy, S: Lift<T>, const C: usize>(
     result: &mut [[T; C]],
     a: &[[T; C]],
     function: impl Fn(S) -> S,
@@ -152,14 +152,14 @@ fn one<T: Copy, S: Stand<T>, const C: usize>(
     for (result, a) in result.iter_mut().zip(a) {
         let mut found = *a;
         for k in 0..C {
-            found[k] = function(S::standing_for(a[k])).value();
+            found[k] = function(S::splat(a[k])).value();
         }
         *result = found;
     }
 }
 
 #[inline(always)]
-fn two<T: Copy, S: Stand<T>, const C: usize>(
+fn two<T: Copy, S: Lift<T>, const C: usize>(
     result: &mut [[T; C]],
     a: &[[T; C]],
     b: &[[T; C]],
@@ -168,7 +168,7 @@ fn two<T: Copy, S: Stand<T>, const C: usize>(
     for ((result, a), b) in result.iter_mut().zip(a).zip(b) {
         let mut found = *a;
         for k in 0..C {
-            found[k] = function(S::standing_for(a[k]), S::standing_for(b[k])).value();
+            found[k] = function(S::splat(a[k]), S::splat(b[k])).value();
         }
         *result = found;
     }
@@ -184,7 +184,7 @@ impl<T: Float, const C: usize, const K: usize> Work<T> for Arithmetic<'_, '_, T,
     type Output = ();
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, _: M) {
+    fn on<M: Simd<T>>(self, _: M) {
         for step in self.steps {
             self.registers.step::<M::Lane>(step);
         }
@@ -202,7 +202,7 @@ impl<T: Float, F: OfOne, const C: usize> Work<T> for Unary<'_, T, F, C> {
     type Output = ();
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, _: M) {
+    fn on<M: Simd<T>>(self, _: M) {
         one::<T, M::Lane, C>(self.result, self.argument, |x| self.function.at(x));
     }
 }
@@ -218,7 +218,7 @@ impl<T: Float, F: OfTwo, const C: usize> Work<T> for Binary<'_, T, F, C> {
     type Output = ();
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, _: M) {
+    fn on<M: Simd<T>>(self, _: M) {
         let [a, b] = self.arguments;
         two::<T, M::Lane, C>(self.result, a, b, |a, b| self.function.at(a, b));
     }
@@ -271,7 +271,7 @@ macro_rules! functions {
 
         fn unary<T: Float, const C: usize>(
             (function, small): (Function, Option<Small>),
-            way: Way,
+            way: BlockLayout,
             result: &mut [[T; C]],
             argument: &[[T; C]],
         ) {
@@ -295,7 +295,7 @@ macro_rules! functions {
 
         fn binary<T: Float, const C: usize>(
             function: Function,
-            way: Way,
+            way: BlockLayout,
             result: &mut [[T; C]],
             arguments: [&[[T; C]]; 2],
         ) {
@@ -312,7 +312,7 @@ mms_symbolic::for_functions!(functions);
 /// Runs some parts of a plan with the quick functions, over the first pieces of a block.
 pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
     (plan, parts): (&Plan, Range<usize>),
-    way: Way,
+    way: BlockLayout,
     scalars: &[T],
     columns: &mut [Column<T, C, K>],
     pieces: usize,
@@ -336,7 +336,7 @@ pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
 }
 
 /// Runs the whole plan with the careful functions of the number type, which accept every argument.
-pub(super) fn carefully<T: Stand<T>, const C: usize, const K: usize>(
+pub(super) fn carefully<T: Lift<T>, const C: usize, const K: usize>(
     plan: &Plan,
     scalars: &[T],
     columns: &mut [Column<T, C, K>],

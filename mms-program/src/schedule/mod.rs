@@ -12,14 +12,14 @@
 //! as they are listed. If it saves operations at a point, numbers are multiplied into sums whose terms all have a factor that
 //! is known earlier: 256 X (a Y + b), a and b of the stage Time, becomes X ((256 a) Y + 256 b).
 
+mod cse;
 mod flat;
 mod lower;
-mod share;
 mod signs;
 
+use cse::Scope;
 use flat::{Flat, Grouping, Item, Scaling};
 use lower::Builder;
-use share::Scope;
 
 use crate::fusion::Fusion;
 use crate::program::{Instr, Key, Program, Value, needed};
@@ -123,7 +123,10 @@ fn named<K: Key>(outputs: &SortedMap<K, Vec<Expr>>, made: Unnamed) -> Program<K>
 }
 
 /// Lowers all outputs, each as `written` returns it.
-fn lowered<K: Key>(outputs: &SortedMap<K, Vec<Expr>>, written: &dyn Fn(&[Expr]) -> Way) -> Unnamed {
+fn lowered<K: Key>(
+    outputs: &SortedMap<K, Vec<Expr>>,
+    written: &dyn Fn(&[Expr]) -> Candidate,
+) -> Unnamed {
     let mut builder = Builder::default();
     let lower = |components: &Vec<Expr>| {
         let (flat, roots) = written(components);
@@ -164,11 +167,16 @@ pub fn steps(graph: &Graph, components: &[Expr]) -> Steps {
 const STEPS_OF_OPERAND: u64 = 50;
 
 /// Components as operations, with the item of each.
-type Way = (Flat, Vec<Item>);
+type Candidate = (Flat, Vec<Item>);
 
 /// Writes components as n-ary operations, with the values that need X separate from those that need t too, and, if that
 /// differs, together.
-fn written(graph: &Graph, components: &[Expr], scaling: Scaling, scopes: &[Scope]) -> Vec<Way> {
+fn written(
+    graph: &Graph,
+    components: &[Expr],
+    scaling: Scaling,
+    scopes: &[Scope],
+) -> Vec<Candidate> {
     let reached = graph.reachable(components);
     let new = |grouping| Flat::new(graph, (&reached, components), grouping, scaling);
     let mut ways = vec![new(Grouping::Staged)];
@@ -186,13 +194,13 @@ fn written(graph: &Graph, components: &[Expr], scaling: Scaling, scopes: &[Scope
 }
 
 /// The cheapest of the written ways, with its cost; of equals, the first.
-fn cheapest(graph: &Graph, written: &[Way], scopes: &[Scope]) -> (Cost, Way) {
+fn cheapest(graph: &Graph, written: &[Candidate], scopes: &[Scope]) -> (Cost, Candidate) {
     let (plain, work) = (&written[0], graph.work());
     let cost_of_plain = cost_of(plain);
     if work.is_over() {
         return (cost_of_plain, plain.clone());
     }
-    let mut best: Option<(Cost, Way)> = None;
+    let mut best: Option<(Cost, Candidate)> = None;
     let mut spent = vec![0; written.len()];
     for scope in scopes {
         for (way, spent) in written.iter().zip(&mut spent) {
@@ -203,7 +211,7 @@ fn cheapest(graph: &Graph, written: &[Way], scopes: &[Scope]) -> (Cost, Way) {
             }
             let before = work.left();
             let (mut flat, roots) = way.clone();
-            share::share(&mut flat, &roots, *scope, work);
+            cse::share(&mut flat, &roots, *scope, work);
             *spent = before - work.left();
             let way = (flat, roots);
             let cost = cost_of(&way);
@@ -217,14 +225,14 @@ fn cheapest(graph: &Graph, written: &[Way], scopes: &[Scope]) -> (Cost, Way) {
 }
 
 /// Whether the roots need all operations.
-fn is_needed((flat, roots): &Way) -> bool {
+fn is_needed((flat, roots): &Candidate) -> bool {
     let needed = reachable(roots, Item::index, |item| flat.form(item).operands());
     needed.len() == flat.forms.len()
 }
 
 /// The cheapest way, with numbers multiplied into sums if that saves operations at a point. It rarely does, so it is only tried
 /// for emitted programs and close candidates, and not for all comparisons.
-fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Way {
+fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Candidate {
     let scopes = [Scope::Made, Scope::Needed];
     let before = graph.work().left();
     let unscaled = written(graph, components, Scaling::Factors, &scopes);
@@ -244,7 +252,7 @@ fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Way {
     if is_worth_it { scaled } else { plain }
 }
 
-fn cost_of((flat, roots): &Way) -> Cost {
+fn cost_of((flat, roots): &Candidate) -> Cost {
     let mut builder = Builder::default();
     builder.lower(flat, roots);
     cost_in(&builder)

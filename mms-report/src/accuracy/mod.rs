@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mms_analysis::accuracy::{Accuracy, Errors, Row};
+use mms_analysis::accuracy::{Accuracy, AccuracyRow, Errors};
 use mms_documents::accuracy as documents;
 use mms_documents::provenance::Provenance;
 use mms_files::write::{pretty, write_files};
@@ -46,30 +46,30 @@ pub fn is_promised(form: &str, regime: &str) -> bool {
 }
 
 /// Whether a row has a promised bound.
-fn has_promise(row: &Row) -> bool {
+fn has_promise(row: &AccuracyRow) -> bool {
     is_promised(row.form.name(), row.regime.raw())
 }
 
 /// Whether a row is within its promised bound; `None` if it has no promise, or no component that could be compared.
-fn within_bound(row: &Row) -> Option<bool> {
+fn within_bound(row: &AccuracyRow) -> Option<bool> {
     let Errors { max_scaled_eps, not_finite, compared, .. } = row.errors;
     let is_known = compared > 0 || not_finite > 0;
     (has_promise(row) && is_known).then_some(max_scaled_eps <= BOUND && not_finite == 0)
 }
 
 /// An error of a row; `None` if it was not measured.
-fn measured(row: &Row, of: impl Fn(&Errors) -> f64) -> Option<f64> {
+fn measured(row: &AccuracyRow, of: impl Fn(&Errors) -> f64) -> Option<f64> {
     (row.errors.compared > 0).then(|| of(&row.errors))
 }
 
 impl Report {
     /// The rows that exceed their promised bound.
-    pub fn broken(&self) -> Vec<&Row> {
+    pub fn broken(&self) -> Vec<&AccuracyRow> {
         self.accuracy.rows.iter().filter(|row| within_bound(row) == Some(false)).collect()
     }
 
     /// The rows with a promised bound that were not measured.
-    pub fn unmeasured(&self) -> Vec<&Row> {
+    pub fn unmeasured(&self) -> Vec<&AccuracyRow> {
         let rows = self.accuracy.rows.iter();
         rows.filter(|row| has_promise(row) && within_bound(row).is_none()).collect()
     }
@@ -96,14 +96,14 @@ impl Report {
     }
 
     /// The rows that are shown: all, or the row of the largest error for each quantity, precision and form.
-    fn shown(&self, all: bool) -> Vec<&Row> {
+    fn shown(&self, all: bool) -> Vec<&AccuracyRow> {
         let rows = self.accuracy.rows.iter();
         if all {
             return rows.collect();
         }
-        let mut shown: Vec<&Row> = Vec::new();
+        let mut shown: Vec<&AccuracyRow> = Vec::new();
         for row in rows {
-            let key = |row: &Row| (row.quantity, row.precision, row.form);
+            let key = |row: &AccuracyRow| (row.quantity, row.precision, row.form);
             match shown.iter_mut().find(|other| key(other) == key(row)) {
                 Some(other) if is_worse(row, other) => {
                     *other = row;
@@ -217,7 +217,7 @@ impl Shown for Report {
     }
 
     fn document(&self) -> documents::Accuracy {
-        let row = |row: &Row| documents::AccuracyRow {
+        let row = |row: &AccuracyRow| documents::AccuracyRow {
             quantity: row.quantity.name().to_owned(),
             precision: row.precision.name().to_owned(),
             form: row.form.name().to_owned(),
@@ -251,7 +251,7 @@ impl Shown for Report {
 }
 
 /// Whether a row has a larger error of a quantity; a row without a measured error has none.
-fn is_worse(row: &Row, other: &Row) -> bool {
+fn is_worse(row: &AccuracyRow, other: &AccuracyRow) -> bool {
     let [row, other] = [row, other].map(|it| measured(it, |errors| errors.max_scaled_eps));
     row > other
 }

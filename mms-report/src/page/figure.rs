@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 use mms_spec::foreign;
 use serde_json::Value;
 
@@ -64,7 +64,7 @@ fn together(mut plots: Vec<(&Path, Plot)>, paths: &[PathBuf]) -> Plot {
 /// The result in a file.
 fn read_one(path: &Path) -> anyhow::Result<Entry> {
     let shown = foreign::path(path);
-    let text = read::text(path, Kind::Result)?;
+    let text = read::text(path, FileKind::Result)?;
     let document: Value = serde_json::from_str(&text)
         .map_err(|error| anyhow!("`{shown}`: not JSON: {error}; {}", expected()))?;
     entry(&shown, &document).map_err(|why| anyhow!("`{shown}`: {why}; {}", expected()))

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 use mms_files::store;
 use mms_spec::foreign;
 use serde_json::Value;
@@ -100,7 +100,7 @@ fn found(path: &Path, name: &str) -> Found {
 
 fn read(path: &Path, name: &str) -> anyhow::Result<Found> {
     let is_list = has_extension(path, "pvd");
-    let bytes = read::bytes(path, if is_list { Kind::States } else { Kind::Result })?;
+    let bytes = read::bytes(path, if is_list { FileKind::States } else { FileKind::Result })?;
     let Ok(text) = String::from_utf8(bytes) else { bail!("not text") };
     if is_list {
         return Ok(Found::Result(Box::new(Entry {

@@ -6,7 +6,7 @@ use anyhow::{Context as _, ensure};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, html};
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 use roxmltree::Document;
 
 use super::picture::{Moment, Scale, Shape, pictures, project};
@@ -104,7 +104,7 @@ fn is_beside(file: &str) -> bool {
 
 /// The particles of a state.
 fn particles(path: &Path) -> anyhow::Result<Vec<([f64; 3], f64)>> {
-    let bytes = read::bytes(path, Kind::State).context("cannot read it")?;
+    let bytes = read::bytes(path, FileKind::State).context("cannot read it")?;
     let text = String::from_utf8(bytes).context("not text")?;
     let document = Document::parse(&text).context("not XML")?;
     let [place, error] = ["position", "displacement_error"].map(|name| vectors(&document, name));

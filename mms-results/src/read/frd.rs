@@ -3,7 +3,7 @@
 
 use super::series::tell_unread;
 use super::tags::Tags;
-use super::text::{Numbers, Style, number, settle};
+use super::text::{Numbers, Style, finish, number};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Cells, Mistake, Snapshot, Stored, Time};
 
@@ -75,7 +75,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake
         let mut arrays: Vec<_> =
             snapshot.points.iter_mut().chain(&mut snapshot.of_points).collect();
         let single = vec![false; arrays.len()];
-        settle(&mut arrays, &single);
+        finish(&mut arrays, &single);
     }
     Ok(found)
 }

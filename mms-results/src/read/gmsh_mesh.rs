@@ -8,7 +8,7 @@ use super::gmsh::{Of, View};
 use super::gmsh_order;
 use super::series::tell_unread;
 use super::tags::Tags;
-use super::text::{Numbers, settle};
+use super::text::{Numbers, finish};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Cells, Mistake, Snapshot, Stored, Time};
 
@@ -427,7 +427,7 @@ impl Snapshot {
         let arrays = views.flat_map(|it| [&mut it.array, &mut it.time]);
         let mut arrays: Vec<&mut Array> = self.points.iter_mut().chain(arrays).collect();
         let single = vec![false; arrays.len()];
-        settle(&mut arrays, &single);
+        finish(&mut arrays, &single);
         let mut times: Vec<(f64, Stored)> = Vec::new();
         for time in of_points.iter().chain(&of_cells).map(|it| &it.time) {
             times.push((time.values[0] + 0.0, time.stored));

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::text::{Style, number, settle, with_point, without_unit};
+use super::text::{Style, finish, number, with_point, without_unit};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
@@ -381,7 +381,7 @@ impl Columns {
         };
         let mut columns: Vec<Array> = read.into_iter().map(array).collect();
         let single = vec![false; columns.len()];
-        settle(&mut columns.iter_mut().collect::<Vec<_>>(), &single);
+        finish(&mut columns.iter_mut().collect::<Vec<_>>(), &single);
         Table { columns, lines, unread, units }
     }
 }
@@ -459,12 +459,12 @@ fn by_time(mut table: Table) -> Result<Vec<Snapshot>, Mistake> {
         );
         return Err(Mistake::new(what));
     }
-    hold_whole(&groups, &table.lines)?;
+    validate_whole(&groups, &table.lines)?;
     Ok(groups.into_iter().map(|rows| at_time(&table, &times, rows)).collect())
 }
 
 /// Refuses a table whose last time has fewer rows than every other one: it was cut off.
-fn hold_whole(groups: &[&[usize]], lines: &[usize]) -> Result<(), Mistake> {
+fn validate_whole(groups: &[&[usize]], lines: &[usize]) -> Result<(), Mistake> {
     let last = groups.iter().position(|rows| rows.last() == Some(&(lines.len() - 1)));
     let others = |last: usize| {
         groups.iter().enumerate().filter(move |(at, _)| *at != last).map(|(_, rows)| rows.len())

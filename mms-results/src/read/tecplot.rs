@@ -1,6 +1,6 @@
 //! ASCII files of Tecplot: zones of points, ordered or with cells ("Data Format Guide", Tecplot Inc.).
 
-use super::text::{Numbers, Style, number, settle, without_unit};
+use super::text::{Numbers, Style, finish, number, without_unit};
 use crate::wanted::{Need, Wanted};
 use crate::{Cells, Mistake, Snapshot, Time};
 
@@ -288,7 +288,7 @@ impl Zone {
             snapshot.of_points.extend(column.map(|it| it.into_array(name, 1)));
         }
         let single = vec![false; snapshot.of_points.len()];
-        settle(&mut snapshot.of_points.iter_mut().collect::<Vec<_>>(), &single);
+        finish(&mut snapshot.of_points.iter_mut().collect::<Vec<_>>(), &single);
         snapshot.cells = match self.kind {
             Some(kind) => self.listed(kind, words)?,
             None => ordered(self.size),

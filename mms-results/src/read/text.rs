@@ -108,7 +108,7 @@ impl Numbers {
         Ok(())
     }
 
-    /// An array of these numbers; [`settle`] decides its precision.
+    /// An array of these numbers; [`finish`] decides its precision.
     pub fn into_array(self, name: &str, components: usize) -> Array {
         let (name, stored) = (name.to_owned(), self.style.stored());
         Array { name, components, values: self.values, stored, ..Array::default() }
@@ -121,7 +121,7 @@ const ALL_OF_DOUBLE: u32 = 16;
 
 /// Gives arrays the significant digits of the one with most: a program writes all in one way, and the numbers of an array may
 /// need fewer digits.
-pub fn settle(arrays: &mut [&mut Array], single: &[bool]) {
+pub fn finish(arrays: &mut [&mut Array], single: &[bool]) {
     let digits = |stored: Stored| if let Stored::Digits(digits) = stored { digits } else { 0 };
     let most = arrays.iter().map(|array| digits(array.stored)).max().unwrap_or(0);
     for (array, &single) in arrays.iter_mut().zip(single) {
@@ -202,7 +202,7 @@ mod tests {
         };
         let zeros = array(&["0.0", "-0.0", "1.0"]);
         let settled = |mut one: Array, mut other: Array| {
-            settle(&mut [&mut one, &mut other], &[false; 2]);
+            finish(&mut [&mut one, &mut other], &[false; 2]);
             one.stored
         };
         assert_eq!(settled(zeros.clone(), array(&["0.3669589318356906"])), Stored::Double);

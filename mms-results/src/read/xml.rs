@@ -30,7 +30,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>, beside: Beside<'_>) -> Result<Co
     };
     let text = std::str::from_utf8(&text).map_err(|_| Mistake::new("expected XML in UTF-8"))?;
     let text = text.trim_start_matches('\u{feff}').trim_start();
-    hold_tags(text.as_bytes())?;
+    validate_tags(text.as_bytes())?;
     // XDMF has a document type declaration, which declares nothing.
     let allow_dtd = !text.contains("<!ENTITY");
     let options =
@@ -56,7 +56,7 @@ fn split(bytes: &[u8]) -> (&[u8], Option<[&[u8]; 2]>) {
 }
 
 /// Refuses tags longer than any program writes.
-fn hold_tags(text: &[u8]) -> Result<(), Mistake> {
+fn validate_tags(text: &[u8]) -> Result<(), Mistake> {
     let mut at = 0;
     while let Some(start) = memchr::memchr(b'<', &text[at..]) {
         at += start;

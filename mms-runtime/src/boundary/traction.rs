@@ -6,7 +6,7 @@
 //! Loads P N A0 of given direction would let a body under pressure on all sides turn over. In the total formulation F_p is the
 //! field's, and the loads are P N A0.
 
-use mms_math::machine::Plain;
+use mms_math::simd::Plain;
 
 use crate::axisymmetric::{hoop_strain, hoop_stretch};
 use crate::body::Piece;
@@ -17,11 +17,11 @@ use crate::field::{Condition, Face, ManufacturedField};
 use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window, halves};
 use crate::real::{Matrix, Real, Vector};
-use crate::stencil::{Carried, Stencil as _, Tensor};
+use crate::stencil::{Payload, Stencil as _, Tensor};
 use crate::tensor::{cofactor, components, jacobian};
 
 /// The present position of a piece of a face.
-pub struct Place<T, const D: usize> {
+pub struct FacePoint<T, const D: usize> {
     /// x_s, where its force acts.
     pub position: Vector<T, D>,
     /// H of the particle that carries the piece, and F_tt or 1; `None` if the field's H is used.
@@ -95,7 +95,7 @@ impl<T: Real, const D: usize> Traction<T, D> {
         field: &F,
         time: T,
         point: Point<'_, T, D>,
-        place: impl Fn(usize, &Vector<T, D>) -> Place<T, D>,
+        place: impl Fn(usize, &Vector<T, D>) -> FacePoint<T, D>,
         share: T,
         extensive: &mut [Nodal<T>],
     ) -> Result<(), Failure>
@@ -105,7 +105,7 @@ impl<T: Real, const D: usize> Traction<T, D> {
         if self.particle.is_empty() {
             return Ok(());
         }
-        let machine = T::PlainMachine::from(Plain);
+        let simd = T::PlainMachine::from(Plain);
         let Self { particle, reference, area, displacement_gradient, kirchhoff_stress } = self;
         field.displacement_gradient(time, reference, displacement_gradient);
         field.surface_stress(time, reference, displacement_gradient, kirchhoff_stress);
@@ -119,7 +119,7 @@ impl<T: Real, const D: usize> Traction<T, D> {
                 cause,
             };
             let exact = (displacement_gradient[k], hoop_stretch(&hoop_strain, k));
-            let Place { position, carrier } = place(particle, &reference[k]);
+            let FacePoint { position, carrier } = place(particle, &reference[k]);
             let (carrier, hoop) = carrier.unwrap_or(exact);
             let present_area = match cofactor(&carrier) {
                 None => return Err(fail(Cause::NotFinite { quantity: "traction" })),
@@ -130,10 +130,10 @@ impl<T: Real, const D: usize> Traction<T, D> {
             let ratio = if on(Defect::TractionOfKirchhoff) { T::one() } else { volume };
             let traction = kirchhoff_stress[k] * present_area * share / ratio;
             let stencil = (point.stencil)(point.lattice, &position).map_err(fail)?;
-            let traction = halves(machine, [&traction; 2], T::zero());
+            let traction = halves(simd, [&traction; 2], T::zero());
             let nodes = Window { start: 0, nodes: &mut *extensive };
-            let carried = Carried::value([traction; HALF]);
-            stencil.scatter(machine, point.lattice, &carried, [0, 1], nodes);
+            let carried = Payload::value([traction; HALF]);
+            stencil.scatter(simd, point.lattice, &carried, [0, 1], nodes);
         }
         Ok(())
     }

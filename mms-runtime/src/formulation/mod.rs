@@ -17,7 +17,7 @@ pub trait Formulation: Send + Sync + 'static {
     /// evaluated at the reference positions, and dF/dt is that sum.
     const MOVES: bool;
 
-    /// Computes, from tau and H of some bunches of particles, the stresses that multiply grad w per reference volume.
+    /// Computes, from tau and H of some packs of particles, the stresses that multiply grad w per reference volume.
     ///
     /// # Errors
     /// The index of the first particle where F is singular.
@@ -27,7 +27,7 @@ pub trait Formulation: Send + Sync + 'static {
     ) -> Result<(), usize>;
 }
 
-/// A function that replaces tau of some bunches by the stresses, given H; or returns where F is singular.
+/// A function that replaces tau of some packs by the stresses, given H; or returns where F is singular.
 type StressOf<M> = fn(&[M], &mut [M]) -> Result<(), usize>;
 
 /// A formulation as a value, so that solvers are compiled once for all formulations.

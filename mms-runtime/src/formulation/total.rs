@@ -5,8 +5,8 @@
 //! the reference positions: f_i = - sum_p V0 P grad0 w, and dF/dt = sum_i v_i (x) grad0 w.
 
 use super::Formulation;
-use crate::column::BUNCH;
-use crate::column::{Bunch as _, Matrices};
+use crate::column::PACK;
+use crate::column::{Matrices, Pack as _};
 use crate::defect::{Defect, on};
 use crate::real::Real;
 use crate::tensor::inverse_deformation_gradient;
@@ -22,8 +22,8 @@ impl Formulation for Total {
         stress: &mut [Matrices<T, D>],
     ) -> Result<(), usize> {
         for (b, (h, stress)) in displacement_gradient.iter().zip(stress).enumerate() {
-            for k in 0..BUNCH {
-                let inverse = inverse_deformation_gradient(&h.get(k)).ok_or(BUNCH * b + k)?;
+            for k in 0..PACK {
+                let inverse = inverse_deformation_gradient(&h.get(k)).ok_or(PACK * b + k)?;
                 let mut first = stress.get(k) * inverse.transpose();
                 if on(Defect::TransposedStress) {
                     first.transpose_mut();

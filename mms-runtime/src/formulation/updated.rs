@@ -5,8 +5,8 @@
 //! and dF/dt = L F.
 
 use super::Formulation;
-use crate::column::BUNCH;
-use crate::column::{Bunch as _, Matrices};
+use crate::column::PACK;
+use crate::column::{Matrices, Pack as _};
 use crate::defect::{Defect, on};
 use crate::real::Real;
 use crate::tensor::jacobian;
@@ -23,7 +23,7 @@ impl Formulation for Updated {
     ) -> Result<(), usize> {
         if on(Defect::KirchhoffForCauchy) {
             for (h, stress) in displacement_gradient.iter().zip(stress) {
-                for k in 0..BUNCH {
+                for k in 0..PACK {
                     stress.set(k, &(stress.get(k) * jacobian(&h.get(k))));
                 }
             }

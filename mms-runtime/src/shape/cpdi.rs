@@ -9,11 +9,11 @@
 
 use std::ops::Range;
 
-use mms_math::machine::Machine;
+use mms_math::simd::Simd;
 
 use super::Shape;
-use crate::column::{BUNCH, HALF};
-use crate::column::{Bunch as _, Matrices};
+use crate::column::{HALF, PACK};
+use crate::column::{Matrices, Pack as _};
 use crate::defect::{Defect, on};
 use crate::failure::Cause;
 use crate::lanes::{columns, scaled};
@@ -21,7 +21,7 @@ use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
 use crate::real::{Matrix, Real, Vector};
 use crate::spline;
-use crate::stencil::{Carried, Gathered, Members, Stencil, Tensor, Wanted};
+use crate::stencil::{Gathered, Members, Payload, Stencil, Tensor, Wanted};
 use crate::tensor::{deformation_gradient, inverse};
 
 /// GIMP on parallelepipeds: shear and rotation are followed, without gaps or overlaps in a uniform F.
@@ -30,15 +30,15 @@ pub struct Cpdi;
 /// The corners of a parallelepiped in three dimensions.
 const MOST_CORNERS: usize = 8;
 
-/// Every corner's hat functions, and the directions of their gradients: a number for each particle of a bunch.
+/// Every corner's hat functions, and the directions of their gradients: a number for each particle of a pack.
 #[derive(Clone, Debug)]
 pub struct Corners<T, const D: usize> {
     /// The hat functions at the corners; only the first 2^D are used.
     hats: [Tensor<T, D>; MOST_CORNERS],
     /// 2^-D R^-T s_c.
-    direction: [[[T; BUNCH]; D]; MOST_CORNERS],
+    direction: [[[T; PACK]; D]; MOST_CORNERS],
     /// R s_c, from the particle to the corner.
-    apart: [[[T; BUNCH]; D]; MOST_CORNERS],
+    apart: [[[T; PACK]; D]; MOST_CORNERS],
 }
 
 impl Shape for Cpdi {
@@ -52,8 +52,8 @@ impl Shape for Cpdi {
     }
 
     #[inline(always)]
-    fn place<T: Real, M: Machine<T>, const D: usize>(
-        machine: M,
+    fn place<T: Real, M: Simd<T>, const D: usize>(
+        simd: M,
         corners: &mut Corners<T, D>,
         lattice: &Lattice<T, D>,
         position: &[M::Eight; D],
@@ -61,7 +61,7 @@ impl Shape for Cpdi {
         displacement_gradient: &Matrices<T, D>,
     ) -> Result<(), Cause> {
         let [mut all_present, mut all_inverse] = [Matrices::zeros(); 2];
-        for p in 0..BUNCH {
+        for p in 0..PACK {
             let half_edges = half_edges.get(p);
             let present = deformation_gradient(&displacement_gradient.get(p)) * half_edges;
             let present = if on(Defect::CornersKept) { half_edges } else { present };
@@ -70,23 +70,23 @@ impl Shape for Cpdi {
             all_present.set(p, &present);
             all_inverse.set(p, &if transposed { inverse.transpose() } else { inverse });
         }
-        let (present, inverse) = (columns(machine, &all_present), columns(machine, &all_inverse));
+        let (present, inverse) = (columns(simd, &all_present), columns(simd, &all_inverse));
         for c in 0..1 << D {
             let sign = |a: usize| if c >> a & 1 == 0 { -T::one() } else { T::one() };
-            let share = machine.splat(T::ratio(1, 1 << D));
+            let share = simd.splat(T::ratio(1, 1 << D));
             let mut corner = *position;
             for i in 0..D {
-                let [mut apart, mut direction] = [machine.splat(T::zero()); 2];
+                let [mut apart, mut direction] = [simd.splat(T::zero()); 2];
                 for a in 0..D {
-                    let sign = machine.splat(sign(a));
-                    apart = machine.times_plus(present[a][i], sign, apart);
-                    direction = machine.times_plus(inverse[i][a], sign, direction);
+                    let sign = simd.splat(sign(a));
+                    apart = simd.times_plus(present[a][i], sign, apart);
+                    direction = simd.times_plus(inverse[i][a], sign, direction);
                 }
-                corner[i] = machine.plus(position[i], apart);
-                corners.apart[c][i] = machine.numbers(apart);
-                corners.direction[c][i] = machine.numbers(machine.times(direction, share));
+                corner[i] = simd.plus(position[i], apart);
+                corners.apart[c][i] = simd.numbers(apart);
+                corners.direction[c][i] = simd.numbers(simd.times(direction, share));
             }
-            spline::place::<T, M, D, 1, 2>(machine, &mut corners.hats[c], lattice, &corner)?;
+            spline::place::<T, M, D, 1, 2>(simd, &mut corners.hats[c], lattice, &corner)?;
         }
         Ok(())
     }
@@ -101,7 +101,7 @@ impl Shape for Cpdi {
 
 impl<T: Real, const D: usize> Default for Corners<T, D> {
     fn default() -> Self {
-        let nothing = [[[T::zero(); BUNCH]; D]; MOST_CORNERS];
+        let nothing = [[[T::zero(); PACK]; D]; MOST_CORNERS];
         Self { hats: [Tensor::new(); MOST_CORNERS], direction: nothing, apart: nothing }
     }
 }
@@ -126,68 +126,68 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
     /// Scatters corner by corner: the moments of hat functions are about their corner, and the corner adds its own moment about
     /// the particle.
     #[inline(always)]
-    fn scatter<M: Machine<T>>(
+    fn scatter<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Carried<M::Eight, D>,
+        carried: &Payload<M::Eight, D>,
         members: Members,
         mut nodes: Window<'_, T>,
     ) {
-        let zero = machine.splat(T::zero());
-        let share = machine.splat(T::ratio(1, 1 << D));
+        let zero = simd.splat(T::zero());
+        let share = simd.splat(T::ratio(1, 1 << D));
         let mut moments = carried.moments;
         if let Some(moments) = &mut moments {
-            *moments = scaled(machine, *moments, share);
+            *moments = scaled(simd, *moments, share);
         }
         for c in 0..1 << D {
             let mut rows = [zero; HALF];
             for a in 0..D {
-                let direction = machine.eight(&self.direction[c][a]);
-                let apart = machine.eight(&self.apart[c][a]);
+                let direction = simd.eight(&self.direction[c][a]);
+                let apart = simd.eight(&self.apart[c][a]);
                 for i in 0..D {
                     if let Some(slopes) = &carried.slopes {
-                        rows[i] = machine.times_plus(direction, slopes[a][i], rows[i]);
+                        rows[i] = simd.times_plus(direction, slopes[a][i], rows[i]);
                     }
                     if let Some(moments) = &moments {
-                        rows[i] = machine.times_plus(apart, moments[a][i], rows[i]);
+                        rows[i] = simd.times_plus(apart, moments[a][i], rows[i]);
                     }
                 }
             }
-            let mut value = machine.transposed(rows);
+            let mut value = simd.transposed(rows);
             for k in 0..HALF {
-                value[k] = machine.times_plus(share, carried.value[k], value[k]);
+                value[k] = simd.times_plus(share, carried.value[k], value[k]);
             }
-            let carried = Carried { value, slopes: None, moments };
+            let carried = Payload { value, slopes: None, moments };
             let nodes = nodes.reborrow();
-            self.hats[c].scatter_to::<M, 2>(machine, lattice, &carried, members, nodes);
+            self.hats[c].scatter_to::<M, 2>(simd, lattice, &carried, members, nodes);
         }
     }
 
     #[inline(always)]
-    fn gather<M: Machine<T>>(
+    fn gather<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
         wanted: Wanted,
         nodes: &[Nodal<T>],
     ) -> Gathered<M::Eight, D> {
-        let zero = machine.splat(T::zero());
+        let zero = simd.splat(T::zero());
         let nothing = [[zero; D]; D];
         let mut gathered = Gathered { value: [zero; D], gradient: nothing, slopes: nothing };
-        let share = machine.splat(T::ratio(1, 1 << D));
+        let share = simd.splat(T::ratio(1, 1 << D));
         for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
-            let of_corner = hats.gather_from::<M, 2>(machine, lattice, Wanted::Value, nodes).value;
+            let of_corner = hats.gather_from::<M, 2>(simd, lattice, Wanted::Value, nodes).value;
             for c in 0..D {
                 let value = &mut gathered.value[c];
-                *value = machine.times_plus(share, of_corner[c], *value);
+                *value = simd.times_plus(share, of_corner[c], *value);
                 if wanted == Wanted::Value {
                     continue;
                 }
                 for a in 0..D {
                     let gradient = &mut gathered.gradient[a][c];
-                    let along = machine.eight(&direction[a]);
-                    *gradient = machine.times_plus(along, of_corner[c], *gradient);
+                    let along = simd.eight(&direction[a]);
+                    *gradient = simd.times_plus(along, of_corner[c], *gradient);
                 }
             }
         }

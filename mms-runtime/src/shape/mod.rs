@@ -15,9 +15,9 @@
 //! particle's domain that they need), and add `name::Type` to the list below. The property tests and the `mms` command then
 //! find it automatically.
 
-use mms_math::machine::{Machine, Plain};
+use mms_math::simd::{Plain, Simd};
 
-use crate::column::{Bunch, Matrices, Vectors};
+use crate::column::{Matrices, Pack, Vectors};
 use crate::extension::extension_list;
 use crate::failure::Cause;
 use crate::lanes::components;
@@ -55,25 +55,25 @@ pub trait Shape: Sized + 'static {
     /// The offset, in cells from a node, of the regions where all positions have the same nodes: particles are sorted by these.
     const ORIGIN: f64 = 0.0;
 
-    /// The stored data of a bunch of undeformed particle domains.
-    type Domain<T: Real, const D: usize>: Bunch;
+    /// The stored data of a pack of undeformed particle domains.
+    type Domain<T: Real, const D: usize>: Pack;
 
-    /// The nodes of a bunch of particles.
+    /// The nodes of a pack of particles.
     type Stencil<T: Real, const D: usize>: Stencil<T, D>;
 
     /// The stored data of the undeformed domain X_p + sum_a xi_a r_a, |xi_a| <= 1; r_a are the columns of `half_edges`.
     fn domain<T: Real, const D: usize>(
         half_edges: &Matrix<T, D>,
-    ) -> <Self::Domain<T, D> as Bunch>::One;
+    ) -> <Self::Domain<T, D> as Pack>::One;
 
-    /// Writes the nodes and weights of a bunch of particles to `stencil`. `position` has the components along each axis
+    /// Writes the nodes and weights of a pack of particles to `stencil`. `position` has the components along each axis
     /// (lengths); `domain` and `displacement_gradient` (H) are the particles' too.
     ///
     /// # Errors
-    /// A domain does not fit on the grid, or is too large for the stencil. The cause is right if all particles of the bunch are
+    /// A domain does not fit on the grid, or is too large for the stencil. The cause is right if all particles of the pack are
     /// equal; otherwise it is the first particle's.
-    fn place<T: Real, M: Machine<T>, const D: usize>(
-        machine: M,
+    fn place<T: Real, M: Simd<T>, const D: usize>(
+        simd: M,
         stencil: &mut Self::Stencil<T, D>,
         lattice: &Lattice<T, D>,
         position: &[M::Eight; D],
@@ -81,24 +81,24 @@ pub trait Shape: Sized + 'static {
         displacement_gradient: &Matrices<T, D>,
     ) -> Result<(), Cause>;
 
-    /// The nodes and weights of a bunch of equal particles; see [`place`](Shape::place).
+    /// The nodes and weights of a pack of equal particles; see [`place`](Shape::place).
     ///
     /// # Errors
     /// The errors of [`place`](Shape::place).
     fn stencil<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-        domain: &<Self::Domain<T, D> as Bunch>::One,
+        domain: &<Self::Domain<T, D> as Pack>::One,
         displacement_gradient: &Matrix<T, D>,
     ) -> Result<Self::Stencil<T, D>, Cause> {
         let mut stencil = Self::Stencil::default();
-        let (position, domain) = (Vectors::alike(position), Bunch::alike(domain));
+        let (position, domain) = (Vectors::alike(position), Pack::alike(domain));
         let h = Matrices::alike(displacement_gradient);
         place_alone::<T, D, Self>(&mut stencil, lattice, &position, &domain, &h)?;
         Ok(stencil)
     }
 
-    /// The nodes and weights of a bunch of equal points, for instance of a piece of a face.
+    /// The nodes and weights of a pack of equal points, for instance of a piece of a face.
     ///
     /// # Errors
     /// The point is off the grid.
@@ -121,12 +121,12 @@ pub(crate) fn place_alone<T: Real, const D: usize, S: Shape>(
     domain: &S::Domain<T, D>,
     displacement_gradient: &Matrices<T, D>,
 ) -> Result<(), Cause> {
-    let machine = T::PlainMachine::from(Plain);
-    let position = components(machine, position);
-    S::place(machine, stencil, lattice, &position, domain, displacement_gradient)
+    let simd = T::PlainMachine::from(Plain);
+    let position = components(simd, position);
+    S::place(simd, stencil, lattice, &position, domain, displacement_gradient)
 }
 
-/// The failure of a bunch off the grid, at the position of its first particle.
+/// The failure of a pack off the grid, at the position of its first particle.
 #[cold]
 pub(crate) fn lost<T: Real, const D: usize>(position: &Vectors<T, D>) -> Cause {
     Cause::lost(&position.get(0))

@@ -1,6 +1,6 @@
 //! A solver whose shape function and integrator are chosen by name.
 
-use super::{Present, Residual, Seconds, Solver, State};
+use super::{Residual, Seconds, Solver, State, StateView};
 use crate::failure::{Failure, Refusal};
 use crate::field::ManufacturedField;
 use crate::grid::Grid;
@@ -32,7 +32,7 @@ pub trait AnySolver<'f, T: Real, const D: usize>: Send {
     fn check_time_step(&self, fastest_wave: f64) -> Result<(), Failure>;
 
     /// The state, for measurements.
-    fn present(&self) -> Present<'_, T, D, dyn ManufacturedField<T, D> + 'f>;
+    fn present(&self) -> StateView<'_, T, D, dyn ManufacturedField<T, D> + 'f>;
 
     /// The grid after the last step.
     fn grid(&self) -> &Grid<T, D>;
@@ -115,7 +115,7 @@ impl<'f, T: Real, const D: usize> AnySolver<'f, T, D> for Chosen<'f, T, D> {
         self.solver.check_time_step(fastest_wave)
     }
 
-    fn present(&self) -> Present<'_, T, D, dyn ManufacturedField<T, D> + 'f> {
+    fn present(&self) -> StateView<'_, T, D, dyn ManufacturedField<T, D> + 'f> {
         self.solver.present()
     }
 

@@ -1,11 +1,11 @@
 //! From nodes to particles (G2P): velocity, displacement, deformation.
 
 use mms_math::dispatch::{Work, best};
-use mms_math::machine::{Machine, Plain};
+use mms_math::simd::{Plain, Simd};
 
-use super::misread;
-use super::weights::{AHEAD, Room, Scene, TOGETHER, Weigh};
-use crate::column::BUNCH;
+use super::faults;
+use super::weights::{AHEAD, Scene, Stencils, TOGETHER, Weigh};
+use crate::column::PACK;
 use crate::defect::{Defect, on};
 use crate::failure::Cause;
 use crate::lanes::{columns, components, determinants, set_columns, set_components};
@@ -65,12 +65,12 @@ where
     const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
+    fn on<M: Simd<T>>(self, simd: M) -> Self::Output {
         let Advance { scene, mut particles, steps, velocity, acceleration } = self.pass;
         let nodes = Nodes { scene, steps, velocity, acceleration };
-        let mut room = Room::<St>::default();
+        let mut room = Stencils::<St>::default();
         // Zero times all new numbers: zero, if all are finite.
-        let mut rest = machine.splat(T::zero());
+        let mut rest = simd.splat(T::zero());
         let mut sound = true;
         let count = particles.len();
         for first in (0..count).step_by(TOGETHER) {
@@ -79,11 +79,11 @@ where
             let moved = particles.moved(some.clone());
             self.weights.weigh(&scene, particles.start + first, moved, room)?;
             for (k, stencil) in some.zip(room) {
-                particles.fetch(machine, k + AHEAD);
-                sound &= nodes.update(machine, &mut particles, k, &*stencil, &mut rest);
+                particles.fetch(simd, k + AHEAD);
+                sound &= nodes.update(simd, &mut particles, k, &*stencil, &mut rest);
             }
         }
-        Ok(sound & machine.all_at_most(rest, rest))
+        Ok(sound & simd.all_at_most(rest, rest))
     }
 }
 
@@ -96,11 +96,11 @@ struct Nodes<'a, T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Nodes<'_, T, D> {
-    /// Updates a bunch, and returns whether all J > 0. Adds zero times all new numbers to `rest`.
+    /// Updates a pack, and returns whether all J > 0. Adds zero times all new numbers to `rest`.
     #[inline(always)]
-    fn update<M: Machine<T>>(
+    fn update<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         particles: &mut Columns<'_, T, D>,
         k: usize,
         stencil: &impl Stencil<T, D>,
@@ -108,7 +108,7 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
     ) -> Sound {
         let Self { scene, steps, velocity, .. } = self;
         let degree = scene.lattice.degree;
-        let zero = machine.splat(T::zero());
+        let zero = simd.splat(T::zero());
         let wanted = match (steps.velocity, steps.deformation) {
             // For hat functions the nearest linear velocity is the interpolant between the nodes.
             (Some(_), _) if scene.transfer == Transfer::Apic && degree == 1 => Wanted::Gradient,
@@ -116,28 +116,28 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
             (_, Some(_)) => Wanted::Gradient,
             _ => Wanted::Value,
         };
-        let mapped = stencil.gather(machine, scene.lattice, wanted, velocity);
+        let mapped = stencil.gather(simd, scene.lattice, wanted, velocity);
         if let Some(kick) = steps.velocity {
-            let next = self.kicked(machine, kick, mapped.value, particles, k, stencil);
-            set_components(machine, &mut particles.velocity[k], next);
+            let next = self.kicked(simd, kick, mapped.value, particles, k, stencil);
+            set_components(simd, &mut particles.velocity[k], next);
             for a in 0..D {
-                *rest = machine.times_plus(next[a], zero, *rest);
+                *rest = simd.times_plus(next[a], zero, *rest);
             }
             if scene.transfer == Transfer::Apic {
                 let affine = if degree == 1 { mapped.gradient } else { mapped.slopes };
-                let affine = misread::affine(machine, affine, degree);
-                set_columns(machine, &mut particles.affine[k], affine);
+                let affine = faults::affine(simd, affine, degree);
+                set_columns(simd, &mut particles.affine[k], affine);
             }
         }
         if let Some(time_step) = steps.position {
-            let mut next = components(machine, &particles.displacement[k]);
-            let own = components(machine, &particles.velocity[k]);
-            let carrier = misread::carrier(mapped.value, own);
+            let mut next = components(simd, &particles.displacement[k]);
+            let own = components(simd, &particles.velocity[k]);
+            let carrier = faults::carrier(mapped.value, own);
             for a in 0..D {
-                next[a] = machine.times_plus(machine.splat(time_step), carrier[a], next[a]);
-                *rest = machine.times_plus(next[a], zero, *rest);
+                next[a] = simd.times_plus(simd.splat(time_step), carrier[a], next[a]);
+                *rest = simd.times_plus(next[a], zero, *rest);
             }
-            set_components(machine, &mut particles.displacement[k], next);
+            set_components(simd, &mut particles.displacement[k], next);
         }
         let Some(time_step) = steps.deformation else { return true };
         let mut sound = true;
@@ -146,40 +146,40 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
             && let Some(stencil) = stencil.product()
         {
             let speed = match stencil.around() {
-                Some(around) => machine.eight(&along_first(scene.lattice, &around, velocity)),
+                Some(around) => simd.eight(&along_first(scene.lattice, &around, velocity)),
                 None => mapped.value[0],
             };
-            let mut rate = machine.over(speed, machine.eight(stencil.radius()));
-            let before = machine.eight(strain);
+            let mut rate = simd.over(speed, simd.eight(stencil.radius()));
+            let before = simd.eight(strain);
             if scene.moves {
-                rate = machine.times_plus(rate, before, rate);
+                rate = simd.times_plus(rate, before, rate);
             }
-            let next = machine.times_plus(machine.splat(time_step), rate, before);
-            *strain = machine.numbers(next);
-            *rest = machine.times_plus(next, zero, *rest);
-            let least = machine.splat(T::of(f64::from(f32::MIN_POSITIVE)));
-            sound = machine.all_at_most(least, machine.plus(next, machine.splat(T::one())));
+            let next = simd.times_plus(simd.splat(time_step), rate, before);
+            *strain = simd.numbers(next);
+            *rest = simd.times_plus(next, zero, *rest);
+            let least = simd.splat(T::of(f64::from(f32::MIN_POSITIVE)));
+            sound = simd.all_at_most(least, simd.plus(next, simd.splat(T::one())));
         }
-        let h = columns(machine, &particles.displacement_gradient[k]);
-        let gradient = misread::velocity_gradient(machine, mapped.gradient);
+        let h = columns(simd, &particles.displacement_gradient[k]);
+        let gradient = faults::velocity_gradient(simd, mapped.gradient);
         let moves = scene.moves && !on(Defect::ReferenceGradient);
-        let mut next = deformed(machine, h, gradient, time_step, moves);
-        set_columns(machine, &mut particles.displacement_gradient[k], next);
+        let mut next = deformed(simd, h, gradient, time_step, moves);
+        set_columns(simd, &mut particles.displacement_gradient[k], next);
         for j in 0..D {
             for i in 0..D {
-                *rest = machine.times_plus(next[j][i], zero, *rest);
+                *rest = simd.times_plus(next[j][i], zero, *rest);
             }
-            next[j][j] = machine.plus(next[j][j], machine.splat(T::one()));
+            next[j][j] = simd.plus(next[j][j], simd.splat(T::one()));
         }
-        let least = machine.splat(T::of(f64::from(f32::MIN_POSITIVE)));
-        sound & machine.all_at_most(least, determinants(machine, &next))
+        let least = simd.splat(T::of(f64::from(f32::MIN_POSITIVE)));
+        sound & simd.all_at_most(least, determinants(simd, &next))
     }
 
     /// The velocities of particles after a kick; `mapped` is the interpolated velocity of the nodes.
     #[inline(always)]
-    fn kicked<M: Machine<T>>(
+    fn kicked<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         kick: T,
         mapped: [M::Eight; D],
         particles: &mut Columns<'_, T, D>,
@@ -190,24 +190,24 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
         if scene.transfer.reads() == Reads::Nothing {
             return mapped;
         }
-        let acceleration = stencil.gather(machine, scene.lattice, Wanted::Value, acceleration);
-        let mut next = components(machine, &particles.velocity[k]);
+        let acceleration = stencil.gather(simd, scene.lattice, Wanted::Value, acceleration);
+        let mut next = components(simd, &particles.velocity[k]);
         for a in 0..D {
-            next[a] = machine.times_plus(machine.splat(kick), acceleration.value[a], next[a]);
+            next[a] = simd.times_plus(simd.splat(kick), acceleration.value[a], next[a]);
         }
         match scene.transfer {
             Transfer::Flip { fraction } if fraction < 1.0 => {
                 let [own, others] = [fraction, 1.0 - fraction].map(T::of);
                 for a in 0..D {
-                    let others = machine.times(machine.splat(others), mapped[a]);
-                    next[a] = machine.times_plus(machine.splat(own), next[a], others);
+                    let others = simd.times(simd.splat(others), mapped[a]);
+                    next[a] = simd.times_plus(simd.splat(own), next[a], others);
                 }
             }
             Transfer::Xpic { .. } => {
-                let sign = machine.splat(if on(Defect::XpicSign) { T::one() } else { -T::one() });
-                let residual = components(machine, &particles.residual[k]);
+                let sign = simd.splat(if on(Defect::XpicSign) { T::one() } else { -T::one() });
+                let residual = components(simd, &particles.residual[k]);
                 for a in 0..D {
-                    next[a] = machine.times_plus(sign, residual[a], next[a]);
+                    next[a] = simd.times_plus(sign, residual[a], next[a]);
                 }
             }
             Transfer::Flip { .. } | Transfer::Pic | Transfer::Apic => {}
@@ -223,15 +223,15 @@ fn along_first<T: Real, const D: usize>(
     lattice: &Lattice<T, D>,
     stencil: &Tensor<T, D>,
     nodes: &[Nodal<T>],
-) -> [T; BUNCH] {
-    let machine = T::PlainMachine::from(Plain);
-    machine.numbers(stencil.gather(machine, lattice, Wanted::Value, nodes).value[0])
+) -> [T; PACK] {
+    let simd = T::PlainMachine::from(Plain);
+    simd.numbers(stencil.gather(simd, lattice, Wanted::Value, nodes).value[0])
 }
 
 /// The columns of H + dt G F, or of H + dt G if nothing `moves`, G being the gradient whose columns are given.
 #[inline(always)]
-fn deformed<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+fn deformed<T: Real, M: Simd<T>, const D: usize>(
+    simd: M,
     h: [[M::Eight; D]; D],
     mut gradient: [[M::Eight; D]; D],
     time_step: T,
@@ -240,15 +240,15 @@ fn deformed<T: Real, M: Machine<T>, const D: usize>(
     let mut next = h;
     for j in 0..D {
         for i in 0..D {
-            gradient[j][i] = machine.times(gradient[j][i], machine.splat(time_step));
-            next[j][i] = machine.plus(next[j][i], gradient[j][i]);
+            gradient[j][i] = simd.times(gradient[j][i], simd.splat(time_step));
+            next[j][i] = simd.plus(next[j][i], gradient[j][i]);
         }
     }
     if moves {
         for j in 0..D {
             for i in 0..D {
                 for a in 0..D {
-                    next[j][i] = machine.times_plus(h[j][a], gradient[a][i], next[j][i]);
+                    next[j][i] = simd.times_plus(h[j][a], gradient[a][i], next[j][i]);
                 }
             }
         }
@@ -292,9 +292,9 @@ where
     const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
+    fn on<M: Simd<T>>(self, simd: M) -> Self::Output {
         let Residual { scene, particles, nodal, source } = self.pass;
-        let mut room = Room::<St>::default();
+        let mut room = Stencils::<St>::default();
         let count = particles.len();
         for first in (0..count).step_by(TOGETHER) {
             let many = TOGETHER.min(count - first);
@@ -306,12 +306,12 @@ where
                     Source::Velocity => &particles.velocity[k],
                     Source::Residual => &particles.residual[k],
                 };
-                let represented = stencil.gather(machine, scene.lattice, Wanted::Value, nodal);
-                let mut left = components(machine, from);
+                let represented = stencil.gather(simd, scene.lattice, Wanted::Value, nodal);
+                let mut left = components(simd, from);
                 for a in 0..D {
-                    left[a] = machine.minus(left[a], represented.value[a]);
+                    left[a] = simd.minus(left[a], represented.value[a]);
                 }
-                set_components(machine, &mut particles.residual[k], left);
+                set_components(simd, &mut particles.residual[k], left);
             }
         }
         Ok(true)

@@ -5,13 +5,13 @@ use std::time::Instant;
 use super::Solver;
 use super::clock::{Seconds, timed};
 use super::g2p::{Advance, Residual, Sound, Source, Steps};
-use super::order::When;
 use super::p2g::{Added, Map, Stop};
 use super::relaxation::norm;
+use super::sorting::When;
 use super::weights::Scene;
 use crate::axisymmetric::hoop_stretch;
-use crate::boundary::traction::Place;
-use crate::column::BUNCH;
+use crate::boundary::traction::FacePoint;
+use crate::column::PACK;
 use crate::defect::{Defect, on};
 use crate::failure::{Cause, Failure};
 use crate::field::ManufacturedField;
@@ -25,8 +25,8 @@ use crate::threads::{each_node, each_part};
 use crate::transfer::Reads;
 use crate::transfer::Transfer;
 
-/// The number of bunches that one thread updates at a time.
-const PART: usize = 2048 / BUNCH;
+/// The number of packs that one thread updates at a time.
+const PART: usize = 2048 / PACK;
 
 impl<T: Real, const D: usize, F> Operations<T> for Solver<'_, T, D, F>
 where
@@ -145,8 +145,8 @@ where
         kept.clear();
         if self.keeps_weights {
             timed(&mut seconds.transfer, || {
-                let gradients = particles.displacement_gradient.bunches().iter().copied();
-                kept.extend(particles.displacement.bunches().iter().copied().zip(gradients));
+                let gradients = particles.displacement_gradient.packs().iter().copied();
+                kept.extend(particles.displacement.packs().iter().copied().zip(gradients));
             });
         }
     }
@@ -198,7 +198,7 @@ where
                 each_node(nodes, &|part| part.fill(Nodal::zero()));
             }
         });
-        let reference_position = particles.reference_position.bunches();
+        let reference_position = particles.reference_position.packs();
         let (moves, transfer) = (self.formulation.moves, *transfer);
         let scene = Scene { lattice, moves, transfer, reference_position, kept };
         let domains = &**domains;
@@ -318,7 +318,7 @@ where
         let Self { grid, particles, kind, slabs, field, boundary, seconds, .. } = self;
         let place = |id: usize, reference: &Vector<T, D>| {
             if !self.formulation.moves {
-                return Place { position: *reference, carrier: None };
+                return FacePoint { position: *reference, carrier: None };
             }
             let p = slabs.order.place_of(id);
             let h = particles.displacement_gradient.get(p);
@@ -326,7 +326,7 @@ where
             let apart = if on(Defect::TractionAtParticle) { Vector::zeros() } else { apart };
             let position = particles.position(p) + deformation_gradient(&h) * apart;
             let hoop = hoop_stretch(&particles.hoop_strain, p);
-            Place { position, carrier: Some((h, hoop)) }
+            FacePoint { position, carrier: Some((h, hoop)) }
         };
         let (share, nodes) = match kick {
             Some(time_step) => (time_step, &mut grid.momentum),

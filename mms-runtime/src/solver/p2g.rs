@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use mms_math::dispatch::{Work, best};
-use mms_math::machine::{Machine, Plain};
+use mms_math::simd::{Plain, Simd};
 
 use super::clock::{Laps, Seconds};
-use super::misread;
+use super::faults;
 use super::slabs::Slab;
-use super::weights::{AHEAD, Domains, Room, Scene, TOGETHER, Weigh};
-use crate::column::{BUNCH, HALF};
-use crate::column::{Bunch as _, Matrices, Vectors};
+use super::weights::{AHEAD, Domains, Scene, Stencils, TOGETHER, Weigh};
+use crate::column::{HALF, PACK};
+use crate::column::{Matrices, Pack as _, Vectors};
 use crate::defect::{Defect, on};
 use crate::failure::Cause;
 use crate::field::ManufacturedField;
@@ -20,7 +20,7 @@ use crate::lattice::Lattice;
 use crate::nodal::{LAST, Window};
 use crate::particle::{Particles, material_points};
 use crate::real::{Real, Vector};
-use crate::stencil::{Carried, Members, Stencil, Tensor};
+use crate::stencil::{Members, Payload, Stencil, Tensor};
 use crate::tensor::matrix_is_finite;
 
 /// The number of particles whose stresses are computed together: so few that their stresses stay in the cache.
@@ -90,20 +90,20 @@ where
     pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, Stop> {
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();
-        let mut stress = [Matrices::zeros(); PART / BUNCH];
-        let mut hoop_stress = [[T::zero(); BUNCH]; PART / BUNCH];
-        let mut body_force = [[Vector::zeros(); BUNCH]; FORCED / BUNCH];
+        let mut stress = [Matrices::zeros(); PART / PACK];
+        let mut hoop_stress = [[T::zero(); PACK]; PART / PACK];
+        let mut body_force = [[Vector::zeros(); PACK]; FORCED / PACK];
         let has_force = self.added.has_force();
-        // Bunches do not depend on the slabs: the first and the last one may contain particles of other slabs.
+        // Packs do not depend on the slabs: the first and the last one may contain particles of other slabs.
         let Range { start, end } = slab.particles;
-        for forced in parts(start / BUNCH..end.div_ceil(BUNCH), FORCED / BUNCH) {
-            let mut laps = Laps::start((forced.start * BUNCH / FORCED).is_multiple_of(TIMED));
+        for forced in parts(start / PACK..end.div_ceil(PACK), FORCED / PACK) {
+            let mut laps = Laps::start((forced.start * PACK / FORCED).is_multiple_of(TIMED));
             let body_force = &mut body_force[..forced.len()];
             if has_force {
                 self.find_body_force(forced.clone(), body_force);
                 laps.end(&mut seconds.forcing);
             }
-            for part in parts(forced.clone(), PART / BUNCH) {
+            for part in parts(forced.clone(), PART / PACK) {
                 let stress = &mut stress[..part.len()];
                 let hoop_stress = &mut hoop_stress[..part.len()];
                 if has_force {
@@ -115,7 +115,7 @@ where
                     particles: self.particles,
                     added: self.added,
                     body_force: &body_force[part.start - forced.start..][..part.len()],
-                    bunches: part,
+                    packs: part,
                     stress,
                     hoop_stress: (has_force && self.scene.lattice.is_meridian)
                         .then_some(&*hoop_stress),
@@ -134,20 +134,20 @@ where
         &self,
         part: Range<usize>,
         stress: &mut [Matrices<T, D>],
-        hoop_stress: &mut [[T; BUNCH]],
+        hoop_stress: &mut [[T; PACK]],
     ) -> Result<(), Stop> {
         let all = self.particles;
-        let gradients = &all.displacement_gradient.bunches()[part.clone()];
-        let reference = &all.reference_position.bunches()[part.clone()];
-        let displacement = &all.displacement.bunches()[part.clone()];
+        let gradients = &all.displacement_gradient.packs()[part.clone()];
+        let reference = &all.reference_position.packs()[part.clone()];
+        let displacement = &all.displacement.packs()[part.clone()];
         let points = material_points(reference, displacement, on(Defect::ModuliAtPresent));
         match self.field.axisymmetric() {
             None => {
-                self.field.kirchhoff_stress_of_bunches(self.time, &points, gradients, stress);
+                self.field.kirchhoff_stress_of_packs(self.time, &points, gradients, stress);
             }
             Some(axisymmetric) => {
-                let strains = &all.hoop_strain.bunches()[part.clone()];
-                axisymmetric.kirchhoff_stress_of_bunches(
+                let strains = &all.hoop_strain.packs()[part.clone()];
+                axisymmetric.kirchhoff_stress_of_packs(
                     self.time,
                     &points,
                     (gradients, strains),
@@ -158,15 +158,15 @@ where
                 }
             }
         }
-        let singular = |k| (BUNCH * part.start + k, Cause::Inverted { jacobian: 0.0 });
+        let singular = |k| (PACK * part.start + k, Cause::Inverted { jacobian: 0.0 });
         Ok((self.formulation.stress)(gradients, stress).map_err(singular)?)
     }
 
     /// Computes b of every particle of a part.
-    fn find_body_force(&self, part: Range<usize>, body_force: &mut [[Vector<T, D>; BUNCH]]) {
+    fn find_body_force(&self, part: Range<usize>, body_force: &mut [[Vector<T, D>; PACK]]) {
         let all = self.particles;
-        let reference = &all.reference_position.bunches()[part.clone()];
-        let displacement = &all.displacement.bunches()[part];
+        let reference = &all.reference_position.packs()[part.clone()];
+        let displacement = &all.displacement.packs()[part];
         let points = material_points(reference, displacement, on(Defect::ForceAtPresent));
         self.field.body_force(self.time, points.as_flattened(), body_force.as_flattened_mut());
     }
@@ -183,11 +183,11 @@ pub(super) struct Sums<'a, T: Real, const D: usize> {
     scene: Scene<'a, T, D>,
     particles: &'a Particles<T, D>,
     added: Added<T>,
-    bunches: Range<usize>,
-    /// The stresses, from the first of the `bunches` on.
+    packs: Range<usize>,
+    /// The stresses, from the first of the `packs` on.
     stress: &'a [Matrices<T, D>],
-    hoop_stress: Option<&'a [[T; BUNCH]]>,
-    body_force: &'a [[Vector<T, D>; BUNCH]],
+    hoop_stress: Option<&'a [[T; PACK]]>,
+    body_force: &'a [[Vector<T, D>; PACK]],
     /// Momentum and force.
     nodes: [Window<'a, T>; 2],
     slab: &'a Slab,
@@ -211,47 +211,47 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Work<T> for Scatter<'_, T, D, S
     const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-        let Sums { scene, particles, added, bunches: range, mut nodes, slab, .. } = self.sums;
+    fn on<M: Simd<T>>(self, simd: M) -> Self::Output {
+        let Sums { scene, particles, added, packs: range, mut nodes, slab, .. } = self.sums;
         let Sums { stress, hoop_stress, body_force, .. } = self.sums;
-        let bunches =
+        let packs =
             Arrays { hoop_stress, ..Arrays::new(particles, range.clone(), stress, body_force) };
-        let mut room = Room::<St>::default();
-        let mut rest = machine.splat(T::zero());
+        let mut room = Stencils::<St>::default();
+        let mut rest = simd.splat(T::zero());
         let count = range.len();
         for first in (0..count).step_by(TOGETHER) {
             let many = TOGETHER.min(count - first);
             let (some, room) = (first..first + many, &mut room[..many]);
             let moved =
-                (&bunches.displacement[some.clone()], &bunches.displacement_gradient[some.clone()]);
+                (&packs.displacement[some.clone()], &packs.displacement_gradient[some.clone()]);
             self.weights.weigh(&scene, range.start + first, moved, room)?;
             for (k, stencil) in some.zip(room) {
-                let bunch = range.start + k;
-                particles.fetch(machine, bunch + AHEAD);
+                let pack = range.start + k;
+                particles.fetch(simd, pack + AHEAD);
                 // For the stress of the next part.
-                machine.fetch(particles.displacement_gradient.bunches(), bunch + count);
-                let members = slab.members(BUNCH * bunch);
+                simd.fetch(particles.displacement_gradient.packs(), pack + count);
+                let members = slab.members(PACK * pack);
                 if let Some(p) = stencil.beyond(members, &slab.window) {
-                    return Err(Stop::Strayed(BUNCH * bunch + p));
+                    return Err(Stop::Strayed(PACK * pack + p));
                 }
                 let [momentum, force] = &mut nodes;
                 let nodes = [momentum.reborrow(), force.reborrow()];
-                let carrier = Carrier { bunches: &bunches, k, members, stencil };
-                carrier.add(machine, added, scene.lattice, nodes, &mut rest);
+                let carrier = Carrier { packs: &packs, k, members, stencil };
+                carrier.add(simd, added, scene.lattice, nodes, &mut rest);
             }
         }
-        if machine.all_at_most(rest, rest) {
+        if simd.all_at_most(rest, rest) {
             return Ok(());
         }
-        let mut all = stress.iter().flat_map(|stress| (0..BUNCH).map(|k| stress.get(k)));
+        let mut all = stress.iter().flat_map(|stress| (0..PACK).map(|k| stress.get(k)));
         let odd = all.position(|stress| !matrix_is_finite(&stress));
         let cause = Cause::NotFinite { quantity: "stress" };
-        odd.map_or(Ok(()), |p| Err(Stop::Failed(BUNCH * range.start + p, cause)))
+        odd.map_or(Ok(()), |p| Err(Stop::Failed(PACK * range.start + p, cause)))
     }
 }
 
 /// Replaces tau_tt by P_tt = tau_tt/F_tt.
-fn first_piola_kirchhoff<T: Real>(hoop_strain: &[[T; BUNCH]], hoop_stress: &mut [[T; BUNCH]]) {
+fn first_piola_kirchhoff<T: Real>(hoop_strain: &[[T; PACK]], hoop_stress: &mut [[T; PACK]]) {
     let strains = hoop_strain.as_flattened().iter();
     strains.zip(hoop_stress.as_flattened_mut()).for_each(|(&h, stress)| *stress /= T::one() + h);
 }
@@ -261,28 +261,28 @@ fn first_piola_kirchhoff<T: Real>(hoop_strain: &[[T; BUNCH]], hoop_stress: &mut 
 fn add_along_first<T: Real, const D: usize>(
     lattice: &Lattice<T, D>,
     stencil: &Tensor<T, D>,
-    forces: [T; BUNCH],
+    forces: [T; PACK],
     members: Members,
     nodes: Window<'_, T>,
 ) {
-    let machine = T::PlainMachine::from(Plain);
-    let nothing = machine.splat(T::zero());
-    let rows = [machine.eight(&forces), nothing, nothing, nothing];
-    let carried = Carried::value(machine.transposed(rows));
-    stencil.scatter(machine, lattice, &carried, members, nodes);
+    let simd = T::PlainMachine::from(Plain);
+    let nothing = simd.splat(T::zero());
+    let rows = [simd.eight(&forces), nothing, nothing, nothing];
+    let carried = Payload::value(simd.transposed(rows));
+    stencil.scatter(simd, lattice, &carried, members, nodes);
 }
 
-/// The data of the added particles, bunch by bunch.
+/// The data of the added particles, pack by pack.
 struct Arrays<'a, T: Real, const D: usize> {
     displacement: &'a [Vectors<T, D>],
     velocity: &'a [Vectors<T, D>],
     displacement_gradient: &'a [Matrices<T, D>],
-    body_force: &'a [[Vector<T, D>; BUNCH]],
-    mass: &'a [[T; BUNCH]],
-    reference_volume: &'a [[T; BUNCH]],
+    body_force: &'a [[Vector<T, D>; PACK]],
+    mass: &'a [[T; PACK]],
+    reference_volume: &'a [[T; PACK]],
     stress: &'a [Matrices<T, D>],
     /// On a meridian only.
-    hoop_stress: Option<&'a [[T; BUNCH]]>,
+    hoop_stress: Option<&'a [[T; PACK]]>,
     /// With APIC only.
     affine: Option<&'a [Matrices<T, D>]>,
     /// With XPIC only.
@@ -295,26 +295,26 @@ impl<'a, T: Real, const D: usize> Arrays<'a, T, D> {
         all: &'a Particles<T, D>,
         range: Range<usize>,
         stress: &'a [Matrices<T, D>],
-        body_force: &'a [[Vector<T, D>; BUNCH]],
+        body_force: &'a [[Vector<T, D>; PACK]],
     ) -> Self {
         Self {
-            displacement: &all.displacement.bunches()[range.clone()],
-            velocity: &all.velocity.bunches()[range.clone()],
-            displacement_gradient: &all.displacement_gradient.bunches()[range.clone()],
-            mass: &all.mass.bunches()[range.clone()],
-            reference_volume: &all.reference_volume.bunches()[range.clone()],
+            displacement: &all.displacement.packs()[range.clone()],
+            velocity: &all.velocity.packs()[range.clone()],
+            displacement_gradient: &all.displacement_gradient.packs()[range.clone()],
+            mass: &all.mass.packs()[range.clone()],
+            reference_volume: &all.reference_volume.packs()[range.clone()],
             stress,
             hoop_stress: None,
             body_force,
-            affine: all.affine.bunches().get(range.clone()),
-            residual: all.residual.bunches().get(range),
+            affine: all.affine.packs().get(range.clone()),
+            residual: all.residual.packs().get(range),
         }
     }
 }
 
-/// One bunch of added particles.
+/// One pack of added particles.
 struct Carrier<'a, T: Real, const D: usize, St> {
-    bunches: &'a Arrays<'a, T, D>,
+    packs: &'a Arrays<'a, T, D>,
     k: usize,
     members: Members,
     stencil: &'a St,
@@ -323,16 +323,16 @@ struct Carrier<'a, T: Real, const D: usize, St> {
 impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
     /// Adds to momentum and force of the nodes, and adds zero times the stress to `rest`.
     #[inline(always)]
-    fn add<M: Machine<T>>(
+    fn add<M: Simd<T>>(
         self,
-        machine: M,
+        simd: M,
         added: Added<T>,
         lattice: &Lattice<T, D>,
         [mut momentum, force]: [Window<'_, T>; 2],
         rest: &mut M::Eight,
     ) {
-        let Self { bunches, k, members, stencil } = self;
-        let Arrays { velocity, affine, residual, .. } = bunches;
+        let Self { packs, k, members, stencil } = self;
+        let Arrays { velocity, affine, residual, .. } = packs;
         // Sums of values alone are one function, and all other sums another, so that each is compiled once.
         let alone = match (added, residual, affine) {
             (Added::Residual, Some(residual), _) => Some(&residual[k]),
@@ -340,8 +340,8 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
             _ => None,
         };
         if let Some(velocity) = alone {
-            let carried = Carried::value(machine.transposed(self.momentum(machine, velocity)));
-            stencil.scatter(machine, lattice, &carried, members, momentum.reborrow());
+            let carried = Payload::value(simd.transposed(self.momentum(simd, velocity)));
+            stencil.scatter(simd, lattice, &carried, members, momentum.reborrow());
         }
         let (share, with_momentum) = match added {
             Added::Force | Added::Stress | Added::Both => (T::one(), false),
@@ -350,34 +350,34 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
             Added::Momentum if affine.is_some() => (T::zero(), true),
             Added::Momentum | Added::Residual => return,
         };
-        let mut numbers = [machine.splat(T::zero()); HALF];
+        let mut numbers = [simd.splat(T::zero()); HALF];
         let mut moments = None;
         if with_momentum {
-            numbers = self.momentum(machine, &velocity[k]);
+            numbers = self.momentum(simd, &velocity[k]);
             if let Some(affine) = affine {
-                let mass = machine.eight(&bunches.mass[k]);
-                moments = Some(scaled(machine, columns(machine, &affine[k]), mass));
+                let mass = simd.eight(&packs.mass[k]);
+                moments = Some(scaled(simd, columns(simd, &affine[k]), mass));
             }
         }
         if !matches!(added, Added::Stress) {
-            self.add_body_force(machine, machine.splat(share), &mut numbers);
+            self.add_body_force(simd, simd.splat(share), &mut numbers);
         }
-        let slopes = Some(self.stress(machine, machine.splat(share), rest));
+        let slopes = Some(self.stress(simd, simd.splat(share), rest));
         let mut nodes = if with_momentum { momentum } else { force };
-        if D == 2 && bunches.hoop_stress.is_some() {
-            self.add_hoop_stress(machine, share, lattice, &mut numbers, nodes.reborrow());
+        if D == 2 && packs.hoop_stress.is_some() {
+            self.add_hoop_stress(simd, share, lattice, &mut numbers, nodes.reborrow());
         }
-        let carried = Carried { value: machine.transposed(numbers), slopes, moments };
-        stencil.scatter(machine, lattice, &carried, members, nodes);
+        let carried = Payload { value: simd.transposed(numbers), slopes, moments };
+        stencil.scatter(simd, lattice, &carried, members, nodes);
     }
 
     /// m v, and m.
     #[inline(always)]
-    fn momentum<M: Machine<T>>(&self, machine: M, velocity: &Vectors<T, D>) -> [M::Eight; HALF] {
-        let mass = machine.eight(&self.bunches.mass[self.k]);
-        let mut numbers = [machine.splat(T::zero()); HALF];
+    fn momentum<M: Simd<T>>(&self, simd: M, velocity: &Vectors<T, D>) -> [M::Eight; HALF] {
+        let mass = simd.eight(&self.packs.mass[self.k]);
+        let mut numbers = [simd.splat(T::zero()); HALF];
         for i in 0..D {
-            numbers[i] = machine.times(mass, machine.eight(&velocity.0[i]));
+            numbers[i] = simd.times(mass, simd.eight(&velocity.0[i]));
         }
         numbers[LAST] = mass;
         numbers
@@ -385,66 +385,60 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
 
     /// Adds this `share` of m b.
     #[inline(always)]
-    fn add_body_force<M: Machine<T>>(
-        &self,
-        machine: M,
-        share: M::Eight,
-        numbers: &mut [M::Eight; HALF],
-    ) {
-        let Arrays { body_force, mass, .. } = self.bunches;
-        let mass = machine.times(share, machine.eight(&mass[self.k]));
-        let body_force: [M::Eight; D] = turned(machine, &body_force[self.k]);
+    fn add_body_force<M: Simd<T>>(&self, simd: M, share: M::Eight, numbers: &mut [M::Eight; HALF]) {
+        let Arrays { body_force, mass, .. } = self.packs;
+        let mass = simd.times(share, simd.eight(&mass[self.k]));
+        let body_force: [M::Eight; D] = turned(simd, &body_force[self.k]);
         for i in 0..D {
-            numbers[i] = machine.times_plus(mass, body_force[i], numbers[i]);
+            numbers[i] = simd.times_plus(mass, body_force[i], numbers[i]);
         }
     }
 
     /// Adds this `share` of - V0 S_tt / r to the force along R: to the `numbers`, or to the nodes if the strain around the axis
     /// has other weights.
     #[inline(always)]
-    fn add_hoop_stress<M: Machine<T>>(
+    fn add_hoop_stress<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         share: T,
         lattice: &Lattice<T, D>,
         numbers: &mut [M::Eight; HALF],
         nodes: Window<'_, T>,
     ) {
-        let Arrays { hoop_stress, reference_volume, .. } = self.bunches;
+        let Arrays { hoop_stress, reference_volume, .. } = self.packs;
         let (Some(stress), Some(stencil)) = (hoop_stress, self.stencil.product()) else { return };
-        let volume = machine.eight(&reference_volume[self.k]);
-        let force = machine
-            .times(machine.times(machine.splat(-share), volume), machine.eight(&stress[self.k]));
-        let force = machine.over(force, machine.eight(stencil.radius()));
+        let volume = simd.eight(&reference_volume[self.k]);
+        let force = simd.times(simd.times(simd.splat(-share), volume), simd.eight(&stress[self.k]));
+        let force = simd.over(force, simd.eight(stencil.radius()));
         if on(Defect::HoopStress) {
             return;
         }
         match stencil.around() {
             Some(around) => {
-                add_along_first(lattice, &around, machine.numbers(force), self.members, nodes)
+                add_along_first(lattice, &around, simd.numbers(force), self.members, nodes)
             }
-            None => numbers[0] = machine.plus(numbers[0], force),
+            None => numbers[0] = simd.plus(numbers[0], force),
         }
     }
 
     /// Computes this `share` of - V0 S. Adds zero times it to `rest`, which stays zero if it is finite.
     #[inline(always)]
-    fn stress<M: Machine<T>>(
+    fn stress<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         share: M::Eight,
         rest: &mut M::Eight,
     ) -> [[M::Eight; D]; D] {
-        let Arrays { reference_volume, stress, .. } = self.bunches;
-        let zero = machine.splat(T::zero());
-        let volume = machine.times(share, machine.eight(&reference_volume[self.k]));
-        let volume = machine.minus(zero, volume);
-        let push = scaled(machine, columns(machine, &stress[self.k]), volume);
+        let Arrays { reference_volume, stress, .. } = self.packs;
+        let zero = simd.splat(T::zero());
+        let volume = simd.times(share, simd.eight(&reference_volume[self.k]));
+        let volume = simd.minus(zero, volume);
+        let push = scaled(simd, columns(simd, &stress[self.k]), volume);
         for column in push {
             for entry in column {
-                *rest = machine.times_plus(entry, zero, *rest);
+                *rest = simd.times_plus(entry, zero, *rest);
             }
         }
-        misread::stress(push)
+        faults::stress(push)
     }
 }

@@ -33,7 +33,7 @@ use super::Solver;
 use super::operations::Forces;
 use super::setup::largest_wave_speed;
 use crate::body::{Fill, Filling, bounding_box};
-use crate::column::{BUNCH, Matrices};
+use crate::column::{Matrices, PACK};
 use crate::failure::{Failure, Refusal};
 use crate::field::{Domain, ManufacturedField};
 use crate::grid::Grid;
@@ -116,14 +116,14 @@ impl<T: Real, const D: usize> Material<T, D> for Ramp<'_, T, D> {
         self.field.kirchhoff_stress(time, reference, displacement_gradient, stress);
     }
 
-    fn kirchhoff_stress_of_bunches(
+    fn kirchhoff_stress_of_packs(
         &self,
         time: T,
-        reference: &[[Vector<T, D>; BUNCH]],
+        reference: &[[Vector<T, D>; PACK]],
         displacement_gradient: &[Matrices<T, D>],
         stress: &mut [Matrices<T, D>],
     ) {
-        self.field.kirchhoff_stress_of_bunches(time, reference, displacement_gradient, stress);
+        self.field.kirchhoff_stress_of_packs(time, reference, displacement_gradient, stress);
     }
 
     fn strain_energy(
@@ -151,14 +151,14 @@ impl<T: Real, const D: usize> Axisymmetric<T, D> for Ramp<'_, T, D> {
         out.iter_mut().for_each(|strain| *strain *= share);
     }
 
-    fn kirchhoff_stress_of_bunches(
+    fn kirchhoff_stress_of_packs(
         &self,
         time: T,
-        reference: &[[Vector<T, D>; BUNCH]],
-        strains: (&[Matrices<T, D>], &[[T; BUNCH]]),
-        stresses: (&mut [Matrices<T, D>], &mut [[T; BUNCH]]),
+        reference: &[[Vector<T, D>; PACK]],
+        strains: (&[Matrices<T, D>], &[[T; PACK]]),
+        stresses: (&mut [Matrices<T, D>], &mut [[T; PACK]]),
     ) {
-        self.revolved().kirchhoff_stress_of_bunches(time, reference, strains, stresses);
+        self.revolved().kirchhoff_stress_of_packs(time, reference, strains, stresses);
     }
 
     fn strain_energy(

@@ -3,8 +3,8 @@
 use super::Solver;
 use super::clock::{Clock, Seconds};
 use super::need::Need;
-use super::order::When;
 use super::slabs::Slabs;
+use super::sorting::When;
 use super::weights::Kind;
 use crate::axisymmetric::{Rings, Station, hoop_strain};
 use crate::body::{Fill, Filling, Piece, bounding_box};

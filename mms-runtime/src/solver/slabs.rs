@@ -10,9 +10,9 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::order::{Order, When};
+use super::sorting::{ParticleOrder, When};
 use super::weights::Domains;
-use crate::column::BUNCH;
+use crate::column::PACK;
 use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
 use crate::particle::Particles;
@@ -43,14 +43,14 @@ pub(super) struct Slab {
 }
 
 impl Slab {
-    /// The particles of a bunch that belong to the slab; `first` is the bunch's first particle.
+    /// The particles of a pack that belong to the slab; `first` is the pack's first particle.
     #[inline(always)]
     pub fn members(&self, first: usize) -> Members {
         let Range { start, end } = self.particles;
-        if start <= first && first + BUNCH <= end {
+        if start <= first && first + PACK <= end {
             return ALL;
         }
-        [start, end].map(|p| p.clamp(first, first + BUNCH) - first)
+        [start, end].map(|p| p.clamp(first, first + PACK) - first)
     }
 }
 
@@ -76,7 +76,7 @@ pub(super) struct Slabs {
     /// The number of nodes of a layer, and the number of layers.
     layer: usize,
     layers: usize,
-    pub order: Order,
+    pub order: ParticleOrder,
 }
 
 impl Slabs {
@@ -92,7 +92,7 @@ impl Slabs {
             cuts: Vec::with_capacity(MOST_SLABS),
             layer: lattice.stride[D - 1],
             layers: lattice.count[D - 1],
-            order: Order::new(sorted, lattice.len()),
+            order: ParticleOrder::new(sorted, lattice.len()),
         };
         slabs.cut(particles);
         slabs
@@ -274,7 +274,7 @@ impl Colour<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::order::Order;
+    use super::super::sorting::ParticleOrder;
     use super::{Cut, REACH, Slabs};
 
     /// Slabs of layers with these numbers of particles, beginning with layer 5, in rows of ten cells with equal numbers.
@@ -283,7 +283,7 @@ mod tests {
         let layer =
             |(&count, layer)| (0..count as u32).map(move |k| 10 * layer + 10 * k / count as u32);
         let cell: Vec<u32> = cells.flat_map(layer).collect();
-        let order = Order::of_cells(&cell);
+        let order = ParticleOrder::of_cells(&cell);
         let layers = particles_of_layers.len() + 10;
         let mut slabs = Slabs { all: Vec::new(), cuts: Vec::new(), layer: 10, layers, order };
         slabs.cut_evenly();

@@ -1,35 +1,35 @@
 //! The weights of the particles: the only place in a solver that depends on the shape function.
 //!
-//! The weights of four bunches are computed before their sums, so that there is work to do while loads are pending. A pass over
+//! The weights of four packs are computed before their sums, so that there is work to do while loads are pending. A pass over
 //! the particles is compiled once for all stencils that are products of weights along the axes, and once for the corners of
 //! `cpdi`.
 
 use mms_math::dispatch::{Work, best};
-use mms_math::machine::Machine;
+use mms_math::simd::Simd;
 
 use super::g2p::{Advance, Residual, Sound};
 use super::p2g::{Stop, Sums};
 use crate::boundary::traction::{Point, StencilOf};
-use crate::column::BUNCH;
-use crate::column::{Bunch as _, Bunches, Matrices, Vectors};
+use crate::column::PACK;
+use crate::column::{Matrices, Pack as _, Packs, Vectors};
 use crate::failure::Cause;
 use crate::lanes::{positions, vectors};
 use crate::lattice::Lattice;
-use crate::particle::reorder_bunches;
+use crate::particle::reorder_packs;
 use crate::real::{Matrix, Real, Vector};
 use crate::shape::{Shape, place_alone};
 use crate::stencil::Stencil as _;
 use crate::transfer::Transfer;
 
-/// The distance, in bunches, by which data are prefetched: in large bodies the data have left the caches since the last pass.
+/// The distance, in packs, by which data are prefetched: in large bodies the data have left the caches since the last pass.
 pub(super) const AHEAD: usize = 3;
 
-/// The number of bunches whose weights are computed together, and then their sums: so that a call costs little beside them, and
+/// The number of packs whose weights are computed together, and then their sums: so that a call costs little beside them, and
 /// there is work to do while loads are pending.
 pub(super) const TOGETHER: usize = 4;
 
-/// Storage for the weights of these bunches.
-pub(super) type Room<St> = [St; TOGETHER];
+/// Storage for the weights of these packs.
+pub(super) type Stencils<St> = [St; TOGETHER];
 
 /// The grid's geometry, and the data that the particles' weights depend on.
 #[derive(Clone, Copy)]
@@ -38,16 +38,16 @@ pub(super) struct Scene<'a, T: Real, const D: usize> {
     /// Whether weights follow the present positions ([`Formulation::MOVES`](crate::formulation::Formulation)).
     pub moves: bool,
     pub transfer: Transfer,
-    pub reference_position: &'a [[Vector<T, D>; BUNCH]],
-    /// The displacement and gradient of every bunch that weights depend on, if these are not the present ones; otherwise empty.
-    pub kept: &'a [Kept<T, D>],
+    pub reference_position: &'a [[Vector<T, D>; PACK]],
+    /// The displacement and gradient of every pack that weights depend on, if these are not the present ones; otherwise empty.
+    pub kept: &'a [CachedDomains<T, D>],
 }
 
-/// The displacements and the displacement gradients of some bunches.
+/// The displacements and the displacement gradients of some packs.
 pub(super) type Moved<'a, T, const D: usize> = (&'a [Vectors<T, D>], &'a [Matrices<T, D>]);
 
-/// The displacements and the displacement gradients of a bunch at another time.
-pub(super) type Kept<T, const D: usize> = (Vectors<T, D>, Matrices<T, D>);
+/// The displacements and the displacement gradients of a pack at another time.
+pub(super) type CachedDomains<T, const D: usize> = (Vectors<T, D>, Matrices<T, D>);
 
 /// A shape function as a value: the properties that a solver reads.
 #[derive(Clone, Copy)]
@@ -60,7 +60,7 @@ pub(super) struct Kind<T: Real, const D: usize> {
     pub is_product: bool,
     /// [`Shape::ORIGIN`].
     pub origin: f64,
-    /// The number of bytes of the domains of a bunch.
+    /// The number of bytes of the domains of a pack.
     pub domain: usize,
     /// [`Shape::point`].
     pub point: StencilOf<T, D>,
@@ -109,7 +109,7 @@ pub(super) trait Domains<T: Real, const D: usize>: Send + Sync {
 
 /// Computes weights.
 pub(super) trait Weigh<T: Real, const D: usize, St> {
-    /// Computes the weights of the bunches from `first` on, in the `present` state if none was kept.
+    /// Computes the weights of the packs from `first` on, in the `present` state if none was kept.
     ///
     /// # Errors
     /// A particle has no weights.
@@ -123,11 +123,11 @@ pub(super) trait Weigh<T: Real, const D: usize, St> {
 }
 
 /// The domains of a shape function.
-struct Shaped<T: Real, const D: usize, S: Shape>(Bunches<S::Domain<T, D>>);
+struct Shaped<T: Real, const D: usize, S: Shape>(Packs<S::Domain<T, D>>);
 
 impl<T: Real, const D: usize, S: Shape> Domains<T, D> for Shaped<T, D, S> {
     fn reorder(&mut self, order: &mut [u32]) {
-        reorder_bunches(&mut self.0, order);
+        reorder_packs(&mut self.0, order);
         self.0.fill_up();
     }
 
@@ -152,15 +152,15 @@ impl<T: Real, const D: usize, S: Shape> Weigh<T, D, S::Stencil<T, D>> for Shaped
         present: Moved<'_, T, D>,
         stencils: &mut [S::Stencil<T, D>],
     ) -> Result<(), (usize, Cause)> {
-        let domains = self.0.bunches();
+        let domains = self.0.packs();
         best(&mut Weights::<T, D, S> { scene, domains, first, present, stencils })
     }
 }
 
-/// The weights of some bunches.
+/// The weights of some packs.
 struct Weights<'a, T: Real, const D: usize, S: Shape> {
     scene: &'a Scene<'a, T, D>,
-    /// The domains of all bunches.
+    /// The domains of all packs.
     domains: &'a [S::Domain<T, D>],
     first: usize,
     present: Moved<'a, T, D>,
@@ -172,21 +172,20 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
     const GAINS_BY_AVX512: bool = S::Stencil::<T, D>::GAINS_BY_AVX512;
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
+    fn on<M: Simd<T>>(self, simd: M) -> Self::Output {
         let Weights { scene, domains, first, present: (displacements, gradients), stencils } = self;
         for (k, stencil) in stencils.iter_mut().enumerate() {
-            let bunch = *first + k;
-            machine.fetch(scene.reference_position, bunch + AHEAD);
-            machine.fetch(domains, bunch + AHEAD);
-            let (displacement, gradient) = match scene.kept.get(bunch) {
+            let pack = *first + k;
+            simd.fetch(scene.reference_position, pack + AHEAD);
+            simd.fetch(domains, pack + AHEAD);
+            let (displacement, gradient) = match scene.kept.get(pack) {
                 Some((displacement, gradient)) => (displacement, gradient),
                 None => (&displacements[k], &gradients[k]),
             };
-            let reference = &scene.reference_position[bunch];
-            let position = positions(machine, reference, displacement, scene.moves);
+            let reference = &scene.reference_position[pack];
+            let position = positions(simd, reference, displacement, scene.moves);
             if D == 2 && scene.lattice.is_meridian {
-                off_the_axis(machine, position[0])
-                    .map_err(|(p, cause)| (BUNCH * bunch + p, cause))?;
+                off_the_axis(simd, position[0]).map_err(|(p, cause)| (PACK * pack + p, cause))?;
             }
             let unmoved;
             let h = if scene.moves {
@@ -195,17 +194,17 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
                 unmoved = Matrices::zeros();
                 &unmoved
             };
-            let domain = &domains[bunch];
+            let domain = &domains[pack];
             let placed = if M::ALONE {
-                let position = &vectors(machine, position);
+                let position = &vectors(simd, position);
                 place_alone::<T, D, S>(stencil, scene.lattice, position, domain, h)
             } else {
-                S::place(machine, stencil, scene.lattice, &position, domain, h)
+                S::place(simd, stencil, scene.lattice, &position, domain, h)
             };
             if let Err(cause) = placed {
-                let positions = vectors(machine, position);
+                let positions = vectors(simd, position);
                 let (p, cause) = blamed::<T, D, S>(scene.lattice, &positions, domain, h, cause);
-                return Err((BUNCH * bunch + p, cause));
+                return Err((PACK * pack + p, cause));
             }
         }
         Ok(())
@@ -214,21 +213,18 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
 
 /// Refuses particles whose distance from the axis of revolution is not positive.
 #[inline(always)]
-fn off_the_axis<T: Real, M: Machine<T>>(
-    machine: M,
-    radius: M::Eight,
-) -> Result<(), (usize, Cause)> {
+fn off_the_axis<T: Real, M: Simd<T>>(simd: M, radius: M::Eight) -> Result<(), (usize, Cause)> {
     let least = T::of(f64::from(f32::MIN_POSITIVE));
-    if machine.all_at_most(machine.splat(least), radius) {
+    if simd.all_at_most(simd.splat(least), radius) {
         return Ok(());
     }
-    let radius = machine.numbers(radius);
+    let radius = simd.numbers(radius);
     let is_beyond = |r: &T| *r < least || !r.is_finite();
     let p = radius.iter().position(is_beyond).unwrap_or_default();
     Err((p, Cause::BeyondAxis { radius: radius[p].to_f64() }))
 }
 
-/// The first particle of a bunch that cannot be placed alone, and the cause; the first particle of the bunch if each can be.
+/// The first particle of a pack that cannot be placed alone, and the cause; the first particle of the pack if each can be.
 #[cold]
 fn blamed<T: Real, const D: usize, S: Shape>(
     lattice: &Lattice<T, D>,
@@ -237,7 +233,7 @@ fn blamed<T: Real, const D: usize, S: Shape>(
     displacement_gradients: &Matrices<T, D>,
     cause: Cause,
 ) -> (usize, Cause) {
-    for p in 0..BUNCH {
+    for p in 0..PACK {
         let h = &displacement_gradients.get(p);
         if let Err(cause) = S::stencil(lattice, &positions.get(p), &domains.get(p), h) {
             return (p, cause);

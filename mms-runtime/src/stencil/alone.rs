@@ -4,7 +4,7 @@
 
 use super::gather::{Summed, Sums};
 use super::tensor::{Along, Tensor};
-use super::{BUNCH, Carried, HALF, Members};
+use super::{HALF, Members, PACK, Payload};
 use crate::nodal::{Nodal, Window};
 use crate::real::Real;
 
@@ -32,31 +32,31 @@ impl<T: Real, const D: usize> Tensor<T, D> {
     /// Adds to the nodes of the `members`, with the moments of the weights if the data have moments.
     pub(super) fn scatter_alone(
         &self,
-        carried: &Carried<[T; BUNCH], D>,
+        carried: &Payload<[T; PACK], D>,
         moment: Option<&Along<T, D>>,
         [from, to]: Members,
         mut nodes: Window<'_, T>,
     ) {
         for p in from..to {
             // The factor that replaces the weight of node `k` along an axis.
-            let aside = |a: usize, k: usize| {
-                let mut aside = [T::zero(); HALF];
+            let gradient_weight = |a: usize, k: usize| {
+                let mut gradient_weight = [T::zero(); HALF];
                 for c in 0..if a < D { D } else { 0 } {
                     if let Some(slopes) = &carried.slopes {
-                        aside[c] = self.slope[a][k][p] * slopes[a][c][p];
+                        gradient_weight[c] = self.slope[a][k][p] * slopes[a][c][p];
                     }
                     if let (Some(moments), Some(moment)) = (&carried.moments, moment) {
-                        aside[c] += moment[a][k][p] * moments[a][c][p];
+                        gradient_weight[c] += moment[a][k][p] * moments[a][c][p];
                     }
                 }
-                aside
+                gradient_weight
             };
             for k2 in 0..self.nodes_along(2) {
-                let (w2, a2) = (self.weight_alone(2, k2, p), aside(2, k2));
+                let (w2, a2) = (self.weight_alone(2, k2, p), gradient_weight(2, k2));
                 for k1 in 0..self.nodes_along(1) {
-                    let (w1, a1) = (self.weight_alone(1, k1, p), aside(1, k1));
+                    let (w1, a1) = (self.weight_alone(1, k1, p), gradient_weight(1, k1));
                     for k0 in 0..self.nodes_along(0) {
-                        let (w0, a0) = (self.weight_alone(0, k0, p), aside(0, k0));
+                        let (w0, a0) = (self.weight_alone(0, k0, p), gradient_weight(0, k0));
                         let [node] = nodes.row(self.node(p, [k0, k1, k2]));
                         for c in 0..HALF {
                             let plane = w2 * carried.value[p % HALF][p / HALF * HALF + c] + a2[c];
@@ -72,10 +72,10 @@ impl<T: Real, const D: usize> Tensor<T, D> {
 
 impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
     /// The sums over the nodes of every particle.
-    pub(super) fn all_alone(&self) -> Summed<[T; BUNCH], D, K> {
-        let all = self.stencil.gather_alone(&self.asides, self.nodes);
-        let asides = std::array::from_fn(|s| all.asides[s]);
-        Summed { value: all.value, asides }
+    pub(super) fn all_alone(&self) -> Summed<[T; PACK], D, K> {
+        let all = self.stencil.gather_alone(&self.gradient_weights, self.nodes);
+        let gradient_weights = std::array::from_fn(|s| all.gradient_weights[s]);
+        Summed { value: all.value, gradient_weights }
     }
 }
 
@@ -83,21 +83,22 @@ impl<T: Real, const D: usize> Tensor<T, D> {
     /// The sums over the nodes of every particle, with these asides.
     fn gather_alone(
         &self,
-        asides: &[&Along<T, D>],
+        gradient_weights: &[&Along<T, D>],
         nodes: &[Nodal<T>],
-    ) -> Summed<[T; BUNCH], D, ASIDES> {
-        let nothing = [T::zero(); BUNCH];
-        let mut all = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; ASIDES] };
-        for p in 0..BUNCH {
+    ) -> Summed<[T; PACK], D, ASIDES> {
+        let nothing = [T::zero(); PACK];
+        let mut all = Summed { value: [nothing; D], gradient_weights: [[[nothing; D]; D]; ASIDES] };
+        for p in 0..PACK {
             let accumulate = |axis: usize, k: usize, before: &Sum<T>, sums: &mut Sum<T>| {
                 let weight = self.weight_alone(axis, k, p);
                 sums.value += weight * before.value;
-                for (s, aside) in asides.iter().enumerate() {
+                for (s, gradient_weight) in gradient_weights.iter().enumerate() {
                     for b in 0..axis {
-                        sums.asides[s][b] += weight * before.asides[s][b];
+                        sums.gradient_weights[s][b] += weight * before.gradient_weights[s][b];
                     }
                     if axis < D {
-                        sums.asides[s][axis] += aside[axis][k][p] * before.value;
+                        sums.gradient_weights[s][axis] +=
+                            gradient_weight[axis][k][p] * before.value;
                     }
                 }
             };
@@ -117,9 +118,9 @@ impl<T: Real, const D: usize> Tensor<T, D> {
                     accumulate(2, k2, &plane, &mut space);
                 }
                 all.value[c][p] = space.value;
-                for s in 0..asides.len() {
+                for s in 0..gradient_weights.len() {
                     for a in 0..D {
-                        all.asides[s][a][c][p] = space.asides[s][a];
+                        all.gradient_weights[s][a][c][p] = space.gradient_weights[s][a];
                     }
                 }
             }
@@ -132,12 +133,12 @@ impl<T: Real, const D: usize> Tensor<T, D> {
 #[derive(Clone, Copy)]
 struct Sum<T> {
     value: T,
-    asides: [[T; AXES]; ASIDES],
+    gradient_weights: [[T; AXES]; ASIDES],
 }
 
 impl<T: Real> Sum<T> {
     /// The initial value is -0, to which a product is added without an addition.
     fn nothing() -> Self {
-        Self { value: -T::zero(), asides: [[-T::zero(); AXES]; ASIDES] }
+        Self { value: -T::zero(), gradient_weights: [[-T::zero(); AXES]; ASIDES] }
     }
 }

@@ -1,10 +1,10 @@
-//! The sums over the nodes of a bunch (G2P, gather): of all its particles together, all components of a node after each other.
+//! The sums over the nodes of a pack (G2P, gather): of all its particles together, all components of a node after each other.
 
 use mms_math::dispatch::Work;
-use mms_math::machine::Machine;
+use mms_math::simd::Simd;
 
 use super::tensor::{Along, Sharing, Tensor};
-use super::{BUNCH, HALF, eights, numbers};
+use super::{HALF, PACK, eights, numbers};
 use crate::nodal::Nodal;
 use crate::real::Real;
 
@@ -12,7 +12,7 @@ use crate::real::Real;
 pub(super) struct Sums<'a, T, const D: usize, const K: usize> {
     pub stencil: &'a Tensor<T, D>,
     /// The `K` factors for every axis that replace the weights along that axis: slopes, moments.
-    pub asides: [&'a Along<T, D>; K],
+    pub gradient_weights: [&'a Along<T, D>; K],
     pub nodes: &'a [Nodal<T>],
 }
 
@@ -20,14 +20,14 @@ pub(super) struct Sums<'a, T, const D: usize, const K: usize> {
 #[derive(Clone, Copy)]
 pub(super) struct Summed<F, const D: usize, const K: usize> {
     pub value: [F; D],
-    pub asides: [[[F; D]; D]; K],
+    pub gradient_weights: [[[F; D]; D]; K],
 }
 
 /// The weights, and the asides, of the nodes along an axis.
 #[derive(Clone, Copy)]
 struct Axis<F, const W: usize, const K: usize> {
     weight: [F; W],
-    asides: [[F; W]; K],
+    gradient_weights: [[F; W]; K],
 }
 
 /// A row of nodes along the first axis, for each half.
@@ -37,18 +37,18 @@ type Row<'a, T, const W: usize> = [&'a [Nodal<T>; W]; 2];
 struct Over<'a, T, const D: usize, const K: usize, const W: usize>(Sums<'a, T, D, K>);
 
 impl<T: Real, const D: usize, const K: usize, const W: usize> Work<T> for Over<'_, T, D, K, W> {
-    type Output = Summed<[T; BUNCH], D, K>;
+    type Output = Summed<[T; PACK], D, K>;
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-        let summed = self.0.all::<M, W>(machine);
-        let nothing = [T::zero(); BUNCH];
-        let mut all = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
+    fn on<M: Simd<T>>(self, simd: M) -> Self::Output {
+        let summed = self.0.all::<M, W>(simd);
+        let nothing = [T::zero(); PACK];
+        let mut all = Summed { value: [nothing; D], gradient_weights: [[[nothing; D]; D]; K] };
         for c in 0..D {
-            all.value[c] = machine.numbers(summed.value[c]);
+            all.value[c] = simd.numbers(summed.value[c]);
         }
         for s in 0..K {
-            all.asides[s] = numbers(machine, &summed.asides[s]);
+            all.gradient_weights[s] = numbers(simd, &summed.gradient_weights[s]);
         }
         all
     }
@@ -58,46 +58,43 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
     /// Computes the sums over `W` nodes along every axis in a function that is not inlined, so that they are compiled once for
     /// all shape functions and callers. Sums of hat functions are inlined, since they take less time than a call.
     #[inline(always)]
-    pub fn over<M: Machine<T>, const W: usize>(self, machine: M) -> Summed<M::Eight, D, K> {
+    pub fn over<M: Simd<T>, const W: usize>(self, simd: M) -> Summed<M::Eight, D, K> {
         if M::ALONE {
-            return Self::eights(machine, &self.all_alone());
+            return Self::eights(simd, &self.all_alone());
         }
         if W == 2 {
-            return self.all::<M, W>(machine);
+            return self.all::<M, W>(simd);
         }
-        Self::eights(machine, &machine.apart(Over::<T, D, K, W>(self)))
+        Self::eights(simd, &simd.apart(Over::<T, D, K, W>(self)))
     }
 
     /// Loads sums of numbers as registers.
     #[inline(always)]
-    fn eights<M: Machine<T>>(
-        machine: M,
-        summed: &Summed<[T; BUNCH], D, K>,
-    ) -> Summed<M::Eight, D, K> {
-        let nothing = machine.splat(T::zero());
-        let mut all = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
+    fn eights<M: Simd<T>>(simd: M, summed: &Summed<[T; PACK], D, K>) -> Summed<M::Eight, D, K> {
+        let nothing = simd.splat(T::zero());
+        let mut all = Summed { value: [nothing; D], gradient_weights: [[[nothing; D]; D]; K] };
         for c in 0..D {
-            all.value[c] = machine.eight(&summed.value[c]);
+            all.value[c] = simd.eight(&summed.value[c]);
         }
         for s in 0..K {
-            all.asides[s] = eights(machine, &summed.asides[s]);
+            all.gradient_weights[s] = eights(simd, &summed.gradient_weights[s]);
         }
         all
     }
 
     /// Computes all sums over `W` nodes along every axis; particles that share their nodes are summed together.
     #[inline(always)]
-    fn all<M: Machine<T>, const W: usize>(&self, machine: M) -> Summed<M::Eight, D, K> {
-        let along = self.axis::<M, W>(machine, 0);
+    fn all<M: Simd<T>, const W: usize>(&self, simd: M) -> Summed<M::Eight, D, K> {
+        let along = self.axis::<M, W>(simd, 0);
         let firsts = self.stencil.first;
         let sharing = self.stencil.sharing();
         if sharing == Sharing::All {
-            return self.space::<M, W, true>(machine, &along, [firsts[0]; 2]);
+            return self.space::<M, W, true>(simd, &along, [firsts[0]; 2]);
         }
-        let nothing = machine.splat(T::zero());
-        let mut summed = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
+        let nothing = simd.splat(T::zero());
+        let mut summed = Summed { value: [nothing; D], gradient_weights: [[[nothing; D]; D]; K] };
         // A bit of every particle whose nodes have not been visited.
-        let mut left = (1_u32 << BUNCH) - 1;
+        let mut left = (1_u32 << PACK) - 1;
         while left != 0 {
             // The first remaining particle of each half.
             let next = [left % (1 << HALF), left >> HALF];
@@ -107,32 +104,32 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
             let mut own = along;
             // Halves that share their nodes take one round, with whole weights: the sums are compiled once for both.
             if sharing == Sharing::Apart {
-                let mut share = [T::zero(); BUNCH];
-                for p in 0..BUNCH {
+                let mut share = [T::zero(); PACK];
+                for p in 0..PACK {
                     if firsts[p] == at[p / HALF] && left >> p & 1 == 1 {
                         share[p] = T::one();
                         left &= !(1 << p);
                     }
                 }
                 // Every product has a factor of the first axis: it is 0 for the other particles.
-                let share = machine.eight(&share);
+                let share = simd.eight(&share);
                 for k in 0..W {
-                    own.weight[k] = machine.times(own.weight[k], share);
-                    for aside in &mut own.asides {
-                        aside[k] = machine.times(aside[k], share);
+                    own.weight[k] = simd.times(own.weight[k], share);
+                    for gradient_weight in &mut own.gradient_weights {
+                        gradient_weight[k] = simd.times(gradient_weight[k], share);
                     }
                 }
             }
-            let theirs = self.space::<M, W, false>(machine, &own, at);
+            let theirs = self.space::<M, W, false>(simd, &own, at);
             if sharing == Sharing::Halves {
                 return theirs;
             }
             for c in 0..D {
-                summed.value[c] = machine.plus(summed.value[c], theirs.value[c]);
+                summed.value[c] = simd.plus(summed.value[c], theirs.value[c]);
                 for s in 0..K {
                     for a in 0..D {
-                        let sum = &mut summed.asides[s][a][c];
-                        *sum = machine.plus(*sum, theirs.asides[s][a][c]);
+                        let sum = &mut summed.gradient_weights[s][a][c];
+                        *sum = simd.plus(*sum, theirs.gradient_weights[s][a][c]);
                     }
                 }
             }
@@ -141,13 +138,13 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
     }
 
     #[inline(always)]
-    fn axis<M: Machine<T>, const W: usize>(&self, machine: M, a: usize) -> Axis<M::Eight, W, K> {
-        let nothing = [machine.splat(T::zero()); W];
-        let mut along = Axis { weight: nothing, asides: [nothing; K] };
+    fn axis<M: Simd<T>, const W: usize>(&self, simd: M, a: usize) -> Axis<M::Eight, W, K> {
+        let nothing = [simd.splat(T::zero()); W];
+        let mut along = Axis { weight: nothing, gradient_weights: [nothing; K] };
         for k in 0..W {
-            along.weight[k] = machine.eight(&self.stencil.weight[a][k]);
+            along.weight[k] = simd.eight(&self.stencil.weight[a][k]);
             for s in 0..K {
-                along.asides[s][k] = machine.eight(&self.asides[s][a][k]);
+                along.gradient_weights[s][k] = simd.eight(&self.gradient_weights[s][a][k]);
             }
         }
         along
@@ -167,64 +164,64 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
 
     /// The sums over the nodes from `first` on, which are the `SAME` for both halves or not: the sum of planes.
     #[inline(always)]
-    fn space<M: Machine<T>, const W: usize, const SAME: bool>(
+    fn space<M: Simd<T>, const W: usize, const SAME: bool>(
         &self,
-        machine: M,
+        simd: M,
         along: &Axis<M::Eight, W, K>,
         first: [u32; 2],
     ) -> Summed<M::Eight, D, K> {
         if D < 3 {
-            return self.plane::<M, W, SAME>(machine, along, first, 0);
+            return self.plane::<M, W, SAME>(simd, along, first, 0);
         }
         // A product is added to -0 without an addition.
-        let zero = machine.splat(-T::zero());
-        let mut space = Summed { value: [zero; D], asides: [[[zero; D]; D]; K] };
+        let zero = simd.splat(-T::zero());
+        let mut space = Summed { value: [zero; D], gradient_weights: [[[zero; D]; D]; K] };
         for k2 in 0..W {
-            let plane = self.plane::<M, W, SAME>(machine, along, first, k2);
-            self.accumulate(machine, 2, k2, &plane, &mut space);
+            let plane = self.plane::<M, W, SAME>(simd, along, first, k2);
+            self.accumulate(simd, 2, k2, &plane, &mut space);
         }
         space
     }
 
     /// The sums over the nodes of a plane: the sum of rows.
     #[inline(always)]
-    fn plane<M: Machine<T>, const W: usize, const SAME: bool>(
+    fn plane<M: Simd<T>, const W: usize, const SAME: bool>(
         &self,
-        machine: M,
+        simd: M,
         along: &Axis<M::Eight, W, K>,
         first: [u32; 2],
         k2: usize,
     ) -> Summed<M::Eight, D, K> {
         if D < 2 {
-            return self.row::<M, W, SAME>(machine, along, self.nodes(first, [0, 0]));
+            return self.row::<M, W, SAME>(simd, along, self.nodes(first, [0, 0]));
         }
-        let zero = machine.splat(-T::zero());
-        let mut plane = Summed { value: [zero; D], asides: [[[zero; D]; D]; K] };
+        let zero = simd.splat(-T::zero());
+        let mut plane = Summed { value: [zero; D], gradient_weights: [[[zero; D]; D]; K] };
         for k1 in 0..W {
-            let row = self.row::<M, W, SAME>(machine, along, self.nodes(first, [k1, k2]));
-            self.accumulate(machine, 1, k1, &row, &mut plane);
+            let row = self.row::<M, W, SAME>(simd, along, self.nodes(first, [k1, k2]));
+            self.accumulate(simd, 1, k1, &row, &mut plane);
         }
         plane
     }
 
     /// The sums over the nodes of a row.
     #[inline(always)]
-    fn row<M: Machine<T>, const W: usize, const SAME: bool>(
+    fn row<M: Simd<T>, const W: usize, const SAME: bool>(
         &self,
-        machine: M,
+        simd: M,
         along: &Axis<M::Eight, W, K>,
         [one, two]: Row<'_, T, W>,
     ) -> Summed<M::Eight, D, K> {
-        let zero = machine.splat(-T::zero());
-        let mut row = Summed { value: [zero; D], asides: [[[zero; D]; D]; K] };
+        let zero = simd.splat(-T::zero());
+        let mut row = Summed { value: [zero; D], gradient_weights: [[[zero; D]; D]; K] };
         for k0 in 0..W {
-            let numbers = machine.spread(machine.halves(&one[k0].0, &two[k0].0));
+            let numbers = simd.spread(simd.halves(&one[k0].0, &two[k0].0));
             for c in 0..D {
-                let number = if SAME { machine.splat(one[k0].0[c]) } else { numbers[c] };
-                row.value[c] = machine.times_plus(along.weight[k0], number, row.value[c]);
+                let number = if SAME { simd.splat(one[k0].0[c]) } else { numbers[c] };
+                row.value[c] = simd.times_plus(along.weight[k0], number, row.value[c]);
                 for s in 0..K {
-                    let sum = &mut row.asides[s][0][c];
-                    *sum = machine.times_plus(along.asides[s][k0], number, *sum);
+                    let sum = &mut row.gradient_weights[s][0][c];
+                    *sum = simd.times_plus(along.gradient_weights[s][k0], number, *sum);
                 }
             }
         }
@@ -233,27 +230,27 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
 
     /// Adds to sums the sums along the axes before axis `a`, at node `k` along axis `a`.
     #[inline(always)]
-    fn accumulate<M: Machine<T>>(
+    fn accumulate<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         a: usize,
         k: usize,
         before: &Summed<M::Eight, D, K>,
         sums: &mut Summed<M::Eight, D, K>,
     ) {
-        let weight = machine.eight(&self.stencil.weight[a % D][k]);
+        let weight = simd.eight(&self.stencil.weight[a % D][k]);
         for c in 0..D {
-            sums.value[c] = machine.times_plus(weight, before.value[c], sums.value[c]);
+            sums.value[c] = simd.times_plus(weight, before.value[c], sums.value[c]);
         }
         for s in 0..K {
-            let aside = machine.eight(&self.asides[s][a % D][k]);
+            let gradient_weight = simd.eight(&self.gradient_weights[s][a % D][k]);
             for c in 0..D {
                 for b in 0..a {
-                    let sum = &mut sums.asides[s][b % D][c];
-                    *sum = machine.times_plus(weight, before.asides[s][b % D][c], *sum);
+                    let sum = &mut sums.gradient_weights[s][b % D][c];
+                    *sum = simd.times_plus(weight, before.gradient_weights[s][b % D][c], *sum);
                 }
-                let sum = &mut sums.asides[s][a % D][c];
-                *sum = machine.times_plus(aside, before.value[c], *sum);
+                let sum = &mut sums.gradient_weights[s][a % D][c];
+                *sum = simd.times_plus(gradient_weight, before.value[c], *sum);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! The sums of a bunch onto its nodes (P2G, scatter).
+//! The sums of a pack onto its nodes (P2G, scatter).
 //!
 //! A node receives w0 w1 w2 q. Of the terms along the axes (slopes of the weights for forces, moments for APIC) it receives A0
 //! w1 w2 + w0 A1 w2 + w0 w1 A2, where the aside A_a of a node is the sum of all factors that replace the weight along axis a:
@@ -8,26 +8,26 @@
 //! So the sum over all three needs no product, and the middle node receives it minus the outer two: a third fewer
 //! multiply-adds.
 
-use mms_math::machine::Machine;
+use mms_math::simd::Simd;
 
 use super::tensor::{Along, Sharing, Tensor};
-use super::{ALL, Carried, HALF, Members};
+use super::{ALL, HALF, Members, Payload};
 use crate::nodal::Window;
 use crate::real::Real;
 
 /// The data to add to the nodes, with asides or without.
-pub(super) struct Scatter<'a, M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> {
-    pub machine: M,
+pub(super) struct Scatter<'a, M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> {
+    pub simd: M,
     pub stencil: &'a Tensor<T, D>,
-    pub carried: &'a Carried<M::Eight, D>,
+    pub carried: &'a Payload<M::Eight, D>,
     /// Moments of the weights, if the data have moments.
     pub moment: Option<&'a Along<T, D>>,
     pub members: Members,
 }
 
-/// The nodes that the data of the two halves of a bunch are added to.
+/// The nodes that the data of the two halves of a pack are added to.
 #[derive(Clone, Copy)]
-enum Goal {
+enum Targets {
     /// Both halves to the same nodes, from this one on.
     Together(u32),
     /// Each half to its own nodes; `None` skips a half whose particle is not a member.
@@ -37,7 +37,7 @@ enum Goal {
 /// For every axis, and `W` nodes along it, the asides of each particle of both halves.
 type Asides<F, const D: usize, const W: usize> = [[[F; HALF]; W]; D];
 
-impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, D, ASIDES> {
+impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, D, ASIDES> {
     /// Adds to `W` nodes along every axis: for the particles of each half together if they share their nodes, otherwise for one
     /// particle of each half after the other.
     #[inline(always)]
@@ -47,37 +47,42 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
         let sharing = self.stencil.sharing();
         if sharing != Sharing::Apart && self.members == ALL && (W != 3 || regular) {
             let goal = match sharing {
-                Sharing::All => Goal::Together(first[0]),
-                _ => Goal::Apart([Some(first[0]), Some(first[HALF])]),
+                Sharing::All => Targets::Together(first[0]),
+                _ => Targets::Apart([Some(first[0]), Some(first[HALF])]),
             };
             if W == 3 {
-                let asides = self.asides::<W, true>();
-                self.of::<W, HALF, true>(0, goal, &asides, nodes);
+                let gradient_weights = self.gradient_weights::<W, true>();
+                self.of::<W, HALF, true>(0, goal, &gradient_weights, nodes);
             } else {
-                let asides = self.asides::<W, false>();
-                self.of::<W, HALF, false>(0, goal, &asides, nodes);
+                let gradient_weights = self.gradient_weights::<W, false>();
+                self.of::<W, HALF, false>(0, goal, &gradient_weights, nodes);
             }
             return;
         }
-        let asides = self.asides::<W, false>();
+        let gradient_weights = self.gradient_weights::<W, false>();
         let [from, to] = self.members;
         for k in 0..HALF {
             let meant = |p: usize| (from <= p && p < to).then_some(first[p]);
             let pair = [meant(k), meant(k + HALF)];
             if pair != [None; 2] {
-                self.of::<W, 1, false>(k, Goal::Apart(pair), &asides, nodes.reborrow());
+                self.of::<W, 1, false>(
+                    k,
+                    Targets::Apart(pair),
+                    &gradient_weights,
+                    nodes.reborrow(),
+                );
             }
         }
     }
 
     /// The asides of all nodes; nodes that receive the `REST` have none.
     #[inline(always)]
-    fn asides<const W: usize, const REST: bool>(&self) -> Asides<M::Eight, D, W> {
+    fn gradient_weights<const W: usize, const REST: bool>(&self) -> Asides<M::Eight, D, W> {
         // Tested once, not for every node.
         match (ASIDES, self.moment) {
             (true, Some(_)) => self.asides_with::<W, REST, true>(),
             (true, None) => self.asides_with::<W, REST, false>(),
-            (false, _) => [[[self.machine.splat(T::zero()); HALF]; W]; D],
+            (false, _) => [[[self.simd.splat(T::zero()); HALF]; W]; D],
         }
     }
 
@@ -86,45 +91,46 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
     fn asides_with<const W: usize, const REST: bool, const MOMENTS: bool>(
         &self,
     ) -> Asides<M::Eight, D, W> {
-        let machine = self.machine;
-        let nothing = machine.splat(T::zero());
-        let mut asides = [[[nothing; HALF]; W]; D];
+        let simd = self.simd;
+        let nothing = simd.splat(T::zero());
+        let mut gradient_weights = [[[nothing; HALF]; W]; D];
         for a in 0..D {
             for k in 0..W {
                 if !(REST && k == 1) {
-                    asides[a][k] = self.aside::<MOMENTS>(a, k);
+                    gradient_weights[a][k] = self.gradient_weight::<MOMENTS>(a, k);
                 }
             }
         }
         if REST && D > 2 {
             // Planes have no rest: the middle one has its aside, which makes the sum of asides 0.
             for p in 0..HALF {
-                let outer = machine.plus(asides[2 % D][0][p], asides[2 % D][W - 1][p]);
-                asides[2 % D][1][p] = machine.minus(nothing, outer);
+                let outer =
+                    simd.plus(gradient_weights[2 % D][0][p], gradient_weights[2 % D][W - 1][p]);
+                gradient_weights[2 % D][1][p] = simd.minus(nothing, outer);
             }
         }
-        asides
+        gradient_weights
     }
 
     /// The aside of node `k` along an axis, of each particle.
     #[inline(always)]
-    fn aside<const MOMENTS: bool>(&self, axis: usize, k: usize) -> [M::Eight; HALF] {
-        let Self { machine, stencil, moment, .. } = *self;
-        let Carried { slopes, moments, .. } = self.carried;
-        let mut rows = [machine.splat(T::zero()); HALF];
+    fn gradient_weight<const MOMENTS: bool>(&self, axis: usize, k: usize) -> [M::Eight; HALF] {
+        let Self { simd, stencil, moment, .. } = *self;
+        let Payload { slopes, moments, .. } = self.carried;
+        let mut rows = [simd.splat(T::zero()); HALF];
         if let Some(slopes) = slopes {
-            let slope = machine.eight(&stencil.slope[axis][k]);
+            let slope = simd.eight(&stencil.slope[axis][k]);
             for c in 0..D {
-                rows[c] = machine.times(slope, slopes[axis][c]);
+                rows[c] = simd.times(slope, slopes[axis][c]);
             }
         }
         if let (true, Some(moments), Some(moment)) = (MOMENTS, moments, moment) {
-            let moment = machine.eight(&moment[axis][k]);
+            let moment = simd.eight(&moment[axis][k]);
             for c in 0..D {
-                rows[c] = machine.times_plus(moment, moments[axis][c], rows[c]);
+                rows[c] = simd.times_plus(moment, moments[axis][c], rows[c]);
             }
         }
-        machine.transposed(rows)
+        simd.transposed(rows)
     }
 
     /// Adds for `P` particles of each half from `from` on; with `REST`, the middle one of three nodes receives the rest.
@@ -132,18 +138,18 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
     fn of<const W: usize, const P: usize, const REST: bool>(
         &self,
         from: usize,
-        goal: Goal,
-        asides: &Asides<M::Eight, D, W>,
+        goal: Targets,
+        gradient_weights: &Asides<M::Eight, D, W>,
         mut nodes: Window<'_, T>,
     ) {
-        let Self { machine, stencil: Tensor { stride, .. }, .. } = self;
-        let machine = *machine;
-        let mut along = [[machine.splat(T::zero()); P]; W];
+        let Self { simd, stencil: Tensor { stride, .. }, .. } = self;
+        let simd = *simd;
+        let mut along = [[simd.splat(T::zero()); P]; W];
         for k0 in 0..W {
             along[k0] = self.weights(from, 0, k0);
         }
         for k2 in 0..if D > 2 { W } else { 1 } {
-            let plane = self.plane::<W, P>(from, k2, asides);
+            let plane = self.plane::<W, P>(from, k2, gradient_weights);
             let apart = if D > 2 { k2 as u32 * stride[2 % D] } else { 0 };
             if D == 1 {
                 let sums = self.sums::<W, P, REST>(&along, &plane, None);
@@ -157,7 +163,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
                     self.sums::<W, P, REST>(&along, &plane, Some((2, self.weights(from, 1, 2))));
                 self.put(&mut nodes, goal, apart + 2 * stride[1 % D], &after);
                 for k0 in 0..W {
-                    rest[k0] = machine.minus(machine.minus(rest[k0], before[k0]), after[k0]);
+                    rest[k0] = simd.minus(simd.minus(rest[k0], before[k0]), after[k0]);
                 }
                 self.put(&mut nodes, goal, apart + stride[1 % D], &rest);
             } else {
@@ -173,14 +179,14 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
     /// The weights of node `k` along an axis, of `P` particles of each half from `from` on, each in all places of its half.
     #[inline(always)]
     fn weights<const P: usize>(&self, from: usize, axis: usize, k: usize) -> [M::Eight; P] {
-        let Self { machine, stencil: Tensor { weight, .. }, .. } = self;
-        let (machine, weight) = (*machine, &weight[axis % D][k]);
-        let mut weights = [machine.splat(T::zero()); P];
+        let Self { simd, stencil: Tensor { weight, .. }, .. } = self;
+        let (simd, weight) = (*simd, &weight[axis % D][k]);
+        let mut weights = [simd.splat(T::zero()); P];
         if P == HALF {
-            weights.copy_from_slice(&machine.spread(machine.eight(weight)));
+            weights.copy_from_slice(&simd.spread(simd.eight(weight)));
         } else {
             for p in 0..P {
-                weights[p] = machine.splat_halves(weight[from + p], weight[from + p + HALF]);
+                weights[p] = simd.splat_halves(weight[from + p], weight[from + p + HALF]);
             }
         }
         weights
@@ -192,24 +198,26 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
         &self,
         from: usize,
         k2: usize,
-        asides: &Asides<M::Eight, D, W>,
+        gradient_weights: &Asides<M::Eight, D, W>,
     ) -> Plane<M::Eight, W, P> {
-        let Self { machine, carried, .. } = *self;
-        let zero = machine.splat(T::zero());
-        let mut plane = Plane { value: [zero; P], asides: [[[zero; P]; W]; 2] };
+        let Self { simd, carried, .. } = *self;
+        let zero = simd.splat(T::zero());
+        let mut plane = Plane { value: [zero; P], gradient_weights: [[[zero; P]; W]; 2] };
         let weights = if D > 2 { self.weights::<P>(from, 2, k2) } else { [zero; P] };
         for p in 0..P {
             let (value, weight) = (carried.value[from + p], weights[p]);
             plane.value[p] = match (D > 2, ASIDES) {
                 (false, _) => value,
-                (true, false) => machine.times(weight, value),
-                (true, true) => machine.times_plus(weight, value, asides[2 % D][k2][from + p]),
+                (true, false) => simd.times(weight, value),
+                (true, true) => {
+                    simd.times_plus(weight, value, gradient_weights[2 % D][k2][from + p])
+                }
             };
             for a in 0..2 {
                 for k in 0..W {
-                    let aside = asides[a % D][k][from + p];
-                    plane.asides[a][k][p] =
-                        if D > 2 { machine.times(weight, aside) } else { aside };
+                    let gradient_weight = gradient_weights[a % D][k][from + p];
+                    plane.gradient_weights[a][k][p] =
+                        if D > 2 { simd.times(weight, gradient_weight) } else { gradient_weight };
                 }
             }
         }
@@ -224,34 +232,36 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
         plane: &Plane<M::Eight, W, P>,
         row: Option<(usize, [M::Eight; P])>,
     ) -> [M::Eight; W] {
-        let machine = self.machine;
+        let simd = self.simd;
         // A product is added to -0 without an addition.
-        let mut sums = [machine.splat(-T::zero()); W];
+        let mut sums = [simd.splat(-T::zero()); W];
         for p in 0..P {
             let value = match row {
                 Some((k1, weights)) if ASIDES => {
-                    machine.times_plus(weights[p], plane.value[p], plane.asides[1][k1][p])
+                    simd.times_plus(weights[p], plane.value[p], plane.gradient_weights[1][k1][p])
                 }
-                Some((_, weights)) => machine.times(weights[p], plane.value[p]),
+                Some((_, weights)) => simd.times(weights[p], plane.value[p]),
                 None => plane.value[p],
             };
             for k0 in 0..W {
                 if REST && k0 == 1 {
-                    sums[1] = machine.plus(sums[1], value);
+                    sums[1] = simd.plus(sums[1], value);
                 } else {
-                    sums[k0] = machine.times_plus(along[k0][p], value, sums[k0]);
+                    sums[k0] = simd.times_plus(along[k0][p], value, sums[k0]);
                     if ASIDES {
-                        let aside = plane.asides[0][k0][p];
+                        let gradient_weight = plane.gradient_weights[0][k0][p];
                         sums[k0] = match row {
-                            Some((_, weights)) => machine.times_plus(weights[p], aside, sums[k0]),
-                            None => machine.plus(sums[k0], aside),
+                            Some((_, weights)) => {
+                                simd.times_plus(weights[p], gradient_weight, sums[k0])
+                            }
+                            None => simd.plus(sums[k0], gradient_weight),
                         };
                     }
                 }
             }
         }
         if REST {
-            sums[1] = machine.minus(sums[1], machine.plus(sums[0], sums[2]));
+            sums[1] = simd.minus(sums[1], simd.plus(sums[0], sums[2]));
         }
         sums
     }
@@ -261,29 +271,29 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
     fn put<const W: usize>(
         &self,
         nodes: &mut Window<'_, T>,
-        goal: Goal,
+        goal: Targets,
         apart: u32,
         sums: &[M::Eight; W],
     ) {
-        let machine = self.machine;
+        let simd = self.simd;
         match goal {
-            Goal::Together(first) => {
+            Targets::Together(first) => {
                 let row = nodes.row::<W>(first.wrapping_add(apart));
                 for k0 in 0..W {
-                    machine.add_halves(&mut row[k0].0, sums[k0]);
+                    simd.add_halves(&mut row[k0].0, sums[k0]);
                 }
             }
-            Goal::Apart([one, two]) => {
+            Targets::Apart([one, two]) => {
                 if let Some(first) = one {
                     let row = nodes.row::<W>(first.wrapping_add(apart));
                     for k0 in 0..W {
-                        machine.add_first(&mut row[k0].0, sums[k0]);
+                        simd.add_first(&mut row[k0].0, sums[k0]);
                     }
                 }
                 if let Some(first) = two {
                     let row = nodes.row::<W>(first.wrapping_add(apart));
                     for k0 in 0..W {
-                        machine.add_second(&mut row[k0].0, sums[k0]);
+                        simd.add_second(&mut row[k0].0, sums[k0]);
                     }
                 }
             }
@@ -296,5 +306,5 @@ impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, 
 struct Plane<F, const W: usize, const P: usize> {
     value: [F; P],
     /// The asides along the first two axes.
-    asides: [[[F; P]; W]; 2],
+    gradient_weights: [[[F; P]; W]; 2],
 }

@@ -6,23 +6,23 @@
 use std::ops::Range;
 
 use mms_math::dispatch::Work;
-use mms_math::machine::Machine;
+use mms_math::simd::Simd;
 
 use super::gather::{Summed, Sums};
 use super::scatter::Scatter;
-use super::{BUNCH, Carried, Gathered, HALF, Members, Stencil, Wanted};
+use super::{Gathered, HALF, Members, PACK, Payload, Stencil, Wanted};
 use crate::defect::{Defect, on};
 use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
 use crate::real::{Real, Vector};
 
-/// A number for each particle of a bunch, for every axis and the first, second, .. node along it.
-pub(super) type Along<T, const D: usize> = [[[T; BUNCH]; MOST]; D];
+/// A number for each particle of a pack, for every axis and the first, second, .. node along it.
+pub(super) type Along<T, const D: usize> = [[[T; PACK]; MOST]; D];
 
 /// The largest number of nodes along an axis.
 pub const MOST: usize = 4;
 
-/// The particles of a bunch that have the same nodes.
+/// The particles of a pack that have the same nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sharing {
     /// All particles.
@@ -45,7 +45,7 @@ pub enum Known {
 }
 
 /// A stencil that is the product of the weights along the axes. The number of nodes along each axis is the same for all
-/// particles of a bunch; the sums depend on nothing else of the shape function.
+/// particles of a pack; the sums depend on nothing else of the shape function.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub struct Tensor<T, const D: usize> {
@@ -53,9 +53,9 @@ pub struct Tensor<T, const D: usize> {
     /// The derivatives of the weights, per length.
     pub(super) slope: Along<T, D>,
     /// Number of the first node along each axis.
-    start: [[i32; BUNCH]; D],
+    start: [[i32; PACK]; D],
     /// Index of the first node in the grid's arrays.
-    pub(super) first: [u32; BUNCH],
+    pub(super) first: [u32; PACK],
     /// Distance in the grid's arrays between neighbours along each axis.
     pub(super) stride: [u32; D],
     /// The sum of the strides.
@@ -66,9 +66,9 @@ pub struct Tensor<T, const D: usize> {
     pub(super) width: usize,
     known: Known,
     /// On a meridian, the particles' distances from the axis, for the weights w/r of the strain around it.
-    radius: [T; BUNCH],
+    radius: [T; PACK],
     /// On a meridian, the w of the weights w/r along the first axis, if they differ from [`weight`](Self::weight).
-    around: Option<[[T; BUNCH]; MOST]>,
+    around: Option<[[T; PACK]; MOST]>,
 }
 
 impl<T: Real, const D: usize> Tensor<T, D> {
@@ -76,16 +76,16 @@ impl<T: Real, const D: usize> Tensor<T, D> {
     #[inline(always)]
     pub fn new() -> Self {
         Self {
-            weight: [[[T::zero(); BUNCH]; MOST]; D],
-            slope: [[[T::zero(); BUNCH]; MOST]; D],
-            start: [[0; BUNCH]; D],
-            first: [0; BUNCH],
+            weight: [[[T::zero(); PACK]; MOST]; D],
+            slope: [[[T::zero(); PACK]; MOST]; D],
+            start: [[0; PACK]; D],
+            first: [0; PACK],
             stride: [0; D],
             strides: 0,
             shared: true,
             width: MOST,
             known: Known::Nothing,
-            radius: [T::one(); BUNCH],
+            radius: [T::one(); PACK],
             around: None,
         }
     }
@@ -93,24 +93,24 @@ impl<T: Real, const D: usize> Tensor<T, D> {
     /// Sets the distances r from the axis, and the w of the weights w/r along the first axis if they differ from the weights of
     /// [`set`](Self::set).
     #[inline(always)]
-    pub fn set_around<M: Machine<T>, const W: usize>(
+    pub fn set_around<M: Simd<T>, const W: usize>(
         &mut self,
-        machine: M,
+        simd: M,
         radius: M::Eight,
         weights: Option<[M::Eight; W]>,
     ) {
-        self.radius = machine.numbers(radius);
+        self.radius = simd.numbers(radius);
         self.around = weights.map(|weights| {
-            let mut numbers = [[T::zero(); BUNCH]; MOST];
+            let mut numbers = [[T::zero(); PACK]; MOST];
             for k in 0..W {
-                numbers[k] = machine.numbers(weights[k]);
+                numbers[k] = simd.numbers(weights[k]);
             }
             numbers
         });
     }
 
     /// The distances from the axis of revolution.
-    pub fn radius(&self) -> &[T; BUNCH] {
+    pub fn radius(&self) -> &[T; PACK] {
         &self.radius
     }
 
@@ -127,7 +127,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
     #[inline(always)]
     pub fn begin<const W: usize>(&mut self, lattice: &Lattice<T, D>, known: Known) {
         const { assert!(W >= 2 && W <= MOST) };
-        self.first = [0; BUNCH];
+        self.first = [0; PACK];
         // There are fewer than 2^32 nodes.
         self.stride = std::array::from_fn(|a| lattice.stride[a] as u32);
         self.strides = self.stride.iter().sum();
@@ -137,28 +137,28 @@ impl<T: Real, const D: usize> Tensor<T, D> {
     /// Sets the weights along an axis, and their derivatives per cell, of the nodes from `first` on. If these are not all on
     /// the grid, the stencil must not be used.
     #[inline(always)]
-    pub fn set<M: Machine<T>, const W: usize>(
+    pub fn set<M: Simd<T>, const W: usize>(
         &mut self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
         axis: usize,
         first: M::Eight,
         [weight, slope]: [[M::Eight; W]; 2],
     ) {
         let length_axis = if on(Defect::SquareCells) { 0 } else { axis };
-        let per_length = machine.splat(lattice.per_length[length_axis]);
+        let per_length = simd.splat(lattice.per_length[length_axis]);
         for k in 0..W {
-            self.weight[axis][k] = machine.numbers(weight[k]);
-            self.slope[axis][k] = machine.numbers(machine.times(slope[k], per_length));
+            self.weight[axis][k] = simd.numbers(weight[k]);
+            self.slope[axis][k] = simd.numbers(simd.times(slope[k], per_length));
         }
-        self.start[axis] = machine.whole(first);
-        for p in 0..BUNCH {
+        self.start[axis] = simd.whole(first);
+        for p in 0..PACK {
             let along = (self.start[axis][p] as u32).wrapping_mul(self.stride[axis]);
             self.first[p] = self.first[p].wrapping_add(along);
         }
         if axis + 1 == D {
             let mut different = 0;
-            for p in 0..BUNCH {
+            for p in 0..PACK {
                 different |= self.first[p] ^ self.first[p / HALF * HALF];
             }
             self.shared = different == 0;
@@ -185,35 +185,35 @@ impl<T: Real, const D: usize> Tensor<T, D> {
 
     /// The moments w (x_i - x_p), and the inverse of sum_i w (x_i - x_p)^2 along each axis, of `W` nodes.
     #[inline(always)]
-    fn moments<M: Machine<T>, const W: usize>(
+    fn moments<M: Simd<T>, const W: usize>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
     ) -> (Along<T, D>, [M::Eight; D]) {
-        let zero = machine.splat(T::zero());
-        let mut moment = [[[T::zero(); BUNCH]; MOST]; D];
+        let zero = simd.splat(T::zero());
+        let mut moment = [[[T::zero(); PACK]; MOST]; D];
         let mut per_spread = [zero; D];
         for a in 0..D {
             let (mut weight, mut apart) = ([zero; W], [zero; W]);
             let mut middle = zero;
             for k in 0..W {
-                weight[k] = machine.eight(&self.weight[a][k]);
-                apart[k] = self.beyond_first(machine, lattice, a, k);
-                middle = machine.times_plus(weight[k], apart[k], middle);
+                weight[k] = simd.eight(&self.weight[a][k]);
+                apart[k] = self.beyond_first(simd, lattice, a, k);
+                middle = simd.times_plus(weight[k], apart[k], middle);
             }
             let mut spread = zero;
             for k in 0..W {
-                apart[k] = machine.minus(apart[k], middle);
-                weight[k] = machine.times(weight[k], apart[k]);
-                spread = machine.times_plus(weight[k], apart[k], spread);
-                moment[a][k] = machine.numbers(weight[k]);
+                apart[k] = simd.minus(apart[k], middle);
+                weight[k] = simd.times(weight[k], apart[k]);
+                spread = simd.times_plus(weight[k], apart[k], spread);
+                moment[a][k] = simd.numbers(weight[k]);
             }
             per_spread[a] = if W > 2 && self.known == Known::Splines {
                 // The variance of the sum of W uniform distributions over a cell, whose density is a B-spline.
                 let h = lattice.cell_size[a];
-                machine.splat(T::ratio(12, W as i32) / (h * h))
+                simd.splat(T::ratio(12, W as i32) / (h * h))
             } else {
-                machine.over(machine.splat(T::one()), spread)
+                simd.over(simd.splat(T::one()), spread)
             };
         }
         (moment, per_spread)
@@ -221,15 +221,15 @@ impl<T: Real, const D: usize> Tensor<T, D> {
 
     /// The distance of a node from the first one along an axis.
     #[inline(always)]
-    fn beyond_first<M: Machine<T>>(
+    fn beyond_first<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
         axis: usize,
         k: usize,
     ) -> M::Eight {
         if self.is_regular() {
-            return machine.splat(lattice.cell_size[axis] * T::of(k as f64));
+            return simd.splat(lattice.cell_size[axis] * T::of(k as f64));
         }
         let coordinate = &lattice.coordinate[axis];
         let apart = std::array::from_fn(|p| {
@@ -237,7 +237,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
             // Beyond the width weights are 0, and nodes may not exist.
             coordinate.get(start + k).map_or(T::zero(), |&there| there - coordinate[start])
         });
-        machine.eight(&apart)
+        simd.eight(&apart)
     }
 
     /// The distance between the first and the last node in the grid's arrays.
@@ -255,96 +255,97 @@ impl<T: Real, const D: usize> Tensor<T, D> {
 
     /// Does [`Stencil::scatter`] for stencils of `W` nodes along each axis.
     #[inline(always)]
-    pub(crate) fn scatter_to<M: Machine<T>, const W: usize>(
+    pub(crate) fn scatter_to<M: Simd<T>, const W: usize>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Carried<M::Eight, D>,
+        carried: &Payload<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
         if M::ALONE {
-            let moment = carried.moments.map(|_| self.moments::<M, W>(machine, lattice).0);
-            let carried = Carried::of(machine, carried);
+            let moment = carried.moments.map(|_| self.moments::<M, W>(simd, lattice).0);
+            let carried = Payload::of(simd, carried);
             return self.scatter_alone(&carried, moment.as_ref(), members, nodes);
         }
         if carried.slopes.is_some() || carried.moments.is_some() {
-            self.onto::<M, W, true>(machine, lattice, carried, members, nodes);
+            self.onto::<M, W, true>(simd, lattice, carried, members, nodes);
         } else {
-            self.onto::<M, W, false>(machine, lattice, carried, members, nodes);
+            self.onto::<M, W, false>(simd, lattice, carried, members, nodes);
         }
     }
 
     /// Adds to the nodes, with `ASIDES` or without. Sums of hat functions are inlined, since they take less time than a call.
     #[inline(always)]
-    fn onto<M: Machine<T>, const W: usize, const ASIDES: bool>(
+    fn onto<M: Simd<T>, const W: usize, const ASIDES: bool>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Carried<M::Eight, D>,
+        carried: &Payload<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
         let stencil = self;
         if W == 2 {
-            return stencil.add::<M, W, ASIDES>(machine, lattice, carried, members, nodes);
+            return stencil.add::<M, W, ASIDES>(simd, lattice, carried, members, nodes);
         }
-        let carried = Carried::of(machine, carried);
-        machine.apart(Onto::<_, D, W, ASIDES> { stencil, lattice, carried, members, nodes });
+        let carried = Payload::of(simd, carried);
+        simd.apart(Onto::<_, D, W, ASIDES> { stencil, lattice, carried, members, nodes });
     }
 
     /// Adds to `W` nodes along every axis.
     #[inline(always)]
-    fn add<M: Machine<T>, const W: usize, const ASIDES: bool>(
+    fn add<M: Simd<T>, const W: usize, const ASIDES: bool>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Carried<M::Eight, D>,
+        carried: &Payload<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
         let (stencil, own);
         stencil = self;
         let moment = if ASIDES && carried.moments.is_some() {
-            (own, _) = self.moments::<M, W>(machine, lattice);
+            (own, _) = self.moments::<M, W>(simd, lattice);
             Some(&own)
         } else {
             None
         };
-        let sums = Scatter::<M, T, D, ASIDES> { machine, stencil, carried, moment, members };
+        let sums = Scatter::<M, T, D, ASIDES> { simd, stencil, carried, moment, members };
         sums.add::<W>(nodes);
     }
 
     /// Does [`Stencil::gather`] for stencils of `W` nodes along each axis.
     #[inline(always)]
-    pub(crate) fn gather_from<M: Machine<T>, const W: usize>(
+    pub(crate) fn gather_from<M: Simd<T>, const W: usize>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
         wanted: Wanted,
         nodes: &[Nodal<T>],
     ) -> Gathered<M::Eight, D> {
-        let nothing = [[machine.splat(T::zero()); D]; D];
+        let nothing = [[simd.splat(T::zero()); D]; D];
         match wanted {
             Wanted::Value => {
-                let sums = Sums { stencil: self, asides: [], nodes };
-                let Summed { value, asides: [] } = sums.over::<M, W>(machine);
+                let sums = Sums { stencil: self, gradient_weights: [], nodes };
+                let Summed { value, gradient_weights: [] } = sums.over::<M, W>(simd);
                 Gathered { value, gradient: nothing, slopes: nothing }
             }
             Wanted::Slopes if W > 2 && lattice.degree > 1 => {
-                let (moment, per_spread) = self.moments::<M, W>(machine, lattice);
-                let sums = Sums { stencil: self, asides: [&self.slope, &moment], nodes };
-                let Summed { value, asides: [gradient, mut slopes] } = sums.over::<M, W>(machine);
+                let (moment, per_spread) = self.moments::<M, W>(simd, lattice);
+                let sums = Sums { stencil: self, gradient_weights: [&self.slope, &moment], nodes };
+                let Summed { value, gradient_weights: [gradient, mut slopes] } =
+                    sums.over::<M, W>(simd);
                 for a in 0..D {
                     for c in 0..D {
-                        slopes[a][c] = machine.times(slopes[a][c], per_spread[a]);
+                        slopes[a][c] = simd.times(slopes[a][c], per_spread[a]);
                     }
                 }
                 Gathered { value, gradient, slopes }
             }
             Wanted::Gradient | Wanted::Slopes => {
-                let sums = Sums { stencil: self, asides: [&self.slope], nodes };
-                let Summed { value, asides: [gradient] } = sums.over::<M, W>(machine);
+                let sums = Sums { stencil: self, gradient_weights: [&self.slope], nodes };
+                let Summed { value, gradient_weights: [gradient] } = sums.over::<M, W>(simd);
                 let slopes = if wanted == Wanted::Slopes { gradient } else { nothing };
                 Gathered { value, gradient, slopes }
             }
@@ -356,7 +357,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
 struct Onto<'a, T: Real, const D: usize, const W: usize, const ASIDES: bool> {
     stencil: &'a Tensor<T, D>,
     lattice: &'a Lattice<T, D>,
-    carried: Carried<[T; BUNCH], D>,
+    carried: Payload<[T; PACK], D>,
     members: Members,
     nodes: Window<'a, T>,
 }
@@ -367,10 +368,10 @@ impl<T: Real, const D: usize, const W: usize, const ASIDES: bool> Work<T>
     type Output = ();
 
     #[inline(always)]
-    fn on<M: Machine<T>>(self, machine: M) {
+    fn on<M: Simd<T>>(self, simd: M) {
         let Self { stencil, lattice, members, nodes, .. } = self;
-        let carried = &self.carried.eights(machine);
-        stencil.add::<M, W, ASIDES>(machine, lattice, carried, members, nodes);
+        let carried = &self.carried.eights(simd);
+        stencil.add::<M, W, ASIDES>(simd, lattice, carried, members, nodes);
     }
 }
 
@@ -415,33 +416,33 @@ impl<T: Real, const D: usize> Stencil<T, D> for Tensor<T, D> {
     }
 
     #[inline(always)]
-    fn scatter<M: Machine<T>>(
+    fn scatter<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Carried<M::Eight, D>,
+        carried: &Payload<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
         match self.width {
-            2 => self.scatter_to::<M, 2>(machine, lattice, carried, members, nodes),
-            3 => self.scatter_to::<M, 3>(machine, lattice, carried, members, nodes),
-            _ => self.scatter_to::<M, MOST>(machine, lattice, carried, members, nodes),
+            2 => self.scatter_to::<M, 2>(simd, lattice, carried, members, nodes),
+            3 => self.scatter_to::<M, 3>(simd, lattice, carried, members, nodes),
+            _ => self.scatter_to::<M, MOST>(simd, lattice, carried, members, nodes),
         }
     }
 
     #[inline(always)]
-    fn gather<M: Machine<T>>(
+    fn gather<M: Simd<T>>(
         &self,
-        machine: M,
+        simd: M,
         lattice: &Lattice<T, D>,
         wanted: Wanted,
         nodes: &[Nodal<T>],
     ) -> Gathered<M::Eight, D> {
         match self.width {
-            2 => self.gather_from::<M, 2>(machine, lattice, wanted, nodes),
-            3 => self.gather_from::<M, 3>(machine, lattice, wanted, nodes),
-            _ => self.gather_from::<M, MOST>(machine, lattice, wanted, nodes),
+            2 => self.gather_from::<M, 2>(simd, lattice, wanted, nodes),
+            3 => self.gather_from::<M, 3>(simd, lattice, wanted, nodes),
+            _ => self.gather_from::<M, MOST>(simd, lattice, wanted, nodes),
         }
     }
 

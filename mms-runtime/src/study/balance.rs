@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::axisymmetric::strain_energy;
 use crate::field::ManufacturedField;
 use crate::real::{Matrix, Real, Vector};
-use crate::solver::Present;
+use crate::solver::StateView;
 
 /// The balances of momentum and energy, in double precision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -56,7 +56,7 @@ struct Strained<T, const D: usize> {
 
 impl<T: Real, const D: usize> Strained<T, D> {
     /// The particles of a state, if the material changes with time.
-    fn of<F>(present: &Present<'_, T, D, F>) -> Option<Self>
+    fn of<F>(present: &StateView<'_, T, D, F>) -> Option<Self>
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
@@ -99,7 +99,7 @@ pub(super) struct Tally {
 
 impl<T: Real, const D: usize> Account<T, D> {
     /// Begins at the first state of a run, or resumes with the sums of a checkpoint.
-    pub fn new<F>(present: &Present<'_, T, D, F>, before: Option<Tally>) -> Self
+    pub fn new<F>(present: &StateView<'_, T, D, F>, before: Option<Tally>) -> Self
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
@@ -131,11 +131,11 @@ impl<T: Real, const D: usize> Account<T, D> {
     }
 
     /// Updates the sums. To be called after each step.
-    pub fn step<F>(&mut self, present: &Present<'_, T, D, F>)
+    pub fn step<F>(&mut self, present: &StateView<'_, T, D, F>)
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
-        let Present { field, particles, time_of_force, .. } = *present;
+        let StateView { field, particles, time_of_force, .. } = *present;
         field.body_force(time_of_force, &particles.reference_position, &mut self.body_force);
         let elapsed = present.time_of_velocity - self.time_of_velocity;
         let (mut work, mut force) = (0.0, Vector::<f64, D>::zeros());
@@ -167,7 +167,7 @@ impl<T: Real, const D: usize> Account<T, D> {
     }
 
     /// The change of W with time at fixed F in a step: the mean of the changes at the H of its ends.
-    fn work_of_given<F>(&mut self, present: &Present<'_, T, D, F>) -> Option<f64>
+    fn work_of_given<F>(&mut self, present: &StateView<'_, T, D, F>) -> Option<f64>
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
@@ -180,7 +180,7 @@ impl<T: Real, const D: usize> Account<T, D> {
     }
 
     /// Computes the strain energy. To be called before a step if velocities are behind, otherwise after it.
-    pub fn look<F>(&mut self, present: &Present<'_, T, D, F>)
+    pub fn look<F>(&mut self, present: &StateView<'_, T, D, F>)
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
@@ -197,7 +197,7 @@ impl<T: Real, const D: usize> Account<T, D> {
         Balance { energy_residual, ..balance.clone() }
     }
 
-    fn remember<F: ?Sized>(&mut self, present: &Present<'_, T, D, F>) {
+    fn remember<F: ?Sized>(&mut self, present: &StateView<'_, T, D, F>) {
         let particles = present.particles;
         self.time_of_velocity = present.time_of_velocity;
         self.kinetic_energy = 0.0;
@@ -209,7 +209,7 @@ impl<T: Real, const D: usize> Account<T, D> {
         }
     }
 
-    fn strain_energy<F>(&mut self, present: &Present<'_, T, D, F>) -> Option<f64>
+    fn strain_energy<F>(&mut self, present: &StateView<'_, T, D, F>) -> Option<f64>
     where
         F: ManufacturedField<T, D> + ?Sized,
     {

@@ -8,7 +8,7 @@ use crate::failure::{Cause, Failure};
 use crate::field::ManufacturedField;
 use crate::particle::Particles;
 use crate::real::{Matrix, Real, Vector};
-use crate::solver::Present;
+use crate::solver::StateView;
 use crate::tensor::inverse_deformation_gradient;
 
 /// The errors of a state against the field's. Errors that are not measured are 0.
@@ -97,11 +97,11 @@ impl<T: Real, const D: usize> Watcher<T, D> {
     ///
     /// # Errors
     /// An error is not finite.
-    pub fn measure<F>(&mut self, present: &Present<'_, T, D, F>) -> Result<Deviations, Failure>
+    pub fn measure<F>(&mut self, present: &StateView<'_, T, D, F>) -> Result<Deviations, Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
-        let Present { field, particles, .. } = *present;
+        let StateView { field, particles, .. } = *present;
         let reference = &particles.reference_position;
         let weights = field.axisymmetric().map(|_| &*particles.reference_volume);
         let now = T::of(present.time);

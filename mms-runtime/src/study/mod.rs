@@ -1,7 +1,6 @@
 //! Convergence studies: one method on levels of refinement, its errors, orders and verdict.
 
 mod balance;
-mod course;
 mod deviations;
 mod errors;
 mod level;
@@ -12,6 +11,7 @@ mod range;
 mod refinement;
 mod relax;
 mod run;
+mod run_record;
 mod series;
 mod snapshots;
 

@@ -6,7 +6,7 @@ use super::{Diagnostics, Errors};
 use crate::axisymmetric::{hoop_stretch, kirchhoff_stress};
 use crate::field::ManufacturedField;
 use crate::real::{Matrix, Real, Vector};
-use crate::solver::Present;
+use crate::solver::StateView;
 use crate::tensor::{deformation_gradient, inverse};
 
 /// Observes a run. A closure receives only the steps, and `()` ignores all.
@@ -122,11 +122,11 @@ pub struct Frame {
 
 impl Frame {
     /// The state of a solver.
-    pub(super) fn of<T: Real, const D: usize, F>(present: &Present<'_, T, D, F>) -> Self
+    pub(super) fn of<T: Real, const D: usize, F>(present: &StateView<'_, T, D, F>) -> Self
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
-        let Present { field, particles, .. } = *present;
+        let StateView { field, particles, .. } = *present;
         let (x, h) = (&particles.reference_position, particles.displacement_gradient.iter());
         let h: Vec<_> = h.collect();
         let mut exact = vec![Vector::zeros(); particles.len()];

@@ -4,11 +4,11 @@ use crate::axisymmetric::{hoop_strain, kirchhoff_stress};
 use crate::failure::{Cause, Failure};
 use crate::field::ManufacturedField;
 use crate::real::{Matrix, Real, Vector};
-use crate::solver::Present;
+use crate::solver::StateView;
 
 /// Replaces the cause of a failure by a number beyond the range of the precision, if there is one.
 pub(super) fn explained<T: Real, const D: usize>(
-    present: &Present<'_, T, D, dyn ManufacturedField<T, D> + '_>,
+    present: &StateView<'_, T, D, dyn ManufacturedField<T, D> + '_>,
     cell_size: f64,
     failure: Failure,
 ) -> Failure {
@@ -42,10 +42,10 @@ fn beyond(sizes: &[Size], [least, most]: [f64; 2]) -> Option<Cause> {
 
 /// The sizes of the field's values at the present time.
 fn sizes<T: Real, const D: usize>(
-    present: &Present<'_, T, D, dyn ManufacturedField<T, D> + '_>,
+    present: &StateView<'_, T, D, dyn ManufacturedField<T, D> + '_>,
     cell_size: f64,
 ) -> Vec<Size> {
-    let Present { field, particles, .. } = present;
+    let StateView { field, particles, .. } = present;
     let (reference, now) = (&particles.reference_position, T::of(present.time));
     let mut vectors = vec![Vector::<T, D>::zeros(); particles.len()];
     field.velocity(now, reference, &mut vectors);

@@ -1,8 +1,8 @@
 //! A run to the equilibrium of a field that does not move, by dynamic relaxation; see [`Ramp`](crate::solver::Ramp) for the
 //! method.
 
-use super::course::{Course, Stopwatch};
 use super::run::Ended;
+use super::run_record::{RunRecord, Stopwatch};
 use super::{Observer, Watch};
 use crate::failure::{Cause, Failure};
 use crate::real::Real;
@@ -37,7 +37,7 @@ fn relaxed<T: Real, const D: usize>(
 ) -> Result<Ended, Failure> {
     let ramp = solver.steps();
     let most = ramp.saturating_mul(MOST);
-    let mut course = Course::begin(watch, &solver.present(), most, None, stopwatch, observer)?;
+    let mut course = RunRecord::begin(watch, &solver.present(), most, None, stopwatch, observer)?;
     let mut energy = 0.0;
     advance(solver, ramp, &mut energy, &mut course)?;
     // All faces have arrived.
@@ -52,7 +52,7 @@ fn relaxed<T: Real, const D: usize>(
         residual = solver.out_of_balance()?;
     }
     solver.halt();
-    let (details, snapshots) = course.settle(&solver.present(), residual)?;
+    let (details, snapshots) = course.finish(&solver.present(), residual)?;
     Ok((details, solver.seconds(), snapshots))
 }
 
@@ -61,7 +61,7 @@ fn advance<T: Real, const D: usize>(
     solver: &mut dyn AnySolver<'_, T, D>,
     steps: usize,
     energy: &mut f64,
-    course: &mut Course<'_, T, D>,
+    course: &mut RunRecord<'_, T, D>,
 ) -> Result<(), Failure> {
     for _ in 0..steps {
         solver.step()?;

@@ -1,8 +1,8 @@
 //! One run of a method on a field, and its results.
 
-use super::course::{Course, Saved, SavedCourse, Stopwatch};
 use super::range::explained;
 use super::relax::relax;
+use super::run_record::{RunRecord, Saved, SavedRecord, Stopwatch};
 use super::{Balance, Deviations, Errors, Level, Observer, Snapshots};
 use crate::failure::{Failure, Refusal};
 use crate::field::ManufacturedField;
@@ -223,12 +223,12 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, Refusal> {
 fn take_steps<T: Real, const D: usize>(
     solver: &mut dyn AnySolver<'_, T, D>,
     watch: Watch,
-    saved: Option<SavedCourse<'_>>,
+    saved: Option<SavedRecord<'_>>,
     stopwatch: Stopwatch,
     observer: &mut dyn Observer,
 ) -> Result<Ended, Failure> {
     let (steps, behind) = (solver.steps(), solver.lag() > 0.0);
-    let mut course = Course::begin(watch, &solver.present(), steps, saved, stopwatch, observer)?;
+    let mut course = RunRecord::begin(watch, &solver.present(), steps, saved, stopwatch, observer)?;
     while solver.present().step < steps {
         course.before_step(&solver.present(), behind);
         solver.step()?;

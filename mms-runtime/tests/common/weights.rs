@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use mms_runtime::column::BUNCH;
-use mms_runtime::column::{Bunch, Matrices};
+use mms_runtime::column::PACK;
+use mms_runtime::column::{Matrices, Pack};
 use mms_runtime::lanes::turned;
 use mms_runtime::lattice::Axis;
-use mms_runtime::math::machine::Plain;
+use mms_runtime::math::simd::Plain;
 use mms_runtime::shape::Shape;
 use mms_runtime::stencil::Stencil;
 use mms_runtime::tensor::{deformation_gradient, determinant};
@@ -39,8 +39,8 @@ pub struct Particle<const D: usize> {
     displacement_gradient: Matrix<f64, D>,
 }
 
-/// The nodes of a bunch of particles, and the particles' positions.
-pub type Placed<T, const D: usize, S> = (<S as Shape>::Stencil<T, D>, [Vector<T, D>; BUNCH]);
+/// The nodes of a pack of particles, and the particles' positions.
+pub type Placed<T, const D: usize, S> = (<S as Shape>::Stencil<T, D>, [Vector<T, D>; PACK]);
 
 impl<const D: usize> Particle<D> {
     /// A particle with the half edges `half` along the axes, or turned by 0.7 in the first two of them.
@@ -88,20 +88,20 @@ impl<const D: usize> Particle<D> {
         S::stencil(lattice, &self.position(lattice), &domain, &h)
     }
 
-    /// The nodes of a bunch of equal particles at these distances in cells along each axis, and their positions.
-    pub fn bunch<T: Real, S: Shape>(
+    /// The nodes of a pack of equal particles at these distances in cells along each axis, and their positions.
+    pub fn pack<T: Real, S: Shape>(
         &self,
         lattice: &Lattice<T, D>,
-        apart: [f64; BUNCH],
+        apart: [f64; PACK],
     ) -> Result<Placed<T, D, S>, Cause> {
-        let machine = T::PlainMachine::from(Plain);
+        let simd = T::PlainMachine::from(Plain);
         let here = self.position(lattice);
         let positions = apart.map(|cells| here + lattice.cell_size * T::of(cells));
-        let domains = Bunch::alike(&S::domain(&self.lengths(lattice)));
+        let domains = Pack::alike(&S::domain(&self.lengths(lattice)));
         let h = Matrices::alike(&self.displacement_gradient.map(T::of));
         let mut stencil = S::Stencil::default();
-        let components = turned(machine, &positions);
-        S::place(machine, &mut stencil, lattice, &components, &domains, &h)?;
+        let components = turned(simd, &positions);
+        S::place(simd, &mut stencil, lattice, &components, &domains, &h)?;
         Ok((stencil, positions))
     }
 

@@ -3,7 +3,7 @@
 //! Three kinds of sums stay in one piece: sums without any atom of a relation, sums of functions of one root alone, and sums of
 //! more than 200 terms. Reduction is therefore bounded, and may not pay.
 
-use super::nest::{integral_power, nested, take_common};
+use super::horner::{integral_power, nested, take_common};
 use super::polynomial::Polynomial;
 use super::relations::Relations;
 use super::substitute::rebuild;

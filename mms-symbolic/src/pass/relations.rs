@@ -33,7 +33,7 @@ pub struct Relations {
 }
 
 /// The rank of an expression by the time when it is known, latest first: 0 if it needs X, 1 if it needs t, else 2.
-pub fn lateness(graph: &Graph, expr: Expr) -> u8 {
+pub fn latest_stage(graph: &Graph, expr: Expr) -> u8 {
     match graph.stage(expr) {
         Stage::Point | Stage::PointTime => 0,
         Stage::Time => 1,
@@ -264,7 +264,7 @@ impl Relations {
         if atoms.iter().any(|atom| self.circular.contains(atom)) {
             return true;
         }
-        let at_point = |atom: &&Expr| lateness(graph, **atom) == 0;
+        let at_point = |atom: &&Expr| latest_stage(graph, **atom) == 0;
         atoms.iter().any(|atom| self.is_radical(*atom))
             && (self.thorough || atoms.iter().filter(at_point).count() > 1)
     }
@@ -272,7 +272,7 @@ impl Relations {
     /// The order in which factors are taken out of sums: sines and cosines at a point, coordinates under roots, and others by
     /// the time when they are known.
     pub(super) fn rank(&self, graph: &Graph, atom: Expr) -> u8 {
-        match lateness(graph, atom) {
+        match latest_stage(graph, atom) {
             0 if self.circular.contains(&atom) => 0,
             0 if self.squared.contains(&atom) => 1,
             late => 2 + late,
@@ -289,8 +289,8 @@ impl Relations {
     /// The relations between expressions that depend on X.
     pub fn at_points(&self, graph: &Graph) -> Self {
         let mut relations = self.clone();
-        relations.squares.retain(|leading, _| lateness(graph, *leading) == 0);
-        relations.circular.retain(|function| lateness(graph, *function) == 0);
+        relations.squares.retain(|leading, _| latest_stage(graph, *leading) == 0);
+        relations.circular.retain(|function| latest_stage(graph, *function) == 0);
         relations
     }
 

@@ -7,21 +7,21 @@
 //! that at most six rows catch, or has a `witness`: a property that no other row tests. Results are kept in a folder of their
 //! own in the store. Beside the verdicts, each run is looked at as people look at runs ([`pictures`](mms_lab::pictures)).
 
-mod eyes;
+mod visual;
 
 use std::num::NonZero;
 
 use anyhow::ensure;
-use eyes::{Eyes, Watched};
 use mms_files::store::Store;
 use mms_lab::outcome::Outcome;
-use mms_lab::pictures::Looks;
+use mms_lab::pictures::Visible;
 use mms_mechanics::defect as compiler;
 use mms_options::field::{find, interpreted};
 use mms_runtime::defect as solver;
 use mms_spec::suggest::did_you_mean;
+use visual::{VisualInspection, Watched};
 
-use super::matrix::Row;
+use super::matrix::MatrixRow;
 use super::plan::Plan;
 use super::verdict::{Judgement, judge};
 use super::work::{Fields, Watcher, outcomes};
@@ -86,7 +86,7 @@ impl Defect {
 ///
 /// # Errors
 /// The row, and the name.
-pub fn validate(rows: &[Row]) -> anyhow::Result<()> {
+pub fn validate(rows: &[MatrixRow]) -> anyhow::Result<()> {
     for row in rows {
         for name in &row.catches {
             let is_known = Defect::all().any(|defect| defect.name() == name);
@@ -120,11 +120,11 @@ impl Drop for Made {
 /// A row under a defect, or without one.
 pub struct Shown<'a> {
     /// The row.
-    pub row: &'a Row,
+    pub row: &'a MatrixRow,
     /// The verdict.
     pub judgement: Judgement,
     /// The objections of people to the runs of the row.
-    pub looks: Looks,
+    pub looks: Visible,
 }
 
 /// The setup in which rows are shown defects.
@@ -147,7 +147,7 @@ impl Stage<'_> {
     pub fn show<'a>(
         &self,
         defect: Option<Defect>,
-        rows: &[&'a Row],
+        rows: &[&'a MatrixRow],
     ) -> anyhow::Result<Vec<Shown<'a>>> {
         let mut plan = Plan::new(rows, true, &self.program)?;
         let coarsest: Vec<usize> =
@@ -155,21 +155,21 @@ impl Stage<'_> {
         for (at, job) in plan.jobs.iter_mut().enumerate() {
             job.key.defect = Some(defect.map_or("none", Defect::name));
             if coarsest.contains(&at) {
-                job.key.run += eyes::WEIGHED;
+                job.key.run += visual::WEIGHED;
             }
         }
         let fields = Fields::new(match defect {
             Some(Defect::Compiler(_)) => interpreted,
             _ => find,
         });
-        let bench = Eyes { fields };
+        let bench = VisualInspection { fields };
         let _made = Made::new(defect);
         let all = outcomes(&plan.jobs, &self.store, self.threads, &bench, self.watcher)?;
         let shown = rows.iter().zip(&plan.levels).map(|(row, levels)| {
             let levels: Vec<&Watched> = levels.iter().map(|&at| &all[at]).collect();
             let outcomes: Vec<Outcome> = levels.iter().map(|level| level.outcome.clone()).collect();
             let seen: Vec<_> = levels.iter().map(|level| level.seen.as_ref()).collect();
-            Shown { row, judgement: judge(row, &outcomes), looks: Looks::of(&seen) }
+            Shown { row, judgement: judge(row, &outcomes), looks: Visible::of(&seen) }
         });
         Ok(shown.collect())
     }

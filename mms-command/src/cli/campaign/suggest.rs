@@ -1,6 +1,6 @@
 //! `mms campaign FILE --suggest`: studies to paste.
 
-use mms_campaign::Can;
+use mms_campaign::Capabilities;
 use mms_documents::campaign::{AffineMotion, CampaignSuggest, ProposedField, UnseenTerm};
 use mms_harness::suggest::{Affine, Proposed, Suggestion, Unseen, suggest};
 use mms_options::field::open;
@@ -9,7 +9,7 @@ use super::super::Outcome;
 use super::super::format::Printing;
 
 /// Prints what is proposed.
-pub fn propose(can: &Can, printing: Printing) -> anyhow::Result<Outcome> {
+pub fn propose(can: &Capabilities, printing: Printing) -> anyhow::Result<Outcome> {
     let found = suggest(can, &open)?;
     printing.print_without_table(&text(&found), &document(&found))?;
     Ok(Outcome::AsExpected)

@@ -42,7 +42,7 @@ use mms_spec::foreign;
 use mms_spec::quantity::Quantity;
 
 use self::problem::Problem;
-use super::{Outcome, hold_output, print, this_command};
+use super::{Outcome, print, this_command, validate_output};
 
 /// See a mistake of a solver named: a small solver with one broken line, judged, diagnosed, repaired and judged again.
 ///
@@ -135,7 +135,7 @@ impl Files for Tables {
 
 impl Demo {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        self.keep.as_deref().map_or(Ok(()), hold_new)?;
+        self.keep.as_deref().map_or(Ok(()), validate_new)?;
         let mut exact = Exact::new(Input::new(open(FIELD)?, &Options::default())?, &[])?;
         let (right, broken) = {
             let problem = Evaluated(RefCell::new(&mut exact));
@@ -288,8 +288,8 @@ fn story(exact: &Exact, judged: &[Judgements; 2], diagnosis: &Diagnosis) -> anyh
 }
 
 /// Refuses a folder that holds something.
-fn hold_new(folder: &Path) -> anyhow::Result<()> {
-    hold_output(folder)?;
+fn validate_new(folder: &Path) -> anyhow::Result<()> {
+    validate_output(folder)?;
     let is_empty = |folder: &Path| folder.read_dir().is_ok_and(|mut it| it.next().is_none());
     if folder.exists() && !is_empty(folder) {
         bail!("`--keep {}`: the folder holds something; name a new one", foreign::path(folder));

@@ -9,7 +9,7 @@ use mms_convergence::Verdict;
 use mms_documents::judge::JudgeExplained;
 use mms_exact::Exact;
 use mms_exact::evaluated;
-use mms_files::read::{self, Kind};
+use mms_files::read::{self, FileKind};
 use mms_files::results::Disk;
 use mms_judge::next::{self, Meshes};
 use mms_judge::results::{
@@ -224,7 +224,7 @@ impl Judge {
         title: &str,
         measurement: &Measurement,
     ) -> anyhow::Result<Outcome> {
-        let text = read::text(path, Kind::Result)?;
+        let text = read::text(path, FileKind::Result)?;
         let compared = Baseline::read(&text).and_then(|it| it.compare(&measurement.measured));
         let compared = compared.with_context(|| format!("`--baseline {}`", foreign::path(path)))?;
         let verdict =

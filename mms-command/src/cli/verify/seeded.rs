@@ -7,10 +7,10 @@ use anyhow::bail;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_files::program::identity;
 use mms_files::store::Store;
-use mms_lab::pictures::Looks;
+use mms_lab::pictures::Visible;
 use mms_report::defects::{Report, Showing};
 use mms_verify::defects::{Defect, Shown, Stage, validate};
-use mms_verify::matrix::Row;
+use mms_verify::matrix::MatrixRow;
 use mms_verify::plan::Job;
 use mms_verify::work::Watcher;
 
@@ -25,12 +25,12 @@ impl Verify {
     pub(super) fn show_defects(
         &self,
         names: &[String],
-        all: &[Row],
-        rows: &[&Row],
+        all: &[MatrixRow],
+        rows: &[&MatrixRow],
         threads: NonZero<usize>,
     ) -> anyhow::Result<Outcome> {
         validate(all)?;
-        let rows: Vec<&Row> = rows.iter().copied().filter(|row| row.quick > 0).collect();
+        let rows: Vec<&MatrixRow> = rows.iter().copied().filter(|row| row.quick > 0).collect();
         if rows.is_empty() {
             bail!("`--defects` shows defects to the quick matrix, which has none of these rows");
         }
@@ -45,10 +45,10 @@ impl Verify {
             true => rows.clone(),
             false => claimants(*defect, &rows),
         };
-        let needed = |row: &&&Row| {
+        let needed = |row: &&&MatrixRow| {
             defects.iter().any(|defect| chosen(defect).iter().any(|it| it.name == row.name))
         };
-        let needed: Vec<&Row> = rows.iter().filter(needed).copied().collect();
+        let needed: Vec<&MatrixRow> = rows.iter().filter(needed).copied().collect();
         let right = stage.show(None, &needed)?;
         if let Some(odd) = right.iter().find(|shown| !shown.judgement.as_expected()) {
             let reason = odd.judgement.reason.as_deref().unwrap_or_default();
@@ -58,9 +58,9 @@ impl Verify {
         let mut showings = Vec::new();
         for &defect in &defects {
             let shown = stage.show(Some(defect), &chosen(&defect))?;
-            let looks = shown.iter().fold(Looks::default(), |looks, it| {
+            let looks = shown.iter().fold(Visible::default(), |looks, it| {
                 let without = right.iter().find(|other| other.row.name == it.row.name);
-                looks.or(it.looks.beside(without.map_or(Looks::default(), |it| it.looks)))
+                looks.or(it.looks.beside(without.map_or(Visible::default(), |it| it.looks)))
             });
             let showing = Showing { defect, rows: shown, looks };
             progress.shown(&showing);
@@ -76,8 +76,8 @@ impl Verify {
 }
 
 /// The rows that say that they catch a defect; all, if none does.
-fn claimants<'a>(defect: Defect, rows: &[&'a Row]) -> Vec<&'a Row> {
-    let claims = |row: &&&Row| row.catches.iter().any(|name| name == defect.name());
+fn claimants<'a>(defect: Defect, rows: &[&'a MatrixRow]) -> Vec<&'a MatrixRow> {
+    let claims = |row: &&&MatrixRow| row.catches.iter().any(|name| name == defect.name());
     let claimants: Vec<_> = rows.iter().filter(claims).copied().collect();
     if claimants.is_empty() { rows.to_vec() } else { claimants }
 }

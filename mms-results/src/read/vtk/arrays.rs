@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use roxmltree::Node;
 
 use super::super::numbers::{Kind, Order, count};
-use super::super::text::{Style, number, settle};
+use super::super::text::{Style, finish, number};
 use super::super::xml::{at, attribute, child};
 use super::base64::Encoded;
 use crate::wanted::{Need, Wanted};
@@ -120,7 +120,7 @@ impl Arrays {
         arrays.section(piece, "PointData", rows, format)?;
         let of_points = arrays.all.len();
         arrays.section(piece, "CellData", cells, format)?;
-        arrays.settle();
+        arrays.finish();
         let Arrays { mut all, unread, .. } = arrays;
         let of_cells = all.split_off(of_points);
         let of_points = all.split_off(has_points);
@@ -211,8 +211,8 @@ impl Arrays {
     }
 
     /// Gives arrays in text the digits of the file.
-    pub fn settle(&mut self) {
-        settle(&mut self.all.iter_mut().collect::<Vec<_>>(), &self.single);
+    pub fn finish(&mut self) {
+        finish(&mut self.all.iter_mut().collect::<Vec<_>>(), &self.single);
     }
 }
 

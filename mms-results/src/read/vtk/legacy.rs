@@ -2,7 +2,7 @@
 
 use super::super::numbers::Kind;
 use super::super::table::is_time;
-use super::super::text::settle;
+use super::super::text::finish;
 use super::arrays::is_before;
 use super::cursor::{Cursor, decoded};
 use super::structured::{Extent, Lattice, numbers};
@@ -56,7 +56,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     if is_before(version, [5, 1]) {
         found.snapshot.cells.renumber_old();
     }
-    found.settle();
+    found.finish();
     found.extend(wanted)?;
     Ok(found.snapshot.with_vertices_as_points())
 }
@@ -325,9 +325,9 @@ impl Found {
         Ok(())
     }
 
-    fn settle(&mut self) {
+    fn finish(&mut self) {
         let Snapshot { points, of_points, of_cells, .. } = &mut self.snapshot;
         let all = points.iter_mut().chain(of_points).chain(of_cells).chain(&mut self.axes);
-        settle(&mut all.collect::<Vec<_>>(), &[&*self.single, &self.single_axes].concat());
+        finish(&mut all.collect::<Vec<_>>(), &[&*self.single, &self.single_axes].concat());
     }
 }

@@ -97,7 +97,7 @@ fn time_of(data: Node<'_, '_>, format: &Format<'_>) -> Result<Option<Time>, Mist
     };
     let mut arrays = Arrays::default();
     arrays.read(node, Some(1), format)?;
-    arrays.settle();
+    arrays.finish();
     let found = arrays.all.first().filter(|array| array.values.len() == 1);
     let array = found.ok_or_else(|| at(node, "expected one time"))?;
     let value = array.values[0];
@@ -181,7 +181,7 @@ fn rectilinear(
     for (node, rows) in nodes.filter(|it| it.has_tag_name("DataArray")).zip(extent.counts()) {
         arrays.read(node, Some(rows), format)?;
     }
-    arrays.settle();
+    arrays.finish();
     let all: [Array; 3] = arrays.all.try_into().map_err(|_| {
         at(piece, "expected an element `<Coordinates>` with an array along each of three axes")
     })?;

@@ -13,7 +13,7 @@ use roxmltree::Node;
 
 use super::Beside;
 use super::numbers::positions;
-use super::text::{Style, number, settle, times_of};
+use super::text::{Style, finish, number, times_of};
 use super::xml::{at, child};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Cells, Mistake, Snapshot, Stored};
@@ -242,8 +242,8 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         for node in parts.into_iter().filter(|it| is(it, "Attribute")) {
             self.attribute(node, &mut snapshot, &mut single)?;
         }
-        settle(&mut snapshot.of_points.iter_mut().collect::<Vec<_>>(), &single[0]);
-        settle(&mut snapshot.of_cells.iter_mut().collect::<Vec<_>>(), &single[1]);
+        finish(&mut snapshot.of_points.iter_mut().collect::<Vec<_>>(), &single[0]);
+        finish(&mut snapshot.of_cells.iter_mut().collect::<Vec<_>>(), &single[1]);
         Ok(snapshot)
     }
 
@@ -325,7 +325,7 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         let mut arrays: Vec<Array> =
             items.iter().map(|it| self.item(*it, "points")).collect::<Result<_, _>>()?;
         let single = items.iter().map(|it| it.attribute("Precision") == Some("4"));
-        settle(&mut arrays.iter_mut().collect::<Vec<_>>(), &single.collect::<Vec<_>>());
+        finish(&mut arrays.iter_mut().collect::<Vec<_>>(), &single.collect::<Vec<_>>());
         let rows = arrays[0].values.len();
         if arrays.iter().any(|it| it.values.len() != rows)
             || expected == 1 && !rows.is_multiple_of(axes)

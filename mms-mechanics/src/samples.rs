@@ -22,7 +22,7 @@ const CANCELLED: f64 = 1e-24;
 
 /// Values of the parameters, of X and of t.
 #[derive(Clone, Debug)]
-pub(super) struct Spot {
+pub(super) struct SamplePoint {
     pub parameters: Vec<Double>,
     pub coordinates: Vec<Double>,
     pub time: Double,
@@ -72,14 +72,14 @@ pub(super) fn places(
     model: &Model,
     parameters: &[Double],
     count: usize,
-) -> Vec<Spot> {
+) -> Vec<SamplePoint> {
     // The first points of the sequence have simple fractions, where X may equal Y.
     let fractions: Vec<[Double; 4]> = (101..101 + count).map(halton).collect();
     places_at(graph, model, parameters, &fractions)
 }
 
 /// The corners of the body, its middle and the middles of edges and faces, at the first time and halfway.
-pub(super) fn edges(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Spot> {
+pub(super) fn edges(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<SamplePoint> {
     let dimension = model.space.coordinates();
     let ends = [0.0, 0.5, 1.0].map(Double::from_f64);
     let of_index = |index: usize| {
@@ -100,12 +100,12 @@ fn places_at(
     model: &Model,
     parameters: &[Double],
     fractions: &[[Double; 4]],
-) -> Vec<Spot> {
+) -> Vec<SamplePoint> {
     let nowhere = nowhere(parameters);
     let of = |bound: &Expr| value(graph, *bound, &nowhere);
     let extent = model.domain.body.map(of);
     let [first, last] = [0, 1].map(|end: usize| of(&model.domain.time[end]));
-    let place = |fractions: &[Double; 4]| Spot {
+    let place = |fractions: &[Double; 4]| SamplePoint {
         parameters: parameters.to_vec(),
         coordinates: extent.point(fractions),
         time: first + (last - first) * fractions[3],
@@ -124,7 +124,7 @@ pub(super) fn anywhere(
     model: &Model,
     parameters: &[Double],
     nothing: Option<usize>,
-) -> Vec<Spot> {
+) -> Vec<SamplePoint> {
     let usual: Vec<Double> =
         parameters.iter().map(size).chain(extent(graph, model, parameters)).collect();
     let place = |index: usize| {
@@ -139,7 +139,7 @@ pub(super) fn anywhere(
         }
         let coordinates = all.by_ref().take(3).collect();
         let time = all.next().unwrap_or(Double::from_f64(0.5));
-        Spot { parameters, coordinates, time }
+        SamplePoint { parameters, coordinates, time }
     };
     (101..101 + ANYWHERE).map(place).collect()
 }
@@ -195,11 +195,15 @@ pub(super) fn value_with(graph: &Graph, expr: Expr, parameters: &[Double]) -> Do
 }
 
 /// Values of the parameters, for expressions without X and t.
-fn nowhere(parameters: &[Double]) -> Spot {
-    Spot { parameters: parameters.to_vec(), coordinates: Vec::new(), time: Double::from_f64(0.0) }
+fn nowhere(parameters: &[Double]) -> SamplePoint {
+    SamplePoint {
+        parameters: parameters.to_vec(),
+        coordinates: Vec::new(),
+        time: Double::from_f64(0.0),
+    }
 }
 
-fn value(graph: &Graph, expr: Expr, place: &Spot) -> Double {
+fn value(graph: &Graph, expr: Expr, place: &SamplePoint) -> Double {
     evaluate(graph, &[expr], std::slice::from_ref(place))[expr][0]
 }
 
@@ -220,7 +224,7 @@ impl std::ops::Index<Expr> for Values {
 }
 
 /// Evaluates all sub-expressions of `roots`; a sum that cancels is 0.
-pub(super) fn evaluate(graph: &Graph, roots: &[Expr], places: &[Spot]) -> Values {
+pub(super) fn evaluate(graph: &Graph, roots: &[Expr], places: &[SamplePoint]) -> Values {
     let mut values = ByExpr::<Vec<Double>>::of(roots);
     let reached = graph.reachable(roots);
     graph.work().spend(STEPS_OF_VALUE * (reached.len() * places.len()) as u64);
@@ -233,7 +237,7 @@ pub(super) fn evaluate(graph: &Graph, roots: &[Expr], places: &[Spot]) -> Values
 }
 
 /// The value of a node, where `of` returns the values of its operands.
-pub(super) fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &Spot) -> Double {
+pub(super) fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &SamplePoint) -> Double {
     let zero = Double::from_f64(0.0);
     let without = |value: Double, scale: f64| {
         if value.to_f64().abs() <= CANCELLED * scale { zero } else { value }

@@ -1,6 +1,6 @@
 //! X(x, t): the result is the point that was moved there, and refused points are nowhere or in two places.
 
-use mms_analysis::present::{Inverse, Unplaced};
+use mms_analysis::inverse_motion::{Inverse, Unplaced};
 use mms_codegen::{Compiled, compile};
 use mms_mechanics::Output;
 use mms_mechanics::sample::{domain, samples};

@@ -12,19 +12,19 @@ use super::{Checkpoint, Details, Diagnostics, Frame, Observer, Record, Snapshots
 use crate::failure::{Failure, Refusal};
 use crate::field::ManufacturedField;
 use crate::real::Real;
-use crate::solver::{Present, Residual, State};
+use crate::solver::{Residual, State, StateView};
 
 /// The contents of a checkpoint: the solver's state and the measurements so far.
 #[derive(Serialize, Deserialize)]
 #[serde(bound = "T: Real")]
 pub(super) struct Saved<'a, T: Real, const D: usize> {
     pub state: State<'a, T, D>,
-    pub course: SavedCourse<'a>,
+    pub course: SavedRecord<'a>,
 }
 
 /// The measurements so far that do not follow from the state.
 #[derive(Serialize, Deserialize)]
-pub(super) struct SavedCourse<'a> {
+pub(super) struct SavedRecord<'a> {
     step: usize,
     largest: Deviations,
     size: f64,
@@ -108,7 +108,7 @@ impl Write for Remember<'_> {
 }
 
 /// Measures a run, and reports to its observer.
-pub(super) struct Course<'a, T, const D: usize> {
+pub(super) struct RunRecord<'a, T, const D: usize> {
     watch: Watch,
     watcher: Watcher<T, D>,
     account: Option<Account<T, D>>,
@@ -121,16 +121,16 @@ pub(super) struct Course<'a, T, const D: usize> {
     observer: &'a mut dyn Observer,
 }
 
-impl<'a, T: Real, const D: usize> Course<'a, T, D> {
+impl<'a, T: Real, const D: usize> RunRecord<'a, T, D> {
     /// Begins at the first state of a run, or resumes from a checkpoint with the `saved` measurements.
     ///
     /// # Errors
     /// An error is not finite; the observer cannot continue.
     pub fn begin<F>(
         watch: Watch,
-        present: &Present<'_, T, D, F>,
+        present: &StateView<'_, T, D, F>,
         steps: usize,
-        saved: Option<SavedCourse<'_>>,
+        saved: Option<SavedRecord<'_>>,
         stopwatch: Stopwatch,
         observer: &'a mut dyn Observer,
     ) -> Result<Self, Failure>
@@ -170,7 +170,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
     }
 
     /// To be called before each step; `behind` tells whether velocities will be behind positions.
-    pub fn before_step<F>(&mut self, present: &Present<'_, T, D, F>, behind: bool)
+    pub fn before_step<F>(&mut self, present: &StateView<'_, T, D, F>, behind: bool)
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
@@ -186,7 +186,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
     /// An error is not finite; the observer cannot continue.
     pub fn after_step<F>(
         &mut self,
-        present: &Present<'_, T, D, F>,
+        present: &StateView<'_, T, D, F>,
         behind: bool,
     ) -> Result<(), Failure>
     where
@@ -217,7 +217,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
     }
 
     /// Reports a step of a run without measurements along the way.
-    pub fn pass<F: ?Sized>(&mut self, present: &Present<'_, T, D, F>) {
+    pub fn pass<F: ?Sized>(&mut self, present: &StateView<'_, T, D, F>) {
         self.observer.step(present.step, self.steps);
     }
 
@@ -225,9 +225,9 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
     ///
     /// # Errors
     /// An error is not finite; the observer cannot continue.
-    pub fn settle<F>(
+    pub fn finish<F>(
         mut self,
-        present: &Present<'_, T, D, F>,
+        present: &StateView<'_, T, D, F>,
         residual: Residual,
     ) -> Result<(Details, Snapshots), Failure>
     where
@@ -252,7 +252,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
     /// The observer cannot continue.
     pub fn keep<'s, F>(
         &mut self,
-        present: &Present<'_, T, D, F>,
+        present: &StateView<'_, T, D, F>,
         state: &dyn Fn() -> State<'s, T, D>,
     ) -> Result<(), Failure>
     where
@@ -261,7 +261,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         if !self.observer.keeps(present.step, self.steps) {
             return Ok(());
         }
-        let course = SavedCourse {
+        let course = SavedRecord {
             step: present.step,
             largest: self.largest,
             size: self.watcher.size(),
@@ -274,7 +274,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
     }
 
     /// The measurements of the run.
-    pub fn close<F>(self, present: &Present<'_, T, D, F>) -> (Details, Snapshots)
+    pub fn close<F>(self, present: &StateView<'_, T, D, F>) -> (Details, Snapshots)
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
@@ -288,12 +288,12 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         self.records || step == self.steps
     }
 
-    fn diagnostics<F: ?Sized>(&self, present: &Present<'_, T, D, F>) -> Diagnostics {
+    fn diagnostics<F: ?Sized>(&self, present: &StateView<'_, T, D, F>) -> Diagnostics {
         Diagnostics::of(present.particles, self.account.as_ref().map(Account::balance))
     }
 
     /// Passes the state to the observer, if it wants it.
-    fn show<F>(&mut self, present: &Present<'_, T, D, F>) -> Result<(), Failure>
+    fn show<F>(&mut self, present: &StateView<'_, T, D, F>) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
     {

@@ -2,10 +2,10 @@
 
 use mms_math::Scalar as _;
 use mms_program::dual::Dual;
-use mms_program::fan::{Bounds, Fan};
 use mms_program::interpret::Number;
 use mms_program::interpret::{binary, unary};
 use mms_program::interval::Interval;
+use mms_program::multi_dual::{Bounds, MultiDual};
 use mms_symbolic::expr::Function;
 use mms_symbolic::expr::Small;
 
@@ -37,7 +37,7 @@ fn made<T: Number>(x: T, y: T) -> Vec<T> {
 
 /// Compares a direction in which x changes, one in which y does, and one in which neither does.
 fn assert_same<T: Bounds>(x: T, y: T, is_same: impl Fn(T, T) -> bool) {
-    let of_fan = made(Fan::variable(x, 1), Fan::variable(y, 4));
+    let of_fan = made(MultiDual::variable(x, 1), MultiDual::variable(y, 4));
     for (direction, moves) in [(1, [1.0, 0.0]), (4, [0.0, 1.0]), (2, [0.0, 0.0])] {
         let [a, b] = [0, 1].map(|it: usize| T::from_f64(moves[it]));
         let of_dual = made(Dual { value: x, slope: a }, Dual { value: y, slope: b });

@@ -1,13 +1,13 @@
 //! Eight numbers as an array, for processors without a known register for them.
 
-use super::{Machine, Plain};
+use super::{Plain, Simd};
 use crate::dispatch::Work;
 use crate::lane::Lane;
 
 macro_rules! arrays {
-    ($($machine:ident $float:ident $fused:literal $times_plus:expr;)*) => {
+    ($($simd:ident $float:ident $fused:literal $times_plus:expr;)*) => {
         $(
-            impl Machine<$float> for $machine {
+            impl Simd<$float> for $simd {
                 type Eight = [$float; 8];
                 type Lane = Lane<$float, $fused>;
                 // Machines that multiply and add in one step have registers that the compiler uses.

@@ -11,9 +11,9 @@
 //! (Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic, 1991, section 1.4, and Kahan, Branch
 //! Cuts, 1987, have similar formulas.) A rewriting is applied only if terms then cancel in exact numbers.
 
-use super::nest::{flat_view, integral_power, nested};
+use super::horner::{flat_view, integral_power, nested};
 use super::polynomial::Polynomial;
-use super::relations::lateness;
+use super::relations::latest_stage;
 use super::substitute::rebuild;
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational};
 use crate::sorted::{SortedMap, SortedSet};
@@ -25,14 +25,14 @@ const DEPTH: usize = 6;
 const ROUNDS: usize = 6;
 
 /// Rewrites every sum in `roots` that cancels.
-pub fn settle(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
+pub fn avoid_cancellation(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     rebuild(graph, roots, |graph, node| {
         let made = graph.remake(node);
-        settled(graph, made)
+        stable(graph, made)
     })
 }
 
-fn settled(graph: &mut Graph, expr: Expr) -> Expr {
+fn stable(graph: &mut Graph, expr: Expr) -> Expr {
     let Some(mut view) = flat_view(graph, expr) else { return expr };
     let mut splits = Splits::default();
     let mut changed = false;
@@ -41,7 +41,7 @@ fn settled(graph: &mut Graph, expr: Expr) -> Expr {
         view = next;
         changed = true;
     }
-    if changed { nested(graph, view, &lateness) } else { expr }
+    if changed { nested(graph, view, &latest_stage) } else { expr }
 }
 
 /// An atom as a factor, and whether it divides.

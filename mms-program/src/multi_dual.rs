@@ -36,7 +36,7 @@ impl Bounds for Dual<Interval> {
 
 /// A value and its derivatives in some directions.
 #[derive(Clone, Copy, Debug)]
-pub struct Fan<T> {
+pub struct MultiDual<T> {
     /// The value.
     pub value: T,
     slopes: [T; DIRECTIONS],
@@ -44,15 +44,15 @@ pub struct Fan<T> {
     moved: u16,
 }
 
-impl<T: Bounds> Fan<T> {
+impl<T: Bounds> MultiDual<T> {
     /// A number that does not change.
     pub fn constant(value: T) -> Self {
-        Fan { value, slopes: [T::from_f64(0.0); DIRECTIONS], moved: 0 }
+        MultiDual { value, slopes: [T::from_f64(0.0); DIRECTIONS], moved: 0 }
     }
 
     /// A variable that changes in one direction, with slope 1.
     pub fn variable(value: T, direction: usize) -> Self {
-        let mut variable = Fan::constant(value);
+        let mut variable = MultiDual::constant(value);
         variable.slopes[direction] = T::from_f64(1.0);
         variable.moved = 1 << direction;
         variable
@@ -72,7 +72,7 @@ impl<T: Bounds> Fan<T> {
         for direction in directions(moved) {
             slopes[direction] = derivative * self.slopes[direction];
         }
-        Fan { value, slopes, moved }
+        MultiDual { value, slopes, moved }
     }
 
     /// f(self, other), given the value, and the slope if one operand changes or both do.
@@ -90,7 +90,7 @@ impl<T: Bounds> Fan<T> {
             let own = moved(first, self.slopes[direction]);
             slopes[direction] = slope(own, moved(second, other.slopes[direction]));
         }
-        Fan { value, slopes, moved: first | second }
+        MultiDual { value, slopes, moved: first | second }
     }
 }
 
@@ -99,7 +99,7 @@ fn directions(moved: u16) -> impl Iterator<Item = usize> {
     (0..DIRECTIONS).filter(move |direction| moved >> direction & 1 == 1)
 }
 
-impl<T: Bounds> Add for Fan<T> {
+impl<T: Bounds> Add for MultiDual<T> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         let mut sum = self;
@@ -109,18 +109,18 @@ impl<T: Bounds> Add for Fan<T> {
                 _ => other.slopes[direction],
             };
         }
-        Fan { value: self.value + other.value, moved: self.moved | other.moved, ..sum }
+        MultiDual { value: self.value + other.value, moved: self.moved | other.moved, ..sum }
     }
 }
 
-impl<T: Bounds> Sub for Fan<T> {
+impl<T: Bounds> Sub for MultiDual<T> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         self + -other
     }
 }
 
-impl<T: Bounds> Mul for Fan<T> {
+impl<T: Bounds> Mul for MultiDual<T> {
     type Output = Self;
     #[expect(clippy::suspicious_arithmetic_impl, reason = "the rule of products")]
     fn mul(self, other: Self) -> Self {
@@ -132,7 +132,7 @@ impl<T: Bounds> Mul for Fan<T> {
     }
 }
 
-impl<T: Bounds> Div for Fan<T> {
+impl<T: Bounds> Div for MultiDual<T> {
     type Output = Self;
     #[expect(clippy::suspicious_arithmetic_impl, reason = "the rule of quotients")]
     fn div(self, other: Self) -> Self {
@@ -147,14 +147,14 @@ impl<T: Bounds> Div for Fan<T> {
     }
 }
 
-impl<T: Bounds> Neg for Fan<T> {
+impl<T: Bounds> Neg for MultiDual<T> {
     type Output = Self;
     fn neg(self) -> Self {
         let mut negative = self;
         for direction in directions(self.moved) {
             negative.slopes[direction] = -self.slopes[direction];
         }
-        Fan { value: -self.value, ..negative }
+        MultiDual { value: -self.value, ..negative }
     }
 }
 
@@ -162,7 +162,7 @@ fn zero<T: Scalar>() -> T {
     T::from_f64(0.0)
 }
 
-impl<T: Bounds> Number for Fan<T> {
+impl<T: Bounds> Number for MultiDual<T> {
     fn bounds(&self) -> [f64; 2] {
         self.value.bounds()
     }
@@ -173,11 +173,11 @@ impl<T: Bounds> Number for Fan<T> {
     }
 
     fn from_rational(number: &Rational) -> Self {
-        Fan::constant(T::from_rational(number))
+        MultiDual::constant(T::from_rational(number))
     }
 
     fn wide_from_rational(number: &Rational) -> Self::Wide {
-        Fan::constant(T::wide_from_rational(number))
+        MultiDual::constant(T::wide_from_rational(number))
     }
 
     fn square(self) -> Self {
@@ -189,7 +189,7 @@ impl<T: Bounds> Number for Fan<T> {
     }
 }
 
-impl<T: Bounds> Scalar for Fan<T> {
+impl<T: Bounds> Scalar for MultiDual<T> {
     type Wide = Self;
 
     fn widen(self) -> Self {

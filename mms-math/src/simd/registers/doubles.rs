@@ -6,9 +6,9 @@ use core::arch::x86_64::*;
 
 use crate::dispatch::{Work, avx2};
 use crate::lane::Lane;
-use crate::machine::{Fused, Machine};
+use crate::simd::{Fused, Simd};
 
-impl Machine<f64> for Fused {
+impl Simd<f64> for Fused {
     type Eight = [__m256d; 2];
     type Lane = Lane<f64, true>;
 

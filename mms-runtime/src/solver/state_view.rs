@@ -8,7 +8,7 @@ use crate::tensor::components;
 
 /// The state after a step.
 #[derive(Clone, Copy)]
-pub struct Present<'a, T, const D: usize, F: ?Sized> {
+pub struct StateView<'a, T, const D: usize, F: ?Sized> {
     /// The field that drives the run.
     pub field: &'a F,
     /// The particles.
@@ -27,7 +27,7 @@ pub struct Present<'a, T, const D: usize, F: ?Sized> {
     pub moves: bool,
 }
 
-impl<T: Real, const D: usize, F: ?Sized> Present<'_, T, D, F> {
+impl<T: Real, const D: usize, F: ?Sized> StateView<'_, T, D, F> {
     /// A failure of one particle, now.
     pub(crate) fn failure(&self, particle: usize, cause: Cause) -> Failure {
         Failure {

@@ -48,7 +48,7 @@ impl Interrupted {
 }
 
 /// Everybody.
-pub struct Followers<'a> {
+pub struct Observers<'a> {
     pub progress: OfRun<'a>,
     pub vtk: Option<Writer>,
     pub history: Option<History>,
@@ -57,7 +57,7 @@ pub struct Followers<'a> {
     pub interrupted: Interrupted,
 }
 
-impl Followers<'_> {
+impl Observers<'_> {
     /// Writes the rest of the history.
     pub fn end(&self) -> anyhow::Result<()> {
         self.history.as_ref().map_or(Ok(()), History::write)
@@ -80,7 +80,7 @@ impl Followers<'_> {
     }
 }
 
-impl Observer for Followers<'_> {
+impl Observer for Observers<'_> {
     fn begin(&mut self, particles: usize, steps: usize) {
         self.progress.begin(particles, steps);
     }

@@ -10,11 +10,11 @@ mod arrays;
 #[cfg(target_arch = "x86_64")]
 mod registers;
 
-use crate::batch::Stand;
+use crate::batch::Lift;
 use crate::dispatch::Work;
 
 /// An instruction set that computes with eight numbers together.
-pub trait Machine<T>: Copy {
+pub trait Simd<T>: Copy {
     /// Eight numbers.
     type Eight: Copy;
 
@@ -22,7 +22,7 @@ pub trait Machine<T>: Copy {
     const ALONE: bool = false;
 
     /// A number of a loop that the compiler turns into vector instructions.
-    type Lane: Stand<T>;
+    type Lane: Lift<T>;
 
     /// Loads numbers.
     fn eight(self, numbers: &[T; 8]) -> Self::Eight;
@@ -144,7 +144,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    use super::{Machine, Plain};
+    use super::{Plain, Simd};
     use crate::batch::Float;
     use crate::dispatch::{Work, best};
 
@@ -152,43 +152,42 @@ mod tests {
     struct Everything<T>([[T; 8]; 4]);
 
     impl<T: Float> Everything<T> {
-        fn by<M: Machine<T>>(&self, machine: M) -> Vec<[T; 8]> {
-            let [a, b, c, d] = self.0.each_ref().map(|numbers| machine.eight(numbers));
+        fn by<M: Simd<T>>(&self, simd: M) -> Vec<[T; 8]> {
+            let [a, b, c, d] = self.0.each_ref().map(|numbers| simd.eight(numbers));
             let (one, two) = (self.0[0][2], self.0[3][5]);
             let [first, second, ..] = *self.0[1].as_chunks::<4>().0 else { unreachable!() };
             let mut all = vec![
-                machine.halves(&second, &first),
-                machine.splat(one),
-                machine.splat_halves(one, two),
-                machine.plus(a, b),
-                machine.minus(a, b),
-                machine.times(a, b),
-                machine.over(a, b),
-                machine.least(a, b),
-                machine.greatest(a, b),
-                machine.floor(a),
-                machine.root(machine.times(b, b)),
+                simd.halves(&second, &first),
+                simd.splat(one),
+                simd.splat_halves(one, two),
+                simd.plus(a, b),
+                simd.minus(a, b),
+                simd.times(a, b),
+                simd.over(a, b),
+                simd.least(a, b),
+                simd.greatest(a, b),
+                simd.floor(a),
+                simd.root(simd.times(b, b)),
             ];
-            all.extend(machine.spread(a));
-            all.extend(machine.transposed([a, b, c, d]));
-            all.extend(machine.unzipped([a, b]));
-            all.extend(machine.zipped([a, b]));
-            let mut all: Vec<_> = all.into_iter().map(|eight| machine.numbers(eight)).collect();
-            all.push(machine.whole(machine.floor(c)).map(|number| T::from_f64(number.into())));
-            let compared = [(a, b), (c, d), (a, a)].map(|(a, b)| machine.all_at_most(a, b));
+            all.extend(simd.spread(a));
+            all.extend(simd.transposed([a, b, c, d]));
+            all.extend(simd.unzipped([a, b]));
+            all.extend(simd.zipped([a, b]));
+            let mut all: Vec<_> = all.into_iter().map(|eight| simd.numbers(eight)).collect();
+            all.push(simd.whole(simd.floor(c)).map(|number| T::from_f64(number.into())));
+            let compared = [(a, b), (c, d), (a, a)].map(|(a, b)| simd.all_at_most(a, b));
             // Ends are within; one number of b is NaN.
             let [wide, narrow] = [[-2e9, 2e9], [-7.5, 1e9]].map(|ends| ends.map(T::from_f64));
-            let within =
-                [[a, c], [c, d], [a, b]].map(|it| machine.all_between(&it, &[wide, narrow]));
+            let within = [[a, c], [c, d], [a, b]].map(|it| simd.all_between(&it, &[wide, narrow]));
             all.extend([compared, within].map(|[a, b, c]| {
                 let told = [a, b, c, a, b, c, a, b];
                 told.map(|is| T::from_f64(f64::from(u8::from(is))))
             }));
             let mut sums = [first; 3];
-            machine.add_first(&mut sums[0], d);
-            machine.add_second(&mut sums[1], d);
-            machine.add_halves(&mut sums[2], d);
-            all.extend(sums.map(|sum| machine.numbers(machine.halves(&sum, &first))));
+            simd.add_first(&mut sums[0], d);
+            simd.add_second(&mut sums[1], d);
+            simd.add_halves(&mut sums[2], d);
+            all.extend(sums.map(|sum| simd.numbers(simd.halves(&sum, &first))));
             all
         }
     }
@@ -196,8 +195,8 @@ mod tests {
     impl<T: Float> Work<T> for &Everything<T> {
         type Output = Vec<[T; 8]>;
 
-        fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-            self.by(machine)
+        fn on<M: Simd<T>>(self, simd: M) -> Self::Output {
+            self.by(simd)
         }
     }
 
@@ -221,17 +220,17 @@ mod tests {
     }
 
     /// Row r has the numbers 10 r, 10 r + 1, ..
-    fn move_numbers<M: Machine<f64>>(machine: M) {
+    fn move_numbers<M: Simd<f64>>(simd: M) {
         let row = |r: usize| std::array::from_fn(|k| (10 * r + k) as f64);
         let rows: [[f64; 8]; 4] = std::array::from_fn(row);
-        let [a, b, c, d] = rows.each_ref().map(|row| machine.eight(row));
-        let [first, ..] = machine.transposed([a, b, c, d]);
-        assert_eq!(machine.numbers(first), [0.0, 10.0, 20.0, 30.0, 4.0, 14.0, 24.0, 34.0]);
-        let [_, _, third, _] = machine.spread(b);
-        assert_eq!(machine.numbers(third), [12.0, 12.0, 12.0, 12.0, 16.0, 16.0, 16.0, 16.0]);
-        let pairs = machine.unzipped([a, b]);
-        assert_eq!(machine.numbers(pairs[1]), [1.0, 3.0, 5.0, 7.0, 11.0, 13.0, 15.0, 17.0]);
-        assert_eq!(machine.zipped(pairs).map(|row| machine.numbers(row)), [rows[0], rows[1]]);
+        let [a, b, c, d] = rows.each_ref().map(|row| simd.eight(row));
+        let [first, ..] = simd.transposed([a, b, c, d]);
+        assert_eq!(simd.numbers(first), [0.0, 10.0, 20.0, 30.0, 4.0, 14.0, 24.0, 34.0]);
+        let [_, _, third, _] = simd.spread(b);
+        assert_eq!(simd.numbers(third), [12.0, 12.0, 12.0, 12.0, 16.0, 16.0, 16.0, 16.0]);
+        let pairs = simd.unzipped([a, b]);
+        assert_eq!(simd.numbers(pairs[1]), [1.0, 3.0, 5.0, 7.0, 11.0, 13.0, 15.0, 17.0]);
+        assert_eq!(simd.zipped(pairs).map(|row| simd.numbers(row)), [rows[0], rows[1]]);
     }
 
     #[test]

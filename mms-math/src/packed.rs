@@ -1,10 +1,10 @@
-//! Points in bunches of eight, whose values are adjacent for each number (array of structures of arrays).
+//! Points in packs of eight, whose values are adjacent for each number (array of structures of arrays).
 
 use crate::batch::{Block, Columns, Copied, Float, Sink, Source};
-use crate::machine::Machine;
 use crate::places::are_numbers;
+use crate::simd::Simd;
 
-/// A bunch of eight points with `N` numbers each.
+/// A pack of eight points with `N` numbers each.
 pub trait Numbers<T, const N: usize> {
     /// For each number, the values of the eight points.
     fn numbers(&self) -> [&[T; 8]; N];
@@ -24,17 +24,17 @@ impl<T, const N: usize> Numbers<T, N> for [[T; 8]; N] {
     }
 }
 
-/// A slice of bunches, as a source of points or as a sink for results.
-pub struct Bunched<B, const N: usize>(pub B);
+/// A slice of packs, as a source of points or as a sink for results.
+pub struct Packed<B, const N: usize>(pub B);
 
-impl<T: Float, B: Numbers<T, N>, const N: usize> Source<T, N> for Bunched<&[B], N> {
+impl<T: Float, B: Numbers<T, N>, const N: usize> Source<T, N> for Packed<&[B], N> {
     fn count(&self) -> usize {
         self.points()
     }
 
     #[inline(always)]
-    fn bring<M: Machine<T>>(&self, machine: M, start: usize, room: &mut Block<T, N>) {
-        self.copy(machine, start, &mut room.0);
+    fn bring<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>) {
+        self.copy(simd, start, &mut room.0);
     }
 
     #[inline(always)]
@@ -43,7 +43,7 @@ impl<T: Float, B: Numbers<T, N>, const N: usize> Source<T, N> for Bunched<&[B], 
     }
 }
 
-impl<T: Float, B: Numbers<T, N>, const N: usize> Copied<T> for Bunched<&[B], N> {
+impl<T: Float, B: Numbers<T, N>, const N: usize> Copied<T> for Packed<&[B], N> {
     const NUMBERS: usize = N;
 
     fn points(&self) -> usize {
@@ -51,33 +51,33 @@ impl<T: Float, B: Numbers<T, N>, const N: usize> Copied<T> for Bunched<&[B], N> 
     }
 
     #[inline(always)]
-    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [T::Column]) {
-        let bunches = &self.0[start / 8..];
-        let bunches = &bunches[..bunches.len().min(T::BLOCK / 8)];
-        for (bunch, place) in bunches.iter().zip((0..T::BLOCK).step_by(8)) {
-            for (lane, numbers) in lanes.iter_mut().zip(bunch.numbers()) {
+    fn copy<M: Simd<T>>(&self, _: M, start: usize, lanes: &mut [T::Column]) {
+        let packs = &self.0[start / 8..];
+        let packs = &packs[..packs.len().min(T::BLOCK / 8)];
+        for (pack, place) in packs.iter().zip((0..T::BLOCK).step_by(8)) {
+            for (lane, numbers) in lanes.iter_mut().zip(pack.numbers()) {
                 T::numbers_mut(lane)[place..place + 8].copy_from_slice(numbers);
             }
         }
-        for (lane, numbers) in lanes.iter_mut().zip(bunches[0].numbers()) {
-            T::numbers_mut(lane)[8 * bunches.len()..].fill(numbers[0]);
+        for (lane, numbers) in lanes.iter_mut().zip(packs[0].numbers()) {
+            T::numbers_mut(lane)[8 * packs.len()..].fill(numbers[0]);
         }
     }
 }
 
-impl<T: Float, B: Numbers<T, N>, const N: usize> Sink<T, N> for Bunched<&mut [B], N> {
+impl<T: Float, B: Numbers<T, N>, const N: usize> Sink<T, N> for Packed<&mut [B], N> {
     fn room(&self) -> usize {
         8 * self.0.len()
     }
 
     #[inline(always)]
-    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
-        for (bunch, place) in self.0[start / 8..].iter_mut().zip((0..T::BLOCK).step_by(8)) {
-            for (to, lane) in bunch.numbers_mut().into_iter().zip(&block.0) {
+    fn store<M: Simd<T>>(&mut self, simd: M, start: usize, block: &Block<T, N>) -> bool {
+        for (pack, place) in self.0[start / 8..].iter_mut().zip((0..T::BLOCK).step_by(8)) {
+            for (to, lane) in pack.numbers_mut().into_iter().zip(&block.0) {
                 to.copy_from_slice(&T::numbers(lane)[place..place + 8]);
             }
         }
-        are_numbers(machine, block)
+        are_numbers(simd, block)
     }
 }
 
@@ -85,8 +85,8 @@ impl<T: Float, B: Numbers<T, N>, const N: usize> Sink<T, N> for Bunched<&mut [B]
 pub(crate) mod tests {
     use std::vec::Vec;
 
-    use super::Bunched;
-    use crate::batch::{Function, Kernel, Points, Stand, run};
+    use super::Packed;
+    use crate::batch::{Function, Kernel, Lift, Points, run};
 
     /// x y and x + 2 y.
     pub(crate) struct Both;
@@ -100,27 +100,27 @@ pub(crate) mod tests {
 
     impl Kernel<f64, 2, 2> for Both {
         #[inline(always)]
-        fn drive<S: Stand<f64>>(&self, points: &mut impl Points<S, 2, 2>) {
+        fn drive<S: Lift<f64>>(&self, points: &mut impl Points<S, 2, 2>) {
             points.each(self);
         }
     }
 
     #[test]
-    fn bunches_are_evaluated_as_points_are() {
+    fn packs_are_evaluated_as_points_are() {
         for count in [1, 7, 8, 9, 25] {
             let number = |k: usize| (0.3 + 0.7 * k as f64).sin();
             let points: Vec<_> =
                 (0..8 * count).map(|k| [number(2 * k), number(2 * k + 1)]).collect();
-            let bunch = |b: usize| [0, 1].map(|n| core::array::from_fn(|k| points[8 * b + k][n]));
-            let bunches: Vec<[[f64; 8]; 2]> = (0..count).map(bunch).collect();
-            let mut results = bunches.clone();
-            run(&Both, &Bunched(&bunches[..]), &mut Bunched(&mut results[..]));
+            let pack = |b: usize| [0, 1].map(|n| core::array::from_fn(|k| points[8 * b + k][n]));
+            let packs: Vec<[[f64; 8]; 2]> = (0..count).map(pack).collect();
+            let mut results = packs.clone();
+            run(&Both, &Packed(&packs[..]), &mut Packed(&mut results[..]));
             let mut expected = points.clone();
             run(&Both, &&points[..], &mut &mut expected[..]);
-            let mut mixed = bunches.clone();
+            let mut mixed = packs.clone();
             let first: Vec<_> = points.iter().map(|[x, _]| [*x]).collect();
-            let second: Vec<_> = bunches.iter().map(|[_, y]| [*y]).collect();
-            run(&Both, &(&first[..], Bunched(&second[..])), &mut Bunched(&mut mixed[..]));
+            let second: Vec<_> = packs.iter().map(|[_, y]| [*y]).collect();
+            run(&Both, &(&first[..], Packed(&second[..])), &mut Packed(&mut mixed[..]));
             for (k, expected) in expected.iter().enumerate() {
                 let found = [0, 1].map(|n| results[k / 8][n][k % 8]);
                 assert_eq!((found, mixed[k / 8][0][k % 8]), (*expected, expected[0]));

@@ -9,7 +9,7 @@ use crate::table::{Reader, Table};
 
 /// The abilities that a solver states in `can`. It lacks those that it does not state.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Can {
+pub struct Capabilities {
     /// The dimensions, 1 to 3.
     pub dimensions: Vec<usize>,
     /// The laws, by the names of materials; by default neo-Hookean.
@@ -48,7 +48,7 @@ const KEYS: &[&str] = &[
 /// The loads that a solver may state.
 const LOADS: &[&str] = &["traction"];
 
-pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Can> {
+pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Capabilities> {
     let value = table.value("can")?;
     let expected = "a table, as in { dimensions = [2] }";
     let table = reader.table(value, "can", expected, ("`can`", KEYS))?;
@@ -70,7 +70,7 @@ pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Can> {
     if table.value("dimensions").is_none() {
         reader.missing(&table, "dimensions", "dimensions = [2]");
     }
-    Some(Can {
+    Some(Capabilities {
         dimensions: dimensions.unwrap_or_default().into_iter().map(|it| it as usize).collect(),
         materials: or(materials, "neo_hookean"),
         bodies: or(bodies, "box"),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use mms_campaign::cover::*;
+use mms_campaign::coverage::*;
 
 fn candidates(all: &[(f64, &str)]) -> Vec<Candidate> {
     let terms = |text: &str| text.chars().map(String::from).collect();

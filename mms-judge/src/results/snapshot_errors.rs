@@ -15,7 +15,7 @@ use super::files::placed;
 use super::level::{Errors, Measure, Sampling};
 
 /// A snapshot with its mesh, its motion and the exact solution.
-pub struct Taken<'a> {
+pub struct SnapshotErrors<'a> {
     /// The snapshot.
     pub snapshot: &'a Snapshot,
     /// The mesh of the snapshot.
@@ -56,7 +56,7 @@ const NEAR: f64 = 1e-6;
 /// The least round-off of a computation, in units of double precision.
 const ARITHMETIC: f64 = 16.0;
 
-impl Taken<'_> {
+impl SnapshotErrors<'_> {
     /// The errors of a quantity: over cells if these and values of their points are known, otherwise over points.
     ///
     /// # Errors
@@ -133,7 +133,11 @@ impl Taken<'_> {
     ///
     /// # Errors
     /// A density that may be either; an exact density that is not finite.
-    pub fn hold_density(&mut self, meaning: &Meaning, values: &Values<'_>) -> anyhow::Result<()> {
+    pub fn validate_density(
+        &mut self,
+        meaning: &Meaning,
+        values: &Values<'_>,
+    ) -> anyhow::Result<()> {
         let is_open = meaning.role == Role::MassDensity && meaning.why == Why::Name;
         let name = &meaning.source;
         if !is_open || name == Role::MassDensity.name() || values.is_of_cells {

@@ -10,7 +10,7 @@ use crate::expr::{Expr, Graph, Node, Rational, Stage};
 const DEPTH: usize = 4;
 
 /// Multiplies the factors in `roots` that are known early into the sums beside them.
-pub fn absorb(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
+pub fn distribute(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     let mut roots = roots.to_vec();
     for _ in 0..DEPTH {
         roots = rebuild(graph, &roots, |graph, node| match node {

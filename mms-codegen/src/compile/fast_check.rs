@@ -40,7 +40,7 @@ enum Output {
 
 /// A field whose parameters are set time and again.
 #[derive(Debug)]
-pub struct Quick {
+pub struct FastParameterCheck {
     dimension: usize,
     program: Program<Output>,
     /// The parameters that have ranges.
@@ -83,7 +83,7 @@ impl Default {
     }
 }
 
-impl Quick {
+impl FastParameterCheck {
     /// Prepares the test for a field; `None` if the test cannot decide anything.
     pub fn new(compiled: &Compiled) -> Option<Self> {
         let (model, field) = (&compiled.model, &compiled.field);
@@ -107,7 +107,7 @@ impl Quick {
             .boundary
             .iter()
             .any(|it| it.face.value == Face::RadialMin && it.claim.value != Claim::Axis);
-        Some(Quick {
+        Some(FastParameterCheck {
             dimension: field.dimension,
             program: schedule(&graph, &outputs),
             ranged: (0..model.parameters.len())

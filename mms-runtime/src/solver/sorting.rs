@@ -1,21 +1,21 @@
-//! Sorts particles by the cells that they are in. In a slab, particles that fill a bunch with others of their cell are first,
+//! Sorts particles by the cells that they are in. In a slab, particles that fill a pack with others of their cell are first,
 //! then particles that fill half of one, then the others.
 
-use mms_math::machine::{Machine as _, Plain};
+use mms_math::simd::{Plain, Simd as _};
 
 use super::slabs::Slab;
 use super::weights::Domains;
-use crate::column::{BUNCH, HALF};
+use crate::column::{HALF, PACK};
 use crate::lanes::positions;
 use crate::lattice::Lattice;
 use crate::particle::Particles;
 use crate::real::Real;
 use crate::threads::each;
 
-/// The number of bunches that one thread locates at a time.
+/// The number of packs that one thread locates at a time.
 const PART: usize = 512;
 
-/// Sorting pays if this percentage of the bunches and halves that could be of one cell are not: that time is lost in every
+/// Sorting pays if this percentage of the packs and halves that could be of one cell are not: that time is lost in every
 /// step, and sorting takes about as long as one step.
 const LOOSE: usize = 5;
 
@@ -24,29 +24,29 @@ const LOOSE: usize = 5;
 pub(super) enum When {
     /// Always.
     Now,
-    /// If many bunches are of several cells that could be of one.
+    /// If many packs are of several cells that could be of one.
     Loose,
 }
 
 /// The order of the particles.
-pub(super) struct Order {
+pub(super) struct ParticleOrder {
     /// The place of each particle, by its number; empty if particles stay in their first order.
     place: Vec<u32>,
     /// The particle that moves to each place, while an order is computed.
     from: Vec<u32>,
     /// The cell of every particle, in their present order; sorted after an order is computed.
-    cell: Vec<[u32; BUNCH]>,
+    cell: Vec<[u32; PACK]>,
     /// The number of particles of each cell; after an order is computed, the end of the cell's particles.
     count: Vec<u32>,
 }
 
-impl Order {
+impl ParticleOrder {
     /// An order of particles in as many cells as there are nodes; fixed if `particles` is 0.
     pub fn new(particles: usize, nodes: usize) -> Self {
         Self {
             place: (0..particles as u32).collect(),
             from: vec![0; particles],
-            cell: vec![[0; BUNCH]; particles.div_ceil(BUNCH)],
+            cell: vec![[0; PACK]; particles.div_ceil(PACK)],
             count: vec![0; if particles > 0 { nodes } else { 0 }],
         }
     }
@@ -91,13 +91,13 @@ impl Order {
         moves: bool,
     ) {
         let (reference, displacement) =
-            (particles.reference_position.bunches(), particles.displacement.bunches());
-        let cells_of = |bunch: usize| {
-            let machine = T::PlainMachine::from(Plain);
-            let position = positions(machine, &reference[bunch], &displacement[bunch], moves);
-            let mut cells = [0; BUNCH];
+            (particles.reference_position.packs(), particles.displacement.packs());
+        let cells_of = |pack: usize| {
+            let simd = T::PlainMachine::from(Plain);
+            let position = positions(simd, &reference[pack], &displacement[pack], moves);
+            let mut cells = [0; PACK];
             for a in 0..D {
-                let along = machine.numbers(lattice.cells_along(machine, a, position[a]));
+                let along = simd.numbers(lattice.cells_along(simd, a, position[a]));
                 for (cell, along) in cells.iter_mut().zip(along) {
                     let along = (along.to_f64() - origin).max(0.0) as usize;
                     *cell += (along.min(lattice.count[a] - 1) * lattice.stride[a]) as u32;
@@ -105,8 +105,8 @@ impl Order {
             }
             cells
         };
-        each((&mut self.cell[..], 0..reference.len()), PART, &|(cells, bunches)| {
-            cells.iter_mut().zip(bunches).for_each(|(cells, bunch)| *cells = cells_of(bunch));
+        each((&mut self.cell[..], 0..reference.len()), PART, &|(cells, packs)| {
+            cells.iter_mut().zip(packs).for_each(|(cells, pack)| *cells = cells_of(pack));
         });
         let Self { place, cell, count, .. } = self;
         count.fill(0);
@@ -116,10 +116,10 @@ impl Order {
         }
     }
 
-    /// Whether too few bunches and halves of located particles are of one cell, compared with how many could be.
+    /// Whether too few packs and halves of located particles are of one cell, compared with how many could be.
     pub fn is_loose(&self) -> bool {
         let could: usize = self.count.iter().map(|&count| wholes(count as usize)).sum();
-        let are = of_one_cell::<HALF>(self.cells()) + of_one_cell::<BUNCH>(self.cells());
+        let are = of_one_cell::<HALF>(self.cells()) + of_one_cell::<PACK>(self.cells());
         100 * are < (100 - LOOSE) * could
     }
 
@@ -144,7 +144,7 @@ impl Order {
         }
     }
 
-    /// Sorts the particles and their `domains` in the computed order, whole bunches of a slab's cells first.
+    /// Sorts the particles and their `domains` in the computed order, whole packs of a slab's cells first.
     pub fn apply<T: Real, const D: usize>(
         &mut self,
         slabs: &[Slab],
@@ -155,7 +155,7 @@ impl Order {
         let cell = cell.as_flattened();
         for Slab { particles, .. } in slabs {
             let own = particles.clone();
-            bunch(&mut from[own.clone()], &cell[own.clone()], own.start, &mut place[own]);
+            pack(&mut from[own.clone()], &cell[own.clone()], own.start, &mut place[own]);
         }
         domains.reorder(from);
         particles.reorder(from);
@@ -163,9 +163,9 @@ impl Order {
     }
 }
 
-/// The number of halves and whole bunches that `count` particles of a cell fill.
+/// The number of halves and whole packs that `count` particles of a cell fill.
 fn wholes(count: usize) -> usize {
-    count / HALF + count / BUNCH
+    count / HALF + count / PACK
 }
 
 /// The number of groups of `N` adjacent particles in one cell.
@@ -174,23 +174,23 @@ fn of_one_cell<const N: usize>(cell: &[u32]) -> usize {
     groups.filter(|group| group.iter().all(|cell| *cell == group[0])).count()
 }
 
-/// Orders particles so that most bunches are of one cell, and most halves: first the particles of each cell that fill whole
-/// bunches, then particles that fill half of one, then the others. The first place has the number `start`; bunches begin at
+/// Orders particles so that most packs are of one cell, and most halves: first the particles of each cell that fill whole
+/// packs, then particles that fill half of one, then the others. The first place has the number `start`; packs begin at
 /// every eighth place.
-fn bunch(order: &mut [u32], cell: &[u32], start: usize, scratch: &mut [u32]) {
-    /// The numbers of a cell's particles that fill bunches, halves of bunches, and neither.
+fn pack(order: &mut [u32], cell: &[u32], start: usize, scratch: &mut [u32]) {
+    /// The numbers of a cell's particles that fill packs, halves of packs, and neither.
     fn shares(count: usize) -> [usize; 3] {
-        let [bunched, halved] = [count / BUNCH * BUNCH, count / HALF * HALF];
-        [bunched, halved - bunched, count - halved]
+        let [packed, halved] = [count / PACK * PACK, count / HALF * HALF];
+        [packed, halved - packed, count - halved]
     }
     let cells = || cell.chunk_by(|a, b| a == b).map(|cell| shares(cell.len()));
     let mut whole = [0, 1, 2].map(|share| cells().map(|shares| shares[share]).sum::<usize>());
-    // The places before the first bunch are filled with others first, then with halves, then with bunches. The rest of a group
+    // The places before the first pack are filled with others first, then with halves, then with packs. The rest of a group
     // that this breaks moves to the end.
-    let mut lead = start.next_multiple_of(BUNCH) - start;
+    let mut lead = start.next_multiple_of(PACK) - start;
     let (mut front, mut back) = (0, order.len());
     let mut places = [const { [0..0, 0..0, 0..0] }; 3];
-    for (share, group) in [(2, 1), (1, HALF), (0, BUNCH)] {
+    for (share, group) in [(2, 1), (1, HALF), (0, PACK)] {
         let leading = lead.min(whole[share]);
         let rest = leading.next_multiple_of(group) - leading;
         places[share][0] = front..front + leading;
@@ -216,32 +216,32 @@ fn bunch(order: &mut [u32], cell: &[u32], start: usize, scratch: &mut [u32]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{BUNCH, HALF, Order, bunch, of_one_cell, wholes};
+    use super::{HALF, PACK, ParticleOrder, of_one_cell, pack, wholes};
 
     #[test]
-    fn bunches_are_of_one_cell_as_far_as_there_are_enough() {
+    fn packs_are_of_one_cell_as_far_as_there_are_enough() {
         let cell: Vec<u32> =
             [(0, 9), (1, 4), (2, 2), (3, 13)].iter().flat_map(|&(c, n)| vec![c; n]).collect();
         let mut order: Vec<u32> = (20..48).collect();
-        bunch(&mut order, &cell, 6, &mut [0; 28]);
-        // Two others, the bunches of the first and the last cell, halves of bunches, others.
+        pack(&mut order, &cell, 6, &mut [0; 28]);
+        // Two others, the packs of the first and the last cell, halves of packs, others.
         let expected: Vec<u32> = [28..29, 33..34, 20..28, 35..43, 29..33, 43..47, 34..35, 47..48]
             .into_iter()
             .flatten()
             .collect();
         assert_eq!(order, expected);
 
-        // Halves of bunches go before the first bunch where others are too few.
+        // Halves of packs go before the first pack where others are too few.
         let cell: Vec<u32> = [(0, 12), (1, 8)].iter().flat_map(|&(c, n)| vec![c; n]).collect();
         let mut order: Vec<u32> = (0..20).collect();
-        bunch(&mut order, &cell, 12, &mut [0; 20]);
+        pack(&mut order, &cell, 12, &mut [0; 20]);
         let expected: Vec<u32> = [8..12, 0..8, 12..20].into_iter().flatten().collect();
         assert_eq!(order, expected);
     }
 
     #[test]
     fn an_order_of_cells_keeps_that_of_their_particles() {
-        let mut order = Order::of_cells(&[3, 0, 3, 1, 0, 3]);
+        let mut order = ParticleOrder::of_cells(&[3, 0, 3, 1, 0, 3]);
         order.count = vec![2, 1, 0, 3];
         order.arrange();
         assert_eq!(order.from, [1, 4, 3, 0, 2, 5]);
@@ -249,14 +249,14 @@ mod tests {
     }
 
     #[test]
-    fn an_order_is_loose_when_bunches_are_of_many_cells() {
+    fn an_order_is_loose_when_packs_are_of_many_cells() {
         let mut cell: Vec<u32> = (0..320).map(|p| p / 8).collect();
         let is_loose = |cell: &[u32]| {
-            let order = Order { count: vec![8; 40], ..Order::of_cells(cell) };
+            let order = ParticleOrder { count: vec![8; 40], ..ParticleOrder::of_cells(cell) };
             order.is_loose()
         };
         assert!(!is_loose(&cell));
-        // Two bunches and two halves of 120 are missing, then four and four.
+        // Two packs and two halves of 120 are missing, then four and four.
         cell.swap(0, 8);
         assert!(!is_loose(&cell));
         cell.swap(16, 24);
@@ -264,22 +264,22 @@ mod tests {
     }
 
     #[test]
-    fn wherever_a_slab_begins_bunches_are_of_one_cell() {
+    fn wherever_a_slab_begins_packs_are_of_one_cell() {
         for counts in [vec![8; 9], vec![4; 20], vec![12; 7], vec![9; 8], vec![13; 5]] {
             let cells = (0..).zip(&counts);
             let cell: Vec<u32> = cells.flat_map(|(c, &n)| vec![c; n]).collect();
             let of = |p: u32| cell[p as usize];
-            for start in 0..BUNCH {
+            for start in 0..PACK {
                 let mut order: Vec<u32> = (0..cell.len() as u32).collect();
                 let sorted = order.clone();
-                bunch(&mut order, &cell, start, &mut vec![0; cell.len()]);
+                pack(&mut order, &cell, start, &mut vec![0; cell.len()]);
                 // The places in a row, after a number of particles of another slab.
                 let others = u32::MAX - start as u32;
                 let stand: Vec<u32> =
                     (others..).take(start).chain(order.iter().map(|p| of(*p))).collect();
                 let could: usize = counts.iter().map(|&count| wholes(count)).sum();
-                let are = of_one_cell::<HALF>(&stand) + of_one_cell::<BUNCH>(&stand);
-                // The particles before the first bunch break at most one bunch of a cell, with its halves.
+                let are = of_one_cell::<HALF>(&stand) + of_one_cell::<PACK>(&stand);
+                // The particles before the first pack break at most one pack of a cell, with its halves.
                 assert!(are + 3 >= could, "{start}, {counts:?}: {are} of {could}");
                 order.sort_unstable();
                 assert_eq!(order, sorted);

@@ -7,9 +7,9 @@ use core::arch::x86_64::*;
 use super::doubles::add;
 use crate::dispatch::{Work, avx512};
 use crate::lane::Lane;
-use crate::machine::{Machine, Wide};
+use crate::simd::{Simd, Wide};
 
-impl Machine<f64> for Wide {
+impl Simd<f64> for Wide {
     type Eight = __m512d;
     type Lane = Lane<f64, true>;
 

@@ -9,7 +9,7 @@ use crate::expr::{Expr, Graph, Node, Rational};
 use crate::sorted::SortedMap;
 
 /// Adds the constants of inner sums in `roots` to the outer sums.
-pub fn gather(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
+pub fn reassociate(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     let mut gathered = roots.to_vec();
     loop {
         let before = gathered;
@@ -78,13 +78,13 @@ mod tests {
         let root = graph.add(a, product);
         let products = [(b, x), (b, two)].map(|(a, b)| (graph.mul(a, b), Rational::ONE));
         let expected = graph.sum(products.into_iter().chain([(a, Rational::ONE)]));
-        assert_eq!(gather(&mut graph, &[root]), [expected]);
+        assert_eq!(reassociate(&mut graph, &[root]), [expected]);
         // A sum that is read elsewhere, or is a root, is computed anyway: moving its constant would only move an addition.
         let square = graph.mul(inner, inner);
-        assert_eq!(gather(&mut graph, &[root, square]), [root, square]);
-        assert_eq!(gather(&mut graph, &[root, inner]), [root, inner]);
+        assert_eq!(reassociate(&mut graph, &[root, square]), [root, square]);
+        assert_eq!(reassociate(&mut graph, &[root, inner]), [root, inner]);
         let plain = graph.add(x, product);
-        assert_eq!(gather(&mut graph, &[plain]), [plain]);
+        assert_eq!(reassociate(&mut graph, &[plain]), [plain]);
     }
 
     #[test]
@@ -105,6 +105,6 @@ mod tests {
         let kept = graph.mul(t, kept);
         let terms = [(a, 1), (t, 6), (kept, 3)];
         let expected = graph.sum(terms.map(|(term, number)| (term, Rational::from(number))));
-        assert_eq!(gather(&mut graph, &[root]), [expected]);
+        assert_eq!(reassociate(&mut graph, &[root]), [expected]);
     }
 }

@@ -10,7 +10,7 @@ use crate::sorted::SortedMap;
 const MAX_TERMS: usize = 2000;
 
 /// Nests every sum in `roots`. Factors of a lower rank are taken out first.
-pub fn nest(graph: &mut Graph, roots: &[Expr], rank: &dyn Fn(&Graph, Expr) -> u8) -> Vec<Expr> {
+pub fn horner(graph: &mut Graph, roots: &[Expr], rank: &dyn Fn(&Graph, Expr) -> u8) -> Vec<Expr> {
     rebuild(graph, roots, |graph, node| {
         let made = graph.remake(node);
         match flat_view(graph, made) {
@@ -65,11 +65,11 @@ pub(super) fn nested(
 ) -> Expr {
     // The outermost sum is first.
     let mut levels = Vec::new();
-    let mut level = Level::new(graph, polynomial, rank);
+    let mut level = Nesting::new(graph, polynomial, rank);
     loop {
         if let Some(inner) = level.take_most_frequent(graph, rank) {
             levels.push(level);
-            level = Level::new(graph, inner, rank);
+            level = Nesting::new(graph, inner, rank);
             continue;
         }
         let inner = level.finish(graph);
@@ -80,7 +80,7 @@ pub(super) fn nested(
 }
 
 /// A sum that is being nested.
-struct Level {
+struct Nesting {
     /// The common factors of all terms.
     common: Monomial,
     /// The terms that are not nested yet.
@@ -91,7 +91,7 @@ struct Level {
     parts: Vec<(Expr, Rational)>,
 }
 
-impl Level {
+impl Nesting {
     /// Starts a level: common factors of all terms are taken out at once, so that every further factor is in some terms only.
     fn new(graph: &mut Graph, polynomial: Polynomial, rank: &dyn Fn(&Graph, Expr) -> u8) -> Self {
         let (common, mut rest) = take_common(polynomial);
@@ -103,7 +103,7 @@ impl Level {
         }
         let mut counts = Counts::default();
         rest.terms.keys().for_each(|monomial| counts.add(monomial, 1));
-        Level { common, rest, counts, parts }
+        Nesting { common, rest, counts, parts }
     }
 
     /// Takes out the terms with the most frequent factor, if at least two terms have it.

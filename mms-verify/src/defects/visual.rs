@@ -33,12 +33,12 @@ impl AsRef<Outcome> for Watched {
 }
 
 /// A bench that makes runs and looks at them.
-pub struct Eyes {
+pub struct VisualInspection {
     /// The fields.
     pub fields: Fields,
 }
 
-impl Bench for Eyes {
+impl Bench for VisualInspection {
     type Result = Watched;
 
     fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Watched> {
@@ -47,10 +47,10 @@ impl Bench for Eyes {
 }
 
 fn look<T: Solvable>(job: &Job, scene: &Scene<T>, step: &mut Step<'_>) -> Watched {
-    let mut album = Album { step, frames: Vec::new() };
+    let mut snapshots = Snapshots { step, frames: Vec::new() };
     let weighed = job.key.run.ends_with(WEIGHED);
     let watch = if weighed { Watch::Everything } else { watch_of(&job.quantity) };
-    let run = match scene.run(&job.method, &job.study.cells[0], watch, &mut album) {
+    let run = match scene.run(&job.method, &job.study.cells[0], watch, &mut snapshots) {
         Ok(run) => run,
         Err(refusal) => {
             let outcome = Outcome::Refused { reason: refusal.to_string() };
@@ -64,17 +64,17 @@ fn look<T: Solvable>(job: &Job, scene: &Scene<T>, step: &mut Step<'_>) -> Watche
         let put_in = balance.body_work.abs().max(energy);
         Some(balance.energy_residual?.abs() / put_in)
     });
-    let seen = outcome.norms().map(|_| Seen::of(&album.frames, energy));
+    let seen = outcome.norms().map(|_| Seen::of(&snapshots.frames, energy));
     Watched { outcome, seen }
 }
 
 /// Some states of a run.
-struct Album<'a> {
+struct Snapshots<'a> {
     step: &'a mut (dyn FnMut(usize, usize) + Send),
     frames: Vec<Frame>,
 }
 
-impl Observer for Album<'_> {
+impl Observer for Snapshots<'_> {
     fn step(&mut self, step: usize, steps: usize) {
         (self.step)(step, steps);
     }
