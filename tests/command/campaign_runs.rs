@@ -113,7 +113,7 @@ fn a_solver_that_changes_while_it_runs_has_no_result() {
     program(&folder, "solve", &format!("{}echo '# more' >> \"$0\"\n", solver(&folder, "one")));
     folder.write("c.toml", &campaign("./solve {output}", ""));
     let run = folder.mms("campaign c.toml").exits(3);
-    run.prints("bar_1d/1 failed: `solve` changed while it ran").prints("0 of 1 runs are done");
+    run.prints("bar_1d/1 failed: `solve` changed during the run").prints("0 of 1 runs are done");
 }
 
 #[test]

@@ -124,7 +124,7 @@ fn defects_take_a_build_of_their_own() {
     }
     assert!(!folder.path("target").exists(), "nothing is run or stored");
     let program = fs::read(env!("CARGO_BIN_EXE_mms")).expect("the program");
-    let (program, what) = (String::from_utf8_lossy(&program), "from before dt a_i was added");
+    let (program, what) = (String::from_utf8_lossy(&program), "before dt a_i is added");
     assert!(!program.contains(what), "the program contains the description of a defect");
     let list = include_str!("../../mms-runtime/src/defect.rs");
     assert!(list.contains(what), "no defect has this description any more");
