@@ -48,8 +48,8 @@ class Judge(Document):
     """The sampling of each quantity: `points`, `weighted points`, `cells`, `middles of cells` or `points of
     faces`."""
     units: dict[str, str] | None = None
-    """The units of h, dt and the quantities, if the field states units; those of the quantities are of their
-    errors in l1, l2 and linf."""
+    """The units of h, dt and the quantities, if the field states units. The unit of a quantity is the unit of
+    its errors in l1, l2 and linf."""
     warnings: list[str] | None = None
     """The warnings."""
     iterative_errors: dict[str, float] | None = None
@@ -79,9 +79,9 @@ class Diagnose(Document):
     error: float
     """The error over the size of the solution."""
     least_expected_error: float
-    """The least error of a right solver, as far as it is known."""
+    """The least error of a right solver, if it is known."""
     expected_error: float
-    """The largest error that may be that of a right solver."""
+    """The largest error that a right solver may have."""
     order: ErrorOrder | None
     """The fall of the error from mesh to mesh, for results on two meshes or more."""
     ranked: list[Hypothesis]
@@ -89,7 +89,7 @@ class Diagnose(Document):
     cannot_be_seen: list[str]
     """The mistakes that these results cannot show."""
     pair: Pair | None
-    """Two mistakes that explain the error together, if none does alone."""
+    """Two mistakes that explain the error together, if none explains it alone."""
     like: Like | None
     """A right method of the project's own solver with such an error, or the method of `--like`."""
     place: Place | None
@@ -286,7 +286,7 @@ class Hypothesis(Document):
     face: str | None
     """The name of the face."""
     which: str | None
-    """The law, for a mistake that has several."""
+    """The variant of the mistake, such as a law or a component; null if it has none."""
     equivalent_always: list[str]
     """Mistakes with the same formula, for such data on any field."""
     equivalent_here: list[str]
@@ -307,14 +307,14 @@ class Pair(Document):
 
 @dataclass(frozen=True, kw_only=True)
 class Like(Document):
-    """A method of the solver of this project whose error is alike."""
+    """A method of the solver of this project whose error is similar."""
 
     method: str
     """The method, as `--like` takes it."""
     factor: float
-    """The error over that of the method."""
+    """The error over the method's error."""
     apart: float
-    """The difference of both errors, over the error."""
+    """The difference between the two errors, over the error."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -330,7 +330,7 @@ class Place(Document):
     plane: Plane | None
     """A plane inside the body that has more than half of the squared error beside it."""
     order: float | None
-    """The order from the mesh before to the finest one."""
+    """The order from the second finest mesh to the finest one."""
     smooth: float
     """The smooth part of the squared error."""
 
@@ -348,7 +348,7 @@ class ErrorFields(Document):
     error: list[list[float]]
     """The smooth part of the error."""
     named: list[list[float]] | None
-    """The error of the hypothesis that is named; null if none is."""
+    """The error of the named hypothesis; null if none is named."""
 
 
 @dataclass(frozen=True, kw_only=True)
