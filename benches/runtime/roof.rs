@@ -45,9 +45,9 @@ impl Count {
     }
 }
 
-/// The multiply-adds of the sum of one number onto nodes, with `kinds` kinds of asides: for every node one product of the
-/// value and one of the aside; for every row one; for every plane one, and products of the asides along the axes before;
-/// and the products that make the asides.
+/// The multiply-adds of the sum of one number onto nodes, with `kinds` kinds of gradient weights: for every node one product of
+/// the value and one of the gradient weight; for every row one; for every plane one, and products of the gradient weights along
+/// the axes before; and the products that make the gradient weights.
 fn onto(axes: usize, width: usize, kinds: usize) -> usize {
     // Of three nodes, the middle one gets the total less the outer two, without products, and so does its row of a plane.
     let outer = if width == 3 { 2 } else { width };

@@ -1,27 +1,27 @@
 //! The nodes of a pack of particles, with their weights w_ip and weight gradients grad w_ip; the sums between particles and
 //! nodes.
 //!
-//! There are two sums, each the transpose of the other: [`Stencil::scatter`] (P2G) adds w q, and more along each axis a: Q_a
-//! times (grad w)_a, and M_a times the moment w (x_i - x_p)_a; and [`Stencil::gather`] (G2P) returns sum_i w q_i, sum_i (grad
-//! w)_a q_i, and slopes computed from the moments. Mass, momentum, forces, interpolated velocities and their gradients are sums
-//! of this kind; the linear velocity of APIC uses moments. Sums over three and four nodes along an axis are functions that are
-//! not inlined, one for all passes and shape functions.
+//! There are two sums, each the transpose of the other. [`Stencil::scatter`] (P2G) adds to each node w q, and for each axis a
+//! (grad w)_a Q_a, and w (x_i - x_p)_a M_a, where w (x_i - x_p)_a is the moment of the weight. [`Stencil::gather`] (G2P)
+//! returns sum_i w q_i, sum_i (grad w)_a q_i, and slopes computed from the moments. Mass, momentum, forces, interpolated
+//! velocities and their gradients are sums of this kind; the linear velocity of APIC uses moments. Sums over three and four
+//! nodes along an axis are functions that are not inlined, one for all passes and shape functions.
 //!
 //! A pack is eight adjacent particles, in two halves of four (an AoSoA tile). A register of particle data has one particle in
 //! each lane. A register of nodal data has the four numbers of a node in the lanes of each half: in the first half a node of
 //! particle k of the first half, and in the second half a node of particle k of the second. Numbers move only within their half
-//! of a register, which takes one instruction, so the halves of a pack may be in different cells: with four particles in a
-//! cell, they are.
+//! of a register, which takes one instruction. So the halves of a pack may be in different cells, as they are if a cell has
+//! four particles.
 //!
 //! In most packs the particles of a half share their nodes, since particles are sorted by cells: then a node is looked up
-//! once for all four. If they do not, sums over nodes run over the nodes of the particles that share them, with the weights of
-//! the others 0, and sums onto nodes process one particle of each half after the other. No sum is in a closure, and none calls
-//! a method with a closure, such as `map` of arrays: closures are not always inlined under the dispatch, and then are compiled
-//! without the processor's instructions. Packs begin at every eighth particle for any slabs and threads; a slab adds only its
-//! own particles of a pack. The last pack is padded with copies of the last particle.
+//! once for all four. Otherwise [`Stencil::gather`] sums once for each set of particles with the same nodes, with weight 0 for
+//! all others, and [`Stencil::scatter`] adds one particle of each half at a time. The sums use no closures, nor methods that
+//! take one, such as `map` of arrays: the compiler does not always inline a closure into the dispatched function, and then
+//! compiles it without the processor's vector instructions. Packs begin at every eighth particle for any slabs and threads; a
+//! slab adds only its own particles of a pack. The last pack is padded with copies of the last particle.
 //!
-//! On x86-64 without AVX2, eight particles at a time are not faster: there `alone.rs` sums particle by particle, and little
-//! code is compiled for processors that few users still have.
+//! On x86-64 without AVX2, eight particles at a time are not faster. There `alone.rs` sums particle by particle, in little
+//! code, since few users still have such processors.
 
 mod alone;
 mod gather;

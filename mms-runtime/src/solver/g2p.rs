@@ -216,8 +216,8 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
     }
 }
 
-/// The first component of the nodes' vector, interpolated to particles. A function that is not inlined, compiled for one
-/// machine.
+/// The first component of the nodes' vector, interpolated to particles, in a function that is not inlined, compiled once for
+/// every processor.
 #[inline(never)]
 fn along_first<T: Real, const D: usize>(
     lattice: &Lattice<T, D>,

@@ -23,13 +23,14 @@ use crate::real::{Real, Vector};
 use crate::stencil::{Members, Payload, Stencil, Tensor};
 use crate::tensor::matrix_is_finite;
 
-/// The number of particles whose stresses are computed together: so few that their stresses stay in the cache.
+/// The number of particles whose stresses are computed together: few enough for the stresses to stay in the cache.
 const PART: usize = 256;
 
-/// The number of particles whose body forces are computed together: so many that the terms of the time alone cost little.
+/// The number of particles whose body forces are computed together: enough to make the terms of time alone cheap, which are
+/// computed once per batch.
 const FORCED: usize = 2048;
 
-/// Only one batch in this number is timed, since reading the clock stalls the processor.
+/// One of this many batches is timed: reading the clock stalls the processor.
 const TIMED: usize = 8;
 
 /// The quantity that is added to the nodes.
@@ -56,7 +57,7 @@ impl<T> Added<T> {
     }
 }
 
-/// The reason why sums are not complete.
+/// The reason why the sums of a slab ended early.
 pub(super) enum Stop {
     /// A particle has left the nodes of its slab.
     Strayed(usize),
@@ -86,7 +87,7 @@ impl<T: Real, const D: usize, F> Map<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
 {
-    /// Adds to momentum and force of the nodes in the slab's window. Returns the times of the parts of a sample.
+    /// Adds to momentum and force of the nodes in the slab's window. Returns the seconds that the timed batches took.
     pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, Stop> {
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();
@@ -256,7 +257,7 @@ fn first_piola_kirchhoff<T: Real>(hoop_strain: &[[T; PACK]], hoop_stress: &mut [
     strains.zip(hoop_stress.as_flattened_mut()).for_each(|(&h, stress)| *stress /= T::one() + h);
 }
 
-/// Adds forces along the first axis to the nodes. A function that is not inlined, compiled for one machine.
+/// Adds forces along the first axis to the nodes, in a function that is not inlined, compiled once for every processor.
 #[inline(never)]
 fn add_along_first<T: Real, const D: usize>(
     lattice: &Lattice<T, D>,
@@ -272,7 +273,7 @@ fn add_along_first<T: Real, const D: usize>(
     stencil.scatter(simd, lattice, &carried, members, nodes);
 }
 
-/// The data of the added particles, pack by pack.
+/// The data of the particles to add, pack by pack.
 struct Arrays<'a, T: Real, const D: usize> {
     displacement: &'a [Vectors<T, D>],
     velocity: &'a [Vectors<T, D>],
@@ -312,7 +313,7 @@ impl<'a, T: Real, const D: usize> Arrays<'a, T, D> {
     }
 }
 
-/// One pack of added particles.
+/// One pack of particles to add to the nodes.
 struct Carrier<'a, T: Real, const D: usize, St> {
     packs: &'a Arrays<'a, T, D>,
     k: usize,
@@ -333,7 +334,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
     ) {
         let Self { packs, k, members, stencil } = self;
         let Arrays { velocity, affine, residual, .. } = packs;
-        // Sums of values alone are one function, and all other sums another, so that each is compiled once.
+        // One call adds values alone, another one everything else: each is compiled once.
         let alone = match (added, residual, affine) {
             (Added::Residual, Some(residual), _) => Some(&residual[k]),
             (Added::Momentum | Added::Both, _, None) => Some(&velocity[k]),

@@ -1,5 +1,5 @@
-//! Sorts particles by the cells that they are in. In a slab, particles that fill a pack with others of their cell are first,
-//! then particles that fill half of one, then the others.
+//! Sorts particles by the cells that they are in. Each slab begins with the packs whose particles are all in one cell, then has
+//! the halves of packs in one cell, then the other particles.
 
 use mms_math::simd::{Plain, Simd as _};
 
@@ -15,8 +15,8 @@ use crate::threads::each;
 /// The number of packs that one thread locates at a time.
 const PART: usize = 512;
 
-/// Sorting pays if this percentage of the packs and halves that could be of one cell are not: that time is lost in every
-/// step, and sorting takes about as long as one step.
+/// Particles are sorted if this percentage of the packs and halves that could lie in one cell do not. The lost time recurs in
+/// every step; sorting takes about as long as one step.
 const LOOSE: usize = 5;
 
 /// The condition for sorting particles.
@@ -24,24 +24,24 @@ const LOOSE: usize = 5;
 pub(super) enum When {
     /// Always.
     Now,
-    /// If many packs are of several cells that could be of one.
+    /// If many packs that could lie in one cell lie in several.
     Loose,
 }
 
 /// The order of the particles.
 pub(super) struct ParticleOrder {
-    /// The place of each particle, by its number; empty if particles stay in their first order.
+    /// The place of each particle in the arrays, by its number; empty if particles are never sorted.
     place: Vec<u32>,
     /// The particle that moves to each place, while an order is computed.
     from: Vec<u32>,
-    /// The cell of every particle, in their present order; sorted after an order is computed.
+    /// The cell of every particle, in the order of the arrays; after an order is computed, in the new order.
     cell: Vec<[u32; PACK]>,
     /// The number of particles of each cell; after an order is computed, the end of the cell's particles.
     count: Vec<u32>,
 }
 
 impl ParticleOrder {
-    /// An order of particles in as many cells as there are nodes; fixed if `particles` is 0.
+    /// The order of particles on a grid with as many cells as `nodes`; fixed if `particles` is 0.
     pub fn new(particles: usize, nodes: usize) -> Self {
         Self {
             place: (0..particles as u32).collect(),
@@ -59,7 +59,7 @@ impl ParticleOrder {
         order
     }
 
-    /// Whether particles stay in their first order.
+    /// Whether particles are never sorted.
     pub fn is_fixed(&self) -> bool {
         self.place.is_empty()
     }
@@ -69,20 +69,20 @@ impl ParticleOrder {
         self.place.get(id).map_or(id, |&place| place as usize)
     }
 
-    /// Records the place of each particle, unless particles stay in their first order.
+    /// Records the place of each particle, unless particles are never sorted.
     pub fn stand(&mut self, ids: &[u32]) {
         if !self.is_fixed() {
             ids.iter().zip(0..).for_each(|(&id, p)| self.place[id as usize] = p);
         }
     }
 
-    /// The cell of each particle, sorted after an order is computed.
+    /// The cell of each particle: in the order of the arrays, or in the computed order.
     pub fn cells(&self) -> &[u32] {
         &self.cell.as_flattened()[..self.place.len()]
     }
 
-    /// Finds the cells of the particles, of the present positions, or of X if nothing `moves`. Cells begin at `origin`, in
-    /// cells.
+    /// Finds the cell of each particle: of its present position, or of X if the body does not move through the grid (`moves`).
+    /// The first cell begins at the coordinate `origin`, in units of cells.
     pub fn locate<T: Real, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
@@ -116,14 +116,14 @@ impl ParticleOrder {
         }
     }
 
-    /// Whether too few packs and halves of located particles are of one cell, compared with how many could be.
+    /// Whether sorting pays: at least `LOOSE` percent of the packs and halves that could lie in one cell do not.
     pub fn is_loose(&self) -> bool {
         let could: usize = self.count.iter().map(|&count| wholes(count as usize)).sum();
         let are = of_one_cell::<HALF>(self.cells()) + of_one_cell::<PACK>(self.cells());
         100 * are < (100 - LOOSE) * could
     }
 
-    /// Computes the order by cells; particles of one cell stay in their present order.
+    /// Computes the order by cells; it is stable: particles of one cell keep their order.
     pub fn arrange(&mut self) {
         let Self { place, from, cell, count } = self;
         let cell = &mut cell.as_flattened_mut()[..place.len()];
@@ -174,9 +174,9 @@ fn of_one_cell<const N: usize>(cell: &[u32]) -> usize {
     groups.filter(|group| group.iter().all(|cell| *cell == group[0])).count()
 }
 
-/// Orders particles so that most packs are of one cell, and most halves: first the particles of each cell that fill whole
-/// packs, then particles that fill half of one, then the others. The first place has the number `start`; packs begin at
-/// every eighth place.
+/// Orders particles so that most packs, and most halves, lie in one cell: first the particles of each cell that fill whole
+/// packs, then particles that fill half of one, then the others. The first place has the index `start`; packs begin at every
+/// eighth place.
 fn pack(order: &mut [u32], cell: &[u32], start: usize, scratch: &mut [u32]) {
     /// The numbers of a cell's particles that fill packs, halves of packs, and neither.
     fn shares(count: usize) -> [usize; 3] {
@@ -185,8 +185,8 @@ fn pack(order: &mut [u32], cell: &[u32], start: usize, scratch: &mut [u32]) {
     }
     let cells = || cell.chunk_by(|a, b| a == b).map(|cell| shares(cell.len()));
     let mut whole = [0, 1, 2].map(|share| cells().map(|shares| shares[share]).sum::<usize>());
-    // The places before the first pack are filled with others first, then with halves, then with packs. The rest of a group
-    // that this breaks moves to the end.
+    // The places before the first pack receive others, then halves, then packs. If this breaks a group, its rest moves to the
+    // end.
     let mut lead = start.next_multiple_of(PACK) - start;
     let (mut front, mut back) = (0, order.len());
     let mut places = [const { [0..0, 0..0, 0..0] }; 3];

@@ -1,12 +1,12 @@
-//! A solver's state for measurements. It depends on neither shape function nor formulation, so measurements are compiled once
-//! per dimension and precision for all solvers.
+//! A view of a solver's state for measurements. Its type depends on neither shape function nor formulation, so measurements are
+//! compiled once per dimension and precision for all solvers.
 
 use crate::failure::{Cause, Failure};
 use crate::particle::Particles;
 use crate::real::Real;
 use crate::tensor::components;
 
-/// The state after a step.
+/// The state after a step, borrowed from a solver.
 #[derive(Clone, Copy)]
 pub struct StateView<'a, T, const D: usize, F: ?Sized> {
     /// The field that drives the run.

@@ -1,6 +1,6 @@
-//! The sums of one particle after the other, for machines without larger registers: loops over nodes that are compiled once for
-//! all widths, since code for these slow machines should be small. Each particle's numbers are multiplied in the same order as
-//! in [`scatter`](super::scatter) and [`gather`](super::gather).
+//! The sums for one particle at a time, for processors without larger registers. The loops over nodes are compiled once for all
+//! widths, since code for these slow processors should be small. They multiply each particle's numbers in the same order as
+//! [`scatter`](super::scatter) and [`gather`](super::gather).
 
 use super::gather::{Summed, Sums};
 use super::tensor::{Along, Tensor};
@@ -11,7 +11,7 @@ use crate::real::Real;
 /// The largest number of axes; along axes that a stencil does not have there is one node, of weight 1.
 const AXES: usize = 3;
 
-/// The largest number of asides: slopes and moments.
+/// The largest number of kinds of gradient weights: slopes and moments.
 const ASIDES: usize = 2;
 
 impl<T: Real, const D: usize> Tensor<T, D> {
@@ -38,7 +38,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         mut nodes: Window<'_, T>,
     ) {
         for p in from..to {
-            // The factor that replaces the weight of node `k` along an axis.
+            // The gradient weight of node `k`, which replaces its weight along an axis.
             let gradient_weight = |a: usize, k: usize| {
                 let mut gradient_weight = [T::zero(); HALF];
                 for c in 0..if a < D { D } else { 0 } {
@@ -80,7 +80,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
 }
 
 impl<T: Real, const D: usize> Tensor<T, D> {
-    /// The sums over the nodes of every particle, with these asides.
+    /// The sums over the nodes of every particle, with these kinds of gradient weights.
     fn gather_alone(
         &self,
         gradient_weights: &[&Along<T, D>],
@@ -137,7 +137,7 @@ struct Sum<T> {
 }
 
 impl<T: Real> Sum<T> {
-    /// The initial value is -0, to which a product is added without an addition.
+    /// The initial value is -0: -0 + x is x for every x, so the compiler drops the first addition.
     fn nothing() -> Self {
         Self { value: -T::zero(), gradient_weights: [[-T::zero(); AXES]; ASIDES] }
     }

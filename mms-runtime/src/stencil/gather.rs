@@ -1,4 +1,5 @@
-//! The sums over the nodes of a pack (G2P, gather): of all its particles together, all components of a node after each other.
+//! The sums over the nodes of a pack (G2P, gather): for all its particles together, one component of the nodes' vectors after
+//! the other.
 
 use mms_math::dispatch::Work;
 use mms_math::simd::Simd;
@@ -11,19 +12,19 @@ use crate::real::Real;
 /// The sums to compute, and the nodes.
 pub(super) struct Sums<'a, T, const D: usize, const K: usize> {
     pub stencil: &'a Tensor<T, D>,
-    /// The `K` factors for every axis that replace the weights along that axis: slopes, moments.
+    /// The `K` kinds of gradient weights, which replace the weights along one axis: slopes, moments.
     pub gradient_weights: [&'a Along<T, D>; K],
     pub nodes: &'a [Nodal<T>],
 }
 
-/// The sums of a vector: with weights, and with each of the `K` asides for every axis.
+/// The sums of a vector: with weights, and with each of the `K` kinds of gradient weights for every axis.
 #[derive(Clone, Copy)]
 pub(super) struct Summed<F, const D: usize, const K: usize> {
     pub value: [F; D],
     pub gradient_weights: [[[F; D]; D]; K],
 }
 
-/// The weights, and the asides, of the nodes along an axis.
+/// The weights and gradient weights of the nodes along an axis.
 #[derive(Clone, Copy)]
 struct Axis<F, const W: usize, const K: usize> {
     weight: [F; W],
@@ -173,7 +174,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
         if D < 3 {
             return self.plane::<M, W, SAME>(simd, along, first, 0);
         }
-        // A product is added to -0 without an addition.
+        // -0 + x is x for every x, so the compiler drops the first addition.
         let zero = simd.splat(-T::zero());
         let mut space = Summed { value: [zero; D], gradient_weights: [[[zero; D]; D]; K] };
         for k2 in 0..W {

@@ -1,12 +1,12 @@
 //! The sums of a pack onto its nodes (P2G, scatter).
 //!
-//! A node receives w0 w1 w2 q. Of the terms along the axes (slopes of the weights for forces, moments for APIC) it receives A0
-//! w1 w2 + w0 A1 w2 + w0 w1 A2, where the aside A_a of a node is the sum of all factors that replace the weight along axis a:
-//! Q_a times the slope of the weight, M_a times its moment. So there is one sum for all kinds of asides.
+//! A node receives w0 w1 w2 q + A0 w1 w2 + w0 A1 w2 + w0 w1 A2. The gradient weight A_a of a node replaces the weight along
+//! axis a (`gradient_weights`; `ASIDES` says whether there are any). It is the sum of two terms: Q_a times the slope of the
+//! weight, for forces, and M_a times the moment of the weight, for APIC. So one sum serves both.
 //!
-//! Along an axis with three nodes one cell apart, weights sum to 1 and asides to 0, and the middle node has the largest weight.
-//! So the sum over all three needs no product, and the middle node receives it minus the outer two: a third fewer
-//! multiply-adds.
+//! Along an axis with three nodes one cell apart, weights sum to 1 and gradient weights to 0, and the middle node has the
+//! largest weight. So the total of the three nodes needs no product, and the middle node receives the total minus the outer
+//! two: a third fewer multiply-adds.
 
 use mms_math::simd::Simd;
 
@@ -15,7 +15,7 @@ use super::{ALL, HALF, Members, Payload};
 use crate::nodal::Window;
 use crate::real::Real;
 
-/// The data to add to the nodes, with asides or without.
+/// The data to add to the nodes, with gradient weights (`ASIDES`) or without.
 pub(super) struct Scatter<'a, M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> {
     pub simd: M,
     pub stencil: &'a Tensor<T, D>,
@@ -34,7 +34,7 @@ enum Targets {
     Apart([Option<u32>; 2]),
 }
 
-/// For every axis, and `W` nodes along it, the asides of each particle of both halves.
+/// For every axis, and `W` nodes along it, the gradient weights of each particle of both halves.
 type Asides<F, const D: usize, const W: usize> = [[[F; HALF]; W]; D];
 
 impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, D, ASIDES> {
@@ -75,7 +75,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
         }
     }
 
-    /// The asides of all nodes; nodes that receive the `REST` have none.
+    /// The gradient weights of all nodes; with `REST`, the middle node, which receives the rest, has none.
     #[inline(always)]
     fn gradient_weights<const W: usize, const REST: bool>(&self) -> Asides<M::Eight, D, W> {
         // Tested once, not for every node.
@@ -86,7 +86,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
         }
     }
 
-    /// The asides of all nodes, with `MOMENTS` or without.
+    /// The gradient weights of all nodes, with `MOMENTS` or without.
     #[inline(always)]
     fn asides_with<const W: usize, const REST: bool, const MOMENTS: bool>(
         &self,
@@ -102,7 +102,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
             }
         }
         if REST && D > 2 {
-            // Planes have no rest: the middle one has its aside, which makes the sum of asides 0.
+            // The middle plane does not receive a rest: its gradient weight makes the sum of all three 0.
             for p in 0..HALF {
                 let outer =
                     simd.plus(gradient_weights[2 % D][0][p], gradient_weights[2 % D][W - 1][p]);
@@ -112,7 +112,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
         gradient_weights
     }
 
-    /// The aside of node `k` along an axis, of each particle.
+    /// The gradient weights of node `k` along an axis, one for each particle.
     #[inline(always)]
     fn gradient_weight<const MOMENTS: bool>(&self, axis: usize, k: usize) -> [M::Eight; HALF] {
         let Self { simd, stencil, moment, .. } = *self;
@@ -133,7 +133,8 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
         simd.transposed(rows)
     }
 
-    /// Adds for `P` particles of each half from `from` on; with `REST`, the middle one of three nodes receives the rest.
+    /// Adds `P` particles of each half from `from` on; with `REST`, the middle one of three nodes receives the total minus the
+    /// outer two.
     #[inline(always)]
     fn of<const W: usize, const P: usize, const REST: bool>(
         &self,
@@ -176,7 +177,8 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
         }
     }
 
-    /// The weights of node `k` along an axis, of `P` particles of each half from `from` on, each in all places of its half.
+    /// The weights of node `k` along an axis for `P` particles of each half from `from` on, each repeated in all places of its
+    /// half.
     #[inline(always)]
     fn weights<const P: usize>(&self, from: usize, axis: usize, k: usize) -> [M::Eight; P] {
         let Self { simd, stencil: Tensor { weight, .. }, .. } = self;
@@ -233,7 +235,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
         row: Option<(usize, [M::Eight; P])>,
     ) -> [M::Eight; W] {
         let simd = self.simd;
-        // A product is added to -0 without an addition.
+        // -0 + x is x for every x, so the compiler drops the first addition.
         let mut sums = [simd.splat(-T::zero()); W];
         for p in 0..P {
             let value = match row {
@@ -305,6 +307,6 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
 #[derive(Clone, Copy)]
 struct Plane<F, const W: usize, const P: usize> {
     value: [F; P],
-    /// The asides along the first two axes.
+    /// The gradient weights along the first two axes.
     gradient_weights: [[[F; P]; W]; 2],
 }

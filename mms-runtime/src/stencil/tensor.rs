@@ -1,7 +1,7 @@
 //! Stencils that are products of weights along the axes.
 //!
-//! The sums are factorised: factors that do not depend on the node along an axis are multiplied once for all of them, so that a
-//! node needs one product per number, and one more if there are slopes.
+//! The sums are factorised: factors that do not depend on the node along an axis are multiplied once for all nodes along it. So
+//! a node needs one product per number, and one more if there are slopes.
 
 use std::ops::Range;
 
@@ -33,10 +33,10 @@ pub(super) enum Sharing {
     Apart,
 }
 
-/// The known properties of the weights along every axis.
+/// The properties that the weights have along every axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
-    /// Nodes are one cell apart, and the weights are splines whose knots are too.
+    /// Nodes are one cell apart, and the weights are splines with knots one cell apart.
     Splines,
     /// Nodes are one cell apart, and weights sum to 1.
     Regular,
@@ -246,7 +246,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         (self.width - 1) * self.strides as usize
     }
 
-    /// The first of the `members` whose first node is not among the `room` nodes from `start` on.
+    /// The first of the `members` whose first node is not among the nodes `start..start + room`.
     #[cold]
     #[inline(never)]
     fn first_beyond(&self, [from, to]: Members, start: u32, room: u32) -> Option<usize> {
@@ -275,7 +275,8 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         }
     }
 
-    /// Adds to the nodes, with `ASIDES` or without. Sums of hat functions are inlined, since they take less time than a call.
+    /// Adds to the nodes, with gradient weights (`ASIDES`) or without. Sums of hat functions are inlined, since they take less
+    /// time than a call.
     #[inline(always)]
     fn onto<M: Simd<T>, const W: usize, const ASIDES: bool>(
         &self,

@@ -1,4 +1,4 @@
-//! The course of a run: its measurements, step by step, and its checkpoints.
+//! The record of a run: its measurements, step by step, and its checkpoints.
 
 use std::borrow::Cow;
 use std::io::{self, Read, Write};
@@ -169,12 +169,12 @@ impl<'a, T: Real, const D: usize> RunRecord<'a, T, D> {
         Ok(course)
     }
 
-    /// To be called before each step; `behind` tells whether velocities will be behind positions.
+    /// To be called before each step; `behind` is true if velocities will lag behind positions.
     pub fn before_step<F>(&mut self, present: &StateView<'_, T, D, F>, behind: bool)
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
-        // If velocities are behind, the last time with velocities on both sides is before the last step.
+        // If velocities lag, the last time with a velocity before and after it is the one before the last step.
         if behind && self.looks_at(present.step + 1) {
             self.account.iter_mut().for_each(|account| account.look(present));
         }
@@ -221,7 +221,7 @@ impl<'a, T: Real, const D: usize> RunRecord<'a, T, D> {
         self.observer.step(present.step, self.steps);
     }
 
-    /// Measures the end of a run that is only measured there: its errors, with this residual.
+    /// Measures a run of which only the end is measured: its errors, with this residual.
     ///
     /// # Errors
     /// An error is not finite; the observer cannot continue.
@@ -292,7 +292,7 @@ impl<'a, T: Real, const D: usize> RunRecord<'a, T, D> {
         Diagnostics::of(present.particles, self.account.as_ref().map(Account::balance))
     }
 
-    /// Passes the state to the observer, if it wants it.
+    /// Passes the state to the observer, if the observer wants a frame of this step.
     fn show<F>(&mut self, present: &StateView<'_, T, D, F>) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
