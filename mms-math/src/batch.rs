@@ -240,8 +240,8 @@ where
     ) {
         let zero = T::from_f64(0.0);
         let (mut made, mut results) = (Block::of(zero), Block::of(zero));
-        // Two rooms in turn, as below: with one the compiler orders operations otherwise, and some fields take 5 % longer in
-        // single precision.
+        // Two blocks in turn, as below: with a single one the compiler orders operations in another way, and some fields take 5
+        // % longer in single precision.
         let mut rooms = [Block::of(zero); 2];
         let [mut now, mut soon] = rooms.each_mut();
         let mut start = 0;

@@ -8,14 +8,14 @@ use crate::structures::{put_columns, take_columns};
 pub trait Source<T: Float, const N: usize> {
     /// The number of points.
     fn count(&self) -> usize;
-    /// Copies the points from `start` on to a `room`, unless they are stored in columns. If there are fewer than a block has,
-    /// copies of the first one pad the block: other values might be outside the domain.
+    /// Copies the points from `start` on to the buffer `room`, unless they are stored in columns. If there are fewer than a
+    /// block has, copies of the first one pad the block: other values might be outside the domain.
     fn bring<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>);
-    /// The points from `start` on: in place, or in the `room` that they were copied to.
+    /// The points from `start` on: in place, or in the buffer `room` that they were copied to.
     fn columns<'a>(&'a self, start: usize, room: &'a Block<T, N>) -> Columns<'a, T, N>;
 }
 
-/// A place for `N` numbers at each of some points.
+/// The destination of results: `N` numbers at each point.
 pub trait Sink<T: Float, const N: usize> {
     /// The number of points that can be stored.
     fn room(&self) -> usize;

@@ -1,10 +1,10 @@
 //! Eight numbers at a time (a SIMD pack), in one register if the processor has such registers.
 //!
-//! The compiler turns a loop over many numbers into vector instructions by itself ([`crate::batch`]); it may not do so for
-//! eight numbers in long code. Here they are one value.
+//! The compiler turns a loop over many numbers into vector instructions by itself ([`crate::batch`]), but often not eight
+//! numbers in long code. Here eight numbers are one value.
 //!
-//! Eight numbers are two halves of four. Operations that move numbers move them within their half, as registers do in one
-//! instruction: so the two halves may belong to different things.
+//! Eight numbers are two halves of four. Operations move numbers only within a half, which takes one instruction: so the two
+//! halves may belong to different cells or nodes.
 
 mod arrays;
 #[cfg(target_arch = "x86_64")]
@@ -18,7 +18,7 @@ pub trait Simd<T>: Copy {
     /// Eight numbers.
     type Eight: Copy;
 
-    /// Whether one number is computed after the other, so that code for eight together is only longer.
+    /// Whether eight numbers are computed one after the other: then code for eight at a time is longer and not faster.
     const ALONE: bool = false;
 
     /// A number of a loop that the compiler turns into vector instructions.
@@ -30,8 +30,8 @@ pub trait Simd<T>: Copy {
     /// Loads the numbers of the first half, and of the second.
     fn halves(self, first: &[T; 4], second: &[T; 4]) -> Self::Eight;
 
-    /// Does work in a function that is not inlined, compiled for the same instructions: once, for all callers. It is for work
-    /// that takes long compared with a call. With [`Plain`] these are the instructions of every processor.
+    /// Does work in a function that is not inlined, and so is compiled once for all callers, for these instructions ([`Plain`]:
+    /// the instructions that every processor has). For work that takes long compared with a call.
     fn apart<W: Work<T>>(self, work: W) -> W::Output;
 
     /// One number in all eight places.
@@ -82,10 +82,10 @@ pub trait Simd<T>: Copy {
     /// Whether a <= b for all eight.
     fn all_at_most(self, a: Self::Eight, b: Self::Eight) -> bool;
 
-    /// Whether all eight numbers of each entry lie between its two ends: one test and one branch for all.
+    /// Whether all eight numbers of each entry lie between the entry's two `ends`: one test and one branch for all.
     fn all_between<const N: usize>(self, numbers: &[Self::Eight; N], ends: &[[T; 2]; N]) -> bool;
 
-    /// The integers that these numbers are, between -2^31 and 2^31; any integers outside.
+    /// Converts numbers that are integers between -2^31 and 2^31. Other numbers become unspecified integers.
     fn whole(self, a: Self::Eight) -> [i32; 8];
 
     /// For each place in a half: the number there, in all places of its half.
@@ -113,7 +113,8 @@ pub struct Plain;
 pub struct Fused(());
 
 impl Fused {
-    /// To be called only on a processor with AVX2 and FMA, if its kind has such, in a function compiled for them.
+    /// To be called only in a function that is compiled for AVX2 and FMA, on a processor that has them; on aarch64 every
+    /// processor has such instructions.
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), allow(dead_code))]
     pub(crate) fn known() -> Self {
         Fused(())
@@ -148,7 +149,7 @@ mod tests {
     use crate::batch::Float;
     use crate::dispatch::{Work, best};
 
-    /// All operations of a machine with some numbers, as numbers.
+    /// All operations of an instruction set, applied to some numbers.
     struct Everything<T>([[T; 8]; 4]);
 
     impl<T: Float> Everything<T> {

@@ -29,7 +29,7 @@
 //! | 256-bit binary floating point, or undefined | `precise` | closed forms, and the reference of tests |
 //! | interval of `f64`, rounded outward, and whether it is defined on all of a box | `interval` | bounds over a box |
 //! | dual number over any of them | `dual` | derivatives without expressions |
-//! | dual numbers of several directions, with one value, over bounds | `fan` | dP/dF of certificates |
+//! | dual numbers of several directions, with one value, over bounds | `multi_dual` | dP/dF of certificates |
 //!
 //! The caller defines the keys of the outputs.
 

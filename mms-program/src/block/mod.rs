@@ -1,14 +1,14 @@
 //! A block interpreter: runs programs over many points; every operation is a loop over a block of points (structure of arrays).
 //!
 //! A [`Plan`] lists the steps, and is made once for some outputs; all threads, parameters and precisions share it. [`Prepared`]
-//! has the stage Parameter of one set of parameters. A [`Scratch`] has the stage Time, as long as the time stays the same, and the
-//! registers, and belongs to one thread at a time. So setting a parameter runs the stage Parameter, another time runs the stage
-//! Time, and nothing is allocated after the first use of a room.
+//! has the values of the stage Parameter for one set of parameters. A [`Scratch`] has the values of the stage Time for one
+//! time, and the registers; one thread uses it at a time. So a new parameter runs the stage Parameter, a new time runs the
+//! stage Time, and nothing is allocated after the first use of a `Scratch`.
 //!
-//! Results have the bits of compiled loops, or, with rounded products, the bits of compiled functions of one point and of the
-//! reference interpreter, the same on all processors. Each output has the same bits as alone. The reference interpreter
-//! computes one operation of one number at a time: tests compare the block interpreter with it, and it serves scalars without
-//! blocks.
+//! With fused products, results have the bits of compiled loops. With rounded products, they have the bits of compiled
+//! functions of one point and of the reference interpreter, on all processors. The other outputs of a plan do not change the
+//! bits of an output. The reference interpreter computes one operation of one number at a time: tests compare the block
+//! interpreter with it, and it serves scalars without blocks.
 
 mod column;
 mod plan;
@@ -27,7 +27,7 @@ use crate::interpret::apply;
 use mms_symbolic::expr::Symbol;
 use plan::{Operand, Scalar, Source};
 
-/// The way of computing blocks: the instructions, and whether a product that is added is rounded first.
+/// The instructions that compute blocks, and whether a product is rounded before it is added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlockLayout {
     instructions: Instructions,
@@ -35,24 +35,24 @@ pub struct BlockLayout {
 }
 
 impl BlockLayout {
-    /// Computes the bits of the interpreter of one point, and of the functions of one point in compiled code: products are
-    /// rounded, and the results are the same on all processors.
+    /// Rounds products: the results have the bits of the interpreter of one point, and of the functions of one point in
+    /// compiled code, on all processors.
     pub fn portable() -> Self {
         BlockLayout::portable_with(Instructions::best())
     }
 
-    /// Computes the bits of the loops over many points in compiled code: with one rounding if the processor has such
-    /// instructions.
+    /// Fuses products with sums if the processor has such instructions: the results have the bits of the loops over many points
+    /// in compiled code.
     pub fn fused() -> Self {
         BlockLayout::fused_with(Instructions::best())
     }
 
-    /// Computes like [`portable`](Way::portable), with these instructions.
+    /// Computes like [`portable`](BlockLayout::portable), with these instructions.
     pub fn portable_with(instructions: Instructions) -> Self {
         BlockLayout { instructions, fused: false }
     }
 
-    /// Computes like [`fused`](Way::fused), with these instructions.
+    /// Computes like [`fused`](BlockLayout::fused), with these instructions.
     pub fn fused_with(instructions: Instructions) -> Self {
         BlockLayout { instructions, fused: true }
     }
@@ -62,14 +62,14 @@ impl BlockLayout {
     }
 }
 
-/// A plan with the numbers of one set of parameters. Threads share it, each with a room of its own.
+/// A plan with the numbers of one set of parameters. Threads share it, each with a [`Scratch`] of its own.
 #[derive(Clone, Debug)]
 pub struct Prepared<T: Blockwise> {
     plan: Arc<Plan>,
     way: BlockLayout,
     /// The values of the stage Parameter.
     early: Vec<T::Wide>,
-    /// The numbers that are the same at all points; numbers of the stage Time are not known yet.
+    /// The numbers that are the same at all points; numbers of the stage Time are unset here.
     scalars: Vec<T>,
     /// A stamp that differs for every instance, and for every set of parameters.
     stamp: u64,
@@ -162,8 +162,8 @@ impl<T: Blockwise> Prepared<T> {
         &self.plan
     }
 
-    /// Runs the plan at `count` points. For each block, `bring` writes the inputs and `take` reads the results; both get the
-    /// position of its first point.
+    /// Runs the plan at `count` points. For each block, `bring` writes the inputs and `take` reads the results; their first
+    /// argument is the index of the block's first point.
     pub fn run(
         &self,
         scratch: &mut Scratch<T>,
@@ -180,7 +180,7 @@ impl<T: Blockwise> Prepared<T> {
             let pieces = count.div_ceil(T::TOGETHER);
             let inputs = &mut columns[..plan.inputs.len()];
             bring(start, &mut Inputs { symbols: &plan.inputs, columns: inputs, count });
-            // The rest of the last piece gets the first point: other numbers might be undefined there.
+            // Copies of the first point fill the last piece: a program may be undefined at other numbers.
             for column in inputs {
                 let numbers = &mut column.numbers_mut()[..pieces * T::TOGETHER];
                 let first = numbers[0];
@@ -413,7 +413,7 @@ impl<T: Blockwise> Default for ScratchPool<T> {
 }
 
 impl<T: Blockwise> ScratchPool<T> {
-    /// Lends working memory that no other thread uses meanwhile.
+    /// Calls `work` with memory that no other thread uses meanwhile.
     pub fn with<R>(&self, work: impl FnOnce(&mut Scratch<T>) -> R) -> R {
         let pool = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let mut scratch = pool().pop().unwrap_or_default();

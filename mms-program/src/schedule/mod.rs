@@ -2,7 +2,7 @@
 //!
 //! * `flat`: sums and products, of any number of operands, are grouped by stage, so that no value is computed later than it is
 //!   known.
-//! * `share`: common subexpressions. The most frequent pair of operands becomes an operation of its own, and so on, until no
+//! * `cse`: common subexpressions. The most frequent pair of operands becomes an operation of its own, and so on, until no
 //!   pair occurs twice.
 //! * `lower`: the result becomes binary operations, operands of one stage first; equal operations are one value.
 //! * `signs`: -((a - b) c) becomes (b - a) c, if nothing else reads the product.
