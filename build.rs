@@ -1,8 +1,8 @@
 //! Lists the field files for the tests: one set of tests per file for `tests/fields.rs`.
 //!
-//! Refuses names that no module can have (`spec/field_name.rs`), and files that are not fields: a mistake in one of them breaks
-//! the build at its position. `mms-gallery` finds mistakes that only derivatives show. Cargo runs this again if the folder or a
-//! file in it changes: `fields/` is its own list.
+//! Refuses names that no module can have (`mms-spec/src/field_name.rs`), and files that are not fields: a mistake in one of
+//! them breaks the build at its position. `mms-gallery` finds mistakes that only derivatives show. Cargo runs this again if the
+//! folder or a file in it changes: `fields/` is its own list.
 
 use std::path::PathBuf;
 use std::{env, fs, io, process};

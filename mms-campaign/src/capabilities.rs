@@ -7,7 +7,7 @@ use mms_spec::suggest::advice;
 
 use crate::table::{Reader, Table};
 
-/// The abilities that a solver states in `can`. It lacks those that it does not state.
+/// The abilities that a campaign file states for its solver, under the key `can`. The solver lacks all others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capabilities {
     /// The dimensions, 1 to 3.

@@ -1,8 +1,8 @@
-//! The smallest set of candidates that shows all that any of them shows.
+//! The smallest set of candidates that together show every term that one of them shows.
 
 use std::collections::BTreeSet;
 
-/// Something that shows terms, at some cost.
+/// A candidate: the terms that it shows, and its cost.
 #[derive(Clone, Debug)]
 pub struct Candidate {
     /// The cost of the candidate.
@@ -11,8 +11,8 @@ pub struct Candidate {
     pub terms: BTreeSet<String>,
 }
 
-/// The positions of the smallest set of candidates that together show all terms that any of them shows. Of several such sets
-/// the cheapest, sorted by cost.
+/// The positions, sorted by cost, of the smallest set of candidates that together show every term that one of them shows: the
+/// cheapest of several such sets.
 pub fn smallest(candidates: &[Candidate]) -> Vec<usize> {
     let wanted: BTreeSet<&String> = candidates.iter().flat_map(|it| &it.terms).collect();
     let mut search = Search { candidates, best: None };

@@ -238,18 +238,18 @@ pub(super) fn rewritten(
     amplitude.map_or_else(|| stable.to_vec(), |amplitude| amplitude.rewrite(graph, plain, stable))
 }
 
-/// How well an expression that is small with the amplitude keeps its digits.
+/// The digits that an expression keeps which is small with the amplitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum DigitLoss {
-    /// The error is as large as the terms that cancel.
+    /// No digit is kept: the error is as large as the terms that cancel.
     None,
-    /// The error of one factor is as large as the terms that cancel in it, and another factor is small.
+    /// The first order is kept: one factor of a product keeps no digit, but another factor is small, too.
     First,
-    /// No part of it cancels.
+    /// All digits are kept: no terms cancel.
     All,
 }
 
-/// For all sub-expressions, how well each keeps its digits, and the sums that lose them.
+/// The digits that each sub-expression keeps, and the sums that lose them.
 struct Digits {
     keeps: ByExpr<DigitLoss>,
     lossy: Vec<Expr>,

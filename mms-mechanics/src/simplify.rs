@@ -13,9 +13,10 @@
 //! the part that X determines separate from the part that t determines (`separate`). That candidate is chosen if it leaves less
 //! to compute at each time, an operation that needs t counted twice, and at most a sixteenth more from a position. For these
 //! two quantities a second cost counts additions of products as free, as in loops over points on processors with fused
-//! multiply-add: one number may then replace two that differ by a constant (`shift`), and constants are added up (`reassociate`), if
-//! that takes fewer steps and no more steps that need t. Except for Div P and b, no chosen program costs more than the plain
-//! one; these two may take at most a sixteenth more operations at a point, and some more that are done once.
+//! multiply-add: one number may then replace two that differ by a constant (`shift`), and constants are added up
+//! (`reassociate`), if that takes fewer steps and no more steps that need t. Except for Div P and b, no chosen program costs
+//! more than the plain one; these two may take at most a sixteenth more operations at a point, and some more that are done
+//! once.
 //!
 //! # Accuracy
 //!
@@ -24,17 +25,17 @@
 //!
 //! In the stable form, the default, every quantity is within 64 eps of its largest magnitude over the declared body and time
 //! window, at any amplitude down to 1e-12 of the size (`tests/stable/`). Quantities that vanish with the strain (u, H, E, W,
-//! stress) are computed from H after cancellation rewriting (`avoid_cancellation`), and from C - I and J - 1 that are reduced in half of
-//! the angles that the field turns by: cos a = 1 - 2 h^2 with h = sin(a/2), so that a normal form is a polynomial in terms that
-//! are small with the angle, and a rotation of order one cancels. All other quantities are of the size of 1, of X or of a
-//! second derivative; errors of eps do not matter there, and they may be computed from F = I + H, with ln J of a product. If
-//! moduli depend on X, a part of Div P is as small as the stress: then Div P and b too are computed from the rewritten H.
+//! stress) are computed from H after cancellation rewriting (`avoid_cancellation`), and from C - I and J - 1 that are reduced
+//! in half of the angles that the field turns by: cos a = 1 - 2 h^2 with h = sin(a/2), so that a normal form is a polynomial in
+//! terms that are small with the angle, and a rotation of order one cancels. All other quantities are of the size of 1, of X or
+//! of a second derivative; errors of eps do not matter there, and they may be computed from F = I + H, with ln J of a product.
+//! If moduli depend on X, a part of Div P is as small as the stress: then Div P and b too are computed from the rewritten H.
 //!
-//! A first-order bound of the rounding error (`mechanics/rounding.rs`), at places of the body, decides whether a candidate is
+//! A first-order bound of the rounding error (`rounding.rs`), at places of the body, decides whether a candidate is
 //! accurate. The separated and shifted forms of Div P and b are chosen only if that bound grows by at most half. In the stable
 //! form every quantity has a bound: a candidate beyond 64 roundings of the largest value, and beyond 16 times the least bound,
 //! is replaced by another one with at most twice the operations at a point. So rewritten forms, which may lose digits at large
-//! strains that H itself keeps, are replaced there by forms that are 16 times as exact. `mechanics/amplitude.rs` finds the
+//! strains that H itself keeps, are replaced there by forms that are 16 times as exact. `amplitude.rs` finds the
 //! candidates that keep their digits at a small amplitude; these precede cheap ones.
 //!
 //! `tests/operations.rs` bounds the operation counts.

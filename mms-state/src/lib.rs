@@ -1,8 +1,8 @@
 //! Exact states of a field, at any points and times, for any solver.
 //!
 //! [`points`] determines the places: points of a file, particles of a grid, or the material at given places
-//! ([`present`](mms_analysis::present)). [`State`]s contain the field's quantities there, and [`file`](mod@file) writes them;
-//! [`domain`] adds the data that a solver needs once.
+//! ([`inverse_motion`](mms_analysis::inverse_motion)). [`State`]s contain the field's quantities there, and [`file`](mod@file)
+//! writes them; [`domain`] adds the data that a solver needs once.
 
 pub mod domain;
 pub mod file;

@@ -2,10 +2,11 @@
 //!
 //! Work is counted in steps of about ten nanoseconds, and never in seconds, so that the same text ends at the same place on
 //! every machine. A graph has one budget. Making nodes, counting pairs to share, and running a program all draw on it;
-//! `program/operation_cost.rs` has the steps of an operation in intervals and in 77 digits. In a proof, a value for which no budget is
-//! left is not a number, so it proves nothing and refutes nothing. Comparisons in 77 digits are then made at fewer points, or
-//! at none, which does not count as a pass. So `mms check` ends within ten seconds of processor time for any text, and lists
-//! the parts that it left out. The fields of the gallery use a tenth of each budget or less, except for some of the rates.
+//! `mms-program/src/operation_cost.rs` has the steps of an operation in intervals and in 77 digits. In a proof, a value for
+//! which no budget is left is not a number, so it proves nothing and refutes nothing. Comparisons in 77 digits are then made at
+//! fewer points, or at none, which does not count as a pass. So `mms check` ends within ten seconds of processor time for any
+//! text, and lists the parts that it left out. The fields of the gallery use a tenth of each budget or less, except for some of
+//! the rates.
 //!
 //! A `Stop` from another thread empties every budget. A compilation then ends with one diagnostic that says so, a proof with
 //! less proved. A field compiled before the stop has to be compiled anew.

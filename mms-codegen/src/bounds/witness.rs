@@ -19,13 +19,13 @@ pub struct Witness {
 }
 
 impl Witness {
-    /// The witness at fractions of the way through a chart, and its spot in 77 digits.
+    /// The witness at fractions of the edges of a chart, and its chart point in 77 digits.
     pub fn at(chart: &Chart, fractions: &[f64]) -> (Witness, ChartPoint<Precise>) {
         let fractions: Vec<Precise> = fractions.iter().map(|it| Precise::from_f64(*it)).collect();
         Self::at_precise(chart, &fractions)
     }
 
-    /// The witness at fractions of 77 digits, and its spot.
+    /// The witness at fractions of 77 digits, and its chart point.
     pub fn at_precise(chart: &Chart, fractions: &[Precise]) -> (Witness, ChartPoint<Precise>) {
         // The place where a search ended is reported even if its budget is spent.
         let place = || chart.points().point(&chart.place(fractions));

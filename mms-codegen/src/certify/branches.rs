@@ -1,10 +1,10 @@
 //! Proves that a field stays within one analytic branch of every function that it uses.
 //!
 //! A derivative does not show a cut: if u jumps, all derivatives may be finite and J positive. The model therefore keeps the
-//! formulas of a file as they are written (`mechanics/model/written.rs`). For each node of their canonical form, the limit
-//! of its function (`limits.rs`) is proved over the body, the time window and the ranges of parameters. The same
-//! is proved for W at the strain of the field, the density, the moduli, the fibres and a rigid motion. A subexpression that canonical
-//! form has cancelled, such as one of `sqrt(X)*sqrt(X)`, needs only a value, and so does one without variables. All
+//! formulas of a file as they are written (`mms-mechanics/src/model/written.rs`). For each node of their canonical form, the
+//! limit of its function (`limits.rs`) is proved over the body, the time window and the ranges of parameters. The same is
+//! proved for W at the strain of the field, the density, the moduli, the fibres and a rigid motion. A subexpression that
+//! canonical form has cancelled, such as one of `sqrt(X)*sqrt(X)`, needs only a value, and so does one without variables. All
 //! other quantities follow from these formulas by derivatives and whole powers, and are analytic if they are finite.
 //!
 //! If a sign differs at two points of a cell, a bisection in 77 digits finds where it changes: the message names that point,

@@ -1,12 +1,12 @@
 //! Proves that finite values are finite as computed, too: by the scheduled program, with every intermediate value, in the
 //! precision that it runs in.
 //!
-//! Each value is a pair (`program/computed.rs`): bounds of the exact value, and of the distance of a computed value from it.
-//! Every operation passes the distance on by the mean-value theorem, and adds its rounding and the least subnormal number. The
-//! exact part is made sharper by formulas: each operand of a division, a root or a logarithm is written once more as a formula
-//! in the variables of the box, as a multiple of J or bounded by its mean-value form. A divisor, a root or a logarithm must be
-//! of the right sign with the error included. An overflow has no value, and neither has a sine in twice the digits of more than
-//! 2^50. Numbers that vary have this precision; the first two stages have the wider one.
+//! Each value is a pair (`mms-program/src/computed.rs`): bounds of the exact value, and of the distance of a computed value
+//! from it. Every operation passes the distance on by the mean-value theorem, and adds its rounding and the least subnormal
+//! number. The exact part is made sharper by formulas: each operand of a division, a root or a logarithm is written once more
+//! as a formula in the variables of the box, as a multiple of J or bounded by its mean-value form. A divisor, a root or a
+//! logarithm must be of the right sign with the error included. An overflow has no value, and neither has a sine in twice the
+//! digits of more than 2^50. Numbers that vary have this precision; the first two stages have the wider one.
 //!
 //! `f64` is part of the verdict that everything is finite. `f32` has a line of its own, and is an error of `mms run` and `mms
 //! study` only if it fails at a corner or in the middle.
@@ -223,7 +223,7 @@ impl<'a> QuantityProgram<'a> {
         AsComputed { finding, angles, cells: found.cells }
     }
 
-    /// Bounds all values at a spot, for any normal, with `known` bounds of some exact values.
+    /// Bounds all values at a chart point, for any normal, with `known` bounds of some exact values.
     fn bounded<F: Format>(
         &self,
         spot: &ChartPoint<Computed<F>>,
@@ -252,7 +252,7 @@ impl<'a> QuantityProgram<'a> {
         needed.map(|it| of(it).filter(|steps| *steps > SLOW).unwrap_or(STEPS)).sum()
     }
 
-    /// Computes all values that are needed at a spot; `meet` changes each value before others use it.
+    /// Computes all needed values at a chart point; `meet` changes each value before others use it.
     fn values<T: Number>(
         &self,
         spot: &ChartPoint<T>,
@@ -328,7 +328,7 @@ impl<'a> QuantityProgram<'a> {
         self.first_quantity(is_well).is_none()
     }
 
-    /// The first quantity that is not computed at a spot, and why.
+    /// The first quantity that the program cannot compute at a chart point, and the reason.
     fn failure<T: Number + Into<f64> + Copy>(
         &self,
         spot: &ChartPoint<f64>,

@@ -175,7 +175,7 @@ impl<'a> Quantities<'a> {
         self.without_value(spot, None, is_bounded).map(|_| gap)
     }
 
-    /// The first quantity that is not `well` at a spot, in the order of derivation.
+    /// The first quantity that is not `well` at a chart point, in the order of derivation.
     fn without_value<T: Number>(
         &self,
         spot: &ChartPoint<T>,

@@ -24,7 +24,7 @@
 //! factor of 1.8, and for the strain rate of `quiet_boundary_2d` within 2.7 (`tests/certify.rs` pins these factors); more waves
 //! in three dimensions cost more.
 //!
-//! Further checks compare closed forms of the file (`closed_form`), u as it is written (`written`), the declared numbers
+//! Further checks compare closed forms of the file (`closed_form`), u as it is written (`undefined`), the declared numbers
 //! (`declared`), and the stress at rest (`rest`).
 
 pub mod branches;

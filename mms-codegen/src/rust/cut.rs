@@ -3,7 +3,7 @@
 //! The first loop passes values to the second in whole lines of the cache, and as few as possible: the second loop computes
 //! sums and products of the values that it has. Stored values of many points are read from memory every time, so a number that
 //! up to three sums and products compute from others is not stored: `generalized_vortex` stores 17 numbers where `Point`, in
-//! registers, has 21, and for b alone 4 where `Point` has 5. `program/loops.rs` has the rules.
+//! registers, has 21, and for b alone 4 where `Point` has 5. `mms-program/src/loops.rs` has the rules.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};

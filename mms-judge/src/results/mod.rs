@@ -1,8 +1,9 @@
 //! Results of any solver against a field: their errors, as [`Measured`].
 //!
 //! `files` reads them, with `mms-results`; `times` finds the times at which meshes can be compared; `level` measures a snapshot
-//! against the field's program ([`Exact`]), and finds the error floor from the rounding of the file; `baseline` and `same`
-//! compare results with results; `excluded` finds the mistakes that a small error excludes.
+//! against the field's program ([`Exact`]), and finds the error floor from the rounding of the file; `snapshot_errors` computes
+//! the errors. `baseline` and `repeated` compare results with results; `excluded` finds the mistakes that a small error
+//! excludes.
 
 mod baseline;
 mod degree;

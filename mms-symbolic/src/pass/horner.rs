@@ -1,5 +1,5 @@
-//! Nesting, the multivariate Horner scheme: a x + a y + b = a (x + y) + b. The most frequent factor of the terms is taken out
-//! first. A sum that is a square is written as a square.
+//! The multivariate Horner scheme: a x + a y + b becomes a (x + y) + b, a nested sum. The most frequent factor of the terms is
+//! taken out first. A sum that is a square is written as a square.
 
 use super::polynomial::{Monomial, Polynomial, product};
 use super::substitute::rebuild;

@@ -13,7 +13,7 @@
 //! | `curvature` | f less its linear part in a symbol, likewise | second-order Taylor remainder |
 //! | `expand` | multiplies out, so that terms cancel in exact numbers before they are rounded | expansion |
 //! | `factor` | takes out the common factors of all terms of a sum | factoring |
-//! | `horner` | a x + a y + b = a (x + y) + b, the most frequent factor first; a polynomial in one expression that is a square becomes one | multivariate Horner |
+//! | `horner` | a x + a y + b becomes a (x + y) + b, the most frequent factor first; a polynomial in one expression that is a square becomes one | multivariate Horner |
 //! | `separate` | X (a + t (Y + t Z)) becomes a X + t (X Y) + t^2 (X Z), where nothing else reads the sums inside | binding-time split |
 //! | `shift` | where x^2 - 1/16 occurs, a x^2 + b in other sums becomes a (x^2 - 1/16) + (a/16 + b) | affine reuse of a subexpression |
 //! | `reassociate` | a + b (c + x) becomes (a + b c) + b x, where nothing else reads c + x | reassociation of constants |
