@@ -16,7 +16,7 @@ use mms_math::coordinates::System;
 use polygon::Polygon;
 use round::Block;
 
-/// More particles than this are refused.
+/// The largest number of particles of a body.
 const PARTICLE_LIMIT: f64 = (1u64 << 27) as f64;
 
 /// How particles are laid out.
@@ -81,8 +81,8 @@ pub struct Filling<const D: usize> {
 }
 
 impl<const D: usize> Filling<D> {
-    /// Fills a body with particles about `spacing` apart along each axis. Their number makes their domains fill the body
-    /// without gap or overlap.
+    /// Fills a body with particles about `spacing` apart along each axis: as many as make their domains fill the body without
+    /// gap or overlap.
     ///
     /// # Errors
     /// The body has no extent, or takes too many particles.

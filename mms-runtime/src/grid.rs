@@ -14,7 +14,7 @@ pub struct Grid<T, const D: usize> {
     pub mass_floor: T,
     /// (mv)_i and m_i; after the kick with PIC and APIC.
     pub momentum: Vec<Nodal<T>>,
-    /// f_i, internal and external; unused where forces are added to momentum at once.
+    /// f_i, internal and external; unused if forces are added directly to momentum.
     pub force: Vec<Nodal<T>>,
     /// v_i. The number beside the vector is unused.
     pub velocity: Vec<Nodal<T>>,

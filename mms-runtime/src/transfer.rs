@@ -33,8 +33,8 @@ pub enum Transfer {
     /// 34 (2015). C is the velocity gradient for shape functions of degree 1 and
     /// (sum w v (x) (x_i - x_p)) (sum w (x_i - x_p) (x) (x_i - x_p))^-1 for splines.
     Apic,
-    /// FLIP without the part of the velocity that m maps to the grid and back remove: v = v - (I - S S+)^m v + dt S a. If m =
-    /// 1, it is PIC except for the acceleration on the boundary.
+    /// FLIP without the part of the velocity that the grid does not represent, (I - S S+)^m v, which m maps to the grid and
+    /// back compute: v = v - (I - S S+)^m v + dt S a. With m = 1 it is PIC, except for the acceleration on the boundary.
     ///
     /// Hammerquist, Nairn, "A new method for material point method particle updates that reduces noise and
     /// enhances stability", Comput. Methods Appl. Mech. Engrg. 318 (2017), doi 10.1016/j.cma.2017.01.035.

@@ -8,7 +8,7 @@
 //!
 //! | integrator | order in time | |
 //! |---|---|---|
-//! | `usl`, `usf`, `musl` | 1 | start from the exact initial velocity, half a step off where they are centred |
+//! | `usl`, `usf`, `musl` | 1 | start from the exact initial velocity, half a step from the time where the scheme is centred |
 //! | `leapfrog` | 2 | USL whose first kick is half a step |
 
 use crate::extension::extension_list;
@@ -33,9 +33,9 @@ pub trait Integrator: 'static {
     /// done.
     const LAG: f64 = 0.0;
 
-    /// Whether a step uses weights after it has moved or deformed the particles, which it does one after the other, by
-    /// different velocities. Weights are evaluated at t^n throughout a step, so the solver then keeps the data that they depend
-    /// on. It computes weights where they are used, which takes less time than to read them.
+    /// Whether a step uses weights after it has moved or deformed the particles (one after the other, with different
+    /// velocities). Weights belong to t^n throughout a step, so the solver then keeps the displacements and gradients of t^n.
+    /// It stores no weights: computing them again takes less time than reading them.
     const KEEPS_WEIGHTS: bool = false;
 
     /// Advances particles and grid from t^n = `solver.time()` by one time step dt.
@@ -58,8 +58,8 @@ pub enum Sum<T> {
     /// a_i = (- sum_p V0 S grad w + sum_p w m_p b(X_p, t) + tractions) / m_i at this time, with the boundary's
     /// acceleration; S is tau(H), or P(H) in the total formulation.
     Acceleration(T),
-    /// v_i += dt a_i, with this dt and then the boundary's velocity at this time; a_i and v_i are computed along with it, or
-    /// before. Where particles read neither v_i before the kick nor a_i, all are one sum.
+    /// v_i += dt a_i with the first number as dt, then the boundary's velocity at the second, a time; a_i and v_i are computed
+    /// before the kick or with it. If particles read neither a_i nor v_i before the kick, momentum and force are one sum.
     Kick(T, T),
 }
 

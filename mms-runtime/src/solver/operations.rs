@@ -151,7 +151,7 @@ where
         }
     }
 
-    /// Sums onto nodes, whose previous values are lost. Sorts particles if one has left its slab.
+    /// Overwrites the nodes with sums over the particles. Sorts the particles, and starts again, if one has left its slab.
     fn add_to_nodes(&mut self, added: Added<T>) -> Result<(), Failure> {
         let mut sorted = false;
         loop {
@@ -163,7 +163,7 @@ where
                 }
                 Err(Stop::Strayed(_)) => {
                     self.sort(When::Now);
-                    // Nothing has changed since.
+                    // The particles have not changed since their data were kept.
                     self.keep();
                 }
             }

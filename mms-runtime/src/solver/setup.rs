@@ -241,7 +241,7 @@ fn fill<T: Real, const D: usize>(
     Ok(filling)
 }
 
-/// The cells of an axis: enough for the `motion` of a body between `body`; splines end at some faces.
+/// The cells of an axis: enough for the `motion` of a body whose bounds are `body`; splines end at some faces.
 fn cells_along(
     setup: &Setup,
     a: usize,
@@ -258,7 +258,7 @@ fn cells_along(
     }
     let first = before + padding + setup.offset[a];
     let last = first + (body[1] - body[0]) / cell_size;
-    // Far too many cells are refused when they are counted; a conversion saturates.
+    // The conversion saturates: the count of nodes refuses too many cells.
     let cells = (last.ceil() + after + padding).min(f64::from(u32::MAX)) as usize;
     let ends = |face: Face, knot: f64, else_at: i64| {
         let on_knot = (knot - knot.round()).abs() < 1e-4;
@@ -274,8 +274,7 @@ fn cells_along(
     }
 }
 
-/// Tests that the field repeats itself along the periodic axes, at three times, wherever particles lie along a face; and that
-/// the grid does.
+/// Tests that the grid repeats itself along the periodic axes, and the field, at three times and at the pieces of both faces.
 fn repeats<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field: &F,
     setup: &Setup,

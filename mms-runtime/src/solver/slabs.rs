@@ -23,7 +23,7 @@ use crate::threads::both;
 /// Layers of nodes before and after a layer of cells that a particle in it may reach, for any origin of cells.
 const REACH: [usize; 2] = [2, 3];
 
-/// The number of layers that particles may at least drift before they have to be sorted.
+/// The least number of layers that a particle may drift before all are sorted.
 const DRIFT: usize = 1;
 
 /// The least number of whole layers of an inner slab.
@@ -80,7 +80,7 @@ pub(super) struct Slabs {
 }
 
 impl Slabs {
-    /// One slab, of particles that are not yet sorted. They never are if there are few or if their stencils are not `near`.
+    /// One slab of unsorted particles. They are never sorted if they are few, or if their stencils are not `near`.
     pub fn new<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         particles: usize,
@@ -144,8 +144,8 @@ impl Slabs {
         all.extend((0..=last).map(slab));
     }
 
-    /// Sorts the particles, with their `domains`, by their cells, of the present positions, or of X if nothing `moves`. Cells
-    /// begin at `origin`, in cells.
+    /// Sorts the particles, with their `domains`, by the cells of their present positions, or of X if the body does not move
+    /// through the grid (`moves`). The first cell begins at the coordinate `origin`, in units of cells.
     pub fn sort<T: Real, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
@@ -166,8 +166,8 @@ impl Slabs {
         }
     }
 
-    /// Makes an even number of slabs with equal numbers of particles, to a cell if there are enough layers; three slabs if
-    /// there are too few.
+    /// Cuts the particles into an even number of slabs with equal numbers of particles, up to one cell; into three slabs if the
+    /// layers are too few, and into one if there are hardly any.
     fn cut_evenly(&mut self) {
         let Self { cuts, order, layer: nodes, .. } = self;
         let cell = order.cells();
@@ -177,7 +177,7 @@ impl Slabs {
         let number = match last + 1 - first {
             few if few < FEWEST_LAYERS + 2 => 1,
             some if some < 4 * FEWEST_LAYERS => 3,
-            // With one more, cuts within layers have room.
+            // One layer more than the fewest for each slab, so that a cut can be within a layer.
             many => (many / (FEWEST_LAYERS + 1)).clamp(4, MOST_SLABS) / 2 * 2,
         };
         let begin = |of: u32| cell.partition_point(|&cell| cell < of);

@@ -24,8 +24,8 @@ use crate::transfer::Transfer;
 /// The distance, in packs, by which data are prefetched: in large bodies the data have left the caches since the last pass.
 pub(super) const AHEAD: usize = 3;
 
-/// The number of packs whose weights are computed together, and then their sums: so that a call costs little beside them, and
-/// there is work to do while loads are pending.
+/// The number of packs whose weights are computed in one call, before their sums: enough to make the call cheap, and to overlap
+/// loads with work.
 pub(super) const TOGETHER: usize = 4;
 
 /// Storage for the weights of these packs.
@@ -109,7 +109,7 @@ pub(super) trait Domains<T: Real, const D: usize>: Send + Sync {
 
 /// Computes weights.
 pub(super) trait Weigh<T: Real, const D: usize, St> {
-    /// Computes the weights of the packs from `first` on, in the `present` state if none was kept.
+    /// Computes the weights of the packs from `first` on, in the kept state, or in the `present` state if none was kept.
     ///
     /// # Errors
     /// A particle has no weights.

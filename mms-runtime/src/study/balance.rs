@@ -10,7 +10,8 @@ use crate::solver::StateView;
 /// The balances of momentum and energy, in double precision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Balance {
-    /// The time of energies and work: the last time at which a velocity is known, or velocities on both sides are.
+    /// The time of energies and work: the last time with a known velocity, or with known velocities half a step before and
+    /// after.
     pub time: f64,
     /// sum m v.v/2 at `time`; of velocities half a step apart the mean.
     pub kinetic_energy: f64,
