@@ -62,7 +62,7 @@ pub struct Compiled {
     pub derivation: Derivation,
     /// The part of the derivation that was wanted.
     pub selection: Selection,
-    /// The ways to compute that were open.
+    /// The form of computation that was requested.
     pub form: Form,
     /// Whether the search for cheaper and more exact formulas ended as usual; false if there was too much to try.
     pub simplified: bool,
@@ -144,7 +144,7 @@ pub struct Options {
     pub selection: Selection,
     /// The largest number of nodes and operands of the expression graph.
     pub max_nodes: usize,
-    /// The ways to compute that are open.
+    /// The form of computation.
     pub form: Form,
     /// The variation of this field to compile, for evaluation at extremes.
     pub variation: Variation,

@@ -280,10 +280,10 @@ const AS_WELL: f64 = 1.3;
 const UNSEEN: f64 = 0.004;
 /// Two explanations are the same if their difference is at most this part of the error left by the first.
 const SAME_PART: f64 = 0.6;
-/// A hypothesis that leaves at most this part of the error is named, however little implausible hypotheses leave.
+/// A hypothesis that leaves at most this part of the error is named even if hypotheses of an impossible size leave less.
 const CLEAR: f64 = 0.06;
-/// A size is a known one if it is within `KNOWN` of it, or within the margin of the fit, but at most `SURE` of its distance
-/// from the right size.
+/// A fitted size counts as a known size if both differ by at most the margin of the fit, but no more than `SURE` times the
+/// distance of the fitted size from the right size; or by at most `KNOWN` times the known size or that distance.
 const KNOWN: f64 = 0.03;
 const SURE: f64 = 0.1;
 
@@ -309,7 +309,7 @@ pub struct Limits {
     /// The least error over the methods' error: first for a mistake without a fitted size or with a known one, then for a
     /// mistake of any size.
     pub excess: [f64; 2],
-    /// The largest part of the error that may be left, where methods make next to none of it: first for a mistake without a
+    /// The largest part of the error that may be left if methods cause almost none of it: first for a mistake without a
     /// size, then for one whose size was fitted.
     pub left: [f64; 2],
     /// The largest part that may be left, over the part that a hypothesis of an impossible size leaves. If that hypothesis fits

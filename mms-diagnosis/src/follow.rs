@@ -5,7 +5,7 @@ pub trait Follow: Sync {
     /// Whether the diagnosis has to end: it returns [`Obstacle::Stopped`](crate::run::Obstacle::Stopped) soon.
     fn is_stopped(&self) -> bool;
 
-    /// Takes a line that says how far the diagnosis is.
+    /// Receives a line about the progress of the diagnosis.
     fn say(&self, line: &str);
 }
 

@@ -59,7 +59,8 @@ impl Error {
     }
 
     fn fit(&self, directions: &[Vec<f64>], doubtful: &[Vec<f64>], method: &Vec<f64>) -> Fit {
-        // Each doubt has a row of its own: it pulls the method's error to one time itself, and the other doubts to 0.
+        // A row for each doubt pulls the factor of the method's error to 1, and the factors of differences between methods to
+        // 0.
         let rows = 1 + doubtful.len();
         let row = |column: &[f64], place: Option<usize>| {
             let weight = (DOUBT * size(column)).max(self.floor);
@@ -106,7 +107,8 @@ impl<const D: usize, F: Fn(&Hypothesis<D>, &[f64]) -> Vec<f64>> Effect<D> for F 
     }
 }
 
-/// Finds the part of the error that a hypothesis explains. Refines the size until the scale is 1; takes a vector as linear.
+/// Finds the part of the error that a hypothesis explains. Refines the size until the scale is 1; a vector is assumed to
+/// act linearly.
 pub fn explain<const D: usize>(
     index: usize,
     hypothesis: &Hypothesis<D>,

@@ -18,10 +18,10 @@ type Load = Arc<dyn Fn(&str) -> Result<String, String> + Send + Sync>;
 /// Opens the field that a user named: one of the gallery, or a file.
 pub type Open<'a> = &'a (dyn Fn(&str) -> anyhow::Result<Source> + Sync);
 
-/// One of the ways to compile.
+/// A function that compiles the text of a field.
 pub(crate) type Compile = fn(&str, &str, &str, Loader<'_>, &Options) -> Result<Compiled, Failure>;
 
-/// The text of a field that a user named, to be compiled in one way or more.
+/// The text of a field that a user named, to be compiled with one set of options or several.
 #[derive(Clone)]
 pub struct Source {
     /// The words by which the user named it.

@@ -1,8 +1,8 @@
 //! The fields of the gallery that test the most of somebody else's solver: a verification matrix for it.
 //!
 //! A field shows the terms of the equations that do not vanish in it, its dimension, its material and the kinds of its faces.
-//! Of the fields that a solver can run, the smallest set is chosen that shows all that any of them shows. For terms that no
-//! such field shows, the report names a field that shows them and the abilities that the solver needs for it.
+//! From the fields that a solver can run, this module chooses the smallest set that shows every term that one of them shows.
+//! For terms that no such field shows, the report names a field that shows them and the abilities that the solver needs for it.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,8 +1,8 @@
 //! "Pseudo verification": checks of runs for which no exact solution is known, or only its picture.
 //!
-//! The checks are from Wallstedt, Guilkey, slide "Pseudo Verification": plausibility, symmetry, and related ones. They are real
-//! checks, of the runs that rows judge. Their thresholds are common practice, not the sharpest ones possible. A check counts if
-//! it has no objection without the defect:
+//! The checks are from Wallstedt, Guilkey, slide "Pseudo Verification": plausibility, symmetry, and related ones. They check
+//! the same runs that rows judge. Their thresholds are common practice, not the sharpest ones possible. An objection to a
+//! defect counts only if the check has no objection without the defect:
 //!
 //! | check | objects if |
 //! |---|---|
@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 /// A check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Check {
-    /// Beside the picture of the exact solution it looks the same: u is off by less than 1/10.
+    /// The picture looks like the picture of the exact solution: u is off by less than 1/10.
     Picture,
     /// The run ends, and no displacement exceeds the length of the body.
     Bounded,
@@ -33,7 +33,7 @@ pub enum Check {
 }
 
 impl Check {
-    /// All of them.
+    /// All checks.
     pub const ALL: [Self; 5] =
         [Check::Picture, Check::Bounded, Check::Symmetric, Check::Energy, Check::Settles];
 
@@ -90,7 +90,7 @@ impl Visible {
         Visible(std::array::from_fn(fair))
     }
 
-    /// The objections of either.
+    /// The objections of either row: a check objects if it objects to one of them.
     pub fn or(self, other: Self) -> Self {
         let either = |at: usize| match (self.0[at], other.0[at]) {
             (Some(one), Some(another)) => Some(one || another),

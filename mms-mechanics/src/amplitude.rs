@@ -2,12 +2,14 @@
 //! lose digits at a small amplitude.
 //!
 //! An expression that vanishes with the amplitude keeps its digits if no sum in it vanishes while its terms do not: see
-//! [`Amplitude::keeps`]. Any other is replaced by its remainder ([`difference`]), order by order: u, H, C - I, B - I and J - 1,
-//! and for Div P and the quantities made of it also v, a and the second gradient, for a map such as r(R, a) - R has small ones
-//! too. The test is numerical, at a few places, and only chooses a candidate: each form is exact for all values.
+//! [`Amplitude::keeps`]. Any other is replaced by its remainder ([`difference`]), order by order. The expressions are u, H,
+//! C - I, B - I and J - 1; for Div P and the quantities made of it also v, a and the second gradient, which are small, too, for
+//! a map such as r(R, a) - R. The test is numerical, at a few places, and only chooses a candidate: each form is exact for all
+//! values.
 //!
 //! The part without an amplitude is omitted if it is 0 for any signs of X and of the parameters, in 31 digits at 24 places;
-//! else it stays. A quotient is rejected if it has no value at a corner or in the middle of the body while the whole has one.
+//! else it stays. The replacement is rejected if it has no value at a corner or in the middle of the body where the original
+//! expression has one.
 
 use mms_math::{Double, Scalar as _};
 
@@ -88,8 +90,8 @@ impl Amplitude {
         })
     }
 
-    /// The expressions `stable` if they keep their digits, else more exact ones: the expressions `plain`, of the same values,
-    /// without their part at amplitude 0 if that part is 0.
+    /// The expressions `stable`, of which those that lose digits are replaced by the remainders of `plain`, which has the same
+    /// values. The limit at amplitude 0 is added to a remainder unless it is 0.
     pub fn rewrite(&self, graph: &mut Graph, plain: &[Expr], stable: &[Expr]) -> Vec<Expr> {
         let keeps = self.kept(graph, stable).keeps;
         let lost = |index: &usize| keeps[stable[*index]] != DigitLoss::All;
@@ -127,7 +129,8 @@ impl Amplitude {
         pairs().all(|(old, new)| finite(old).zip(finite(new)).all(|(old, new)| new || !old))
     }
 
-    /// The difference between each expression and its limit at amplitude 0.
+    /// The remainder of each expression beyond its limit at amplitude 0, plus the limit unless that is 0; `None` if an
+    /// expression has a part without a rule.
     fn apart(&self, graph: &mut Graph, exprs: &[Expr]) -> Vec<Option<Expr>> {
         let parts = difference(graph, exprs, self.symbol);
         let limits: Vec<Expr> = parts.iter().flatten().map(|parts| parts.limit).collect();
@@ -181,9 +184,9 @@ impl Amplitude {
         half > 0.0 && half < 0.3 * whole
     }
 
-    /// Whether all of these keep their digits at a small amplitude. An expression does if it is not small with the amplitude,
-    /// or if it is a sum of small terms that keep theirs, a product with one small factor that does, or a function of an
-    /// operand that does.
+    /// Whether all of these expressions keep digits at a small amplitude. An expression keeps its digits if it does not vanish
+    /// with the amplitude; a sum, if all its terms vanish and keep their digits; a product, if a small factor keeps its digits;
+    /// a function, if its operand keeps its digits.
     pub fn keeps(&self, graph: &Graph, roots: &[Expr]) -> bool {
         let keeps = self.kept(graph, roots).keeps;
         roots.iter().all(|root| keeps[*root] != DigitLoss::None)

@@ -28,7 +28,7 @@ pub(super) struct SamplePoint {
     pub time: Double,
 }
 
-/// Whether the sum of expressions is 0 for all parameters, X and t, but not each one.
+/// Whether the sum of expressions is 0 for all parameters, X and t, although some term is not.
 pub(super) fn cancel(graph: &mut Graph, model: &Model, terms: &[Expr]) -> bool {
     let sum = graph.sum(terms.iter().map(|term| (*term, Rational::ONE)));
     let places = anywhere(graph, model, &defaults(graph, model), None);

@@ -4,14 +4,14 @@
 //! # Candidates
 //!
 //! The derivation is made once without relations and, if the displacement has some, once more with the motion reduced by them,
-//! so that det F = 1 of a rotation is 1 from the start. `candidates` makes each form of every quantity that the passes give, by
-//! name, and chooses; all are scheduled. A pass that outgrows the graph is undone.
+//! so that det F = 1 of a rotation is 1 from the start. `candidates` applies the passes, which give
+//! several named forms of every quantity, schedules all forms, and chooses one. A pass that outgrows the graph is undone.
 //!
 //! # Cost
 //!
 //! Operations that depend on X count first, then all. Div P and b, which a solver computes in every step, are also written with
-//! the part that X determines separate from the part that t determines (`separate`). That candidate is chosen if it leaves less
-//! to compute at each time, an operation that needs t counted twice, and at most a sixteenth more from a position. For these
+//! the part that X determines separate from the part that t determines (`separate`). That candidate is chosen if it
+//! needs fewer operations, where an operation that needs t counts twice, and at most a sixteenth more at a point. For these
 //! two quantities a second cost counts additions of products as free, as in loops over points on processors with fused
 //! multiply-add: one number may then replace two that differ by a constant (`shift`), and constants are added up
 //! (`reassociate`), if that takes fewer steps and no more steps that need t. Except for Div P and b, no chosen program costs

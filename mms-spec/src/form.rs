@@ -3,14 +3,14 @@
 use crate::diagnostic::quoted;
 use crate::suggest::advice;
 
-/// The open ways to compute a quantity.
+/// The formulas among which the compiler chooses for a quantity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Form {
-    /// The ways that fulfil the accuracy contract: for each quantity, at any strain down to 1e-12, an error of at most 64 eps
-    /// of its largest magnitude.
+    /// The formulas that fulfil the accuracy contract: for each quantity, at any strain down to 1e-12, an error of at most 64
+    /// eps of its largest magnitude.
     #[default]
     Stable,
-    /// All ways. At a small strain e, the stress may lose eps/e, and the energy eps/e^2.
+    /// All formulas. At a small strain e, the stress may lose eps/e, and the energy eps/e^2.
     Fast,
 }
 

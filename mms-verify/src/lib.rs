@@ -6,12 +6,12 @@
 //! | step | from -> to | where |
 //! |---|---|---|
 //! | read | `matrix.toml` -> rows, refused where they mean nothing | [`matrix`] |
-//! | plan | rows -> runs, each once; the longest comes first, so that no thread is left with it | [`plan`] |
+//! | plan | rows -> runs, each once; the longest comes first, so that no thread runs it alone at the end | [`plan`] |
 //! | run | runs -> outcomes, one thread each, from the store where it has them | [`work`] |
 //! | judge | outcomes of a row -> its verdict | [`verdict`] |
 //!
-//! With the feature `defects`, `defects` shows rows deliberate mistakes of solver and compiler, which they have to
-//! catch.
+//! With the feature `defects`, the module `defects` runs rows with deliberate mistakes of solver and compiler, which the rows
+//! have to catch.
 //!
 //! "Sufficient, not just necessary, if we test all modes [...] but not all in the same test": Wallstedt, Guilkey,
 //! "Manufactured Solutions Suitable for Verification of MPM and GIMP Codes".

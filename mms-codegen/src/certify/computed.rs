@@ -5,8 +5,8 @@
 //! from it. Every operation passes the distance on by the mean-value theorem, and adds its rounding and the least subnormal
 //! number. The exact part is made sharper by formulas: each operand of a division, a root or a logarithm is written once more
 //! as a formula in the variables of the box, as a multiple of J or bounded by its mean-value form. A divisor, a root or a
-//! logarithm must be of the right sign with the error included. An overflow has no value, and neither has a sine in twice the
-//! digits of more than 2^50. Numbers that vary have this precision; the first two stages have the wider one.
+//! logarithm must be of the right sign with the error included. An overflow has no value, and neither has the sine, in twice
+//! the digits, of an angle above 2^50. Numbers that vary have this precision; the first two stages have the wider one.
 //!
 //! `f64` is part of the verdict that everything is finite. `f32` has a line of its own, and is an error of `mms run` and `mms
 //! study` only if it fails at a corner or in the middle.

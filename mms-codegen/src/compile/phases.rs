@@ -1,7 +1,7 @@
 //! The phases of a compilation: read a text, transform it, derive from it, simplify, and schedule.
 //!
 //! Each phase has its own budget of steps ([`crate::work`]). If reading or deriving spends its budget, the text is refused. If
-//! simplifying or scheduling does, the shortest form found so far is kept.
+//! simplifying or scheduling spends its budget, the shortest form found so far is kept.
 
 use super::{Compiled, Loader, Options};
 use crate::bounds::angles::near_zero;
@@ -149,7 +149,7 @@ impl<'a> Phases<'a> {
         diagnostics.is_empty().then_some(Read { field, material, model })
     }
 
-    /// Derives the quantities of the model, plainly and, if there is room for that, simplified.
+    /// Derives the quantities of the model: plainly and, if the limits of nodes and work allow it, simplified.
     fn derive(
         &mut self,
         graph: &mut Graph,

@@ -1,5 +1,5 @@
 //! The observers of a run of `mms run`: its progress, what it writes (`--vtk`, `--history`, `--checkpoint`), and
-//! where it goes on from.
+//! the checkpoint from which it resumes.
 //!
 //! An observer that fails stops the run, with exit code 3. Files appear under their names when they are whole. The first
 //! Ctrl-C, or Ctrl-\, ends the step, keeps a checkpoint and stops with exit code 3; the second one ends the process.
@@ -22,14 +22,14 @@ use crate::vtk::Writer;
 /// The exit code of a process that a second signal ends: 128 and the number of SIGINT.
 const KILLED: i32 = 130;
 
-/// Whether somebody wants the run to stop.
+/// A flag that a signal sets to stop the run.
 pub struct Interrupted(Arc<AtomicBool>);
 
 impl Interrupted {
     /// Waits for Ctrl-C, Ctrl-\, or another request to terminate; a second one ends the process at once.
     ///
     /// # Errors
-    /// The system cannot tell this process of signals.
+    /// Handlers of signals cannot be installed.
     pub fn listen() -> anyhow::Result<Self> {
         let flag = Arc::new(AtomicBool::new(false));
         for signal in signals() {
@@ -41,13 +41,13 @@ impl Interrupted {
         Ok(Interrupted(flag))
     }
 
-    /// Whether somebody does.
+    /// Whether a signal has set the flag.
     pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// Everybody.
+/// All observers of a run.
 pub struct Observers<'a> {
     pub progress: OfRun<'a>,
     pub vtk: Option<Writer>,
@@ -70,7 +70,7 @@ impl Observers<'_> {
 
     fn try_to_keep(&mut self, checkpoint: &dyn Checkpoint) -> anyhow::Result<()> {
         let Some(keeper) = &mut self.keeper else { return Ok(()) };
-        // Never behind the checkpoint.
+        // First the history, so that it is never older than the checkpoint.
         self.history.as_ref().map_or(Ok(()), History::keep)?;
         let (states, mark) = (
             self.vtk.as_ref().map_or(&[][..], Writer::written),

@@ -62,8 +62,8 @@ pub struct State {
     /// The times; a static field needs none.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
     time: Vec<f64>,
-    /// The quantities beside X, separated by commas, or `all` but second_piola_kirchhoff, pressure, von_mises and strain, which are
-    /// derived where they are named.
+    /// The quantities beside X, separated by commas, or `all` but second_piola_kirchhoff, pressure, von_mises and strain, which
+    /// are derived where they are named.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     quantity: Vec<String>,
     /// Write all nine components of tensors, of plane strain in two dimensions and of uniaxial strain in one: F_33 = 1, and
@@ -85,8 +85,8 @@ pub struct State {
     set: Vec<String>,
     #[command(flatten)]
     variant: Variant,
-    /// The file to write: .csv, .vtu or .npz; no link. A table holds all times; of the others there is a file for each time, numbered,
-    /// and of VTK a list of them (.pvd).
+    /// The file to write: .csv, .vtu or .npz; no link. A table holds all times; of the others there is a file for each time,
+    /// numbered, and of VTK a list of them (.pvd).
     #[arg(long, short, value_name = "FILE")]
     output: Target,
     /// Print one JSON document.
@@ -148,7 +148,7 @@ impl State {
         }
     }
 
-    /// Refuses a time that is given twice: two states of one time are no course of a motion.
+    /// Refuses a time that is given twice: a motion has one state at a time.
     fn validate_single(&self) -> anyhow::Result<()> {
         let is_twice = |(at, time): &(usize, &f64)| self.time[..*at].contains(time);
         match self.time.iter().enumerate().find(is_twice) {

@@ -4,17 +4,17 @@ use std::time::{Duration, Instant};
 
 use mms_runtime::study::{Frame, Observer};
 
-/// Runs of fewer particles and steps, all of them together, are done before a trial of them would be.
+/// The least number of particles times steps, over all runs, for a trial: fewer end sooner than a trial.
 const WORTH_A_TRIAL: f64 = 5e6;
 
-/// The grid of a trial has so many particles, if one has; and how many steps it takes after the first one.
+/// The least number of particles of a trial, if a run has as many; and the number of its timed steps, after the first one.
 const PARTICLES: usize = 4000;
 const STEPS: usize = 6;
 
 /// The duration above which a warning is printed.
 const LONG: Duration = Duration::from_secs(120);
 
-/// Follows a run to some step, at which it ends.
+/// An observer that times a run, and ends it after a few steps.
 #[derive(Default)]
 pub struct Trial {
     last: usize,
@@ -23,7 +23,7 @@ pub struct Trial {
     took: Option<Duration>,
 }
 
-/// How large a run is.
+/// The size of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
     /// Particles.
@@ -79,7 +79,7 @@ pub fn estimate(count: usize, in_step: bool, begin: impl Fn(usize, &mut Trial)) 
     Some(sentence(&sizes, took))
 }
 
-/// How long runs of these sizes will take together; not known of what takes no time.
+/// The estimated duration of runs of these sizes together; `None` if they are too short for a trial.
 fn duration(sizes: &[Size], begin: impl Fn(usize, &mut Trial)) -> Option<Duration> {
     let work: f64 = sizes.iter().map(|size| size.work()).sum();
     let is_long = |size: &Size| size.steps > 4 * STEPS;
@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(words(Duration::from_secs(7201)), "3 hours");
     }
 
-    /// A run whose steps take a millisecond of each of its particles, in thousands.
+    /// A run of 4000 particles whose steps take 4 ms.
     #[test]
     fn a_few_steps_tell_how_long_all_take() {
         let sizes = of(&[[1000, 1000], [4000, 2000]]);

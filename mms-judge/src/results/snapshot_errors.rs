@@ -43,7 +43,7 @@ pub struct AgainstExact<'a> {
     floor: f64,
     /// The part of the floor that the digits of the time make.
     of_time: f64,
-    /// Whether a solver is given all values.
+    /// Whether all values are inputs of a solver, and so no evidence.
     is_given: bool,
 }
 

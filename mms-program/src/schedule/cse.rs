@@ -121,7 +121,7 @@ impl Ratios {
     }
 }
 
-/// The operations in which pairs are counted. The greedy rule does better with one or with the other.
+/// The operations in which pairs are counted. Neither choice always gives the cheaper program: emitted programs try both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scope {
     /// All operations, including those that were replaced when numbers were multiplied into sums.

@@ -8,9 +8,9 @@
 //! * `signs`: -((a - b) c) becomes (b - a) c, if nothing else reads the product.
 //!
 //! Every output is scheduled by itself, in several ways, and the cheapest is used; common values of outputs are still one
-//! value. So an output costs the same with others as alone. Ways with the same operations are tried once, and charged as often
-//! as they are listed. If it saves operations at a point, numbers are multiplied into sums whose terms all have a factor that
-//! is known earlier: 256 X (a Y + b), a and b of the stage Time, becomes X ((256 a) Y + 256 b).
+//! value. So other outputs do not change the cost of an output. Several ways with the same operations are tried once, but the
+//! budget is charged for each. If it saves operations at a point, numbers are multiplied into sums whose terms all have a
+//! factor that is known earlier: 256 X (a Y + b), a and b of the stage Time, becomes X ((256 a) Y + 256 b).
 
 mod cse;
 mod flat;
@@ -27,8 +27,8 @@ use mms_symbolic::expr::Stage;
 use mms_symbolic::expr::{Expr, Graph, STEPS_OF_NODE, reachable};
 use mms_symbolic::sorted::SortedMap;
 
-/// The cost of operations: the number that depends on X first, since they run at every point, then the total; of two that are
-/// equal in both, the one with less at every time is cheaper.
+/// The cost of operations, compared in the order of the fields: operations that depend on X come first, since they run at every
+/// point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cost {
     /// Operations of the stages Point and PointTime.
@@ -40,8 +40,8 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Whether `other` is worth using instead of this, where an operation that needs t counts twice, for callers that store the
-    /// part of X. Other callers must have about as much to compute as before.
+    /// Whether `other` is worth using instead of this for callers that store the part of X: operations that need X and t count
+    /// twice. Other callers must have about as much to compute as before.
     pub fn is_worth(self, other: Cost) -> bool {
         let weight = |cost: Cost| cost.per_point + cost.late;
         self.is_about(other) && weight(other) + 2 * WORTH_APART <= weight(self)

@@ -11,7 +11,7 @@
 //! | `Sum` | a constant plus terms with non-zero coefficients, in order of handles; no term is a number or a sum |
 //! | `Product` | bases with non-zero exact exponents, in order of handles; nested products are opened, numbers folded where the power is rational |
 //! | `Call` | an elementary function |
-//! | `Offset` | a coordinate less a place, in a step of its own: as exact as the coordinate is |
+//! | `Offset` | a coordinate minus a place, computed as one subtraction: as exact as the coordinate |
 //! | `Small` | an angle with the proved bound of its magnitude; equal to the angle, and used by the scheduler only |
 //!
 //! Sums and products have any number of operands, so that equal expressions written in different order are one node.
@@ -154,7 +154,7 @@ const STEPS_OF_OPERAND: u64 = 10;
 #[derive(Clone, Debug)]
 pub struct Graph {
     nodes: Vec<Node>,
-    /// The time when the value of each node is known.
+    /// The stage at which the value of each node is known.
     stages: Vec<Stage>,
     /// The nodes by their hashes. Only ever looked up, never iterated: hash order cannot be observed.
     index: HashTable<Expr>,
@@ -262,7 +262,8 @@ impl Graph {
         ]
     }
 
-    /// Doubles the room, and adds the default limit: for a few more nodes in a graph that was within its limit.
+    /// Raises the limit by the present size and the default limit, so that a few more nodes fit into a graph that was within
+    /// its limit.
     pub fn make_room(&mut self) {
         self.limit += self.size + DEFAULT_MAX_NODES;
     }
@@ -281,7 +282,7 @@ impl Graph {
         None
     }
 
-    /// Runs `work`. If it reaches the limit, restores the graph; the result itself has to show that.
+    /// Runs `work`. If it reaches the limit, restores the graph; the caller must tell that from the result.
     pub fn unless_full<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
         let before = self.mark();
         let found = work(self);
@@ -291,7 +292,7 @@ impl Graph {
         found
     }
 
-    /// Runs `work` with room for more nodes, and removes them all afterwards.
+    /// Runs `work` with a raised limit, and then removes the nodes that it made.
     pub fn aside<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
         let (before, limit) = (self.mark(), self.limit);
         self.make_room();
@@ -342,7 +343,7 @@ impl Graph {
         &self.nodes[expr.index()]
     }
 
-    /// The time when the value of an expression is known.
+    /// The stage at which the value of an expression is known.
     pub fn stage(&self, expr: Expr) -> Stage {
         self.stages[expr.index()]
     }

@@ -13,7 +13,7 @@ use crate::work::{Bench, Fields, Step, watch_of};
 /// only the coarsest run of each row is measured.
 pub const WEIGHED: &str = ", with its energy";
 
-/// The number of looks at a run, including one at the end.
+/// The number of states of a run that are inspected, including the last one.
 const LOOKS: usize = 4;
 
 /// A run, and the data that people see of it.
@@ -32,7 +32,7 @@ impl AsRef<Outcome> for Watched {
     }
 }
 
-/// A bench that makes runs and looks at them.
+/// Makes runs, and inspects some of their states.
 pub struct VisualInspection {
     /// The fields.
     pub fields: Fields,
