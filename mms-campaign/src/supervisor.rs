@@ -1,9 +1,10 @@
 //! The supervisor of a run: a process between a campaign and the program that it runs.
 //!
-//! It starts the program and keeps its output. It ends the program with all processes that it has started: when the program has
-//! ended, when its time is over, on a signal, and when its own stdin ends, which is a pipe from the campaign. So a run ends
-//! with its campaign for any cause. Its stderr is the file [`RUNNING`] of the run, whose lock it shares. It writes there
-//! before the program starts, and empties the file when no process of the run is left. Its stdout is a [`Report`].
+//! The supervisor starts the program and keeps the program's output. It ends the program, and all processes that the program
+//! has started, when the program has ended, when the time is over, on a signal, and when the supervisor's stdin ends, which is
+//! a pipe from the campaign. So a run ends with its campaign for any cause. The supervisor's stderr is the file [`RUNNING`] of
+//! the run, whose lock it shares. It writes there before the program starts, and empties the file when no process of the run
+//! remains. Its stdout is a [`Report`].
 
 use std::ffi::OsString;
 use std::fs::File;
@@ -196,7 +197,7 @@ impl Run<'_> {
         vec![keep(stdout, STDOUT), keep(stderr, STDERR)]
     }
 
-    /// Waits until a program ends, or must be ended; returns why.
+    /// Waits until a program ends, or must be ended, and returns the reason.
     fn ended(&self, child: &mut Child, stop: &AtomicBool) -> io::Result<Ended> {
         let (started, mut pause) = (Instant::now(), PAUSES[0]);
         loop {

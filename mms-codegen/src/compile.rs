@@ -2,9 +2,9 @@
 //!
 //! A compilation, in the macro as elsewhere, only looks for contradictions and proves nothing. It tests each claim at 4 points
 //! of its face; J <= 0, and a cut of `atan2` across which values jump, within 128 boxes and 100,000 operations each; and
-//! whether `f64` computes the field at the corners of the domain and in its middle. Each contradiction is an error. It does not
-//! search for finite values any further, and it skips fields whose H has more than 2000 nodes. The selection of quantities does
-//! not matter: J and the claims belong to the field.
+//! whether `f64` computes the field at the corners of the domain and in its middle. Each contradiction is an error. Beyond
+//! these places it does not test that values are finite, and it skips fields whose H has more than 2000 nodes. The selection of
+//! quantities does not matter: J and the claims belong to the field.
 
 pub mod fast_check;
 mod phases;

@@ -166,8 +166,8 @@ where
         (is_asked || best.apart <= NEAR).then_some(best)
     }
 
-    /// Finds the part of the error that each hypothesis explains, on all processors. If none explains it, large mistakes are tried: the
-    /// response to a large mistake is no multiple of that to a small one.
+    /// Finds the part of the error that each hypothesis explains, on all processors. If none explains it, large mistakes
+    /// are tried: the response to a large mistake is no multiple of the response to a small one.
     fn all(&self, is_right: bool) -> Result<Vec<Explained>, Obstacle> {
         let seen: Vec<_> = self.frame.quantities.iter().map(|(it, _)| *it).collect();
         let each =

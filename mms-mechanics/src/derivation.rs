@@ -174,8 +174,8 @@ pub(super) struct Present {
     pub deformation: Tensor,
     /// 1/J.
     pub per_volume: Expr,
-    /// Whether tau is computed as P F^T, and not from B - I, which needs no inverse: a rotation cancels in C - I, while B - I
-    /// turns with it and grows.
+    /// Whether tau is computed as P F^T instead of from B - I. B - I needs no inverse, but turns with a rotation and grows,
+    /// while the rotation cancels in C - I.
     by_first: bool,
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Precision and form are one value, `Arithmetic`, beside the runtime's `Method`, which contains neither: its numbers are a
 //! type parameter, and it runs any given field. Every text of a method, in words, as keys, or in the key of a result or a
-//! checkpoint, includes `Arithmetic`. A document that lacks one of the two is of an older version, and `mms report` sets it
-//! aside.
+//! checkpoint, includes `Arithmetic`. `mms report` leaves out a document that lacks one of the two: an older
+//! version wrote it.
 
 use std::fmt;
 use std::str::FromStr;
@@ -190,8 +190,8 @@ impl MethodOptions {
         Variant::new(motion.clone(), self.arithmetic.form)
     }
 
-    /// The method for a field with some parameters set, its time step held to the stable one; with a note if no stable one is
-    /// known.
+    /// The method for a field with some parameters set, its time step limited to the stable one; with a note if no stable time
+    /// step is known.
     ///
     /// # Errors
     /// A method that the field does not allow.
@@ -217,7 +217,7 @@ impl MethodOptions {
         Ok((method, note))
     }
 
-    /// Refuses single precision where it does not compute the field. Of double precision that is an error of the file.
+    /// Refuses single precision if it cannot compute the field. If double precision cannot, that is an error of the file.
     fn validate_precision(&self, input: &Input, settings: &[String]) -> anyhow::Result<()> {
         if self.arithmetic.precision == Precision::F64 {
             return Ok(());
@@ -245,7 +245,7 @@ impl MethodOptions {
         Ok(())
     }
 
-    /// The method, or what of it cannot be for a body of this dimension.
+    /// The method, or the option that contradicts another one or the dimension of the body.
     pub fn method(&self, dimension: usize) -> anyhow::Result<Method> {
         let transfer = match (self.transfer, self.flip_fraction) {
             (transfer, None) => transfer,

@@ -159,8 +159,8 @@ impl<F: Format> Computed<F> {
         Self::of(exact, if by.is_nan() { f64::INFINITY } else { by }).after(OF_FUNCTIONS)
     }
 
-    /// An angle less whole turns, if it is more than a few. The exact value is defined with as many turns subtracted as the
-    /// computed value has; that number may be off by one for an angle between two turns.
+    /// Subtracts whole turns from an angle of more than a few turns. The exact value is defined with as many turns subtracted
+    /// as the computed value has; that number may be off by one for an angle between two turns.
     fn within(self, few: f64, largest: f64) -> Self {
         let farthest = self.reach().farthest();
         if !self.is_finite() || farthest <= few {

@@ -1,7 +1,7 @@
 //! Fork and join: runs two closures at once, if there are threads for it.
 //!
-//! The threads belong to the caller's pool ([`crate::study::run`] makes one). Results do not depend on their number: work whose
-//! results are joined is cut into parts that do not depend on it, and other parts are independent of each other.
+//! The threads belong to the caller's pool ([`crate::study::run`] makes one). Results do not depend on the number of
+//! threads: if results are joined, the cuts do not depend on that number; otherwise the parts are independent of each other.
 
 /// The number of nodes that one thread processes at a time.
 const NODES: usize = 2048;
@@ -58,7 +58,7 @@ impl Parts for std::ops::Range<usize> {
     }
 }
 
-/// Both have the same length.
+/// Two data of the same length, cut at the same place.
 impl<A: Parts, B: Parts> Parts for (A, B) {
     fn len(&self) -> usize {
         self.0.len()

@@ -26,7 +26,7 @@ pub trait Notation {
     fn power(&self, base: &str, exponent: &Exponent) -> String;
     /// The root of degree 2 or 3; `is_atom` where the radicand cannot be misread.
     fn root(&self, degree: u8, radicand: &str, is_atom: bool) -> String;
-    /// A function of its arguments, itself to a power where there is one.
+    /// A function of its arguments; the power, if any, is the function's.
     fn call(&self, function: Function, arguments: &[String], power: Option<&str>) -> String;
     /// Whether a power can follow the name of a function: sin^2(x).
     fn has_powers_of_functions(&self) -> bool;

@@ -35,7 +35,7 @@ pub struct Chart {
     /// X in terms of radius and angles; empty if the coordinates are Cartesian.
     places: SortedMap<Symbol, Expr>,
     system: System,
-    /// The triangles of a polygon, as many as a power of two, so that no cell of a search lies across two for long.
+    /// The triangles of a polygon, padded to a power of two in number: so bisection soon separates them.
     triangles: Vec<[usize; 3]>,
     /// The bounds of each variable, in terms of the parameters among those before it; then X and
     /// all parameters.
@@ -162,8 +162,8 @@ impl Chart {
         reduced.unwrap_or_else(|| rotated.components().to_vec())
     }
 
-    /// By how much each fraction moves each variable in a cell by itself, and by how much the parameters move it along with
-    /// their own range.
+    /// For each variable, its width over a cell due to its own fraction, and the further width due to the ranges of the
+    /// parameters that its bounds depend on.
     fn widths(&self, cell: &Cell, place: &[Interval]) -> Vec<[f64; 2]> {
         let total = || place.iter().map(|side| side.width());
         if self.ranged().next().is_none() {
@@ -180,7 +180,7 @@ impl Chart {
         own.zip(total()).map(|(own, total)| [own, (total - own).max(0.0)]).collect()
     }
 
-    /// By how much each variable changes all formulas with these slopes together over a cell.
+    /// For each variable, the change that it causes over a cell, summed over all formulas with these slopes.
     pub fn changes(&self, cell: &Cell, place: &[Interval], slopes: &[Vec<Interval>]) -> Vec<f64> {
         let widths = self.widths(cell, place);
         let slopes = slopes.iter().map(|by| by.iter().map(|slope| slope.farthest()).sum::<f64>());

@@ -205,7 +205,7 @@ impl<'a> Emitter<'a> {
         self.needs(output, |symbol| symbol == Symbol::Time)
     }
 
-    /// Whether an output is made of a leaf of some kind.
+    /// Whether an output depends on a leaf of some kind.
     fn needs(&self, output: Output, is: impl Fn(Symbol) -> bool) -> bool {
         let needed = self.program.needed_for(self.values(output).iter().copied());
         let mut needed = self.program.instrs.iter().zip(needed).filter(|(_, needed)| *needed);

@@ -8,16 +8,16 @@
 //! | `motion` | how far the motion goes, as data |
 //! | `names` | a user's names under the rules of a language: words, case, length |
 //! | `number` | literals, in decimal and hexadecimal |
-//! | `support` | functions that a language lacks: of its support text, those that are called |
+//! | `support` | functions that a language lacks: the called ones of its support text |
 //! | `lower` | a program in which functions that a language lacks are written out in those that it has |
-//! | `once` | numbers that are computed with no more digits than they have |
+//! | `once` | numbers without extra digits in the stages Parameter and Time |
 //! | `vectors` | test vectors |
 //! | `check` | the file of test vectors, the comments of check programs, and the functions that they call |
 //!
 //! A port is flat: one statement per instruction, no shared divisions, no fused products. The stages Parameter and
 //! Time are computed in pairs of doubles, as in Rust, by support text in the language itself, in Julia in its own
-//! numbers of 512 bits. Languages of expressions (UFL, MOOSE, Karamelo) have one precision, in which an angle has
-//! no more digits without its turns, and few functions; those that they lack are written out. SymPy gets exact
+//! numbers of 512 bits. Languages of expressions (UFL, MOOSE, Karamelo) have one precision, so that
+//! subtracting turns from an angle gains no digits, and few functions; the others are written out. SymPy gets exact
 //! numbers.
 
 pub mod body;
@@ -48,7 +48,7 @@ use mms_symbolic::sorted::SortedMap;
 /// The stages that are evaluated at a point.
 pub const AT_POINTS: &[Stage] = &[Stage::Point, Stage::PointTime];
 
-/// A field on its way into some language.
+/// A field prepared for a target language.
 pub struct Port<'a> {
     /// The field, and its test vectors.
     pub subject: &'a Subject<'a>,

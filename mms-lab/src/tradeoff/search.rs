@@ -176,8 +176,8 @@ const GAIN: f64 = 0.9;
 /// The largest number of settings that are tuned, and the factor by which their predictions may be worse than the best.
 const TUNED: (usize, f64) = (3, 4.0);
 
-/// Runs of the longest's particle-steps over this are long, too; the quickest of them says what a particle takes in a step,
-/// since others may use the processor.
+/// Runs with at least the particle-steps of the longest run over this count as long. The fastest of them determines the time of
+/// a particle-step, since other programs may use the processor.
 const LONG: f64 = 8.0;
 
 /// The number of runs of a setting to meet the goal.
@@ -381,7 +381,8 @@ impl<'a> Search<'a> {
         runs
     }
 
-    /// The order between the finest run and the finest that is coarser by a quarter; `None` if there are not both.
+    /// The order between the finest run and the finest run with at most 4/5 of its cells; `None` if one of them is missing or
+    /// has no error.
     fn order(&self, setting: &Setting) -> Option<f64> {
         let runs = self.finished(setting);
         let fine = runs.last()?;

@@ -43,8 +43,8 @@ impl<T: Copy + Debug + Send + Sync, const C: usize, const K: usize> Numbers<T> f
 
 /// A number type in which programs are run over blocks of points: `f32`, `f64` or [`Double`].
 pub trait Blockwise: Number<Wide: Copy + Send + Sync> + Lift<Self> + Send + Sync {
-    /// The number of points of a block: as in compiled code, where a block with a result that is not a number is computed again
-    /// as a whole.
+    /// The number of points of a block. Compiled code has the same blocks, which matters because a block with a NaN result is
+    /// computed again as a whole.
     const BLOCK: usize;
     /// The number of points that are processed together.
     const TOGETHER: usize;

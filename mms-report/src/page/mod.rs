@@ -192,7 +192,7 @@ impl Page {
         Verdicts { expected, all, word }
     }
 
-    /// The body of its first field, small and deformed.
+    /// A small picture of the deformed body of the first field.
     pub fn thumbnail(&self) -> Option<Markup> {
         self.fields.first()?.thumbnail()
     }

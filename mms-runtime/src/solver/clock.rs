@@ -57,7 +57,7 @@ pub struct Seconds {
 }
 
 impl Seconds {
-    /// The sum of both.
+    /// The sum of two measurements, part by part.
     pub(super) fn sum(self, other: Self) -> Self {
         Self {
             forcing: self.forcing + other.forcing,

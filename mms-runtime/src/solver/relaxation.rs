@@ -14,7 +14,7 @@
 //! finding and analysis of tension structures by dynamic relaxation", Int. J. Space Struct. 14 (1999) 89-104). Viscous damping
 //! needs a coefficient that follows the lowest frequency (Underwood 1983), which has to be estimated for every body as it
 //! stiffens, and damps badly if the estimate is wrong. Peaks need no parameter and occur with every shape function and
-//! transfer, and halting acts on particles alone: it is one place, between two steps. Integrators that move particles by one
+//! transfer, and halting acts on particles alone, at one place between two steps. Integrators that move particles by one
 //! velocity and deform them by another are refused: each halt would make u inconsistent with F.
 //!
 //! # Mass

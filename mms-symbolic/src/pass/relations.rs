@@ -32,7 +32,7 @@ pub struct Relations {
     steep: bool,
 }
 
-/// The rank of an expression by the time when it is known, latest first: 0 if it needs X, 1 if it needs t, else 2.
+/// The rank of an expression by its stage, the latest stage first: 0 if it needs X, 1 if it needs t and not X, else 2.
 pub fn latest_stage(graph: &Graph, expr: Expr) -> u8 {
     match graph.stage(expr) {
         Stage::Point | Stage::PointTime => 0,
@@ -270,7 +270,7 @@ impl Relations {
     }
 
     /// The order in which factors are taken out of sums: sines and cosines at a point, coordinates under roots, and others by
-    /// the time when they are known.
+    /// their stage.
     pub(super) fn rank(&self, graph: &Graph, atom: Expr) -> u8 {
         match latest_stage(graph, atom) {
             0 if self.circular.contains(&atom) => 0,

@@ -2,10 +2,10 @@
 //!
 //! A suite that does not fail for a seeded defect is no verification suite. Each defect is switched on for the whole process
 //! and shown to the quick levels of the rows that list it under `catches`; to all rows, if none does, or with `--all-rows`.
-//! First the rows are run without any defect, in the same way: an unexpected verdict ends the command. The command expects that
-//! every defect is caught, by each row that lists it, and, if all rows were shown all defects, that each row catches a defect
-//! that at most six rows catch, or has a `witness`: a property that no other row tests. Results are kept in a folder of their
-//! own in the store. Beside the verdicts, each run is looked at as people look at runs ([`pictures`](mms_lab::pictures)).
+//! First the same rows are run without a defect: an unexpected verdict ends the command. Then each row must catch every defect
+//! that it lists. If all rows were shown all defects, each row must also catch a defect that at most six rows catch, or have a
+//! `witness`: a property that no other row tests. Results are kept in a folder of their own in the store. Beside the verdicts,
+//! plausibility checks inspect each run as people do ([`pictures`](mms_lab::pictures)).
 
 mod visual;
 
@@ -36,7 +36,7 @@ pub enum Defect {
 }
 
 impl Defect {
-    /// All of them.
+    /// All defects.
     pub fn all() -> impl Iterator<Item = Self> {
         let of_compiler = compiler::Defect::ALL.iter().map(|&defect| Defect::Compiler(defect));
         of_compiler.chain(solver::Defect::ALL.iter().map(|&defect| Defect::Solver(defect)))
@@ -123,11 +123,11 @@ pub struct Shown<'a> {
     pub row: &'a MatrixRow,
     /// The verdict.
     pub judgement: Judgement,
-    /// The objections of people to the runs of the row.
+    /// The objections of the plausibility checks to the runs of the row.
     pub looks: Visible,
 }
 
-/// The setup in which rows are shown defects.
+/// The setup of runs of rows with defects.
 pub struct Stage<'a> {
     /// The identity of this program.
     pub program: String,
@@ -140,7 +140,7 @@ pub struct Stage<'a> {
 }
 
 impl Stage<'_> {
-    /// The verdicts of the quick levels of some rows, while the program makes a mistake or makes none.
+    /// The verdicts of the quick levels of some rows, with a mistake in the program or without one.
     ///
     /// # Errors
     /// The store cannot be read or written.
