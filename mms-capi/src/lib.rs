@@ -12,6 +12,10 @@
 //! |---|---|
 //! | `field` | the complete library, in safe Rust |
 //! | `settings` | a field's parameters, which change as a whole while other threads evaluate |
+//! | `evaluator` | quantities at many points, in blocks |
+//! | `gallery` | the texts of the shipped fields |
+//! | `stop` | ends long calls on request |
+//! | `error` | the codes and messages |
 //! | `memory` | the only code that accesses the memory of the caller: it checks addresses before they become slices and texts, and writes results through pointers, never through references |
 //! | `abi` | the functions, from which `mms_capi.h` is generated |
 //! | `border` | conversion of panics and errors to codes and messages; compiles on a separate thread, for the stack of the caller may be small |

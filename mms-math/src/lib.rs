@@ -16,6 +16,10 @@
 //! | `batch`, `dispatch` | many points, block by block, and which instructions may be used |
 //! | `block` | the numbers of a block, and the loops over it |
 //! | `simd` | eight numbers as one value, in registers if the processor has them (SIMD pack) |
+//! | `places`, `packed`, `structures` | sources of points and sinks for results: columns, packs of eight, arrays of structures |
+//! | `kept` | values at many points, stored for later times |
+//! | `generate` | macros that generated modules call |
+//! | `defect` | the list of deliberate mistakes of a crate, and the selected one |
 #![no_std]
 
 #[cfg(feature = "std")]

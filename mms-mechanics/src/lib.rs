@@ -17,6 +17,18 @@
 //! fibres it is the greater of two speeds, along them and across. These are the `Response`s. The tangent dP/dF is a separate
 //! program (`Compiled::tangent`), made only on request. The forcing and the solver's stress follow from one W: they cannot
 //! disagree, and neither verifies the other. Independent routes in the tests do.
+//!
+//! | module | contents |
+//! |---|---|
+//! | `resolve`, `meanings`, `model` | formulas with names to expressions; a field with resolved names |
+//! | `derivation`, `kinematics`, `tensor` | all quantities; strains and motion; matrices of expressions |
+//! | `material`, `invariant`, `finite`, `divergence`, `expansion`, `small_strain`, `rest` | stress and Div P from W; W about F = I; the material at F = I |
+//! | `axisymmetric`, `rigid`, `offset`, `boundary`, `face`, `requested` | the basis that turns about the axis; rigid twins; places far from the origin; data on faces; quantities on request |
+//! | `simplify`, `candidates` | the choice among the forms of a quantity |
+//! | `amplitude`, `samples`, `rounding` | whether a form keeps its digits at a small amplitude; values at a few places; bounds of rounding errors |
+//! | `region`, `extent`, `sample` | bodies in formulas; bodies in numbers; points over body and time window |
+//! | `output` | the keys of programs |
+//! | `defect`, `faults` | deliberate mistakes, and the expressions that they change |
 
 pub mod amplitude;
 pub mod axisymmetric;

@@ -31,6 +31,14 @@
 //! | dual number over any of them | `dual` | derivatives without expressions |
 //! | dual numbers of several directions, with one value, over bounds | `multi_dual` | dP/dF of certificates |
 //!
+//! | module | contents |
+//! |---|---|
+//! | `program`, `schedule` | the instructions; expressions to instructions |
+//! | `interpret`, `block` | the reference interpreter, one point at a time; programs over blocks of points |
+//! | `fusion`, `loops` | the products to fuse, and the loops over points; the same decisions for interpreted and emitted code |
+//! | `computed`, `precision` | bounds of rounding errors of a program; the precisions that code is generated for |
+//! | `operation_cost` | the steps that an operation costs a budget |
+//!
 //! The caller defines the keys of the outputs.
 
 pub mod block;

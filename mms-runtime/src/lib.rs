@@ -28,6 +28,12 @@
 //! | `boundary` | walls by images, periods, nodes that follow the field, tractions |
 //! | `integrator` | the order of the operations of a step |
 //! | `study` | a run, its observers, errors, orders, verdicts |
+//! | `field`, `material`, `scene` | the traits of a field and of its material; a field of any dimension |
+//! | `method` | the settings of a run, without the field and the number of cells |
+//! | `failure` | the reasons why a run is not started, or stops |
+//! | `real`, `tensor`, `threads` | precisions, vectors and matrices; tensor operations; fork and join |
+//! | `extension` | the macro that lists shape functions, integrators and formulations |
+//! | `defect` | deliberate mistakes of the solver |
 //!
 //! Names follow one glossary: `reference_position` X, `position` x = X + u, `displacement_gradient` H = du/dX, F =
 //! I + H, J = det F, `kirchhoff_stress` tau = P F^T. Units are the field's own; any consistent system works.

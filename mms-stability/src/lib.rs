@@ -11,6 +11,15 @@
 //!
 //! These modules sample, at the defaults of the parameters, and prove nothing. The proof of strong ellipticity is in
 //! `mms_codegen::certify`.
+//!
+//! | other modules | contents |
+//! |---|---|
+//! | `stability`, `warnings` | all results for a field, and the warnings about them |
+//! | `subject`, `elasticity` | the exact state at a place and a time; its elasticity A and acoustic tensors |
+//! | `chart`, `mesh`, `modes`, `pencil` | the body as a box, its coarse mesh, stiffness and mass, the least eigenvalue |
+//! | `solve` | Newton's method on the coarse mesh, for a static field |
+//! | `resting`, `fibres` | moduli at F = I, also of a material with fibres |
+//! | `wavelength`, `least` | the shortest wavelength of a motion; the minimum of a function over a box |
 
 mod chart;
 pub mod corners;

@@ -25,7 +25,9 @@
 //! in three dimensions cost more.
 //!
 //! Further checks compare closed forms of the file (`closed_form`), u as it is written (`undefined`), the declared numbers
-//! (`declared`), and the stress at rest (`rest`).
+//! (`crate::declared`), and the stress at rest (`rest`). `certificate` runs all proofs; `claims`, `finite` and `reach` (bounds
+//! of x) are further ones; `motion` has the expressions that they bound, `matrix` bounds eigenvalues, and `message` words the
+//! results.
 
 pub mod branches;
 pub mod certificate;

@@ -11,6 +11,7 @@
 //! | `support` | functions that a language lacks: the called ones of its support text |
 //! | `lower` | a program in which functions that a language lacks are written out in those that it has |
 //! | `once` | numbers without extra digits in the stages Parameter and Time |
+//! | `docs` | the comments about a field |
 //! | `vectors` | test vectors |
 //! | `check` | the file of test vectors, the comments of check programs, and the functions that they call |
 //!

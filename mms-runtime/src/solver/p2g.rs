@@ -87,7 +87,8 @@ impl<T: Real, const D: usize, F> Map<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
 {
-    /// Adds to momentum and force of the nodes in the slab's window. Returns the seconds that the timed batches took.
+    /// Adds to momentum and force of the nodes in the slab's window. Returns the seconds that each part of the timed
+    /// batches took.
     pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, Stop> {
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();

@@ -15,8 +15,8 @@ use crate::threads::each;
 /// The number of packs that one thread locates at a time.
 const PART: usize = 512;
 
-/// Particles are sorted if this percentage of the packs and halves that could lie in one cell do not. The lost time recurs in
-/// every step; sorting takes about as long as one step.
+/// Particles are sorted if more than this percentage of the packs and halves that could lie in one cell do not. The lost time
+/// recurs in every step; sorting takes about as long as one step.
 const LOOSE: usize = 5;
 
 /// The condition for sorting particles.
@@ -116,7 +116,7 @@ impl ParticleOrder {
         }
     }
 
-    /// Whether sorting pays: at least `LOOSE` percent of the packs and halves that could lie in one cell do not.
+    /// Whether sorting pays: more than `LOOSE` percent of the packs and halves that could lie in one cell do not.
     pub fn is_loose(&self) -> bool {
         let could: usize = self.count.iter().map(|&count| wholes(count as usize)).sum();
         let are = of_one_cell::<HALF>(self.cells()) + of_one_cell::<PACK>(self.cells());

@@ -21,7 +21,8 @@
 //! | `relations` | finds s^2 = 1 - c^2, sinh^2 = cosh^2 - 1, Y^2 = R^2 - X^2 | polynomial identities |
 //! | `reduce` | multiplies out modulo the relations, and nests the normal form | Groebner normal form |
 //!
-//! `simplify` decides which passes a quantity uses.
+//! `polynomial` has the multiplied-out sums that several passes work on. `simplify` in `mms-mechanics` decides which passes a
+//! quantity uses.
 
 pub mod cancellation;
 pub mod curvature;
