@@ -1,11 +1,10 @@
 //! Checkpoints of a run, each in one file that is replaced when the next one is whole.
 //!
-//! A run that goes on from a checkpoint ends with the bits of one that never stopped. The file is a line of JSON
-//! (format, digest of the scene, command, step), the state by postcard, and a CRC-32 of both. The digest leaves
-//! out threads, which change no bit. The line also holds length and CRC-32 of the history so far: rows that were
-//! changed since are not taken over. It is written beside the old one and renamed. A file is trusted only if the
-//! checksum fits and it is of the same scene, computed by the same program; one that does not fit is refused by
-//! name, and left alone.
+//! A run that resumes from a checkpoint ends with the same bits as a run that never stopped. The file has a line of JSON
+//! (format, digest of the scene, command, step, length and CRC-32 of the history so far), the state by postcard, and a
+//! CRC-32 of both. The digest excludes threads, which change no bit. A resumed run does not use rows of the history that
+//! have changed since. The file is written beside the old one and renamed. It is trusted only if its checksum is right,
+//! and its scene and program are the same; otherwise it is refused by name, and not changed.
 
 use std::fs::File;
 use std::io::{BufRead as _, BufReader, BufWriter, Read, Seek as _, SeekFrom, Write};

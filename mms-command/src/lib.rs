@@ -1,4 +1,4 @@
-//! The command `mms`: options, calls, what is printed, exit codes. [`run`] is all of it.
+//! The command `mms`: options, calls, output, exit codes. [`run`] executes a command line.
 //!
 //! Manufactured solutions for solid mechanics.
 //!

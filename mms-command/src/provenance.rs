@@ -1,4 +1,4 @@
-//! Where a document is from: who made it, of what, on which machine, and how to make it again.
+//! The provenance of a document: the program, its input, the machine, and the command that reproduces it.
 
 use mms_documents::provenance::VERSION;
 pub use mms_documents::provenance::{Input, Machine, Provenance};

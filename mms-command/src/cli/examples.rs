@@ -1,4 +1,4 @@
-//! Two examples for each command, with which its help begins. A folder in which all run holds errors.csv and campaign.toml.
+//! Two examples at the start of the help of each command. All run in a folder with errors.csv and campaign.toml.
 
 use clap::Command;
 

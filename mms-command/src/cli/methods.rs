@@ -1,7 +1,7 @@
 //! Several methods at once: the options of one, some of which take a list.
 //!
-//! Every combination is a study of its own, with one command and one document. It is named by the words that not
-//! all of them share.
+//! Every combination is a study of its own, with one command and one document. Its name
+//! consists of the words in which the combinations differ.
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;

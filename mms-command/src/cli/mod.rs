@@ -5,10 +5,10 @@
 //! | 0 | done, and as expected |
 //! | 1 | done, and a claim, a proof, a closed form or an order failed |
 //! | 2 | bad usage or bad input |
-//! | 3 | a run stopped, or none could be started; a study goes on where a level stops |
+//! | 3 | a run stopped, or none could be started; a study continues after a level that stops |
 //!
-//! Results go to stdout, progress and diagnostics to stderr. At that border `print` and `say` escape what texts
-//! from outside have left in any line; in JSON, characters that cannot be seen go out as escapes.
+//! Results go to stdout, progress and diagnostics to stderr. `print` and `say` escape the control characters that texts
+//! from outside may contain; JSON has escapes for invisible characters.
 //! `docs/reference/json.md` has the keys of all documents. Numbers are the shortest digits that read back as the
 //! same number.
 

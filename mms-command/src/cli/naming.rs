@@ -1,4 +1,4 @@
-//! The options that say how the arrays of files are called.
+//! The options that name the arrays of files.
 
 use anyhow::anyhow;
 use clap::Args;

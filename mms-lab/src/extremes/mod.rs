@@ -1,9 +1,9 @@
 //! The solver at its limits: each row meets its bound, or stops with the right diagnosis.
 //!
-//! `rows.toml` is data: what is extreme, the bound or the expected diagnoses, and why. `mms accuracy` puts a field into the
-//! same regimes, so any field has rows or a reason. Claims are checked again with the new values, and a box elsewhere is a
-//! variation of its own. For `mms accuracy` J falls to a value at the points that are evaluated, for a run in the whole body
-//! and time window.
+//! `rows.toml` is data: what is extreme, the bound or the expected diagnoses, and why. The regimes are the same as for
+//! `mms accuracy`: a row that does not apply to a field has a reason. Claims are checked again with the new values, and a box
+//! elsewhere is a variation of its own. For `mms accuracy` J falls to a given value at the evaluated points, and for a run in
+//! the whole body and time window.
 //!
 //! | step | from -> to | where |
 //! |---|---|---|

@@ -9,9 +9,9 @@
 //! the whole range each, in the worse of the two roundings of `mul_add`. A result below the normal numbers may have an error of
 //! one more digit.
 //!
-//! Coefficients are minimax: of the polynomial with the least maximum error, relative to the function that it is part of
-//! (Remez, 1934), with the first three rounded one by one and the others fitted again after each. The stated error is the error
-//! of the rounded polynomial.
+//! Coefficients are minimax: they belong to the polynomial with the least maximum error, relative to the function that it is
+//! part of (Remez, 1934), with the first three rounded one by one and the others fitted again after each. The stated error is
+//! the error of the rounded polynomial.
 
 pub mod exponential;
 pub mod inverse;

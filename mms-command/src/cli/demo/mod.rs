@@ -1,7 +1,8 @@
 //! `mms demo`: a solver with one broken line, judged and diagnosed, without any file.
 //!
-//! `solver.rs` is the solver, `broken` the same text with the line of `mistake.rs` in it, which the build script writes. Here both
-//! are given the exact loads by the interpreter; in the folder of `--keep` by what `mms emit` writes (`main.rs`).
+//! `solver.rs` is the solver. `broken`, which the build script writes, is the same text with the wrong line of `mistake.rs`. In
+//! this command the interpreter computes the exact loads for both; in the folder of `--keep`, the code that `mms emit` writes
+//! does (`main.rs`).
 
 mod mistake;
 mod problem;
