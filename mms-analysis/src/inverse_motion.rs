@@ -257,7 +257,7 @@ impl Tile {
         self.image.iter().zip(x).all(|(side, x)| !side.is_defined() || side.contains(*x))
     }
 
-    /// How far a solution may be from the intended point.
+    /// The largest distance of a solution from the intended point.
     fn reach(&self, rounding: f64, x: &[f64]) -> f64 {
         let size = x.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
         let largest = self.contraction.iter().flat_map(|it| &it.inverse);

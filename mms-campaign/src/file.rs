@@ -30,7 +30,7 @@ const TOLERANCE: f64 = 0.15;
 pub struct Campaign {
     /// The text, for messages about it.
     pub sources: Sources,
-    /// How the solver is run.
+    /// The command of the solver, and its surroundings.
     pub solver: Solver,
     /// The studies to run, with unique names. A study with stepped parameters has one entry per step.
     pub studies: Vec<Study>,

@@ -148,7 +148,7 @@ fn head_of(line: &[u8]) -> Result<Head, String> {
     serde_json::from_slice(line).map_err(wrong)
 }
 
-/// Where checkpoints go, and how often.
+/// The place and the frequency of checkpoints.
 pub struct Keeper {
     path: PathBuf,
     every: usize,

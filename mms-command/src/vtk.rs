@@ -20,7 +20,7 @@ use mms_state::file::list;
 pub struct Writer {
     folder: PathBuf,
     name: String,
-    /// How many states after the initial one.
+    /// The number of states after the initial one.
     frames: usize,
     /// Times and files.
     written: Vec<(f64, String)>,

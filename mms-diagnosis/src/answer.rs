@@ -65,7 +65,7 @@ pub struct Ranked {
     pub equivalent_always: Vec<String>,
     /// The mistakes that explain this error as well.
     pub equivalent_here: Vec<String>,
-    /// How many of these mistakes are as simple.
+    /// The number of these mistakes that are as simple.
     pub rivals: usize,
     /// The evidence that would separate these mistakes.
     pub needs: Vec<String>,

@@ -39,7 +39,7 @@ impl Quantity {
     }
 }
 
-/// How the moduli of the law are known.
+/// The moduli of the law, as far as they are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Moduli {
     /// The moduli are the same everywhere.

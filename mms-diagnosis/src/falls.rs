@@ -1,4 +1,4 @@
-//! How an error falls from mesh to mesh, and where to look for its cause.
+//! The decrease of an error from mesh to mesh, and the place to look for its cause.
 
 /// The order of an error, compared with the order of a right solver.
 #[derive(Clone, Debug, PartialEq)]

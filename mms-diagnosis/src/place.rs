@@ -1,4 +1,4 @@
-//! Where an error is concentrated: in which part of the body, at which time, and how it falls from mesh to mesh.
+//! The concentration of an error: the part of the body, the time, and the decrease from mesh to mesh.
 
 use mms_runtime::body::bounding_box;
 use mms_runtime::{Body, Face, Vector};

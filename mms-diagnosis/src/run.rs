@@ -112,7 +112,7 @@ impl fmt::Display for Obstacle {
 pub trait Responses<'a, const D: usize>: Sync {
     /// h of the solvers.
     fn cell_size(&self) -> f64;
-    /// How many methods there are.
+    /// The number of methods.
     fn methods(&self) -> usize;
     /// Describes a method in the words of its options; `None` if users cannot name it.
     fn described(&self, method: usize) -> Option<String>;

@@ -1,4 +1,4 @@
-//! How the stress of any law changes with F, by differences.
+//! The change of the stress of any law with F, by differences.
 
 use mms_runtime::Matrix;
 use mms_runtime::tensor::determinant;

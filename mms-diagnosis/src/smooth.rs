@@ -31,7 +31,7 @@ impl<const D: usize> Smooth<D> {
         Ok(Smooth { lower, upper, degrees: degrees(degree.unwrap_or(0)) })
     }
 
-    /// How many functions there are.
+    /// The number of functions.
     pub fn count(&self) -> usize {
         self.degrees.len()
     }

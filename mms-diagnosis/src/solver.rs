@@ -12,7 +12,7 @@ pub struct Solver {
     pub without: Without,
     /// A method of this project's own solver that it may be like.
     pub like: Option<Method>,
-    /// How its errors fall from mesh to mesh, of results of two meshes and more.
+    /// The decrease of its errors from mesh to mesh, for results of two meshes or more.
     pub falls: Option<Falls>,
     /// Whether the results are compared with a right run of the same solver, which has the same errors.
     pub is_beside: bool,

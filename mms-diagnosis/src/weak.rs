@@ -221,7 +221,7 @@ impl<'a, const D: usize> Weak<'a, D> {
         Vector::from_fn(|it, _| if it == axis { self.step } else { 0.0 })
     }
 
-    /// How many functions there are.
+    /// The number of functions.
     pub fn count(&self) -> usize {
         D * self.smooth.count()
     }

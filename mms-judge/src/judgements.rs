@@ -21,7 +21,7 @@ pub struct Judgements {
     pub refined: Refined,
     /// The judgement of each quantity.
     pub judged: Vec<Judged>,
-    /// How the errors were measured, in sentences.
+    /// Sentences about the measurement of the errors.
     pub notes: Vec<String>,
     /// The part of the body that results cover, if a part was enough.
     pub part: Option<String>,
@@ -228,8 +228,8 @@ impl Judgements {
         (order > 0.0).then(|| format!("{column}linf={order}"))
     }
 
-    /// The values of `--expected-order` with which the results pass; `None` if another norm than linf fails, or a layer at a face
-    /// shows.
+    /// The values of `--expected-order` with which the results pass; `None` if another norm than linf fails, or a layer at a
+    /// face shows.
     pub fn lower_orders(&self) -> Option<Vec<String>> {
         let is_good = |it: &&Judged| it.judgement.verdict().is_good();
         if self.judged.iter().all(|it| is_good(&it)) {

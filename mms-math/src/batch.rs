@@ -128,7 +128,7 @@ pub trait Points<S, const I: usize, const O: usize> {
     );
 }
 
-/// How two functions, the second of which needs the first, share the work on many points.
+/// The distribution of work on many points between two functions, the second of which needs the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loops {
     /// Each function has its own loop over every block: the operations of a short loop wait less for each other, so that more

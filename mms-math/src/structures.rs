@@ -80,8 +80,8 @@ pub fn put_columns<T: Copy, M: Simd<T>>(simd: M, columns: &[M::Eight], numbers: 
     }
 }
 
-/// How many of `n` numbers are moved four at a time; the last four overlap if `n` is no multiple of 4. A single remaining
-/// number is moved alone, which takes less time.
+/// The number of numbers, out of `n`, that are moved four at a time. If `n` is no multiple of 4, the last four overlap with
+/// others; but a single remaining number is moved alone, which takes less time.
 #[inline(always)]
 const fn together(n: usize) -> usize {
     if n % 4 == 1 { n - 1 } else { n }

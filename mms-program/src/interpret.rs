@@ -184,7 +184,7 @@ struct Run<'a, T: Number> {
     once: Vec<T::Wide>,
     /// The budget, if there is one: once it is spent, values are not numbers.
     work: Option<&'a Work>,
-    /// How many times the steps of an operation are charged.
+    /// The number of times that the steps of an operation are charged.
     times: u64,
 }
 

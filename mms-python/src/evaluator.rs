@@ -11,10 +11,10 @@ use mms_program::block::{
 use mms_symbolic::expr::Symbol;
 use numpy::Element;
 
-/// From so many points on threads share them.
+/// The least number of points that several threads share.
 const MANY: usize = 1 << 14;
 
-/// How many points are looked at, evaluated and looked at again while they are in the cache.
+/// The number of points that are checked, evaluated, and checked again while they are in the cache.
 const SHARE: usize = 1 << 10;
 
 /// The precision of an array.
@@ -52,7 +52,7 @@ pub struct Evaluator<T: Blockwise> {
 /// Points, one after the other: coordinates X, and what the output takes beside them.
 #[derive(Clone, Copy)]
 pub struct Places<'a, T> {
-    /// How many there are.
+    /// The number of points.
     pub count: usize,
     /// The coordinates of a point.
     pub dimension: usize,

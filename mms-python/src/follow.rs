@@ -1,4 +1,4 @@
-//! How far long work is, for a function of Python, and its end where Python has an interrupt.
+//! The progress of long work, for a function of Python, and the end of the work at an interrupt of Python.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -19,7 +19,7 @@ const PAUSE: Duration = Duration::from_millis(100);
 pub struct Follower {
     /// The request to end the work.
     pub stop: Stop,
-    /// The function that takes a line.
+    /// The function that is called with a line.
     told: Option<Py<PyAny>>,
     /// The exception that it raised.
     raised: Mutex<Option<PyErr>>,

@@ -74,7 +74,7 @@ pub struct Study {
 pub struct Refused {
     /// Cells of the body.
     pub cells: Division,
-    /// Why it was not started.
+    /// The reason why the level was not started.
     pub reason: Refusal,
 }
 

@@ -124,8 +124,8 @@ pub(crate) fn dimension(kind: u8) -> usize {
     }
 }
 
-/// Why a cell of a VTK type with this number of points cannot be read; `None` if it can. Either its points are not
-/// interpolated, or the places of the points are not defined.
+/// The reason why a cell of a VTK type with this number of points cannot be read; `None` if it can. Either its points are
+/// control points that the cell does not interpolate, or their places are not defined.
 pub(crate) fn refused(kind: u8, points: usize) -> Option<String> {
     match kind {
         75..=81 => Some(format!(

@@ -91,7 +91,7 @@ where
     strain
 }
 
-/// Where the particle of a ring lies along R.
+/// The place of the particle of a ring along R.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Station {
     /// In the middle of its box.
@@ -113,7 +113,7 @@ impl Station {
 /// The rules that turn boxes in the meridian into particles.
 #[derive(Clone, Copy)]
 pub struct Rings<'a> {
-    /// Where the particles lie.
+    /// The places of the particles.
     pub station: Station,
     /// The volume of a ring over the area of its box, by the radius of its middle: see [`Axisymmetric::weight`].
     pub weight: &'a dyn Fn(f64) -> f64,
@@ -127,7 +127,7 @@ pub fn hoop_stretch<T: Real>(hoop_strain: &[T], particle: usize) -> T {
 /// The entries of a pack of tensors of the meridian, column by column, and then the entry around the axis.
 pub type Ring<T> = [[T; PACK]; 5];
 
-/// How many packs are evaluated together.
+/// The number of packs that are evaluated together.
 const TOGETHER: usize = 32;
 
 /// Evaluates a material that reads and writes [`Ring`]s, for some packs of particles.

@@ -19,7 +19,7 @@ use round::Block;
 /// The largest number of particles of a body.
 const PARTICLE_LIMIT: f64 = (1u64 << 27) as f64;
 
-/// How particles are laid out.
+/// The layout of particles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fill {
     /// On a lattice of boxes; a curved face cuts it ragged.
@@ -107,7 +107,7 @@ impl<const D: usize> Filling<D> {
         Ok(filling)
     }
 
-    /// How many particles there are.
+    /// The number of particles.
     pub fn len(&self) -> usize {
         self.position.len()
     }

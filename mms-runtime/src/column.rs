@@ -187,7 +187,7 @@ pub struct Packs<B> {
 }
 
 impl<B: Pack> Packs<B> {
-    /// How many entries there are.
+    /// The number of entries.
     pub fn len(&self) -> usize {
         self.len
     }

@@ -1,4 +1,4 @@
-//! Why a solver cannot start ([`Refusal`]) and why a run stopped ([`Failure`]).
+//! The reasons why a solver cannot start ([`Refusal`]) and why a run stopped ([`Failure`]).
 
 use crate::field::{Condition, Face};
 use crate::real::{Real, Vector};
@@ -7,7 +7,7 @@ use crate::tensor::components;
 /// The names of axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Why a scene is not started. Nothing has run.
+/// The reason why a scene is not started. Nothing has run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// A face has a condition that the solver does not support.
@@ -91,7 +91,7 @@ pub enum Refusal {
     WrongDimension {
         /// `cells` or `particles per cell`.
         what: &'static str,
-        /// How many numbers there are.
+        /// The number of numbers.
         given: usize,
         /// The body's dimension.
         dimension: usize,
@@ -190,9 +190,9 @@ pub enum Refusal {
     TooLarge {
         /// `particles`, `grid nodes` or `steps`.
         what: &'static str,
-        /// How many there would be.
+        /// The number that there would be.
         count: f64,
-        /// How many the solver accepts.
+        /// The largest number that the solver accepts.
         limit: f64,
     },
 }

@@ -20,7 +20,7 @@ pub struct Axis {
     pub lower: f64,
     /// Distance between knots.
     pub cell_size: f64,
-    /// How many cells there are.
+    /// The number of cells.
     pub cells: usize,
     /// The first and the last knot of splines. If it is not the first or last knot of the axis, splines end there with knots of
     /// full multiplicity: at the faces of a body that do not move.
@@ -102,7 +102,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         })
     }
 
-    /// How many nodes there are.
+    /// The number of nodes.
     pub fn len(&self) -> usize {
         self.count.iter().product()
     }

@@ -111,7 +111,7 @@ pub trait Axisymmetric<T: Real, const D: usize>: Send + Sync {
     ) -> bool;
 }
 
-/// How many packs are evaluated together.
+/// The number of packs that are evaluated together.
 const TOGETHER: usize = 32;
 
 /// Computes [`Material::kirchhoff_stress`] by [`Material::kirchhoff_stress_of_packs`], for materials that implement the

@@ -68,7 +68,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         }
     }
 
-    /// How many particles there are.
+    /// The number of particles.
     pub fn len(&self) -> usize {
         self.mass.len()
     }

@@ -40,7 +40,7 @@ pub struct Chart {
     /// The bounds of each variable, in terms of the parameters among those before it; then X and
     /// all parameters.
     program: Program<ChartOutput>,
-    /// How many components X has, and how many parameters there are.
+    /// The number of components of X, and the number of parameters.
     dimension: usize,
     parameters: usize,
     /// The budget of all evaluations in the chart.
@@ -357,7 +357,7 @@ pub struct Run<'a, T: Number, K> {
     ready: Option<Interpreter<'a, T, K>>,
     /// The instructions that each requested list of outputs needs.
     plans: Vec<(Vec<K>, Vec<bool>)>,
-    /// How many times the budget is charged for an operation.
+    /// The number of times that an operation is charged to the budget.
     times: u64,
 }
 

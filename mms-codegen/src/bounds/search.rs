@@ -99,7 +99,7 @@ pub struct SearchResult {
     pub at: Vec<f64>,
     /// The cell whose bound is the greatest.
     pub worst: Cell,
-    /// How many cells were measured.
+    /// The number of measured cells.
     pub cells: usize,
 }
 

@@ -23,7 +23,7 @@ const STEPS: u64 = 100_000_000;
 pub struct Comparison {
     /// The quantity that the closed form is for.
     pub quantity: Quantity,
-    /// Where it was published.
+    /// The publication of the closed form.
     pub source: Option<Foreign>,
     /// The place of the closed form in the file.
     pub span: Span,

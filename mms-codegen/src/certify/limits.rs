@@ -1,4 +1,4 @@
-//! Where the functions of the language are analytic, and where they have a value.
+//! The limits within which the functions of the language are analytic, or have a value.
 //!
 //! Sums, products, whole powers, exp, sinh, cosh, tanh, sin, cos and atan are analytic everywhere. The others have limits, each
 //! of which `branches` proves as a sign; `tests/branches.rs` has a test for each:

@@ -75,7 +75,7 @@ impl ChartMotion {
         }
     }
 
-    /// How many rows H has.
+    /// The number of rows of H.
     pub fn dimension(&self) -> usize {
         self.dimension
     }

@@ -1,4 +1,4 @@
-//! Where strong ellipticity is lost: a place, a time and directions m and N with m_i N_J A_iJkL m_k N_L <= 0, which
+//! The loss of strong ellipticity: a place, a time and directions m and N with m_i N_J A_iJkL m_k N_L <= 0, which
 //! interval arithmetic proves.
 
 use mms_math::Scalar as _;

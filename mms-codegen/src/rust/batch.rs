@@ -100,7 +100,7 @@ impl Emitter<'_> {
                 /// The size of one point in bytes.
                 pub const BYTES: usize = #count * ::core::mem::size_of::<T>();
 
-                /// How many points there are.
+                /// The number of points.
                 pub fn len(&self) -> usize {
                     self.kept.len()
                 }

@@ -253,7 +253,7 @@ impl<'a> Emitter<'a> {
         kept.map(|index| Value(index as u32)).collect()
     }
 
-    /// How a function reads a value: a literal, a local, or a member of an earlier stage's struct.
+    /// The text by which a function reads a value: a literal, a local, or a member of an earlier stage's struct.
     fn operand(&self, value: Value, place: &Context) -> TokenStream {
         let instr = self.program.instr(value);
         match &instr.op {

@@ -58,7 +58,7 @@ impl trial::Progress for Progress {
     }
 }
 
-/// How far one run is, in particles and steps.
+/// The progress of one run, in particles and steps.
 pub struct OfRun<'a> {
     bar: &'a ProgressBar,
     cells: Division,

@@ -184,7 +184,7 @@ fn meanings(
     Ok(found)
 }
 
-/// Why an array has another shape than the quantity of its name; `None` if it has that shape.
+/// The reason why an array has another shape than the quantity of its name; `None` if it has that shape.
 fn unlike(meaning: &Meaning, snapshot: &Snapshot, exact: &Exact) -> Option<String> {
     let is_tensor = matches!(meaning.role.form(), Form::Tensor | Form::Symmetric);
     let rows = if is_tensor { exact.space().rows() } else { exact.dimension };

@@ -174,7 +174,7 @@ struct Table {
     /// The sharable operands among the operations before sharing.
     common: Vec<bool>,
     ratios: Ratios,
-    /// How often a pair occurs, in total and in each operation. The order of this map has no effect.
+    /// The occurrences of each pair. The order of this map has no effect.
     places: FxHashMap<Pair, Places>,
     /// Pairs that occur more than once, each with a frequency that is at least the true one. The most frequent is first; of
     /// equals, the first in order, except for ratios.
@@ -183,7 +183,7 @@ struct Table {
     pairs: Vec<(Pair, u64)>,
 }
 
-/// How often a pair occurs, in total and in each operation.
+/// The number of occurrences of a pair, in total and in each operation.
 #[derive(Default)]
 struct Places {
     total: u64,

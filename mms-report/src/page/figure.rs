@@ -76,7 +76,7 @@ fn expected() -> String {
     format!("expected a document of `mms {}`", names.join("`, `"))
 }
 
-/// Why a result has no curves.
+/// The reason why a result has no curves.
 fn lack(entry: &Entry) -> String {
     match KINDS.iter().find(|kind| kind.heading == entry.heading) {
         Some(kind) if !kind.has_curves => {

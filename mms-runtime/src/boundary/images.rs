@@ -10,9 +10,9 @@ use crate::real::Real;
 /// beyond another face, that node is included too.
 pub struct Images {
     pairs: Vec<(usize, usize)>,
-    /// How many pairs there are up to each layer.
+    /// The number of pairs up to each layer.
     layers: Vec<usize>,
-    /// How many pairs are in the layers up to the last one with mass.
+    /// The number of pairs in the layers up to the last one with mass.
     reached: usize,
 }
 

@@ -18,7 +18,8 @@ use crate::tensor::{components, inverse_deformation_gradient, is_finite};
 
 const NEWTON_ITERATIONS: usize = 30;
 
-/// How many nodes along an axis, to either side of a sample, a face may prescribe: as far as particles inside give them mass.
+/// The largest number of nodes along an axis, to either side of a sample, that a face prescribes: those to which particles
+/// inside add mass.
 const NEIGHBOURS: usize = 2;
 
 /// The prescribed faces, and the nodes that they prescribe at the present time. Empty if no face is prescribed.

@@ -151,7 +151,7 @@ impl<T: Real> Surface<T> {
         [foot, normal]
     }
 
-    /// How far the weights of a node reach along a unit normal.
+    /// The reach of the weights of a node along a unit normal.
     pub fn reach<const D: usize>(&self, normal: &Vector<T, D>, lattice: &Lattice<T, D>) -> T {
         let ended = match *self {
             Surface::Plane { axis, upper, .. } => {

@@ -29,8 +29,7 @@ pub trait Integrator: 'static {
     /// Theoretical order of the displacement in time; a test measures it.
     const FORMAL_ORDER: i32;
 
-    /// How many time steps the particles' velocities are behind their positions, once the first step is
-    /// done.
+    /// The number of time steps by which the particles' velocities are behind their positions, once the first step is done.
     const LAG: f64 = 0.0;
 
     /// Whether a step uses weights after it has moved or deformed the particles (one after the other, with different

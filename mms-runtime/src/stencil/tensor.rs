@@ -62,7 +62,7 @@ pub struct Tensor<T, const D: usize> {
     strides: u32,
     /// Whether all particles of each half have the same nodes.
     shared: bool,
-    /// How many nodes along each axis have a weight, at most: 2, 3 or 4. Entries at index >= `width` are unused.
+    /// The largest number of nodes along each axis that have a weight: 2, 3 or 4. Entries at index >= `width` are unused.
     pub(super) width: usize,
     known: Known,
     /// On a meridian, the particles' distances from the axis, for the weights w/r of the strain around it.

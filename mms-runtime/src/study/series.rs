@@ -89,10 +89,10 @@ impl Series {
         Judgement::of(norms).expect("three norms")
     }
 
-    /// How far the order of l2 on the finest pair may be from the limit's order: the distance to the order of the pair before
-    /// over r - 1, r being the ratio of lengths (Richardson's extrapolation; Roache, Verification and Validation in
-    /// Computational Science and Engineering, 1998, chapter 5), plus the round-off of the finest error. `None` with fewer than
-    /// three levels above round-off.
+    /// The uncertainty of the order of l2 on the finest pair, as an estimate of the limit's order: the distance to the order of
+    /// the pair before over r - 1, r being the ratio of lengths (Richardson's extrapolation; Roache, Verification and
+    /// Validation in Computational Science and Engineering, 1998, chapter 5), plus the round-off of the finest error. `None`
+    /// with fewer than three levels above round-off.
     pub fn uncertainty(&self) -> Option<f64> {
         let sound = self.points.iter().position(Point::is_noise).unwrap_or(self.points.len());
         let [.., first, second, third] = &self.points[..sound] else { return None };
