@@ -3,7 +3,7 @@
 //! | candidate | is made by |
 //! |---|---|
 //! | `Derived` | nothing: as it was derived |
-//! | `Nested` | `horner`: multivariate Horner form, early values innermost |
+//! | `Nested` | `horner`: a nested form, early values innermost |
 //! | `Absorbed` | `factor`, then `distribute`: common factors out, and early ones into sums |
 //! | `Factored` | `factor`: common factors out |
 //! | `Reduced` | `reduce`: the normal form by the identities of the motion |

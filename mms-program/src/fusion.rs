@@ -22,20 +22,20 @@ pub struct Fused {
 
 /// The fused operations, by position in a program.
 pub struct Fusion {
-    /// The sums that absorb a product.
+    /// The sums with which a product is fused.
     pub fused: Vec<Option<Fused>>,
-    /// The products that every reader absorbs: they need not be computed separately.
+    /// The products that are fused with every sum that reads them: they need not be computed separately.
     pub absorbed: Vec<bool>,
 }
 
 impl Fusion {
-    /// No sum absorbs a product.
+    /// No product is fused.
     pub fn none(instrs: &[Instr]) -> Self {
         Fusion { fused: vec![None; instrs.len()], absorbed: vec![false; instrs.len()] }
     }
 
     /// Fuses each sum that a function computes with a product that it computes too. If both operands are products, the one with
-    /// fewer readers is absorbed.
+    /// fewer readers is fused.
     pub fn new(instrs: &[Instr], roots: &[Value], needed: &[bool], own: &[Stage]) -> Self {
         let mut fusion = Fusion::none(instrs);
         let mut readers = vec![0_usize; instrs.len()];

@@ -1,4 +1,4 @@
-//! Emitted code, and the ways to call it.
+//! Emitted code, and the forms in which it is called.
 
 use mms_codegen::Compiled;
 use mms_codegen::rust;
@@ -34,7 +34,7 @@ impl Module<'_> {
     }
 }
 
-/// The way in which code is called.
+/// The form in which the functions of a module are called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModuleForm {
     /// Point by point.

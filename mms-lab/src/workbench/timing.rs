@@ -29,13 +29,13 @@ pub struct Time {
     pub quantity: Quantity,
     /// The precision.
     pub precision: Precision,
-    /// The way in which it was called.
+    /// The form of the called function.
     pub way: ModuleForm,
     /// The median, in nanoseconds.
     pub ns_per_point: f64,
 }
 
-/// The times of every quantity of some modules, in each of the given precisions and ways.
+/// The times of every quantity of some modules, in each of the given precisions and forms.
 pub fn time(
     bench: &Workbench,
     modules: &[Module<'_>],

@@ -10,7 +10,7 @@ macro_rules! arrays {
             impl Simd<$float> for $simd {
                 type Eight = [$float; 8];
                 type Lane = Lane<$float, $fused>;
-                // Machines that multiply and add in one step have registers that the compiler uses.
+                // The compiler uses the registers of processors that multiply and add in one step.
                 const ALONE: bool = !$fused;
 
                 #[inline(never)]

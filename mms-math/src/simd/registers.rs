@@ -27,7 +27,7 @@ macro_rules! alike {
     };
 }
 
-// Methods that are the same for every machine with registers.
+// The methods that all instruction sets with registers share.
 macro_rules! common {
     ($float:ident) => {
         #[inline(always)]

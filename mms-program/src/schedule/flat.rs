@@ -278,7 +278,7 @@ impl Maker {
         Some(self.product(factors))
     }
 
-    /// A sum times a number, if every term can absorb it.
+    /// A sum times a number, if the number can be multiplied into every term.
     fn sum_times(&mut self, item: Item, number: &Rational, sums: usize) -> Option<Item> {
         if sums == 0 || self.flat.stage(item) < Stage::Point {
             return None;

@@ -7,10 +7,10 @@
 //! * `lower`: the result becomes binary operations, operands of one stage first; equal operations are one value.
 //! * `signs`: -((a - b) c) becomes (b - a) c, if nothing else reads the product.
 //!
-//! Every output is scheduled by itself, in several ways, and the cheapest is used; common values of outputs are still one
-//! value. So other outputs do not change the cost of an output. Several ways with the same operations are tried once, but the
-//! budget is charged for each. If it saves operations at a point, numbers are multiplied into sums whose terms all have a
-//! factor that is known earlier: 256 X (a Y + b), a and b of the stage Time, becomes X ((256 a) Y + 256 b).
+//! Every output is scheduled by itself, as several candidates, of which the cheapest is used; common values of outputs are
+//! still one value. So other outputs do not change the cost of an output. Candidates with the same operations are tried once,
+//! but the budget is charged for each. If it saves operations at a point, numbers are multiplied into sums whose terms all have
+//! a factor that is known earlier: 256 X (a Y + b), a and b of the stage Time, becomes X ((256 a) Y + 256 b).
 
 mod cse;
 mod flat;
@@ -79,7 +79,7 @@ impl Steps {
     }
 }
 
-/// The number of operations at a point that must be saved before an output is written in a way of its own: it then has less in
+/// The number of operations at a point that must be saved before an output uses a candidate of its own: it then has less in
 /// common with others.
 const WORTH_APART: usize = 2;
 
@@ -139,7 +139,7 @@ fn lowered<K: Key>(
 /// The number of operations done once that may save one at every point.
 const ONCE_FOR_EVERY_POINT: usize = 8;
 
-/// An upper bound of the cost of the components of one output: more ways are tried for the emitted program.
+/// An upper bound of the cost of the components of one output: the emitted program has more candidates.
 pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
     let scopes = [Scope::Made];
     let ways = written(graph, components, Scaling::Factors, &scopes);
@@ -193,7 +193,7 @@ fn written(
     ways
 }
 
-/// The cheapest of the written ways, with its cost; of equals, the first.
+/// The cheapest of the written candidates, with its cost; of equals, the first.
 fn cheapest(graph: &Graph, written: &[Candidate], scopes: &[Scope]) -> (Cost, Candidate) {
     let (plain, work) = (&written[0], graph.work());
     let cost_of_plain = cost_of(plain);
@@ -230,8 +230,8 @@ fn is_needed((flat, roots): &Candidate) -> bool {
     needed.len() == flat.forms.len()
 }
 
-/// The cheapest way, with numbers multiplied into sums if that saves operations at a point. It rarely does, so it is only tried
-/// for emitted programs and close candidates, and not for all comparisons.
+/// The cheapest candidate, with numbers multiplied into sums if that saves operations at a point. It rarely does, so it is only
+/// tried for emitted programs and close decisions, and not for all comparisons.
 fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Candidate {
     let scopes = [Scope::Made, Scope::Needed];
     let before = graph.work().left();

@@ -49,7 +49,7 @@ fn difference(op: &Op) -> Option<(Value, Value)> {
     }
 }
 
-/// The difference that can absorb a sign instead of a value: the value itself, or a factor of it.
+/// The difference that can change its sign instead of a value: the value itself, or a factor of it.
 fn carrier(program: &Unnamed, readers: &[usize], value: Value) -> Option<(Value, [Value; 2])> {
     let mut open = vec![value];
     while let Some(value) = open.pop() {
