@@ -93,7 +93,7 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         Ok(boundary)
     }
 
-    /// Finds how far beyond its faces the body gives mass to nodes. To be called before masses are folded.
+    /// Finds how far beyond its faces the body adds mass to nodes. To be called before masses are folded.
     pub fn reach(&mut self, momentum: &[Nodal<T>]) {
         self.periods.iter_mut().for_each(|period| period.reach(momentum));
         self.walls.iter_mut().for_each(|wall| wall.reach(momentum));

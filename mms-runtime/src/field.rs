@@ -103,7 +103,7 @@ pub enum Body<T, const D: usize> {
     },
     /// A polygon; two dimensions.
     Polygon {
-        /// The vertices, in their order around it, either way.
+        /// The vertices, in order around the polygon, clockwise or counter-clockwise.
         vertices: Vec<[T; 2]>,
         /// The names of the edges, in the order of the vertices that they start from.
         names: Vec<&'static str>,

@@ -8,7 +8,7 @@ use crate::real::{Matrix, Vector};
 
 /// A polygon in double precision.
 pub struct Polygon<'a> {
-    /// The vertices, either way around.
+    /// The vertices, in order, clockwise or counter-clockwise.
     pub vertices: Vec<Vertex>,
     /// The names of the edges.
     pub names: &'a [&'static str],

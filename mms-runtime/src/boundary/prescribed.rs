@@ -4,7 +4,7 @@
 //! momentum of such a node misses the traction on the part of the face inside its support. Where the face runs along a plane of
 //! nodes at which splines end, only the nodes on it are prescribed. Newton's method, started at the nearest sample of the face,
 //! inverts x = X + u(X, t) for a node's reference position; in the total formulation it is the node's position. Beyond a face
-//! at rest a node moves opposite to its mirror image inside, for the field may be wild beyond its body.
+//! at rest a node moves opposite to its mirror image inside, since the field may vary strongly outside its body.
 
 use super::surface::Surface;
 use crate::defect::{Defect, on};

@@ -11,8 +11,8 @@ use crate::sorted::SortedMap;
 /// Bases with their exponents.
 type Powers = Vec<(Expr, Rational)>;
 
-/// The largest number of factors that are taken out of one sum in turn. Each one after the first was a sum inside the last;
-/// sums that nest deeper keep their remaining common factors.
+/// The largest number of times that common factors are taken out of one sum: terms may merge after each time, and have common
+/// factors again. Further common factors stay in the sum.
 const DEPTH: usize = 64;
 
 /// `roots` with common factors taken out of every sum below them.
@@ -101,7 +101,7 @@ fn take_common_of(
     Ok((common.into_iter().collect(), rest))
 }
 
-/// The powers that can be taken out of a term; none of 0, which cannot be divided away.
+/// The powers that can be taken out of a term. A base that is 0 cannot.
 fn powers(graph: &Graph, term: Expr) -> SortedMap<Expr, Rational> {
     match graph.node(term) {
         Node::Product(factors) => {
