@@ -170,7 +170,7 @@ pub struct Pair {
     pub explained: f64,
 }
 
-/// Where an error is concentrated.
+/// The concentration of an error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// X of the point with the largest error.
@@ -218,7 +218,7 @@ pub struct Diagnosis {
     pub error: f64,
     /// The least error of a right solver, and the largest error that counts as one of a right solver.
     pub expected: [f64; 2],
-    /// How the error falls from mesh to mesh, for results of two or more meshes.
+    /// The decrease of the error from mesh to mesh, for results of two or more meshes.
     pub falls: Option<Falls>,
     /// A right method whose error falls with this order, if the order is not the expected one.
     pub of_order: Option<OfOrder>,
@@ -226,7 +226,7 @@ pub struct Diagnosis {
     pub pair: Option<Pair>,
     /// A right method with such an error.
     pub like: Option<Like>,
-    /// Where the error is concentrated, for results.
+    /// The concentration of the error, for results.
     pub place: Option<Place>,
     /// The errors of results, for plots.
     pub fields: Option<Fields>,

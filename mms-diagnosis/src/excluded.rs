@@ -73,10 +73,10 @@ impl Excluded {
     }
 }
 
-/// The least error of a mistake that is noticed, over the error of the results. From there on no order of the sum is near the
-/// order of a right solver, even if the mistake cancels a part of the right error: that needs a factor of 1.65 for an error
-/// that does not fall with h, where the right error has order 2 and meshes are refined by 2. The rest of the factor covers the
-/// uncertainty of a run on another mesh.
+/// The least error of a mistake that is noticed, over the error of the results. A larger error moves the order of the sum away
+/// from the order of a right solver, even if it cancels a part of the right error. A factor of 1.65 is enough if the error does
+/// not fall with h, the right error has order 2, and meshes are refined by 2. The rest of the factor covers the uncertainty of
+/// a run on another mesh.
 pub const NOTICED: f64 = 2.0;
 
 /// The most steps times particles of one run: a fraction of a second, for about a hundred runs.
@@ -218,8 +218,8 @@ where
         }
     }
 
-    /// The least difference from the right size along an axis that is shown: the first estimate takes the error as proportional
-    /// to it, later ones use the error computed there.
+    /// The least difference from the right size along an axis that is shown. The first estimate assumes that the error is
+    /// proportional to the difference; later estimates use the error computed at the last one.
     fn least(&self, hypothesis: &Hypothesis<D>, axis: usize, first: f64) -> f64 {
         let Size::Any { right, .. } = &hypothesis.size else { return 0.0 };
         let mut step = first - right[axis];

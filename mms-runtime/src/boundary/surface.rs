@@ -140,7 +140,8 @@ impl<T: Real> Surface<T> {
                 let clamped = part.max(T::zero()).min(T::one());
                 let nearest = from + along * clamped;
                 normal = place(outward);
-                // Beside the edge, the direction to its end is the normal, whichever side of the edge's line that is on.
+                // If the nearest point is an end of the edge, the normal is the direction to it, on either side of the edge's
+                // line.
                 let away = nearest - foot;
                 if clamped != part && away.norm() > T::zero() {
                     normal = away.normalize();
