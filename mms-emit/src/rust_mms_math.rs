@@ -8,7 +8,7 @@ use crate::target::{Bundle, Target};
 pub const TARGET: Target = Target {
     name: "rust-mms-math",
     alias: None,
-    doc: "Rust: the module that `field!` makes, which needs mms-math alone; without --target too",
+    doc: "Rust: the module that `field!` makes, which needs only mms-math",
     emit: |subject| Bundle { files: vec![file(subject.compiled)], verify: None },
     words: &[],
 };

@@ -64,8 +64,8 @@ impl Body {
     /// The shape in a few words.
     pub fn doc(self) -> &'static str {
         match self {
-            Body::Box => "With edges along the axes",
-            Body::Annulus => "Between two circles, in the plane",
+            Body::Box => "A box with edges along the axes",
+            Body::Annulus => "The region between two circles, in the plane",
         }
     }
 

@@ -23,18 +23,17 @@ use mms_spec::twin::Twin;
 /// The selected motion, and its limits.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Motion {
-    /// Take another time window: two numbers, or formulas in the parameters, as in '0,length/c'. Everything is of it: claims,
-    /// proofs, runs, and what is emitted.
+    /// Replace the time window of the field: two numbers, or formulas in the parameters, as in '0,length/c'. Claims, proofs,
+    /// runs and emitted code then refer to this window.
     #[arg(long, value_name = "FROM,TO", value_parser = window, allow_hyphen_values = true)]
     window: Option<Window>,
-    /// Take the rigid twin of the field: the same motion, followed by a rotation about the origin and
-    /// a translation. MOTION has the keys of [rigid], as in 'rotation = "pi*t", translation = ["t",
-    /// "0"]'; without it the motion is a large and accelerated one. Faces that were at rest are then
-    /// prescribed, and closed forms left out.
+    /// Use the rigid twin of the field: the same motion, followed by a rotation about the origin and a translation. MOTION
+    /// has the keys of [rigid], as in 'rotation = "pi*t", translation = ["t", "0"]'; the default is a large, accelerated
+    /// rigid motion. Faces that were at rest become prescribed, and closed forms are left out.
     #[arg(long, value_name = "MOTION", num_args = 0..=1, default_missing_value = "", value_parser = motion)]
     rigid: Option<String>,
-    /// How many nodes and operands the expressions of a field may have together; a field that needs
-    /// more is refused.
+    /// The most nodes, and the most operands, that all expressions of a field may have together; a field that needs more is
+    /// refused.
     #[arg(long, value_name = "N", default_value_t = Motion::default().max_nodes)]
     max_nodes: u32,
 }
@@ -81,8 +80,8 @@ impl Motion {
 pub struct Variant {
     #[command(flatten)]
     motion: Motion,
-    /// How quantities are computed: `stable` holds each to 64 eps of its largest magnitude, at any
-    /// strain; `fast` takes the fewest operations, and loses eps/e where the strain e is small.
+    /// How quantities are computed: `stable` keeps the error of each within 64 eps of its largest magnitude, at any strain;
+    /// `fast` needs the fewest operations, and loses eps/e where the strain e is small.
     #[arg(long, value_name = "stable|fast", default_value = Form::default().name(), value_parser = Form::from_name)]
     form: Form,
 }

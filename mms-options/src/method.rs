@@ -46,11 +46,11 @@ impl Precision {
 /// The arithmetic of a computation: its precision and its form.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Arithmetic {
-    /// The precision to compute in.
+    /// The precision of the computation.
     #[arg(long, value_enum, default_value_t)]
     pub precision: Precision,
-    /// How the field's quantities are computed: stable, or fast, which takes the fewest operations and loses digits
-    /// at small strains.
+    /// How the field's quantities are computed: stable, or fast, which needs the fewest operations and loses digits at small
+    /// strains.
     #[arg(long, value_name = "stable|fast", default_value = Form::default().name(), value_parser = Form::from_name)]
     pub form: Form,
 }
@@ -84,54 +84,52 @@ pub struct MethodOptions {
         help = listed("The time integrator", IntegratorName::NAMES)
     )]
     pub integrator: IntegratorName,
-    /// The formulation: updated, whose grid is in space, or total, whose grid is in the reference
-    /// configuration.
+    /// The formulation: updated, with a grid in space, or total, with a grid in the reference configuration.
     #[arg(long, default_value_t = FormulationName::Updated)]
     pub formulation: FormulationName,
-    /// How particles take the grid's velocity: flip, pic, apic, or xpic2 to xpic5.
+    /// How the velocity of the grid is transferred to particles: flip, pic, apic, or xpic2 to xpic5.
     #[arg(long, default_value_t = Transfer::FLIP)]
     pub transfer: Transfer,
-    /// The part of flip, from 0 to 1; the rest is pic.
+    /// The fraction of flip in the transfer, from 0 to 1; the rest is pic. 1 by default; needs the transfer flip.
     #[arg(long, value_name = "PART", value_parser = part)]
     flip_fraction: Option<f64>,
     /// Particles per cell along each axis, as in 2 or 3x2.
     #[arg(long, value_name = "N[xN..]", default_value = "2")]
     particles_per_cell: Division,
-    /// How to lay out particles: cartesian, or fitted to the faces of an annulus; by default fitted
-    /// there. In a box both are the same.
+    /// How particles are placed: cartesian, or fitted to the faces of an annulus; by default fitted. In a box both are the
+    /// same.
     #[arg(long)]
     fill: Option<Fill>,
-    /// Move each particle at random by up to this part of half its domain, from 0 to 1.
+    /// Move each particle at random by up to this fraction, from 0 to 1, of half the edges of its domain.
     #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
     jitter: f64,
-    /// The seed of the random numbers.
+    /// The seed of the random numbers of `--jitter`.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Move the grid against the body by this part of a cell, from 0 to 1; one for all axes or one for
-    /// each.
+    /// Shift the grid relative to the body by this fraction of a cell, from 0 to 1: one number for all axes, or one for each.
+    /// 0 by default.
     #[arg(long, value_name = "PART[,..]", value_delimiter = ',', value_parser = part)]
     offset: Vec<f64>,
-    /// The axes along which the body repeats itself: x, y, z.
+    /// The axes along which the body is periodic: x, y, z; none by default.
     #[arg(long, value_name = "AXIS[,..]", value_delimiter = ',')]
     periodic: Vec<Axis>,
-    /// time_step * c0 / shortest edge of a cell, c0 being the fastest wave speed at F = I.
+    /// The Courant number: time_step * c0 / shortest edge of a cell. c0 is the fastest wave speed at F = I.
     #[arg(long, default_value_t = 0.4, value_parser = positive)]
     courant: f64,
-    /// The time step, shortened to fill the time window, instead of the one from the Courant number.
+    /// The time step, in place of the one from the Courant number. It is shortened so that steps fill the time window.
     #[arg(long, value_name = "DT", conflicts_with = "courant", value_parser = positive)]
     time_step: Option<f64>,
-    /// Take a static field to its equilibrium, by dynamic relaxation: from rest along a ramp of its loads, with a fictitious
+    /// Bring a static field to its equilibrium by dynamic relaxation: from rest along a ramp of its loads, with a fictitious
     /// mass and kinetic damping, until the residual at the nodes is below 1e-9 of the forces. Errors are measured at the end.
     #[arg(long, conflicts_with = "end_time")]
     pub relax: bool,
-    /// Run with a time step above the stable one, in which a wave may cross a cell.
+    /// Allow a time step above the stable one, in which a wave may cross a cell.
     #[arg(long)]
     pub allow_unstable: bool,
-    /// When to end, instead of at the end of the field's time window.
+    /// The time at which the run ends; by default the end of the field's time window.
     #[arg(long = "time", value_name = "T", value_parser = finite)]
     end_time: Option<f64>,
-    /// How many threads work on one run; by default as many as there are processors. Results do not
-    /// depend on it.
+    /// The number of threads of a run; by default one for each processor. Results do not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Precision and form.

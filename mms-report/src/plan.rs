@@ -59,7 +59,7 @@ impl Step {
             Step::Residual | Step::Accelerations => {
                 "no step in time, and no solve for residuals: a finer mesh costs next to nothing, and shows smaller mistakes"
             }
-            Step::Results => "runs of your code, and seconds of this project's own solver",
+            Step::Results => "runs of your code, and seconds of the built-in solver",
         }
     }
 

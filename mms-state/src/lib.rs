@@ -25,7 +25,7 @@ use self::points::Points;
 pub enum Term {
     /// b, in all its forms.
     BodyForce,
-    /// The stress in every measure, and what follows from it: divergences, pressure.
+    /// All stresses, and the quantities that follow from them: divergences, pressure.
     Stress,
     /// Tractions on the faces.
     Traction,
@@ -44,9 +44,7 @@ impl Term {
     pub fn says(self) -> &'static str {
         match self {
             Term::BodyForce => "b, in all its forms",
-            Term::Stress => {
-                "The stress in every measure, and what follows from it: divergences, pressure"
-            }
+            Term::Stress => "All stresses, and what follows from them: divergences, pressure",
             Term::Traction => "Tractions on the faces",
         }
     }

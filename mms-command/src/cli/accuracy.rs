@@ -22,55 +22,51 @@ use mms_spec::suggest::advice;
 use super::format::Printing;
 use super::{Outcome, say, this_command, validate_output};
 
-/// Measure the errors of a field against arbitrary precision: every quantity, in single, double and
-/// twice double precision, in the stable and the fast form, as declared and at extremes.
+/// Measure the rounding errors of a field against arbitrary precision: of every quantity, in single, double and twice double
+/// precision, in the stable and the fast form, at the declared parameters and at extremes.
 ///
 /// The table shows, for each quantity, precision and form, the regime with the largest error. Errors are in eps of the
-/// precision (2^-23, 2^-52, 2^-104): the median, the bound for 99 of 100 components, and the largest |error|/|value|; then the
-/// largest |error| over the largest |value| of the quantity. Components that are not finite are counted separately, and
-/// excluded from errors. A field takes about a minute of processor time, a few at most, nearly all of it for the functions of
-/// the reference; --quantity, --regime, --precision and --points shorten that.
+/// precision (2^-23, 2^-52, 2^-104): the median of |error|/|value|, the bound for 99 of 100 components, and the largest; then
+/// the largest |error| over the largest |value| of the quantity. Components that are not finite are counted separately. A
+/// field takes about a minute of processor time, at most a few, most of it for the functions of the reference; --quantity,
+/// --regime, --precision and --points shorten it.
 ///
-/// Exit code 1 if the stable form exceeds 64 eps of the largest value where it promises not to: as declared, and at
-/// displacements down to 1e-12 of the size; and if that cannot be measured, or nothing can. Numbers that were not measured are
-/// null in --json.
+/// The exit code is 1 if the stable form exceeds 64 eps of the largest value at the declared parameters, or at displacements
+/// down to 1e-12 of the size; and if this cannot be measured. Numbers that were not measured are null in --json.
 #[derive(Args)]
 #[command(after_help = listed())]
 pub struct Accuracy {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     field: String,
-    /// Quantities, separated by commas, or `all`.
+    /// The quantities to measure, separated by commas, or `all`.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// Regimes, separated by commas, or `all`: those that are listed below, and the names of the
-    /// field's [[extreme]] tables.
+    /// The regimes of parameters, separated by commas, or `all`: the regimes in the list below, and the names of the field's
+    /// [[extreme]] tables.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
     regime: Vec<String>,
-    /// Precisions, separated by commas; all of them by default.
+    /// The precisions, separated by commas; all by default.
     #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = precision())]
     precision: Vec<Precision>,
-    /// Forms, stable or fast, separated by commas; both by default.
+    /// The forms, stable or fast, separated by commas; both by default.
     #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = Form::from_name)]
     form: Vec<Form>,
-    /// At how many points and times; one in four lies on a face or close to one.
+    /// The number of points, each with a time; one in four is on a face or close to one.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     points: u32,
-    /// Change the default of a parameter, to a number or a formula in the parameters above it; may
-    /// be repeated.
+    /// Change the default of a parameter to a number, or to a formula in the parameters declared above it. May be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
     motion: Motion,
-    /// Compile the emitted code with the `rustc` on the PATH, and time it: batches in f32 and f64,
-    /// point by point in twice the digits. Takes half a minute, some minutes for all quantities of a
-    /// 3-D field.
+    /// Compile the emitted code with the `rustc` on the PATH, and measure its time: batches in f32 and f64, single points in
+    /// twice the digits. Takes half a minute, or some minutes for all quantities of a 3D field.
     #[arg(long)]
     time: bool,
-    /// Show every regime, not the worst alone.
+    /// Show every regime; by default only the worst.
     #[arg(long)]
     all: bool,
-    /// Write accuracy.json there, and accuracy.svg: errors over time, with the Pareto front. Implies
-    /// --time.
+    /// The folder to write accuracy.json and accuracy.svg to: errors over time, with the Pareto front. Implies --time.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]

@@ -30,52 +30,54 @@ use super::observers::Interrupted;
 use super::{Outcome, next, print, replaced, say, this_command, validate_output};
 use crate::provenance::{Input, Provenance};
 
-/// Run your own solver on the meshes of several studies, and judge each as `mms judge` does it.
+/// Run your own solver on the meshes of several studies, and judge each study as `mms judge` does.
 ///
-/// FILE says how the solver is run ([solver]: run, output) and on what ([[study]]: field, cells, order). There is no
-/// shell. Placeholders of `run`, `directory` and `output` are {name}, {field}, {level}, {cells}, {cell_size},
-/// {time_step}, {steps}, {start}, {end}, {force_factor}, {output}, {emitted}, {state} and {here}, and {set.NAME} of a parameter; docs/guide/campaign.md has them all.
-/// Before a run `emit` writes the source of the field, and `state`, or {state}, the exact state at the start.
+/// FILE states how to run the solver ([solver]: run, output) and what to compute ([[study]]: field, cells, order). Commands
+/// are started without a shell. `run`, `directory` and `output` may contain the placeholders {name}, {field}, {level},
+/// {cells}, {cell_size}, {time_step}, {steps}, {start}, {end}, {force_factor}, {output}, {emitted}, {state}, {here}, and
+/// {set.NAME} for a parameter; docs/guide/campaign.md explains them. Before a run, `emit` writes the source of the field, and
+/// `state` or {state} writes the exact state at the start.
 ///
-/// Each run has a folder of its own in the store, with what it printed. It is done when its command has ended well and its
-/// results can be read. No run is made twice unless something changes that it depends on: the command, the program that it
-/// starts, a file that it names or that `sources` lists, the field, a version, or the results themselves.
+/// Each run has its own folder in the store, which also keeps its printed output. A run is done if its command succeeded and
+/// its results can be read. A run is repeated only if one of its inputs changed: the command, the program that it starts, a
+/// file that it names or that `sources` lists, the field, a version, or the results themselves.
 ///
-/// Processes that a solver leaves behind are ended and named. Ctrl-C, Ctrl-\ and any other end of the campaign end its runs;
-/// the same command continues with the remaining ones. A run that fails is named with the last lines that it printed, ends no
-/// other, and is tried again the next time.
+/// Processes that a solver leaves behind are ended, and their names printed. Ctrl-C, Ctrl-\ and any other end of the campaign
+/// end its runs; the same command continues with the remaining runs. If a run fails, its last lines are printed, other runs
+/// continue, and the next call tries it again.
 ///
-/// Exit codes: 0 all studies pass; 1 another verdict, or a pass with a wrong b; 2 bad usage, or a bad file; 3 a run failed, or has no results that can be judged.
+/// Exit codes: 0 all studies pass; 1 another verdict, or a pass with a wrong b; 2 bad usage, or a bad file; 3 a run failed,
+/// or its results cannot be judged.
 #[derive(Args)]
 pub struct Campaign {
     /// The campaign file.
     file: PathBuf,
-    /// Only this study, or this level of it, as in bar_1d/3; may be repeated. A study is judged if all of its levels are
+    /// Run only this study, or this level of it, as in bar_1d/3; may be repeated. A study is judged if all of its levels are
     /// selected.
     #[arg(long, value_name = "STUDY[/LEVEL]")]
     only: Vec<String>,
-    /// How many runs go side by side; by default as many as there are processors for `threads` each.
+    /// The number of runs at the same time; by default the number of processors, divided by the `threads` of a run.
     #[arg(long, value_name = "N")]
     jobs: Option<NonZero<usize>>,
-    /// Then run each study once more with -b in place of b, and demand that it does not pass: a study that passes then measures
-    /// nothing. The wrong b goes where the solver gets its b from: into {emitted}, into {state}, and as {force_factor}, which is -1.
+    /// Then run each study once more with -b in place of b, which must not pass: a study that passes with -b measures
+    /// nothing. The wrong b is written to {emitted} and {state}, and {force_factor} is -1.
     #[arg(long, conflicts_with_all = ["dry_run", "list", "suggest"])]
     canary: bool,
-    /// Show what would be run, and what is done already; run nothing.
+    /// Print the runs and their commands, and which are done; run nothing.
     #[arg(long, conflicts_with = "figure")]
     dry_run: bool,
-    /// Print a command for each run that is not done yet, which makes it and keeps its result, for a scheduler that runs
-    /// commands on other machines; run nothing. They share the folder of --store.
+    /// Print a command for each run that is not done, for a scheduler that runs commands on other machines; run nothing. Each
+    /// command makes one run and keeps its result in the folder of --store, which all machines share.
     #[arg(long, conflicts_with_all = ["dry_run", "figure"])]
     list: bool,
-    /// Propose studies from what the solver says that it `can`: the fewest fields of the gallery that show all which any
-    /// shows that it can run, and what stays unseen; run nothing.
+    /// Propose studies for the abilities that `can` declares, and run nothing: the fewest fields of the gallery that together
+    /// show every term that such a solver can show. Terms that stay unseen are listed.
     #[arg(long, conflicts_with_all = ["dry_run", "list", "only", "output", "figure"])]
     suggest: bool,
-    /// Where runs and their results are kept; target/mms/campaign/NAME by default, with the name of FILE.
+    /// The folder for runs and their results; by default target/mms/campaign/NAME, with the name of FILE.
     #[arg(long, value_name = "DIR")]
     store: Option<PathBuf>,
-    /// Write campaign.json there, and convergence.svg and .csv to a folder for each study.
+    /// The folder to write campaign.json to, with a folder for each study for convergence.svg and .csv.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]

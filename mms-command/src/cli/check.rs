@@ -17,38 +17,42 @@ use mms_spec::foreign::Foreign;
 
 use super::{Outcome, print, print_json, say, say_styled};
 
-/// Check field files: mistakes, boundary claims, J > 0, and closed forms.
+/// Check field files: find mistakes, prove the boundary claims and J > 0, and compare closed forms with derived ones.
 ///
-/// Proofs cover the whole body, time window and parameter ranges; they are symbolic, or use intervals. A claim is `proved`;
-/// `enclosed`, if it is only certain to hold within 1e-12, relative to the size of the body or the modulus; `refuted` at a
-/// named point; or `unproved`. The last two exit 1, as do J <= 0, a function that ends or jumps within the domain, a quantity
-/// without a finite value or that f64 does not compute as one, and a closed form that differs or was compared nowhere. A proof
-/// that needs more steps than its budget is reported as not made. The numbers of f32 have a line of their own. A stress at rest
-/// (P not 0 at F = I) is a warning. Bounds are given of J, the principal stretch, the strain rate, the wave speed, and the time
-/// step that waves allow, of x, and of the digits that sums such as X + c*t leave of angles.
+/// Proofs cover the whole body, the time window and the ranges of the parameters. They are symbolic, or use interval
+/// arithmetic. A claim on a face is `proved`; `enclosed`: it holds within 1e-12 of the size of the body or of the modulus;
+/// `refuted` at a named point; or `unproved`. A proof that needs more steps than its budget is reported as not made.
 ///
-/// Whether a solver can follow the motion is looked at on a sample, for the defaults of the parameters: waves in the body
-/// (acoustic tensor), waves on faces that are loaded, free or on rollers (surface impedance, loads dead), their corners
-/// (coercivity of the second variation in a quadrant), and long waves
-/// (least eigenvalue on a coarse mesh). A disturbance that grows is a warning, and does not change the exit code.
+/// The exit code is 1 if a claim is refuted or unproved, if J <= 0, if a function ends or jumps within the domain, if a
+/// quantity is not finite, exactly or as computed in f64, or if a closed form differs or could be compared nowhere. A
+/// separate line says whether f32 computes finite values. A stress at rest (P not 0 at F = I) is a warning.
+///
+/// Lines with bounds give the principal stretch, the strain rate, the wave speed, the stable time step, x, and the number of
+/// correct digits of angles in sums such as X + c*t.
+///
+/// Stability is tested on a sample of points and times, at the default parameters: waves in the body (acoustic tensor), waves
+/// on faces that are loaded, free or on rollers (surface impedance, dead loads), corners of such faces (coercivity of the
+/// second variation in a quadrant), and long waves (least eigenvalue on a coarse mesh). A solver cannot follow a motion in
+/// which a disturbance grows: this is a warning, and does not change the exit code.
 #[derive(Args)]
 pub struct Check {
     /// Field files, or names of fields of the gallery.
     #[arg(value_name = "FIELD", required = true)]
     files: Vec<String>,
-    /// Fix a parameter at a value: a number, or a formula in the parameters above it. Proofs then cover this value only, not
-    /// the parameter's range; may be repeated.
+    /// Fix a parameter at a value: a number, or a formula in the parameters declared above it. Proofs then cover this value
+    /// only, not the parameter's range. May be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Run Newton's method on static fields, on a coarse mesh: does it stay at the exact state, and come to it from zero?
+    /// Run Newton's method for static fields on a coarse mesh: report whether it stays at the exact state, and whether it
+    /// converges to this state from zero.
     #[arg(long)]
     solve: bool,
     #[command(flatten)]
     variant: Variant,
-    /// Say below the lines what each of them means.
+    /// Explain each kind of line below the report.
     #[arg(long)]
     explain: bool,
-    /// Print a line for each face and each corner; --json has them as well.
+    /// Print a line for each face and each corner; --json always has them.
     #[arg(long)]
     verbose: bool,
     /// Print one JSON document.

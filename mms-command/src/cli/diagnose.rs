@@ -36,34 +36,38 @@ use super::naming::Naming;
 use super::next::typed;
 use super::{Outcome, print, replaced, say, this_command, validate_output};
 
-/// Name the mistake of a solver by the error that it makes.
+/// Name the mistake in a solver from the error that it makes.
 ///
-/// Results of a FIELD are one FILE for each mesh, as for `mms judge`. Their content decides which comparison is made:
+/// For the results of a FIELD, give one FILE for each mesh, as for `mms judge`. Their content determines the comparison:
 ///
-/// F and a stress, with --quantity stress, or F and its tangent, with --quantity tangent: the law alone, to round-off,
-/// without a solver. Accelerations `a` or residuals `r` at an exact state, paired with smooth functions. u, v, F at some times:
-/// this project's own solver runs each hypothesis on a grid of about that size, or brings it into equilibrium where nothing
-/// moves, and its errors are compared with yours. Results of two meshes are held to an order as by `mms judge`.
+/// F and a stress (--quantity stress), or F and its tangent (--quantity tangent): the material law is compared to
+/// round-off, without a solver.
 ///
-/// A hypothesis is named if it explains the error, with a size that it may have, and nothing else explains it as well. It says what the
-/// error acts as, not which line is wrong.
+/// Accelerations `a` or residuals `r` at an exact state: they are multiplied with smooth functions and compared.
 ///
-/// Exit codes: 0 nothing is wrong beyond what a method makes; 1 a mistake is named, or the error is unexplained; 2 bad
+/// u, v, F at one or more times: the built-in solver runs each hypothesis on a grid of about your size, or computes its
+/// equilibrium for a static field, and its errors are compared with yours. Results of two meshes must also have the expected
+/// order, as in `mms judge`.
+///
+/// A hypothesis is named if it explains the error, with a plausible size, and no other explains it as well. It describes the
+/// effect of the mistake, not the line that is wrong.
+///
+/// Exit codes: 0 the error is not larger than a right method makes; 1 a mistake is named, or the error is unexplained; 2 bad
 /// usage, or bad files.
 #[derive(Args)]
 pub struct Diagnose {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     #[arg(required_unless_present = "list")]
     field: Option<String>,
-    /// Results, each of one mesh, at one time or more, as for `mms judge`.
+    /// Results of one mesh, at one or more times, as for `mms judge`.
     #[arg(value_name = "FILE", required_unless_present_any = ["list", "plan"])]
     files: Vec<String>,
-    /// List the hypotheses about a field: what each is, what it changes, what shows it, whether it is a mistake or a choice.
-    /// Without a FIELD, about a square with loads.
+    /// List the hypotheses: what each is, what it changes, which step shows it, and whether it is a mistake or a choice.
+    /// Without a FIELD, the list is for sheared_block_2d, a square with loads.
     #[arg(long, conflicts_with = "files")]
     list: bool,
-    /// Print the steps from the first on: what each needs of your code, what it costs, the command, and the mistakes that it can
-    /// see. STEPs are those that your code can output; without one, all.
+    /// Print the steps of a diagnosis in order: what each needs from your code, its cost, its command, and the mistakes that
+    /// it can show. Give the STEPs that your code can output; by default all are printed.
     #[arg(
         long,
         value_name = "STEP,..",
@@ -73,49 +77,52 @@ pub struct Diagnose {
         conflicts_with_all = ["files", "list"]
     )]
     plan: Option<Vec<Step>>,
-    /// The quantities of results to look at, by name or symbol, as for `mms judge`: u, v, F; without it all that are found. `stress`
-    /// is the law alone, in a table of F and P, S, sigma or tau; `tangent` likewise, in one of F and DDSDDE.
+    /// The quantities to compare, by name or symbol, as for `mms judge`: u, v, F; by default all that the files contain.
+    /// `stress` compares the material law alone, from a table of F and P, S, sigma or tau; `tangent` does so from a table of
+    /// F and DDSDDE.
     #[arg(long, value_name = "NAME,..|stress|tangent", value_delimiter = ',')]
     quantity: Vec<String>,
     #[command(flatten)]
     naming: Naming,
-    /// The memory that reading a file may take, in MB; without it what is free.
+    /// The most memory for reading a file, in MB; by default the free memory.
     #[arg(long, value_name = "MB")]
     max_memory: Option<u64>,
-    /// h of the FILEs, in their order; 1/8 is a number too.
+    /// The cell size h of each FILE, in their order; 1/8 is a number too. By default h is measured from the files.
     #[arg(long, value_name = "H,..", value_delimiter = ',', value_parser = length)]
     h: Vec<f64>,
-    /// The times of results that have none.
+    /// The times of the results, if the files contain none.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
     time: Vec<f64>,
-    /// The time step of the solver: one for all FILEs, or one for each in their order; without it, about the Courant number 0.4.
+    /// The time step of your solver: one for all FILEs, or one for each in their order; by default the step of about the
+    /// Courant number 0.4.
     #[arg(long, value_name = "DT,..", value_delimiter = ',', value_parser = positive)]
     time_step: Vec<f64>,
-    /// A term that was switched off in the solver, in accelerations or residuals. May be repeated.
+    /// A term that was switched off in your solver for accelerations or residuals; may be repeated.
     #[arg(long, value_name = "body_force|stress|traction")]
     without: Vec<Term>,
     /// The sign of residuals: `+` is r = rho0 a - Div P - rho0 b, per reference volume.
     #[arg(long, value_name = "+|-", default_value = "+", allow_hyphen_values = true, value_parser = sign)]
     residual_sign: f64,
-    /// The kind of residuals: `density` is per reference volume, `nodal` is integrated with the shape function of each node,
-    /// forces that hold the tractions too.
+    /// The kind of residuals: `density` is per reference volume; `nodal` is a force, integrated with the shape function of
+    /// each node, and includes the tractions.
     #[arg(long, value_name = "density|nodal", default_value = "density")]
     residual: Residual,
-    /// Compare with a method of this project's own solver, as in `shape=linear,integrator=usl`: any options of `mms study` that
-    /// say how to solve. The expected order is then the order of this method on this field. Without it, with some methods.
+    /// The method of the built-in solver to compare with, as in `shape=linear,integrator=usl`: any options of `mms study`
+    /// that state how to solve. The expected order is then the order of this method on this field. By default several methods
+    /// are compared.
     #[arg(long, value_name = "OPTION=VALUE,..")]
     like: Option<Alike>,
-    /// The order that results of two meshes and more are held to, as for `mms judge`.
+    /// The expected order of results on two or more meshes, as for `mms judge`.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',')]
     expected_order: Vec<Order>,
-    /// Right runs of your own solver, one for each FILE, on the same meshes and at the same times: results are compared with them, and
-    /// not with the exact solution, so that the error of your method is in neither.
+    /// Results of a right version of your solver, one for each FILE, on the same meshes and at the same times. FILEs are
+    /// compared with them in place of the exact solution, so that the error of your method cancels.
     #[arg(long, value_name = "FILE", value_delimiter = ',', requires = "files", conflicts_with_all = ["like", "expected_order"])]
     reference: Vec<String>,
-    /// The solver was given the affine part of the motion, as `mms state --affine` writes it.
+    /// State that your solver was given the affine part of the motion, as `mms state --affine` writes it.
     #[arg(long)]
     affine: bool,
-    /// Set a parameter; may be repeated.
+    /// Set a parameter to a value; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
@@ -124,7 +131,7 @@ pub struct Diagnose {
     detail: Detail,
     #[command(flatten)]
     printing: Printing,
-    /// Write the document there, as diagnosis.json, for `mms report`.
+    /// The folder to write diagnosis.json to, for `mms report`.
     #[arg(long, short, value_name = "FOLDER", conflicts_with = "list")]
     output: Option<PathBuf>,
 }

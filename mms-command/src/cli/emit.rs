@@ -24,44 +24,45 @@ use mms_spec::own::Own;
 use self::folder::{State, compare, write};
 use super::{Outcome, print, print_json, say};
 
-/// Write the source of a field for another solver: all of it, or only what is needed.
+/// Write the source code of a field for your solver, in its language: all quantities, or only those that it needs.
 ///
-/// A check program and its test vectors come with it: the line printed at the end builds and
-/// runs it. With your own compiler and flags in that line it proves your build. The target
-/// rust-mms-math has none: it shares its code with what this program computes.
+/// A check program and its test vectors are written as well. The last printed line builds and runs this program; with your
+/// own compiler and flags in that line, it proves your build. The target rust-mms-math has no check program: it shares its
+/// code with this command.
 #[derive(Args)]
 pub struct Emit {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     #[arg(required_unless_present = "all")]
     field: Option<String>,
-    /// Every field of the gallery, each in a folder of its name below --output.
+    /// Write every field of the gallery, each to its own folder below --output.
     #[arg(long, conflicts_with = "field", requires = "output")]
     all: bool,
-    /// The language.
+    /// The language of the source.
     #[arg(long, value_name = "NAME", value_parser = targets())]
     target: Option<&'static Target>,
-    /// The folder for the files; without it the source goes to stdout, where it is one file. Links in it are not written
-    /// through.
+    /// The folder to write to. Without it the source is printed on stdout, if it is one file. Files are never written through
+    /// links.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Quantities, separated by commas, beside the body, the time window and the claims; without it all of them, and the material.
+    /// The quantities to write, separated by commas. The body, the time window and the claims are always written. By default
+    /// all quantities and the material are written.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// Change the default of a parameter, to a number or a formula in the parameters above it; may
-    /// be repeated. Parameters that depend on it follow.
+    /// Change the default of a parameter to a number, or to a formula in the parameters declared above it. Parameters that
+    /// depend on it change too. May be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Make parameters constants at their defaults, so that what they make 0 disappears: all of
-    /// them, or those named.
+    /// Make parameters constants with their default values, so that terms that are then 0 disappear: all parameters, or the
+    /// named ones.
     #[arg(long, value_name = "NAME,..", num_args = 0.., require_equals = true, value_delimiter = ',')]
     freeze: Option<Vec<String>>,
     #[command(flatten)]
     variant: Variant,
-    /// Write nothing: compare the files in the folder with what would be written, and exit 1 if one
-    /// is missing or not the same to the byte.
+    /// Write nothing: compare the files in the folder with the files that would be written, and exit with 1 if one is missing
+    /// or differs by a byte.
     #[arg(long, requires = "output")]
     check: bool,
-    /// Print one JSON document, with the texts in it unless --output is given.
+    /// Print one JSON document. It contains the source unless --output is given.
     #[arg(long)]
     json: bool,
 }

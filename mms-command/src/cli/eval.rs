@@ -27,13 +27,14 @@ use super::{Outcome, print, print_json, say};
 
 /// Evaluate quantities of a field at points.
 ///
-/// Points outside the body and times outside the time window are evaluated all the same, with a warning on stderr; in
-/// --json, outside_body has their positions, from 0 on, and outside_time is true, where there are such.
+/// Points outside the body and times outside the time window are evaluated too, with a warning on stderr. In --json,
+/// outside_body lists the positions of such points, counted from 0, and outside_time is true; both keys are absent if nothing
+/// is outside.
 #[derive(Args)]
 pub struct Eval {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     field: String,
-    /// A reference position, such as 0.37 or -0.3,0.2; may be repeated.
+    /// A reference position X, such as 0.37 or -0.3,0.2; may be repeated.
     #[arg(
         long,
         value_name = "X,Y",
@@ -42,32 +43,33 @@ pub struct Eval {
         allow_hyphen_values = true
     )]
     at: Vec<String>,
-    /// At the points of this file instead, which are X, or x and u: CSV with a header, VTK or NumPy, by its content.
+    /// Evaluate at the points of this file, which contains X, or x and u: CSV with a header, VTK or NumPy, recognised by its
+    /// content.
     #[arg(long, value_name = "FILE")]
     points: Option<String>,
     #[command(flatten)]
     naming: Naming,
-    /// The time; a static field needs none.
+    /// The time of the evaluation; a static field needs none.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: Option<String>,
-    /// Quantities, separated by commas, or `all` but second_piola_kirchhoff, pressure, von_mises and strain, which are derived where
-    /// they are named.
+    /// The quantities, separated by commas, or `all`. `all` excludes second_piola_kirchhoff, pressure, von_mises and strain:
+    /// name them to get them.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// Tensors with all nine components, of plane strain in two dimensions and of uniaxial strain in one: F_33 = 1, and the
-    /// stress out of the plane.
+    /// Print all nine components of tensors: plane strain in two dimensions, uniaxial strain in one. F_33 is 1, and the
+    /// stress out of the plane is included.
     #[arg(long)]
     all_components: bool,
-    /// The reference unit normal of the boundary, for the quantity `traction`.
+    /// The reference unit normal N of the boundary, for the quantity `traction`.
     #[arg(long, value_name = "N1,N2", allow_hyphen_values = true)]
     normal: Option<String>,
-    /// The face whose outward normal to take, such as x_max or inner, for the quantity `traction`.
+    /// The face whose outward normal is used for the quantity `traction`, such as x_max or inner.
     #[arg(long, value_name = "NAME", conflicts_with = "normal")]
     face: Option<String>,
-    /// Set a parameter; may be repeated.
+    /// Set a parameter to a value; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The precision to compute in: single, double, or twice the digits of double.
+    /// The precision of the computation: f32, f64, or `wide`, which has twice the digits of f64.
     #[arg(long, default_value = Precision::F64.name(), value_parser = precision())]
     precision: Precision,
     #[command(flatten)]

@@ -14,10 +14,10 @@ use super::format::Printing;
 /// The page, which is also read as such.
 const PAGE: &str = include_str!("../../docs/glossary.md");
 
-/// Explain a word of the output or of the guide; without one, list all that are known.
+/// Explain a word of the output or of the guide; without a word, list all words.
 #[derive(Args)]
 pub struct Explain {
-    /// The words to explain; capital letters do not matter.
+    /// The words to explain, in capital or lower-case letters.
     #[arg(value_name = "TERM")]
     terms: Vec<String>,
     #[command(flatten)]

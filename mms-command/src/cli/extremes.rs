@@ -29,35 +29,34 @@ use super::format::Printing;
 use super::{Outcome, print, say, this_command, validate_output};
 use crate::session::progress::Progress;
 
-/// Run a field at the limits of the solver: each run meets its bound, or stops with the right diagnosis.
+/// Run a field at the limits of the built-in solver: each run must meet its bound, or stop with the right diagnosis.
 ///
-/// Tiny motions and nearly inverted ones, nearly incompressible material, stiff and soft units, one cell and millions, one
-/// particle per cell and a thousand, Courant numbers from 0.01 to past the stable one, a million steps, a body far
-/// from the origin, single precision. Bounds are relative to the error of the field as declared, with the method's options.
-/// A field that cannot be put at an extreme says why, and a grid in space that is too coarse for a material that is nearly
-/// inverted is `unresolved`: a cell of it may hold a thousand times the material, and nothing bounds its error.
+/// The limits are tiny and nearly inverted motions, nearly incompressible material, stiff and soft units, one cell and
+/// millions, one particle per cell and a thousand, Courant numbers from 0.01 to above the stable one, a million steps, a body
+/// far from the origin, and single precision. Bounds are relative to the error of the declared field with the method's
+/// options. If a field cannot be put at a limit, the row says why. A row is `unresolved` if the grid in space is too coarse
+/// for a nearly inverted material: a cell may then contain a thousand times the material, and no bound exists for its error.
 ///
-/// Then the largest stable Courant number of each shape function, formulation, transfer and integrator, by bisection, beside
-/// the value from von Neumann's analysis of the interior.
+/// Then the command computes the largest stable Courant number of each shape function, formulation, transfer and integrator
+/// by bisection, and prints it beside the value from von Neumann's analysis of the interior.
 #[derive(Args)]
 pub struct Extremes {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     field: String,
-    /// Fewer steps, and fewer methods whose stability is measured.
+    /// Run fewer steps, and measure the stability of fewer methods.
     #[arg(long)]
     quick: bool,
-    /// Only this row, as in units/soft, or the rows of this group, as in units, or stability; may be repeated.
+    /// Run only this row, as in units/soft, or the rows of this group, as in units, or `stability`; may be repeated.
     #[arg(long, value_name = "NAME")]
     row: Vec<String>,
     #[command(flatten)]
     method: MethodOptions,
-    /// Change the default of a parameter, to a number or a formula in the parameters above it; may
-    /// be repeated.
+    /// Change the default of a parameter to a number, or to a formula in the parameters declared above it. May be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
     motion: Motion,
-    /// Write extremes.json there, which is what `--json` prints.
+    /// The folder to write extremes.json to, the document of `--json`.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]

@@ -15,28 +15,29 @@ use super::{Outcome, print, refuse_overwriting, say};
 /// The figure of a result.
 #[derive(Args, Clone, Debug)]
 pub struct FigureFile {
-    /// Draw the curves for print to this file, whose name ends in .svg or .pdf.
+    /// Draw the curves for print to this file; its name ends in .svg or .pdf.
     #[arg(long, value_name = "FILE", value_parser = drawn())]
     figure: Option<PathBuf>,
 }
 
-/// Draw results for print: errors over h or dt with their orders, error against cost.
+/// Draw results for print: errors over h or dt with their orders, or error against cost.
 ///
-/// FILE is a JSON document that `mms study`, `judge`, `campaign`, `tradeoff`, `extremes` or `accuracy` writes with `--output`, or
-/// prints with `--json`. Curves of several files share a panel if they share its axes and units; errors in other units have a panel
-/// of their own.
+/// FILE is a JSON document that `mms study`, `judge`, `campaign`, `tradeoff`, `extremes` or `accuracy` writes with
+/// `--output`, or prints with `--json`. Curves of several files share a panel if they have the same axes and units; each
+/// other unit has its own panel.
 ///
-/// Marks and dashes tell curves apart in black and white. The legend has the observed order of each curve, and a triangle the
-/// expected slope. SVG and PDF hold lines and letters, no pixels.
+/// Marks and dashes distinguish curves in black and white. The legend has the observed order of each curve, and a triangle
+/// shows the expected slope. SVG and PDF contain lines and letters, no pixels.
 #[derive(Args)]
 pub struct Plot {
-    /// The documents.
+    /// The JSON documents to draw.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// The file to write, whose name ends in .svg or .pdf.
+    /// The figure to write; its name ends in .svg or .pdf.
     #[arg(long, short, value_name = "FIGURE", value_parser = drawn())]
     output: PathBuf,
-    /// The width in millimetres: 85, a column, with the legend below the curves, or 170, a page, with the legend beside them.
+    /// The width in millimetres: 85 for one column, with the legend below the curves, or 170 for a page, with the legend
+    /// beside them.
     #[arg(long, value_name = "85|170", default_value_t)]
     width: Width,
 }

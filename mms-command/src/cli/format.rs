@@ -14,8 +14,8 @@ pub struct Printing {
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
-    /// The format of what is printed: text for a terminal; json, as --json; the tables alone as csv, markdown or latex (with
-    /// the package booktabs); of a campaign also its studies as junit.
+    /// The output format: text for a terminal; json, like --json; csv, markdown or latex (with the package booktabs) for the
+    /// tables only; junit for the studies of a campaign.
     #[arg(long, value_name = "FORMAT", conflicts_with = "json", value_parser = formats())]
     format: Option<Format>,
 }
@@ -23,7 +23,7 @@ pub struct Printing {
 /// How much a text says.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct Detail {
-    /// Print full lists and all explanations; --json has them as well.
+    /// Print full lists and all explanations; --json always has them.
     #[arg(long)]
     verbose: bool,
 }

@@ -21,60 +21,69 @@ use super::format::{Detail, Printing};
 use super::{Outcome, print, replaced, this_command, validate_output};
 use crate::provenance::Input;
 
-/// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
+/// Judge the errors of any solver: compute the observed orders with their intervals, search for hidden terms of lower order,
+/// and give a verdict.
 ///
-/// Results of a FIELD are one FILE for each mesh. Their errors are measured over cells if there are any, otherwise over points.
-/// Two of X, x and u give the third; --map gives the meaning of unknown names. Tractions P N belong to a face, as
-/// traction_x_max, or come with unit normals N.
+/// For the results of a FIELD, give one FILE for each mesh. Errors are measured over cells if the file has cells, otherwise
+/// over points. Two of X, x and u determine the third; --map assigns unknown names. Tractions P N belong to a face, as in
+/// traction_x_max, or need unit normals N.
 ///
-/// The table of --errors has a header and a row for each run: `h`, `dt` where it is known, and errors in columns of any names. Several
-/// rows of one h are replicates, of other grid offsets or seeds. l1, l2, linf, H1, and what people call them (mean, rms,
-/// max), alone or with the name of a quantity, as in u_l2, are norms; another column is judged by itself. The worst of
-/// all decides. An empty field is a run that stopped; `round_off` is a column of floors below which errors are left out;
-/// counts, orders and times are passed over, so that the CSV file of `mms study` can be judged as it is.
+/// For a table of --errors, give a header and one row for each run: `h`, `dt` if it matters, and errors in columns of any
+/// names. Rows with equal h are replicates, such as other grid offsets or seeds. A column is a norm if its name is l1, l2,
+/// linf, H1 or a synonym (mean, rms, max), alone or with a quantity, as in u_l2; any other column is judged by itself. The
+/// worst verdict counts. An empty field is a run that stopped. A column `round_off` contains floors; errors below them are
+/// ignored. Counts, orders and times are not judged, so the CSV file of `mms study` can be judged as it is.
 ///
-/// pass: the order is the expected one within --tolerance. Of three levels and more C h^p + D h^(p-1) + E h^(p+1) is fitted: the
-/// share of D in the finest error, with its uncertainty, is the tolerance at most. fail: the order is lower. not
-/// asymptotic: the levels do not tell, or the order is higher. Two levels are held to their order alone. exact to
-/// round-off: no error of results is more than rounding makes, in files with the digits of single precision at least. no
-/// evidence: a solver is given all values that were compared, at the start, on its walls or as loads, or points leave part
-/// of the body empty.
+/// pass: the order is the expected one within --tolerance. With three or more levels C h^p + D h^(p-1) + E h^(p+1) is fitted,
+/// and the share of D in the finest error, with its uncertainty, must be at most the tolerance. With two levels only their
+/// order counts.
 ///
-/// The digits of a table count: an order from 1.2e-3 and 3.1e-4 is known to 0.1.
+/// fail: the order is lower.
 ///
-/// Beside a pass of u, v or F stands what it excludes: the mistakes that `mms diagnose` knows, by what they add to a run of this
-/// project's own solver, over the finest error.
+/// not asymptotic: the levels are not conclusive, or the order is higher.
+///
+/// exact to round-off: all errors are at most what rounding makes, in files with at least the digits of single precision.
+///
+/// no evidence: the solver was given all values that were compared, at the start, on its walls or as loads; or points leave
+/// part of the body empty.
+///
+/// The number of digits in a table matters: an order from 1.2e-3 and 3.1e-4 is known to 0.1.
+///
+/// If u, v or F pass, the output lists the mistakes that this excludes: mistakes that `mms diagnose` knows, and whose error, in
+/// runs of the built-in solver, would have changed the verdict.
 ///
 /// Exit codes: 0 pass, or exact to round-off; 1 fail, or not asymptotic; 2 no evidence, bad usage, or a bad file.
 #[derive(Args)]
 pub struct Judge {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     #[arg(requires = "files", required_unless_present_any = ["errors", "same"])]
     field: Option<String>,
-    /// Results, each of one mesh, at one time or more: a file, a list of states (.pvd), a folder, or a quoted pattern such as
-    /// 'out/*.vtu'. Tables, VTK, XDMF, NumPy, MATLAB, CalculiX, Gmsh, Tecplot, dumps of LAMMPS and Karamelo, and with the feature
-    /// hdf5 HDF5 and netCDF; each is known by its content, and docs/guide/files.md lists them. --explain prints how one is read.
+    /// Results of one mesh, at one or more times: a file, a list of states (.pvd), a folder, or a quoted pattern such as
+    /// 'out/*.vtu'. Formats: tables, VTK, XDMF, NumPy, MATLAB, CalculiX, Gmsh, Tecplot, dumps of LAMMPS and Karamelo, and
+    /// with the feature hdf5 HDF5 and netCDF. The content determines the format; docs/guide/files.md lists all, and --explain
+    /// prints how a file is read.
     #[arg(value_name = "FILE")]
     files: Vec<String>,
-    /// Judge this table instead: values between commas, semicolons, tabs or blanks; lines that begin with # are comments.
+    /// Judge this table of errors in place of results: values between commas, semicolons, tabs or blanks; lines that begin
+    /// with # are comments.
     #[arg(long, value_name = "TABLE", conflicts_with_all = ["field", "files"])]
     errors: Option<PathBuf>,
-    /// Judge the rows of this method in a table of several, as `mms study` writes it for a list of methods.
+    /// Judge the rows of this method, if the table has several, as `mms study` writes it for a list of methods.
     #[arg(long, value_name = "NAME", requires = "errors")]
     method: Option<String>,
     #[command(flatten)]
     results: results::Options,
-    /// The order to judge against: without it 2, and for results one more than the degree of their cells. H1 has the degree of
-    /// the cells at most, or one less than this order in a table. Stresses and strains in cells have at least the order of H1;
-    /// --start determines the orders of v and a. NAME is a norm, a quantity, QUANTITY:NORM or a column, whose order is then
-    /// this one; H1 of a quantity follows from it as above. `time` is the order in dt where h and dt are refined each by
-    /// itself.
+    /// The expected order. The default is 2, and for results one more than the degree of their cells. The default for H1 is
+    /// the degree of the cells, or in a table one less than the expected order. Stresses and strains in cells have at least
+    /// the order of H1; --start determines the orders of v and a. With NAME= the order is for one norm, quantity,
+    /// QUANTITY:NORM or column; the order of H1 of a quantity is then one less. `time` is the order in dt, if h and dt are
+    /// refined separately.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',')]
     expected_order: Vec<Order>,
-    /// How far the observed order may be from the expected one.
+    /// The largest allowed difference between the observed and the expected order.
     #[arg(long, value_name = "W", value_parser = positive, default_value_t = TOLERANCE)]
     tolerance: f64,
-    /// Write convergence.svg, .csv and .json there.
+    /// The folder to write convergence.svg, convergence.csv and convergence.json to.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]

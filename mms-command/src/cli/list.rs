@@ -13,10 +13,11 @@ use mms_spec::{Claim, FORMS, FieldSpec, PRECISIONS, StudySpec};
 use super::Outcome;
 use super::format::Printing;
 
-/// List the fields, materials and methods, and the codes whose files have a profile.
+/// List the names that other commands accept: fields, materials, methods, and codes whose files have a profile.
 ///
-/// Of each field: its dimension, its material, the shape of its body, what it claims on the faces,
-/// whether its body is deformed and moves at first, and what it is. `--json` tells face by face, and which closed forms and studies the file has.
+/// The table has, for each field, the dimension, the material, the shape of the body, the claims on the faces, whether the
+/// body is deformed and moves at the start, and the title. `--json` adds the claim of each face, and the closed forms and
+/// studies of the file.
 #[derive(Args)]
 pub struct List {
     #[command(flatten)]

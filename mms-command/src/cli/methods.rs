@@ -48,8 +48,11 @@ impl Args for Methods {
             command.mut_arg(name, |arg| {
                 let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
                 let is_of_field = FROM_FIELD.contains(&name);
-                let usual =
-                    if is_of_field { ". By default what keeps its order on the body" } else { "" };
+                let usual = if is_of_field {
+                    ". By default one that keeps its order on the body"
+                } else {
+                    ""
+                };
                 arg.help(format!("{help}{usual}. A list, as in A,B, compares methods"))
                     .hide_default_value(is_of_field)
                     .value_delimiter(',')

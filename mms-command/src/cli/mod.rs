@@ -58,17 +58,18 @@ use mms_spec::foreign;
 use crate::provenance::{self, Input, Provenance};
 use crate::terminal::{print, print_json, printed_to_the_end, say, say_styled};
 
-/// Manufactured solutions for solid mechanics: derive, evaluate and check them, and see the order
-/// of convergence of an MPM/GIMP solver on them.
+/// Manufactured solutions for solid mechanics: derive, evaluate and check them, and measure the order of convergence of your
+/// own solver, or of the built-in MPM/GIMP solver, on them.
 ///
-/// Without a subcommand: the convergence study of the 1D bar with contiguous-particle GIMP and
-/// leapfrog, 8 to 128 cells.
+/// A FIELD is an exact motion with its body and material: a name that `mms list` prints, or the path of a TOML file.
 ///
-/// Exit codes: 0 done and as expected; 1 done, but a claim, check or order failed; 2 bad usage or
-/// bad input; 3 the run itself failed.
+/// Without a command, `mms` runs the convergence study of the 1D bar with contiguous-particle GIMP and leapfrog, on 8 to 128
+/// cells.
 ///
-/// The environment variable MMS_INSTRUCTIONS limits the instruction set: baseline, avx2 or avx512. By
-/// default all instructions of the processor are used.
+/// Exit codes: 0 done and as expected; 1 done, but a claim, check or order failed; 2 bad usage or bad input; 3 a run failed.
+///
+/// The environment variable MMS_INSTRUCTIONS limits the instruction set to baseline, avx2 or avx512. By default all
+/// instructions of the processor are used.
 #[derive(Parser)]
 #[command(name = "mms", version)]
 struct Arguments {
@@ -174,7 +175,7 @@ fn answer() -> anyhow::Result<Outcome> {
 const GROUPS: [(&str, &[&str]); 4] = [
     ("Fields", &["new", "check", "show", "eval", "accuracy", "list", "schema"]),
     ("Your own solver", &["emit", "state", "judge", "diagnose", "campaign", "report", "plot"]),
-    ("The solver of this project", &["run", "study", "verify", "tradeoff", "extremes"]),
+    ("The built-in solver", &["run", "study", "verify", "tradeoff", "extremes"]),
     ("First steps", &["demo", "explain", "help"]),
 ];
 

@@ -11,15 +11,16 @@ use mms_results::names::{Axes, Mapping, Names};
 /// The options of every command that reads files of other programs.
 #[derive(Args)]
 pub struct Naming {
-    /// A quantity, and the columns that it is in: `X=x0,y0`, `u=disp`, `sigma=stress:0,stress:3,..` for components, counted
-    /// from 0; `points` are the places of points in VTK, `cells:NAME` is an array of cells. May be repeated.
+    /// Assign columns to a quantity: `X=x0,y0`, `u=disp`, or components of a column, counted from 0:
+    /// `sigma=stress:0,stress:3,..`. In VTK `points` are the positions of the points, and `cells:NAME` is an array of cells.
+    /// May be repeated.
     #[arg(long, value_name = "QUANTITY=COLUMN,..")]
     map: Vec<String>,
-    /// The names of the columns of a table without a header, in their order, as in `X,Y,u_x,u_y`; a header is replaced.
+    /// The names of the columns of a table, in their order, as in `X,Y,u_x,u_y`. They replace a header if the table has one.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     columns: Vec<String>,
-    /// The code that wrote the files, by a name that `mms list` lists, or the path of a profile of your own. A profile says
-    /// the names of arrays, the order of components, and whether points are X or x if the numbers leave it open.
+    /// The code that wrote the files: a name that `mms list` prints, or the path of your own profile. A profile states the
+    /// names of arrays, the order of components, and whether points are X or x if the numbers do not decide it.
     #[arg(long, value_name = "CODE")]
     from: Option<String>,
 }

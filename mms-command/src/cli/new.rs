@@ -23,19 +23,19 @@ const FIELDS: &str = "fields";
 /// The committed JSON Schema, seen from a folder beside `docs`.
 const SCHEMA: &str = "../docs/field.schema.json";
 
-/// Write a field file that passes `mms check`, with every section explained.
+/// Write a new field file that passes `mms check`, with comments that explain every section.
 ///
-/// The displacement in it is a sine wave, its claims and closed forms are true, and the solver
-/// shows second order on it. No file is ever overwritten.
+/// The displacement is a sine wave, the claims and closed forms are true, and the built-in solver converges with order 2.
+/// Existing files are never overwritten.
 #[derive(Args)]
 pub struct New {
-    /// The field's name, which is its file's too: lower-case letters, digits and underscores.
+    /// The name of the field and of its file: lower-case letters, digits and underscores, a letter first.
     name: String,
-    /// The dimension of space: 1, 2 or 3.
+    /// The number of space dimensions: 1, 2 or 3.
     #[arg(long, value_name = "D", value_parser = clap::value_parser!(u8).range(1..=3), required_unless_present = "from_axisymmetric", default_value_if("from_axisymmetric", ArgPredicate::IsPresent, "3"))]
     dimension: u8,
-    /// Write the field in space of which this axisymmetric one, a gallery name or the path of a TOML file, is the section: for a code
-    /// without R and Z. Its body keeps away from the axis, and closed forms and studies are left out.
+    /// Revolve an axisymmetric field, a gallery name or the path of a TOML file, and write the field in three dimensions, for
+    /// codes without R and Z. Its body excludes the axis; closed forms and studies are left out.
     #[arg(long, value_name = "FIELD", conflicts_with_all = ["dimension", "shape", "material", "undeformed"])]
     from_axisymmetric: Option<String>,
     /// The shape of the body; an annulus needs `--dimension 2`.
@@ -44,11 +44,11 @@ pub struct New {
     /// A shipped material; see `mms list`.
     #[arg(long, value_name = "NAME", default_value = "neo_hookean")]
     material: String,
-    /// Let the motion start where production codes can: with u = v = 0 and an acceleration that is not 0. Without it the body
-    /// is deformed at first.
+    /// Start the motion with u = v = 0 and an acceleration that is not 0, as production codes can. By default the body is
+    /// deformed at the start.
     #[arg(long)]
     undeformed: bool,
-    /// The folder to write to; `fields` by default where there is one, else the current folder.
+    /// The folder to write to; by default the folder `fields` if it exists, else the current folder.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
 }

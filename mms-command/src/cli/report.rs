@@ -13,25 +13,27 @@ use mms_spec::foreign;
 
 use super::{Outcome, print, refuse_overwriting, say};
 
-/// Put all results of a folder on one page of HTML, complete in itself: verdicts first, then tables, pictures of
-/// convergence, diagnoses, campaigns of other solvers, the verification matrix, error against cost, the solver at its limits, states of runs, the formulas
-/// and motions of the fields, and the commands that make it all again.
+/// Write one HTML page, without other files, from all results in a folder.
 ///
-/// Results are the JSON documents that `mms study`, `judge`, `diagnose`, `campaign`, `verify`, `tradeoff`, `extremes`, `accuracy` and
-/// `run` write with `--output`, or print with `--json`, and the states of `run --vtk`, in DIR and in the folders in it. Files that are
-/// none of these are named, on the page and on stderr.
+/// The page has the verdicts first, then tables, convergence plots, diagnoses, campaigns of other solvers, the verification
+/// matrix, error against cost, the solver at its limits, states of runs, the formulas and motions of the fields, and the
+/// commands that repeat all this.
 ///
-/// Exit code 1 if a verdict is not the expected one.
+/// Results are the JSON documents that `mms study`, `judge`, `diagnose`, `campaign`, `verify`, `tradeoff`, `extremes`,
+/// `accuracy` and `run` write with `--output`, or print with `--json`, and the states of `run --vtk`, in DIR and its folders.
+/// The page and stderr name all other files.
+///
+/// The exit code is 1 if a verdict is not the expected one.
 #[derive(Args)]
 pub struct Report {
     /// The folder with the results.
     #[arg(value_name = "DIR", required_unless_present = "gallery")]
     folder: Option<PathBuf>,
-    /// The file to write; DIR/report.html by default.
+    /// The file to write; by default DIR/report.html.
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Run the studies of every field of the gallery instead, and write a page for each, and index.html, to this
-    /// folder; takes a minute or two.
+    /// Run the studies of every field of the gallery, and write a page for each, and index.html, to this folder; takes a
+    /// minute or two.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["folder", "output"])]
     gallery: Option<PathBuf>,
 }

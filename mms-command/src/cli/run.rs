@@ -29,44 +29,42 @@ use crate::provenance;
 use crate::session::progress::Progress;
 use crate::vtk::Writer;
 
-/// Run one simulation with this project's own solver: errors in u, v, F and P, and what it took.
+/// Run one simulation with the built-in solver: errors in u, v, F and P, and the time of each part.
 #[derive(Args)]
 pub struct Run {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     field: String,
-    /// Cells along the longest edge of the body, or along each axis, as in 32 or 32x16. By default 32 in
-    /// one dimension, 16 in two and 8 in three.
+    /// The number of cells along the longest edge of the body, or along each axis, as in 32 or 32x16. By default 32 in one
+    /// dimension, 16 in two and 8 in three.
     #[arg(long, value_name = "N[xN..]")]
     cells: Option<Division>,
     #[command(flatten)]
     method: MethodOptions,
-    /// Set a parameter; may be repeated.
+    /// Set a parameter to a value; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
     motion: Motion,
-    /// Write states for ParaView to this folder: FIELD.pvd, which is the file to open, and one .vtu file
-    /// for each.
+    /// Write states for ParaView to this folder: one .vtu file for each state, and FIELD.pvd, the file to open.
     #[arg(long, value_name = "DIR")]
     vtk: Option<PathBuf>,
-    /// How many states to write after the initial one.
+    /// The number of states to write after the initial one.
     #[arg(long, value_name = "N", default_value_t = 20, requires = "vtk", value_parser = clap::value_parser!(u32).range(1..))]
     frames: u32,
-    /// Write what every step led to as a CSV file: errors, J, mass, momentum, energies, the work of the
-    /// body force, the force of the faces.
+    /// Write a CSV file with a row for every step: errors, J, mass, momentum, energies, the work of the body force, the force
+    /// of the faces.
     #[arg(long, value_name = "FILE")]
     history: Option<PathBuf>,
-    /// Write what the run can go on from to this file, again and again, and when it is interrupted.
+    /// Write checkpoints to this file, at regular steps and if the run is interrupted.
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
-    /// How many steps there are from one checkpoint to the next.
+    /// The number of steps between checkpoints.
     #[arg(long, value_name = "N", default_value_t = 1000, requires = "checkpoint", value_parser = clap::value_parser!(u32).range(1..))]
     every: u32,
-    /// Go on from a checkpoint of the same run: it ends with the same numbers as if it had never
-    /// stopped.
+    /// Continue from a checkpoint of the same run. The results are the same as without the interruption.
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
-    /// Write run.json there, which is what `--json` prints.
+    /// The folder to write run.json to, the document of `--json`.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print one JSON document.

@@ -5,16 +5,16 @@ use clap::Args;
 use super::{Outcome, print_json};
 use crate::schema;
 
-/// Print the JSON Schema of field files, of material files, or of a document of `--json`.
+/// Print the JSON Schema of field files, of material files, or of a document that `--json` prints.
 ///
-/// Editors use the schema of field files to explain, complete and check keys. Save it, and name it
-/// in the first line of a field file: #:schema ./field.schema.json
+/// With the schema of field files, editors explain, complete and check keys. Save it, and name it in the first line of a
+/// field file: #:schema ./field.schema.json
 #[derive(Args)]
 pub struct Schema {
     /// Print the schema of material files.
     #[arg(long)]
     material: bool,
-    /// Print the schema of a document: `study`, `judge`, `campaign` and so on; docs/reference/json.md lists them.
+    /// Print the schema of a JSON document: `study`, `judge`, `campaign` and so on; docs/reference/json.md lists them.
     #[arg(long, value_name = "NAME", conflicts_with = "material")]
     document: Option<String>,
 }

@@ -27,36 +27,36 @@ use mms_stability::wavelength::shortest_wavelength;
 
 use super::{Outcome, print, print_json, say};
 
-/// Show what follows from a field: its derivation with every step named, its claims, how many
-/// operations each quantity takes, and which terms of the equations it can and cannot see.
+/// Show all that follows from a field: the derivation step by step, the claims, the number of operations of each quantity,
+/// and the terms of the equations that the field tests or does not test.
 ///
-/// At its end stand the moduli at F = I, bounds of x, and the shortest wavelength of u (of a sample).
+/// The last lines give the moduli at F = I, bounds of x, and the shortest wavelength of u, found on a sample.
 ///
-/// A material with a stress at rest (P not 0 at F = I) is warned of on stderr; rest_stress in --json has the components.
+/// If the material has a stress at rest (P not 0 at F = I), a warning on stderr says so; in --json, rest_stress has the
+/// components.
 ///
-/// A comma means a derivative: F_11,X is dF_11/dX. Long formulas are put together from parts k1, k2, ..., which are listed
-/// before they are used.
+/// A comma denotes a derivative: F_11,X is dF_11/dX. Long formulas are split into parts k1, k2, ..., and each part is listed
+/// before its use.
 #[derive(Args)]
 pub struct Show {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     field: String,
-    /// Quantities, separated by commas; all by default.
+    /// The quantities to show, separated by commas; all by default.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// How to write: text for a terminal, a LaTeX document, or a page of MathML for a browser.
+    /// The output format: text for a terminal, a LaTeX document, or a page of MathML for a browser.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Print no whole document, but what belongs into one: u, F, J, P, Div P and b, with the symbols that parameters declare. Takes
-    /// --format latex and, in the document, the package amsmath.
+    /// Print only the formulas of u, F, J, P, Div P and b, to include in a LaTeX document. They use the symbols that
+    /// parameters declare. Needs --format latex, and the package amsmath in the document.
     #[arg(long, requires = "format", conflicts_with_all = ["json", "script"])]
     fragment: bool,
     #[command(flatten)]
     variant: Variant,
-    /// Print one JSON document; its formulas are in the language of field files.
+    /// Print one JSON document, with formulas in the language of field files.
     #[arg(long, conflicts_with = "format")]
     json: bool,
-    /// Print a script instead, which derives everything once more and compares the values; run it
-    /// with Python.
+    /// Print a Python script that derives everything again with other software, and compares the values.
     #[arg(long, value_enum, conflicts_with_all = ["format", "json", "quantity"])]
     script: Option<Script>,
 }

@@ -26,67 +26,68 @@ use mms_state::{Term, USUAL, Wanted};
 use super::naming::Naming;
 use super::{Outcome, print, print_json, refuse_overwriting};
 
-/// Write exact states: to start a solver in the middle of a motion, to look at, or to feed a solver that reads tables.
+/// Write exact states of a field at points and times: to start a solver in the middle of a motion, to feed a solver that
+/// reads tables, or to view.
 ///
-/// A state holds X, x, u, v, F, P, sigma, the density and b at points and times; tractions P N per reference area at the points
-/// of each face, as traction_FACE, which is 0 at all others; and, where volumes are known, present and reference volume and the
-/// mass, which is density times volume. In an axisymmetric field a point represents a ring, whose volume and mass are per
-/// radian.
-/// `mms judge` reads it as it is. Tables and NumPy have symbols for names (X, u, F), VTK has words (reference_position,
-/// displacement), and its points are x.
+/// A state contains X, x, u, v, F, P, sigma, the density and b. At the points of each face it contains the traction P N per
+/// reference area, as traction_FACE, which is 0 at all other points. If volumes are known, it contains the present and the
+/// reference volume, and the mass, which is density times volume. In an axisymmetric field a point represents a ring; its
+/// volume and mass are per radian. `mms judge` reads states as they are. Tables and NumPy files have symbols for names (X, u,
+/// F); VTK files have words (reference_position, displacement), and their points are x.
 ///
-/// The file, or FILE.json beside a table, contains the data of the field that a solver needs once: the time window, the extent
-/// of the motion, and the claim on each face. In VTK they are field data and in NumPy arrays, called time_window, motion_lower,
-/// motion_upper and face_x_min.
+/// The file, or FILE.json beside a table, contains the data of the field that a solver needs once: the time window, the
+/// extent of the motion, and the claim on each face. In VTK they are field data and in NumPy arrays, called time_window,
+/// motion_lower, motion_upper and face_x_min.
 #[derive(Args)]
 #[command(group = ArgGroup::new("where").required(true))]
 pub struct State {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     field: String,
-    /// At the points of this file: CSV with a header, VTK or NumPy, by its content. They are X, or x and u; cells
-    /// between them are kept, and volumes, of the undeformed body.
+    /// Take the points of this file, which contains X, or x and u: CSV with a header, VTK or NumPy, recognised by its
+    /// content. Cells between the points are written too, and volumes of the undeformed body.
     #[arg(long, value_name = "FILE", group = "where")]
     points: Option<String>,
-    /// At the particles of a grid: cells along the longest edge of the body, or along each axis as in 32x16.
+    /// Take the particles of a grid with this many cells: along the longest edge of the body, or along each axis, as in
+    /// 32x16.
     #[arg(long, value_name = "N[xN..]", group = "where")]
     cells: Option<Division>,
-    /// Particles per cell along each axis, as in 2 or 3x2.
+    /// The number of particles per cell along each axis, as in 2 or 3x2.
     #[arg(long, value_name = "N[xN..]", default_value_t = PER_CELL, conflicts_with = "points")]
     particles_per_cell: Division,
     #[command(flatten)]
     naming: Naming,
-    /// Take the given points as x, and find the X that are there at each time. That it is one, and one alone, is proved in
-    /// interval arithmetic; two are both named.
+    /// Read the given points as x, and compute their X at each time. Interval arithmetic proves that X exists and is unique;
+    /// if two X are at one x, the message names both.
     #[arg(long)]
     at_present: bool,
-    /// The times; a static field needs none.
+    /// The times of the states, separated by commas; a static field needs none.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
     time: Vec<f64>,
-    /// The quantities beside X, separated by commas, or `all` but second_piola_kirchhoff, pressure, von_mises and strain, which
-    /// are derived where they are named.
+    /// The quantities to write in addition to X, separated by commas, or `all`. `all` excludes second_piola_kirchhoff,
+    /// pressure, von_mises and strain: name them to get them.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// Write all nine components of tensors, of plane strain in two dimensions and of uniaxial strain in one: F_33 = 1, and
-    /// the stress out of the plane.
+    /// Write all nine components of tensors: plane strain in two dimensions, uniaxial strain in one. F_33 is 1, and the
+    /// stress out of the plane is included.
     #[arg(long)]
     all_components: bool,
-    /// Leave a term out of the solver's input, so that its order must suffer: body_force (b = 0), stress (P, sigma and their
-    /// like 0: a solver that starts from stored stress starts without), traction (P N = 0 on every face). The motion is
-    /// unchanged: u, v and F are the field's.
+    /// Omit a term from the input of the solver, so that its order must drop: body_force (b = 0), stress (P, sigma and other
+    /// stresses are 0: a solver that starts from stored stress starts without it), traction (P N = 0 on every face). The
+    /// motion is unchanged: u, v and F remain as in the field.
     #[arg(long, value_name = "TERM,..", value_delimiter = ',', value_parser = terms())]
     without: Vec<Term>,
-    /// Take the affine part of the motion about the middle c of the body, u(c, t) + H(c, t) (X - c). Where the material is
-    /// the same everywhere its stress is, too, and b is the acceleration alone: a consistent method errs by
-    /// round-off and by its steps in time. With --rigid a rigid motion is put on top.
+    /// Write the affine part of the motion about the middle c of the body, u(c, t) + H(c, t) (X - c). If the material is the
+    /// same everywhere, so is the stress, and b is the acceleration alone: the errors of a consistent method are round-off
+    /// and the error of its time steps. With --rigid a rigid motion is added.
     #[arg(long)]
     affine: bool,
-    /// Set a parameter; may be repeated.
+    /// Set a parameter to a value; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
     variant: Variant,
-    /// The file to write: .csv, .vtu or .npz; no link. A table holds all times; of the others there is a file for each time,
-    /// numbered, and of VTK a list of them (.pvd).
+    /// The file to write: .csv, .vtu or .npz, and not a link. A table contains all times. Of .vtu and .npz, one numbered file
+    /// is written for each time, and for .vtu a list of them (.pvd).
     #[arg(long, short, value_name = "FILE")]
     output: Target,
     /// Print one JSON document.

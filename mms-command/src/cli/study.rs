@@ -38,65 +38,64 @@ use crate::provenance::{self, Provenance};
 use crate::session::estimate::estimate;
 use crate::session::progress::Progress;
 
-/// Run a method of this project's own solver on levels of refinement: errors, observed orders, verdict.
+/// Run the built-in solver on finer and finer grids, or with smaller and smaller time steps: errors, observed orders,
+/// verdict.
 ///
-/// `mms judge` and `mms campaign` judge the results of your solver.
+/// For the results of your own solver, use `mms judge` or `mms campaign`.
 ///
-/// A study in time runs on one grid, 128 cells in one dimension, 32 in two and 8 in three by default. Its orders are computed
-/// from the differences between a level and the next, from which the error of space is gone.
+/// A study in time (`--refine time`) uses one grid, by default of 128 cells in one dimension, 32 in two and 8 in three. Its
+/// orders are computed from the differences between successive levels, in which the error of space cancels.
 ///
-/// Several methods, as of `--shape linear,cpgimp`, are studied one after the other and set beside each other: every
-/// combination of what is listed. Exit code 0: all pass.
+/// Several methods, as in `--shape linear,cpgimp`, are studied one after the other and compared: every combination of the
+/// listed options. The exit code is 0 if all pass.
 ///
-/// Before it runs, stderr shows the number of time steps and, if it takes more than a second or so, an estimate of the duration
-/// from a few steps of one run; minutes are a warning.
+/// Before the runs, stderr shows the number of time steps and, if the study takes more than about a second, its estimated
+/// duration, from a few steps of one run. A duration of minutes is a warning.
 ///
-/// Writes convergence.svg, .csv and .json.
+/// The study writes convergence.svg, convergence.csv and convergence.json.
 #[derive(Args)]
 pub struct Study {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     field: String,
-    /// A saved scene: a TOML file whose keys are these options, and `field`. Options on the command line go
-    /// first.
+    /// A saved scene: a TOML file whose keys are `field` and these options. Options of the command line replace its keys.
     #[arg(long = "study", value_name = "FILE")]
     _saved: Option<PathBuf>,
-    /// The levels: cells along the longest edge of the body, or along each axis, as in 16x8. By default 8,16,32,64,128 in one
-    /// dimension, 8,16,32,64 in two and 4,8,16 in three.
+    /// The levels, as numbers of cells along the longest edge of the body, or along each axis, as in 16x8. By default
+    /// 8,16,32,64,128 in one dimension, 8,16,32,64 in two and 4,8,16 in three.
     #[arg(long, value_name = "N[xN..],..", value_delimiter = ',')]
     cells: Vec<Division>,
-    /// The refinement: both, the time step with the cells by the Courant number; space, the cells alone, at a quarter of the
-    /// time step of the finest; time, the time step alone.
+    /// The refinement: `both`, cells and time step, at a fixed Courant number; `space`, the cells, with a quarter of the time
+    /// step of the finest level; `time`, the time step.
     #[arg(long, value_name = "both|space|time", default_value_t)]
     refine: Refinement,
-    /// How many levels a study in time has, each with half the time step of the one before; 4 by default.
+    /// The number of levels of a study in time, each with half the time step of the level before; by default 4.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(2..=16))]
     levels: Option<u8>,
-    /// Fit l2 = C_h h^p + C_t dt^q to the levels, and to further runs of each with a half and a quarter of its
-    /// time step. Takes three grids or more.
+    /// Fit l2 = C_h h^p + C_t dt^q to the levels, and to further runs of each with a half and a quarter of its time step.
+    /// Needs three or more grids.
     #[arg(long)]
     fit: bool,
-    /// Run through whole periods of the field instead of its time window, and hold amplitude and phase of the
-    /// computed motion to the exact one over the Nth of them, as in 1,10,100. Takes a field that repeats itself
-    /// in time.
+    /// Run whole periods of the field in place of its time window, and compare amplitude and phase of the computed motion
+    /// with the exact ones in the Nth period, as in 1,10,100. Needs a field that is periodic in time.
     #[arg(long, value_name = "N,..", value_delimiter = ',', conflicts_with = "end_time", value_parser = clap::value_parser!(u32).range(1..))]
     periods: Vec<u32>,
     #[command(flatten)]
     methods: Methods,
-    /// The order to judge against. By default the order of the field's [[study]] entry for the method, else 2.
+    /// The expected order; by default the order in the field's [[study]] entry for the method, else 2.
     #[arg(long, value_name = "P", value_parser = finite)]
     expected_order: Option<f64>,
-    /// The error constant C of l2 = C h^P, or C dt^P in time, on the finest level, to hold the verdict to as well,
-    /// within 1 %: a defect may leave the order and change the constant. Without it the order alone is judged.
+    /// The expected error constant C of l2 = C h^P, or C dt^P in time, on the finest level; a pass then also needs C within 1
+    /// %. A defect may change the constant and leave the order. By default only the order is judged.
     #[arg(long, value_name = "C", value_parser = positive)]
     expected_constant: Option<f64>,
-    /// Beside a pass, say which of the mistakes that `mms diagnose` knows its finest errors exclude, from which size on: by what
-    /// they add to a run of this project's own solver. It takes some seconds more.
+    /// After a pass, list the mistakes that it excludes, and from which size on: mistakes that `mms diagnose` knows, and
+    /// whose error, in runs of the built-in solver, would have changed the verdict. Takes some seconds more.
     #[arg(long, conflicts_with = "periods")]
     excluded: bool,
-    /// Set a parameter; may be repeated.
+    /// Set a parameter to a value; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Where to write convergence.svg, .csv and .json; target/mms/FIELD by default.
+    /// The folder to write convergence.svg, .csv and .json to; by default target/mms/FIELD.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]

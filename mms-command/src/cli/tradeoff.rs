@@ -30,45 +30,45 @@ use super::next::{after_search, typed};
 use super::{Outcome, print, say, this_command};
 use crate::session::progress::Progress;
 
-/// Find the cheapest method, numbers and grid for an error, or the least error for a time.
+/// Find the cheapest method, options and grid of the built-in solver for an error, or the least error for a time.
 ///
-/// Tries shape functions, formulations, transfers, integrators, particles per cell, Courant numbers, precisions and
-/// forms: all kinds on two coarse grids, then around the best of them, then on the grids that these need. Prints runs
-/// with their error and cost, marks the Pareto front (*) and the choice (=>), and says what twice the accuracy costs
-/// there and what is nowhere worth its cost. Writes tradeoff.svg and .json.
+/// The search varies shape function, formulation, transfer, integrator, particles per cell, Courant number, precision and
+/// form: first all kinds on two coarse grids, then variations of the best, then the grids that these need. The output lists
+/// runs with their error and cost, marks the Pareto front (*) and the choice (=>), and states the cost of twice the accuracy
+/// and the options that are nowhere worth their cost. The command writes tradeoff.svg and tradeoff.json.
 ///
-/// The error is linf of the displacement, the largest over time and particles. Runs take one thread each and are
-/// stored, so that the same command resumes. Exit code 1: the target is not reached.
+/// The error is linf of the displacement, the largest over time and particles. Each run uses one thread and is stored, so
+/// that the same command continues after an interruption. The exit code is 1 if the target is not reached.
 #[derive(Args)]
 pub struct Tradeoff {
-    /// A gallery name, or a path to a TOML file.
+    /// A name that `mms list` prints, or the path of a TOML file.
     #[arg(required_unless_present = "page")]
     field: Option<String>,
-    /// The largest error to be met at the least cost; by default the error of `mms run` without options.
+    /// The largest allowed error, to be reached at the least cost; by default the error of `mms run` without options.
     #[arg(long, value_name = "E", value_parser = positive)]
     target_linf: Option<f64>,
-    /// The time in which to have the least error.
+    /// The time of a run in seconds, within which to reach the least error.
     #[arg(long, value_name = "S", conflicts_with = "target_linf", value_parser = positive)]
     budget_seconds: Option<f64>,
-    /// The cost to minimise: seconds are particle-steps times the time of one with the method here; particle-steps and memory
-    /// decide in the same way on every machine.
+    /// The cost to minimise. Seconds are the number of particle-steps, times the measured time of one particle-step with the
+    /// method on this machine. Particle-steps and memory are the same on every machine.
     #[arg(long, value_enum, default_value_t)]
     cost: Cost,
-    /// Begin no run that is predicted to take more particle-steps.
+    /// The most particle-steps of a run; runs that are predicted to need more are not started.
     #[arg(long, value_name = "N", default_value_t = 1e8, value_parser = positive)]
     most_work: f64,
-    /// Set a parameter; may be repeated.
+    /// Set a parameter to a value; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
     motion: Motion,
-    /// Where results are kept.
+    /// The folder for results.
     #[arg(long, value_name = "DIR", default_value = "target/mms/tradeoff")]
     store: PathBuf,
-    /// Where to write tradeoff.svg and .json; target/mms/FIELD by default.
+    /// The folder to write tradeoff.svg and tradeoff.json to; by default target/mms/FIELD.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Show every run, not the front, the default and what stopped alone.
+    /// Show every run; by default only the front, the default method, and runs that stopped.
     #[arg(long)]
     all: bool,
     #[command(flatten)]

@@ -29,42 +29,42 @@ use super::format::Printing;
 use super::{Outcome, print, say, this_command, validate_output};
 use crate::provenance;
 
-/// Run the verification matrix: every mode of the solver, one at a time, by the field that isolates it, each
-/// verdict held to theory.
+/// Run the verification matrix: test each mode of the built-in solver on a field that isolates it, and compare each verdict
+/// with theory.
 ///
-/// Results are stored as runs finish. Interrupted or killed, the same command resumes with what the store holds; a
-/// program that was built anew starts anew. Several processes may share a store.
+/// Results are stored as runs finish. After an interruption, the same command continues from the store; a newly built program
+/// starts again. Several processes may share a store.
 #[derive(Args)]
 pub struct Verify {
-    /// Fewer levels and rows: within a minute on two processors, where the whole matrix takes some minutes.
+    /// Run fewer levels and rows: within a minute on two processors, where the whole matrix takes some minutes.
     #[arg(long)]
     quick: bool,
-    /// Only this row, as in boundary/roller, or the rows of this group, as in boundary; may be repeated.
+    /// Run only this row, as in boundary/roller, or the rows of this group, as in boundary; may be repeated.
     #[arg(long, value_name = "NAME")]
     row: Vec<String>,
-    /// List the rows and what theory expects of them, and run nothing.
+    /// List the rows and the verdicts that theory expects, and run nothing.
     #[arg(long)]
     list: bool,
-    /// Show the rows deliberate mistakes of solver and compiler, one after the other, all or those named: each must
-    /// make a verdict fail. A defect is shown to the quick levels of the rows that say they catch it. The program
-    /// has to be built with `--features defects`.
+    /// Put deliberate mistakes into the solver and the compiler, one after the other: all, or the named ones. Each must make
+    /// a verdict fail. A defect is tested on the quick levels of the rows that are declared to catch it. The program must be
+    /// built with `--features defects`.
     #[arg(long, value_name = "NAME", num_args = 0.., require_equals = true, value_delimiter = ',', conflicts_with = "list")]
     defects: Option<Vec<String>>,
-    /// Show every defect to every row of the quick matrix; takes an hour or so.
+    /// Test every defect on every row of the quick matrix; takes about an hour.
     #[arg(long, requires = "defects")]
     all_rows: bool,
-    /// Where results are kept.
+    /// The folder for results.
     #[arg(long, value_name = "DIR", default_value = "target/mms/verify")]
     store: PathBuf,
-    /// Write verification.json there, or defects.json, which is what `--json` prints.
+    /// The folder to write verification.json, or defects.json, to: the document of `--json`.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// How many runs go side by side; by default as many as there are processors.
+    /// The number of runs at the same time; by default the number of processors.
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
     #[command(flatten)]
     printing: Printing,
-    /// Print the page docs/verification.md, or docs/defects.md.
+    /// Print the page docs/verification.md or, with --defects, docs/defects.md.
     #[arg(long, conflicts_with_all = ["list", "json", "format"])]
     page: bool,
 }

@@ -13,7 +13,7 @@ use crate::target::{Bundle, Subject, Target};
 pub const TARGET: Target = Target {
     name: "cpp",
     alias: None,
-    doc: "C++17: a header templated on the scalar, for CUDA and HIP too, and a check program",
+    doc: "C++17: a header templated on the scalar, also for CUDA and HIP, and a check program",
     emit: bundle,
     words: RULES.words,
 };

@@ -1,4 +1,4 @@
-//! Fortran 2008: a module of elemental procedures, its face for C, and a program that checks both.
+//! Fortran 2008: a module of elemental procedures, its interface for C, and a program that checks both.
 
 mod check;
 mod dialect;
@@ -14,7 +14,7 @@ use crate::text::wrapped;
 pub const TARGET: Target = Target {
     name: "fortran",
     alias: None,
-    doc: "Fortran 2008: a module of pure elemental procedures, its face for C, and a check program",
+    doc: "Fortran 2008: a module of pure elemental procedures, its interface for C, and a check program",
     emit: bundle,
     words: RULES.words,
 };

@@ -14,7 +14,7 @@ use mms_symbolic::expr::Function;
 pub const TARGET: Target = Target {
     name: "python",
     alias: None,
-    doc: "Python: a module that needs the standard library alone, and a check program",
+    doc: "Python: a module that needs only the standard library, and a check program",
     emit: |subject| bundle(subject, Library::Math),
     words: RULES.words,
 };

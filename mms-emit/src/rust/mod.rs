@@ -15,7 +15,7 @@ use crate::target::{Bundle, Subject, Target};
 pub const TARGET: Target = Target {
     name: "rust",
     alias: None,
-    doc: "Rust: a module without any dependency, for `no_std` too, and a check program",
+    doc: "Rust: a module without dependencies, also for `no_std`, and a check program",
     emit: bundle,
     words: RULES.words,
 };

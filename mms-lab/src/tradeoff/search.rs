@@ -19,12 +19,12 @@ use super::setting::{Axis, Setting};
 /// The cost to minimise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Cost {
-    /// Particle-steps times the time of one in the longest runs with the same method.
+    /// The particle-steps times the time of one, measured in the longest runs with the same method.
     #[default]
     Seconds,
-    /// Particles times steps: the same on every machine.
+    /// The number of particles times the number of steps, the same on every machine.
     ParticleSteps,
-    /// The most bytes at a time.
+    /// The largest number of bytes at one time.
     Memory,
 }
 

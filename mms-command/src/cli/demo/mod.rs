@@ -45,10 +45,10 @@ use mms_spec::quantity::Quantity;
 use self::problem::Problem;
 use super::{Outcome, print, this_command, validate_output};
 
-/// See a mistake of a solver named: a small solver with one broken line, judged, diagnosed, repaired and judged again.
+/// Demonstrate a diagnosis: a small solver with one broken line is judged, diagnosed, repaired and judged again.
 ///
-/// The solver is built in and computes in memory. With --keep its source, its results and the commands to build, run,
-/// judge and diagnose it are written to a folder: break another line there.
+/// The solver is built in and computes in memory. `--keep` writes its source, its results, and the commands to build, run,
+/// judge and diagnose it, so that you can break another line.
 #[derive(Args)]
 pub struct Demo {
     /// Write the solver, its results and a file of commands to this folder, which must be new or empty.

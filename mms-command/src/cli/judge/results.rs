@@ -36,57 +36,57 @@ use super::{Judge, outcome};
 pub struct Options {
     #[command(flatten)]
     naming: Naming,
-    /// The quantities to judge, by name or symbol, separated by commas; without it all that are found.
+    /// The quantities to judge, by name or symbol, separated by commas; by default all that the files contain.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// h of the FILEs, in their order; 1/8 is a number too.
+    /// The cell size h of each FILE, in their order; 1/8 is a number too. By default h is measured from the files.
     #[arg(long, value_name = "H,..", value_delimiter = ',', value_parser = length)]
     h: Vec<f64>,
-    /// How the solver starts, which tells the orders of v and a: from exact values at its nodes, as is taken where cells are
-    /// known, or from the elliptic (Ritz) projection.
+    /// How the solver starts, which determines the expected orders of v and a: from exact values at its nodes, the default if
+    /// the files have cells, or from the elliptic (Ritz) projection.
     #[arg(long, value_name = "HOW", requires = "field", value_parser = starts())]
     pub(super) start: Option<Start>,
-    /// Let results cover a part of the body: a symmetric half, a line, a probe. The verdict says that they do.
+    /// Accept results that cover a part of the body: a symmetric half, a line, a probe. The verdict says so.
     #[arg(long, requires = "field")]
     part: bool,
-    /// Take norms over `points` or over `cells`. A quadratic solution that was written on linear cells is judged over points.
+    /// Where norms are computed: over `points` or over `cells`; by default over cells, if there are any. Use `points` for a
+    /// quadratic solution that was written on linear cells.
     #[arg(long, value_name = "points|cells", requires = "field", value_parser = Over::of)]
     over: Option<Over>,
-    /// Print how each FILE is read and why, and judge nothing: its format, times, points and cells, the array of each quantity,
-    /// the order of components, and the omitted content.
+    /// Print how each FILE is read and why, and judge nothing: its format, times, points and cells, the array of each
+    /// quantity, the order of components, and the arrays that are not used.
     #[arg(long, requires = "field", conflicts_with = "figure")]
     explain: bool,
-    /// The times to judge at, also in place of times that files print with fewer digits; or the times of the results, if files
-    /// have none.
+    /// The times to judge at, by default all that the files share. Also replaces times that files print with fewer digits, or
+    /// states the times of files without times.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
     time: Vec<f64>,
-    /// Judge all nine components of tensors, of plane strain in two dimensions and of uniaxial strain in one: F_33 = 1, and
-    /// the stress out of the plane.
+    /// Judge all nine components of tensors: plane strain in two dimensions, uniaxial strain in one. F_33 is 1, and the
+    /// stress out of the plane is included.
     #[arg(long)]
     all_components: bool,
-    /// Take means by this column: volume or mass.
+    /// The column that weights means over points: volume or mass; by default all points weigh the same.
     #[arg(long, value_name = "NAME", value_parser = weight)]
     weight: Option<Role>,
-    /// The memory that reading a file may take, in MB; without it what is free.
+    /// The most memory for reading a file, in MB; by default the free memory.
     #[arg(long, value_name = "MB")]
     max_memory: Option<u64>,
-    /// Results of one of the FILEs' meshes, computed with a smaller tolerance of the solver. The difference is its iterative
-    /// error; levels whose error is not a hundred times larger are left out of the verdict.
+    /// Results on the mesh of one FILE, computed with a smaller tolerance of the solver. The difference is the iterative
+    /// error; the verdict ignores levels whose error is not a hundred times larger.
     #[arg(long, value_name = "FILE", requires = "field")]
     tighter: Option<String>,
-    /// Set a parameter; may be repeated.
+    /// Set a parameter to a value; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
     variant: Variant,
-    /// Compare the errors with the errors on the same meshes in a judgement that --output wrote: they may change by 1 %. One
-    /// coarse
-    /// mesh takes seconds, and shows that nothing has changed.
+    /// Compare the errors with a document that `--output` wrote, on the same meshes: they may change by 1 %. One coarse mesh
+    /// is enough to show in seconds that nothing has changed.
     #[arg(long, value_name = "JSON", conflicts_with = "figure")]
     baseline: Option<PathBuf>,
-    /// Compare two results of one run, as of other ranks, precision or after a restart: the largest differences, and where they
-    /// are. Points are paired by the numbers that both files give them (`id`, `GlobalNodeIds`, ..), or by X, else in their
-    /// order; several points in one place may be paired with one. Takes no FIELD.
+    /// Compare two results of one run, from other ranks, in another precision or after a restart: print the largest
+    /// differences and their places. Points are paired by numbers that both files contain (`id`, `GlobalNodeIds`, ..), else
+    /// by X, else by their order; several points in one place may be paired with one. Needs no FIELD.
     #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with_all = ["field", "files", "errors", "figure"])]
     same: Vec<String>,
 }
