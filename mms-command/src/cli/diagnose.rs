@@ -40,10 +40,11 @@ use super::{Outcome, print, replaced, say, this_command, validate_output};
 ///
 /// For the results of a FIELD, give one FILE for each mesh, as for `mms judge`. Their content determines the comparison:
 ///
-/// F and a stress (--quantity stress), or F and its tangent (--quantity tangent): the material law is compared to
-/// round-off, without a solver.
+/// F and a stress (--quantity stress), or F and its tangent (--quantity tangent): the material law is compared to round-off,
+/// without a solver.
 ///
-/// Accelerations `a` or residuals `r` at an exact state: they are multiplied with smooth functions and compared.
+/// Accelerations `a` or residuals `r` at an exact state: they are integrated against smooth functions, and the integrals
+/// compared.
 ///
 /// u, v, F at one or more times: the built-in solver runs each hypothesis on a grid of about your size, or computes its
 /// equilibrium for a static field, and its errors are compared with yours. Results of two meshes must also have the expected

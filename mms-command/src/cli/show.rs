@@ -28,7 +28,7 @@ use mms_stability::wavelength::shortest_wavelength;
 use super::{Outcome, print, print_json, say};
 
 /// Show all that follows from a field: the derivation step by step, the claims, the number of operations of each quantity,
-/// and the terms of the equations that the field tests or does not test.
+/// and the terms of the equations that the field sees or does not see.
 ///
 /// The last lines give the moduli at F = I, bounds of x, and the shortest wavelength of u, found on a sample.
 ///
