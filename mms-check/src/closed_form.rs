@@ -56,7 +56,8 @@ impl Compared {
                         comparison.points
                     ));
                     lines.push(describe(compiled, comparison, first));
-                    lines.push("    a division by 0, a root or logarithm of a negative number, or beyond all bounds: shrink [domain], or rewrite what has no value there".into());
+                    lines.push("    a division by 0, a root or logarithm of a negative number, or an overflow: shrink \
+                                [domain], or rewrite the term that has no value there".into());
                 }
             }
         }

@@ -114,7 +114,7 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: Asked) -> Report {
 /// The report on a field without a body: its closed forms, at points of the unit cube. It has no proofs.
 fn numbers(path: &Foreign, compiled: &Compiled, title: String, compared: &Compared) -> Report {
     let none =
-        "  proof  NONE: numbers without claims, for [domain] has no body (`shape = \"none\"`)";
+        "  proof  NONE: numbers without claims, since [domain] has no body (`shape = \"none\"`)";
     let notes = doubly_named(compiled);
     let mut lines = vec![title, none.into()];
     lines.extend(name_lines(&notes));

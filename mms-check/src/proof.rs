@@ -42,12 +42,11 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
     ];
     lines.extend(solid(certificate));
     lines.push(match certificate.exits.as_slice() {
-        [] => "  proof  u and what it is made of stay within one analytic branch".into(),
+        [] => "  proof  u and its terms stay within one analytic branch".into(),
         exits if exits.iter().any(|exit| exit.is_certain) => {
-            "  proof  u and what it is made of LEAVE their analytic branch".into()
+            "  proof  u and its terms LEAVE their analytic branch".into()
         }
-        _ => "  proof  u and what it is made of are UNPROVED to stay within one analytic branch"
-            .into(),
+        _ => "  proof  u and its terms are UNPROVED to stay within one analytic branch".into(),
     });
     if single.finding != Finding::NotAsked {
         lines.push(finite("  proof  in f32 every quantity is finite, too", single));

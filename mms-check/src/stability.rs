@@ -31,7 +31,8 @@ fn told<T>(
     let kept = all.iter().enumerate().filter(|(at, it)| is_told(*at, it));
     let mut lines: Vec<String> = kept.map(|(_, it)| line(it)).collect();
     let left = all.len() - lines.len();
-    lines.extend((left > 0).then(|| format!("  {name:<6} {left} more are firmer (--verbose)")));
+    lines
+        .extend((left > 0).then(|| format!("  {name:<6} {left} more are more stable (--verbose)")));
     lines
 }
 
@@ -76,7 +77,7 @@ pub fn at_rest(material: &Material) -> String {
     let middle = if material.is_graded { ", in the middle of the body" } else { "" };
     if let Some(mu) = material.middle.shear_alone() {
         return format!(
-            "  rest   mu = {} at F = I{middle}; a given field rules the volume",
+            "  rest   mu = {} at F = I{middle}; a given field determines the volume",
             short(mu)
         );
     }
@@ -96,7 +97,8 @@ pub fn at_rest(material: &Material) -> String {
             list(&axis)
         ),
         None => {
-            "  rest   neither isotropic nor so about an axis at F = I: it has no E and nu".into()
+            "  rest   neither isotropic nor transversely isotropic at F = I: it has no E and nu"
+                .into()
         }
     }
 }
@@ -110,7 +112,7 @@ pub fn extent(reach: &[[f64; 2]], space: Space, shortest_wavelength: Option<f64>
     let sides: Vec<_> = reach.iter().enumerate().map(side).collect();
     let wave = match shortest_wavelength {
         Some(length) => format!("shortest wavelength {} (sampled)", short(length)),
-        None => "no wavelength, as where u is linear along each axis".into(),
+        None => "no wavelength, for example because u is linear along each axis".into(),
     };
     format!("  extent {}; {wave}", sides.join(", "))
 }

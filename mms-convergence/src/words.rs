@@ -95,17 +95,16 @@ impl Finding {
             Reason::Stopped => "; a run stopped".into(),
             Reason::NoOrder => "; an error is exactly zero, or nothing fits".into(),
             Reason::TooFewLevels => {
-                "; two levels above round-off are needed, and three tell more".into()
+                "; two levels above round-off are needed, and three are better".into()
             }
             Reason::TwoLevels => {
-                "; two levels cannot show that it is settled: a third would".into()
+                "; two levels cannot show whether the order has settled: add a third".into()
             }
             Reason::Digits => {
-                "; the digits of the errors leave the order open: give errors with more digits"
-                    .into()
+                "; the errors have too few digits to determine the order: give more digits".into()
             }
             Reason::Open => format!(
-                "; the levels do not tell whether it is within +-{}: give finer ones, or more",
+                "; the levels do not show whether it is within +-{}: give finer ones, or more",
                 expected.tolerance
             ),
         }
@@ -128,9 +127,9 @@ impl Finding {
                 expected.resolution()
             )),
             Basis::Drift => Some(
-                "the interval is from the drift of two orders: three levels have no scatter to judge by".into(),
+                "the interval follows from the drift of two orders, since three levels have no scatter".into(),
             ),
-            Basis::Digits => Some("the interval is from the digits of the two errors".into()),
+            Basis::Digits => Some("the interval follows from the digits of the two errors".into()),
             Basis::Nothing => None,
         }
     }
@@ -193,7 +192,9 @@ impl Term {
         let what = match self.kind {
             TermKind::Plateau => "a plateau".into(),
             TermKind::LowerOrder => format!("a hidden error of order {q}"),
-            TermKind::PreAsymptotic => format!("an error of order {q} besides, which goes away"),
+            TermKind::PreAsymptotic => {
+                format!("an error of order {q} in addition, which vanishes on finer meshes")
+            }
         };
         let percent = format!(
             "{:.1} % of the finest error ({:.1} to {:.1} %)",
@@ -208,7 +209,7 @@ impl Term {
             _ if self.share < 0.0 && self.kind != TermKind::PreAsymptotic => {
                 format!("{fits}, of the other sign: both cancel near {at}")
             }
-            TermKind::PreAsymptotic => format!("{fits}; the expected order leads below {at}"),
+            TermKind::PreAsymptotic => format!("{fits}; the expected order dominates below {at}"),
             _ => format!("{fits}; it takes over below {at}"),
         }
     }

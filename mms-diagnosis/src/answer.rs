@@ -123,18 +123,18 @@ impl Rung {
     /// Advises what to run next after this finding.
     pub fn next(self, finding: Finding) -> &'static str {
         match (self, finding) {
-            (_, Finding::Named) => "fix it, run your code again, and ask again",
+            (_, Finding::Named) => "fix it, run your code again, and diagnose it again",
             (Rung::Law, Finding::Nothing) => {
                 "the law is right for these F; look at accelerations or residuals at an exact state, which `mms state` writes"
             }
             (Rung::Law, Finding::Unexplained) => {
-                "stresses at F of volume changes alone, and at F of one shear alone: which of them is wrong?"
+                "stresses at F with only a volume change, and at F with only one shear, to see which is wrong"
             }
             (Rung::State(_), Finding::Nothing) => {
                 "force, stress, mass and loads are right at this state; look at velocities after one small step from it"
             }
             (Rung::State(_), Finding::Unexplained) => {
-                "the same with a term left out (`--without body_force`, stress, traction), and a table of the law alone"
+                "the same without a term (`--without body_force`, stress, traction), and a table of the law alone"
             }
             (Rung::Step, Finding::Nothing) => {
                 "one step is right; look at results at later times, of two meshes"

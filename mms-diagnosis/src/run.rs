@@ -67,7 +67,7 @@ impl fmt::Display for Obstacle {
             }
             Obstacle::TooFewPoints { found, least } => write!(
                 f,
-                "{found} points are too few to tell one mistake from another; expected {least} at least, over all of \
+                "{found} points are too few to distinguish mistakes; expected {least} at least, over all of \
                  the body"
             ),
             Obstacle::AtStart => write!(
@@ -91,14 +91,14 @@ impl fmt::Display for Obstacle {
             ),
             Obstacle::Diverges(Some(order)) => write!(
                 f,
-                "the error of this method falls with order {order:.2} on this field, so nothing can be held to it: \
+                "the error of this method falls with order {order:.2} on this field, so it is no standard for your results: \
                  expected a method that converges"
             ),
             Obstacle::Diverges(None) => write!(
                 f,
-                "this method stops on this field, so nothing can be held to it: expected a method that converges"
+                "this method stops on this field, so it is no standard for your results: expected a method that converges"
             ),
-            Obstacle::Stopped => write!(f, "stopped, as somebody asked for"),
+            Obstacle::Stopped => write!(f, "stopped on request"),
             Obstacle::TooManySteps(steps) => write!(
                 f,
                 "waves cross the body so often until then that each run would take {steps:.0} steps: give results of an \

@@ -328,7 +328,7 @@ impl Exact {
         time: f64,
         places: [&[f64]; 2],
     ) -> anyhow::Result<Vec<f64>> {
-        ensure!(!self.input.options().stop.is_asked(), "stopped, as somebody asked for");
+        ensure!(!self.input.options().stop.is_asked(), "stopped on request");
         let prepared = match self.prepared.entry(output) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => place.insert(prepared(&self.input, &self.parameters, output)?),

@@ -282,9 +282,9 @@ impl Input {
         self.validate_body("a solver has nothing to fill with particles")?;
         ensure!(
             !self.is_static(),
-            "`{}` is static: the explicit solver of this project follows motions, and goes to an equilibrium where `mms run` \
-             and `mms study` are given `--relax`; `mms emit` and `mms state` give your solver what it needs, and `mms judge` \
-             and `mms diagnose` take its results",
+            "`{}` is static: the explicit solver computes motions; `mms run` and `mms study` compute an equilibrium with \
+             `--relax`; `mms emit` and `mms state` give your solver what it needs, and `mms judge` and `mms diagnose` \
+             take its results",
             self.name.shown()
         );
         Ok(())
@@ -325,7 +325,7 @@ impl Input {
     fn validate_rings(&self) -> anyhow::Result<()> {
         ensure!(
             self.compiled.field.space != (Space::Axisymmetric { swirl: true }),
-            "`{}` has a swirl, and the solver of this project moves rings along R and Z alone; `mms check`, `mms eval`, `mms \
+            "`{}` has a swirl, and the built-in solver moves rings only along R and Z; `mms check`, `mms eval`, `mms \
              show`, `mms accuracy`, `mms emit`, `mms judge` and `mms state --points` take this field",
             self.name.shown()
         );

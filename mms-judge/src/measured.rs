@@ -126,7 +126,7 @@ impl Measured {
             _ if both == h => Ok(Refined::Space),
             (3.., 3..) if both >= GRID => Ok(Refined::Grid),
             _ => bail!(
-                "{h} values of h and {dt} of dt in {both} pairs: to tell errors of space and of time apart takes {GRID} \
+                "{h} values of h and {dt} of dt in {both} pairs: to separate errors of space and time takes {GRID} \
                  pairs, with three values of each; else refine both together, or one alone"
             ),
         }

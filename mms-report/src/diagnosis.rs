@@ -154,9 +154,7 @@ fn ordinary([least, most]: [f64; 2]) -> String {
     match least == most {
         true => format!("a right solver would be at about {most:.1e}"),
         false => {
-            format!(
-                "from {least:.1e} to {most:.1e} is accepted as the error of a right method on such a grid"
-            )
+            format!("a right method on such a grid makes {least:.1e} to {most:.1e}")
         }
     }
 }
@@ -187,10 +185,10 @@ fn named(best: &Ranked) -> String {
             .push(format!("the same formula for any field: {}", best.equivalent_always.join(", ")));
     }
     if !best.equivalent_here.is_empty() {
-        lines.push(format!("not told apart here: {}", best.equivalent_here.join(", ")));
+        lines.push(format!("not distinguished here: {}", best.equivalent_here.join(", ")));
     }
     if !best.needs.is_empty() {
-        lines.push(format!("what tells them apart: {}", best.needs.join("; ")));
+        lines.push(format!("to distinguish them: {}", best.needs.join("; ")));
     }
     lines.join("\n")
 }
@@ -215,7 +213,8 @@ fn place(it: &Place, has_order: bool) -> String {
     if let Some((axis, at)) = it.plane {
         let axis = AXES[axis];
         lines.push(format!(
-            "more than half of it is beside the plane {axis} = {at:.4}, which is no face: of parts of the mesh, of ranks?"
+            "more than half of it is beside the plane {axis} = {at:.4}, which is no face: is it a border between parts of \
+             the mesh, or between ranks?"
         ));
     }
     if let Some(order) = it.order.filter(|_| has_order) {

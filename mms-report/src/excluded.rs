@@ -99,7 +99,7 @@ pub fn text(exclusions: &Exclusions) -> String {
         (!names.is_empty()).then(|| format!("  {head}: {names}"))
     };
     let mut lines =
-        vec![format!("mistakes, by what they add to the finest error, {}:", exclusions.of)];
+        vec![format!("mistakes, by their error relative to the finest error, {}:", exclusions.of)];
     lines.extend(LINES.iter().filter_map(line));
     lines.join("\n")
 }

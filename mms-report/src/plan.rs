@@ -36,8 +36,8 @@ impl Step {
     fn needs(self) -> &'static str {
         match self {
             Step::Law => {
-                "a table of F and of P, S, sigma or tau, as your law gives them: ten rows or more, with shear; no mesh, and no \
-                 solver"
+                "a table of F and of P, S, sigma or tau, as your law computes them: ten rows or more, with shear; no mesh, \
+                 and no solver"
             }
             Step::Residual => {
                 "the exact u at your nodes (`mms state FIELD --points NODES --time T`), given to your code; the residual that it \

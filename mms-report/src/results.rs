@@ -56,9 +56,8 @@ pub fn with_baseline(title: &str, all: &[Saved], verdict: Verdict) -> Compared<J
         near: it.is_near(),
     });
     let document = JudgeBaseline { errors: errors.collect(), verdict: verdict.to_string() };
-    let text = format!(
-        "{title}\n\n{table}\n\n{verdict}: errors may differ from those that were saved by 1 %"
-    );
+    let text =
+        format!("{title}\n\n{table}\n\n{verdict}: errors may differ by 1 % from the saved ones");
     Compared { text, table, document }
 }
 
@@ -79,7 +78,7 @@ pub fn differences(a: &str, b: &str, same: &Same) -> Compared<JudgeSame> {
     let mut text =
         format!("{} and {}\npoints are paired {}\n\n{table}", shown(a), shown(b), shown(paired));
     if !alone.is_empty() {
-        text += &format!("\n\nin one of them alone: {}", shown(&alone.join(", ")));
+        text += &format!("\n\nonly in one of them: {}", shown(&alone.join(", ")));
     }
     if !words.is_empty() {
         text += &format!("\n\nwords, which are not compared: {}", shown(&words.join(", ")));

@@ -91,7 +91,7 @@ pub trait Shown {
     /// # Errors
     /// A result that has none: all but campaigns.
     fn junit(&self) -> anyhow::Result<String> {
-        bail!("`--format junit`: studies of `mms campaign` are cases of a test, and this is none")
+        bail!("`--format junit`: only studies of `mms campaign` are test cases")
     }
 
     /// The result in a format other than JSON.

@@ -256,8 +256,8 @@ impl Failure {
 pub enum Cause {
     /// A time step in which a wave may cross a cell.
     #[error(
-        "the time step {time_step:.3e} is above the stable one, {stable:.3e}, in which no wave that the field \
-         is proved to have crosses a cell; that is a Courant number of {}", rounded_down(*courant)
+        "the time step {time_step:.3e} is above the stable one, {stable:.3e}, in which, as proved, no wave of \
+         the field crosses a cell; that is a Courant number of {}", rounded_down(*courant)
     )]
     UnstableStep {
         /// The time step.
@@ -360,7 +360,7 @@ impl Cause {
     pub fn advice(&self) -> &'static str {
         match self {
             Cause::UnstableStep { .. } => {
-                "try a smaller Courant number, or run it all the same with `--allow-unstable`"
+                "try a smaller Courant number, or run it anyway with `--allow-unstable`"
             }
             Cause::Inverted { .. } | Cause::NotFinite { .. } | Cause::FlatDomain => {
                 "likely an unstable or too coarse run, or forcing and material that do not belong \

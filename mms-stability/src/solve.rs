@@ -62,7 +62,7 @@ impl Solved {
     /// The result in words.
     pub fn words(self) -> &'static str {
         match self {
-            Solved::Comes => "Newton's method comes to the exact state from zero",
+            Solved::Comes => "Newton's method converges to the exact state from zero",
             Solved::GoesElsewhere => {
                 "Newton's method stays at the exact state, and goes ELSEWHERE from zero: another solution exists"
             }

@@ -105,7 +105,8 @@ fn growing_corner(compiled: &Compiled, corner: &Corner, modulus: &str) -> Diagno
             list(at),
             short(*time)
         ))
-        .help("it grows the faster, the finer the mesh is, and takes the order of accuracy: take a smaller amplitude, or give u on one of both faces")
+        .help("it grows faster on finer meshes, and lowers the order of accuracy: take a smaller amplitude, or prescribe u \
+               on one of the two faces")
 }
 
 fn growing(compiled: &Compiled, growth: &Growth, is_static: bool) -> Option<Diagnostic> {

@@ -52,7 +52,7 @@ impl Domain {
             Some([first, last]) => format!("time window: {first:?} to {last:?}\n"),
             None => "static: no time\n".into(),
         };
-        text += &format!("motion: x from {lower:?} to {upper:?}, as far as samples show\n");
+        text += &format!("motion: x from {lower:?} to {upper:?} (sampled)\n");
         if self.is_axisymmetric {
             text += &format!("volumes and masses: of rings, {OF_RINGS}\n");
         }

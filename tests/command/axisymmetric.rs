@@ -48,7 +48,7 @@ fn the_solver_refuses_a_swirl() {
     for arguments in
         ["run shaft.toml", "study shaft.toml", "tradeoff shaft.toml", "extremes shaft.toml"]
     {
-        let says = "`shaft` has a swirl, and the solver of this project moves rings along R and Z";
+        let says = "`shaft` has a swirl, and the built-in solver moves rings only along R and Z";
         folder.mms(arguments).exits(2).complains(says);
     }
 }

@@ -274,7 +274,7 @@ fn what_is_not_there_is_told() {
     campaign(&folder, &[]).exits(2).complains("c.toml:6:8").complains("did you mean `python`?");
     folder.write(&format!("{ODD}/c.toml"), &file("2", ""));
     campaign(&folder, &[]).exits(2).complains("it has no [[study]]; `mms campaign FILE --suggest`");
-    campaign(&folder, &["--suggest"]).exits(2).complains("asks what the solver can");
+    campaign(&folder, &["--suggest"]).exits(2).complains("needs the abilities of the solver");
     assert_eq!(runs(&folder), [0; 0]);
 }
 
@@ -338,7 +338,7 @@ fn the_exact_state_of_vtk_is_read_as_a_result() {
          [[study]]\nfield = \"axis_aligned_2d\"\ncells = [8, 16, 32]\n",
     );
     let run = folder.mms("campaign c.toml").exits(1);
-    run.complains("a solver is given all values that were compared: displacement, velocity");
+    run.complains("the solver was given all values that were compared: displacement, velocity");
     run.prints("0 of 1 studies pass");
 }
 

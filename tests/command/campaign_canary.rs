@@ -126,7 +126,7 @@ fn a_campaign_is_junit_xml_and_a_summary() {
     folder
         .mms("list --format junit")
         .exits(2)
-        .complains("studies of `mms campaign` are cases of a test");
+        .complains("only studies of `mms campaign` are test cases");
 }
 
 #[test]

@@ -34,7 +34,7 @@ fn the_broken_line_is_named_and_the_repaired_solver_passes() {
 fn another_broken_line_of_the_kept_solver_gets_another_name() {
     let folder = Folder::new();
     folder.mms("demo --keep kept").exits(0).prints("sh kept/commands.sh");
-    folder.mms("demo --keep kept").exits(2).complains("`--keep kept`: the folder holds something");
+    folder.mms("demo --keep kept").exits(2).complains("`--keep kept`: the folder is not empty");
     let files = CELLS.map(|it| format!("kept/broken/{it}.csv")).join(" ");
     folder.mms(&format!("judge sheared_block_2d {files}")).exits(1).prints("observed order 0.31");
     let solver = folder.read("kept/solver.rs");

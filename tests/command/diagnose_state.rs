@@ -191,7 +191,7 @@ fn accelerations_take_the_volumes_of_their_nodes() {
     let mut uneven = block;
     uneven.nodes.iter_mut().for_each(|node| node[0] = node[0].powi(2));
     let run = uneven.diagnose("a", &wrong, false, TIME).exits(2);
-    run.complains("the points are not evenly apart").complains("`--map volume=..`");
+    run.complains("the points are not evenly spaced").complains("`--map volume=..`");
 }
 
 /// A code without residuals begins with its accelerations.

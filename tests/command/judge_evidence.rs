@@ -77,9 +77,9 @@ fn wave(folder: &Folder, name: &str, n: usize, is_wanted: impl Fn(f64, f64) -> b
 fn the_start_is_no_evidence() {
     let files = "start_4.pvd start_8.pvd";
     let run = judge(files, "--map X=points").exits(2);
-    run.prints("no evidence: observed order 1.90").prints("a solver is given all these values");
+    run.prints("no evidence: observed order 1.90").prints("the solver was given all these values");
     run.prints("left out: 2 results, at times that other files lack");
-    run.complains("a solver is given all values that were compared: displacement");
+    run.complains("the solver was given all values that were compared: displacement");
     let document = judge(files, "--map X=points --json").exits(2).json();
     assert_eq!(document["verdict"], "no evidence");
     assert_eq!(document["quantities"][0]["norms"][1]["verdict"], "no evidence");

@@ -175,7 +175,7 @@ fn tecplot_and_dumps_are_judged_as_tables_are() {
     folder.write("state.dat", &format!("{zone}\n{rows}"));
     // Between nodes values are interpolated.
     let cells = folder.mms("judge travelling_wave_2d state.dat").exits(1);
-    cells.prints("`state.dat` of 64 cells").prints("for the mesh is known");
+    cells.prints("`state.dat` of 64 cells").prints("since the mesh is known");
     let points = zone.replace("I=9, J=9", "I=81");
     folder.write("points.dat", &format!("{points}\n{rows}"));
     folder.mms("judge travelling_wave_2d points.dat").exits(0).prints("exact to round-off");

@@ -338,7 +338,7 @@ fn two_results_are_compared() {
     assert_eq!((u["array"].as_str(), number(&u["largest"])), (Some("u"), 0.5));
     assert_eq!(u["where"], "a.csv:3");
     assert_eq!(document["alone"][0], "v");
-    folder.mms("judge --same a.csv b.csv").exits(0).prints("in one of them alone: v");
+    folder.mms("judge --same a.csv b.csv").exits(0).prints("only in one of them: v");
 }
 
 #[test]

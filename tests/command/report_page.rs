@@ -148,7 +148,7 @@ fn what_is_no_result_is_named_and_left_where_it_is() {
         ("b.json", "it has no provenance"),
         ("c.json", "its provenance cannot be read"),
         ("d.json", "not what `mms study` writes: missing field `levels`"),
-        ("e.json", "nothing is known of a `dance`"),
+        ("e.json", "unknown kind of document `dance`"),
         ("f.pvd", "no states in it"),
         ("h.pvd", "a state without a time or a file"),
         ("i.json", "its form is of version 3, and this `mms` reads versions up to 2"),

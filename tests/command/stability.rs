@@ -145,7 +145,10 @@ fn extent_and_wavelength_are_those_of_the_motion() {
 #[test]
 fn newton_is_run_where_that_is_asked_for() {
     let folder = square(r#"["0.03*sin(2*X)*Y", "0.02*X*Y"]"#, "x_min = \"traction\"");
-    folder.mms("check square.toml --solve").exits(0).prints("comes to the exact state from zero");
+    folder
+        .mms("check square.toml --solve")
+        .exits(0)
+        .prints("converges to the exact state from zero");
     assert_eq!(stability(&folder, "")["solve"], Value::Null);
     assert_eq!(stability(&folder, "--solve")["solve"], "comes");
 }

@@ -128,7 +128,7 @@ fn a_relaxed_study_has_the_order_of_its_method() {
     let fine = &study["quantities"]["first_piola_kirchhoff"][3]["order_l2"];
     assert!((fine.as_f64().expect("an order") - 1.0).abs() < 0.1, "{fine}");
     let excluded = folder.mms(&format!("{command} --excluded --verbose")).exits(0);
-    excluded.prints("mistakes, by what they add to the finest error").prints("excluded: ");
+    excluded.prints("mistakes, by their error relative to the finest error").prints("excluded: ");
     // A saved study, and a study of several methods.
     folder.write("s.toml", "field = \"static.toml\"\nrelax = true\ncells = [4, 8]\n");
     folder.mms("study --study s.toml --shape cpgimp,cpdi").complains("relaxed");
@@ -161,8 +161,8 @@ fn what_an_equilibrium_has_not_is_refused_with_relax() {
     for (command, said) in [
         ("run bar_1d --relax", "`bar_1d` moves, and is in equilibrium only by chance"),
         ("run static.toml --relax --time 1", "cannot be used with"),
-        ("run static.toml --relax --history h.csv", "`--history`: the way of a relaxation"),
-        ("run static.toml --relax --checkpoint c", "`--checkpoint`: the way of a relaxation"),
+        ("run static.toml --relax --history h.csv", "`--history`: the steps of a relaxation"),
+        ("run static.toml --relax --checkpoint c", "`--checkpoint`: the steps of a relaxation"),
         ("study static.toml --relax --refine time", "`--refine time`: an equilibrium has no time"),
         ("study static.toml --relax --fit", "`--fit`: an equilibrium has no time"),
         ("study static.toml --relax --periods 1", "`--periods`: an equilibrium has no time"),

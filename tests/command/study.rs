@@ -289,7 +289,7 @@ fn periods_are_of_fields_that_repeat_themselves() {
     run("bar_1d --periods 1,2").prints("in period").prints("a phase lag is in radians");
     // A run that stops has the periods before.
     let stopped = run("bar_1d --periods 1,1000 --courant 0.6 --json").exits(1);
-    stopped.complains(" of 1000; where finer grids").complains("ask for fewer periods");
+    stopped.complains(" of 1000; if finer grids").complains("study fewer periods");
     let stopped = stopped.json();
     assert!(stopped["levels"][0]["failure"].is_string(), "{stopped:#}");
     let measured = array(&stopped["phase"]["measured"]);

@@ -176,7 +176,7 @@ impl Campaign {
             print(&format!("\nwrote {}", written.join(", ")))?;
         }
         if work.watcher.is_interrupted() {
-            say("interrupted; what is done is kept, and the same command goes on from there");
+            say("interrupted; finished runs are kept, and the same command continues");
         }
         Ok(match (report.has_failed(), report.is_refuted()) {
             (true, _) => Outcome::RunFailed,
@@ -248,7 +248,8 @@ impl Campaign {
     fn propose(&self, file: &File) -> anyhow::Result<Outcome> {
         let Some(can) = &file.solver.can else {
             bail!(
-                "`{}`: `--suggest` asks what the solver can; say it in [solver], as in can = {{ dimensions = [2] }}",
+                "`{}`: `--suggest` needs the abilities of the solver; state them in [solver], as in can = {{ dimensions = \
+                 [2] }}",
                 foreign::path(&self.file)
             );
         };

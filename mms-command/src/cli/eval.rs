@@ -355,8 +355,8 @@ impl Eval {
         let given = [("--normal", &self.normal), ("--face", &self.face)];
         match given.into_iter().find(|(_, value)| value.is_some()) {
             Some((option, Some(value))) if !quantities.iter().any(|it| it.takes_normal()) => bail!(
-                "`{option} {value}`: only tractions and normal fluxes take a normal, and none is among the quantities \
-                 wanted; name it, as in `--quantity traction`, or leave `{option}` out"
+                "`{option} {value}`: only tractions and normal fluxes take a normal, and no such quantity is requested; \
+                 name it, as in `--quantity traction`, or leave `{option}` out"
             ),
             _ => Ok(()),
         }

@@ -133,7 +133,7 @@ fn write_new(path: &Path, text: &str) -> anyhow::Result<()> {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::AlreadyExists => {
             bail!(
-                "`{shown}` exists already, and is left as it is; choose another name or `--output`"
+                "`{shown}` exists already, and was not changed; choose another name or `--output`"
             )
         }
         Err(error) => Err(error).with_context(|| format!("cannot write `{shown}`")),

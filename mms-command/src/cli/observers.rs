@@ -120,7 +120,7 @@ impl Observer for Observers<'_> {
             return Ok(());
         }
         Err(match &self.keeper {
-            Some(keeper) => format!("interrupted; `{}` goes on from here", keeper.resuming()),
+            Some(keeper) => format!("interrupted; `{}` continues from here", keeper.resuming()),
             None => "interrupted, without a checkpoint (`--checkpoint FILE` keeps one)".into(),
         })
     }

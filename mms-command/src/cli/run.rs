@@ -151,7 +151,7 @@ impl Run {
         ];
         match given.into_iter().find(|(_, path)| path.is_some() && self.method.relax) {
             Some((option, _)) => bail!(
-                "`{option}`: the way of a relaxation to its equilibrium means nothing; leave it out, `--vtk` shows the end"
+                "`{option}`: the steps of a relaxation have no physical meaning; leave it out, `--vtk` shows the end"
             ),
             None => Ok(()),
         }

@@ -83,7 +83,7 @@ pub struct Tradeoff {
 impl Tradeoff {
     pub fn run(self) -> anyhow::Result<Outcome> {
         if self.budget_seconds.is_some() && self.cost != Cost::Seconds {
-            bail!("`--budget-seconds`: seconds are what is spent; leave out `--cost`");
+            bail!("`--budget-seconds`: the cost is then in seconds; leave out `--cost`");
         }
         let (store, set_aside) = Store::open(&self.store)?;
         set_aside.iter().for_each(|what| say(format_args!("warning: {what}")));
@@ -238,17 +238,17 @@ impl Bench<'_> {
         let work = plan.work(&setting, cells);
         if work > plan.most_work {
             bail!(
-                "`--most-work {:e}`: the default method, whose error is aimed for, is predicted to take {work:.1e}; \
+                "`--most-work {:e}`: the default method, whose error is the target, is predicted to take {work:.1e}; \
                  raise it, or give `--target-linf` or `--budget-seconds`",
                 plan.most_work
             );
         }
         let trial = self.run(&setting, cells)?;
         let error = trial.error.map_err(|reason| {
-            anyhow!("the default method has no error to aim for: {reason}\ngive `--target-linf` or `--budget-seconds`")
+            anyhow!("the default method gives no error as a target: {reason}\ngive `--target-linf` or `--budget-seconds`")
         })?;
         (error > 0.0).then_some(Goal::Error(error)).context(
-            "the default method makes no error to aim for: give `--target-linf` or `--budget-seconds`",
+            "the default method makes no error that could be the target: give `--target-linf` or `--budget-seconds`",
         )
     }
 }

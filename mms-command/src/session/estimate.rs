@@ -104,7 +104,8 @@ fn sentence(sizes: &[Size], took: Option<Duration>) -> String {
         None => text,
         Some(took) if took < LONG => format!("{text}: about {}", words(took)),
         Some(took) => format!(
-            "warning: {text} will take about {}: fewer levels or cells, a larger time step or a shorter window take less",
+            "warning: {text} will take about {}; for less, choose fewer levels or cells, a larger time step, or a shorter \
+             window",
             words(took)
         ),
     }

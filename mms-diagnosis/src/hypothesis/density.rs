@@ -10,7 +10,7 @@ pub(super) fn all<const D: usize>() -> Vec<Hypothesis<D>> {
         factor("density_factor", "rho0 times a factor", Change::Density, |_| law::units()),
         factor(
             "mass_factor",
-            "the mass times a factor, where forces are right",
+            "the mass times a factor, with the right forces",
             Change::Mass,
             |_| Vec::new(),
         ),

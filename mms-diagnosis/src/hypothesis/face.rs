@@ -40,12 +40,12 @@ fn rotation<const D: usize>(f: &Matrix<f64, D>) -> Matrix<f64, D> {
 const ROUNDS: usize = 10;
 
 fn held<const D: usize>(face: Face) -> Hypothesis<D> {
-    let says = "the face follows the field, where it has a load or none";
+    let says = "the face follows the field, although it is loaded or free";
     Hypothesis::fixed("held_face", says, Change::Condition(Condition::Prescribed)).on(face)
 }
 
 fn free<const D: usize>(face: Face) -> Hypothesis<D> {
-    let says = "the face is free, where it is held";
+    let says = "the face is free, although it should be held";
     Hypothesis::fixed("free_face", says, Change::Condition(Condition::Free)).on(face)
 }
 
@@ -67,7 +67,7 @@ fn earlier<const D: usize>(at: &Given<'_, D>, _: Face, tau: &mut [Matrix<f64, D>
 
 /// The hypothesis that all loads, b and tractions, belong to an earlier time.
 fn loads_late<const D: usize>(exact: &Exact<'_, D>) -> Hypothesis<D> {
-    let says = "b and tractions of an earlier time; the size is by how much";
+    let says = "b and tractions of an earlier time; the size is the delay";
     let change = Change::Loads(force::earlier, earlier);
     Hypothesis::delay(exact, ["loads_late", "loads_early"], says, change)
 }
@@ -88,7 +88,7 @@ fn of_tractions<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         },
     );
     let made = |name, says, change| Hypothesis::fixed(name, says, Change::Surface(change));
-    let says = "tractions of an earlier time; the size is by how much";
+    let says = "tractions of an earlier time; the size is the delay";
     let names = ["traction_late", "traction_early"];
     let late = Hypothesis::delay(exact, names, says, Change::Surface(earlier));
     let mut all = vec![

@@ -9,7 +9,7 @@ use crate::exact::Exact;
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let window = exact.domain.time[1] - exact.domain.time[0];
     let force = |name, says, change| Hypothesis::fixed(name, says, Change::Force(change));
-    let says = "b of an earlier time; the size is by how much";
+    let says = "b of an earlier time; the size is the delay";
     let names = ["force_late", "force_early"];
     let delay = Hypothesis::delay(exact, names, says, Change::Force(earlier));
     let mut all = vec![

@@ -15,8 +15,7 @@ const PARTS: i32 = 16;
 fn another_time<const D: usize>(exact: &Exact<'_, D>) -> Hypothesis<D> {
     let window = exact.domain.time[1] - exact.domain.time[0];
     let part = |k: i32| f64::from(k) * window / f64::from(PARTS);
-    let says =
-        "results of another time, as of another frame; the size is by how much later, in seconds";
+    let says = "results of another time, as of another frame; the size is the delay in seconds";
     let change = Change::Output(|at: &Given<'_, D>, quantity| {
         let (time, [first, last]) = (at.time + at.size[0], at.exact.domain.time);
         let values = at.exact.values(quantity, time, at.reference);
@@ -34,7 +33,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let mut all = vec![
         Hypothesis::amount(
             "output_time",
-            "results belong to a later time than they say; the size is by how much",
+            "results belong to a later time than stated; the size is the delay",
             vec![exact.time_step],
             Change::Output(|at, quantity| {
                 at.exact.values(quantity, at.time + at.size[0], at.reference)
@@ -44,7 +43,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         another_time(exact),
         Hypothesis::amount(
             "points_offset",
-            "results belong to points beside X; the size is by how much",
+            "results belong to points beside X; the size is the offset",
             vec![exact.cell_size / 4.0; D],
             Change::Output(|at, quantity| {
                 let offset = Vector::from_column_slice(at.size);
@@ -56,7 +55,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         .of_mesh(),
         Hypothesis::amount(
             "displacement_offset",
-            "all displacements are off by one vector, as on a support that stands elsewhere",
+            "all displacements are off by one vector, as if the support were elsewhere",
             vec![exact.cell_size; D],
             Change::Output(|at, quantity| {
                 let mut values = at.exact.values(quantity, at.time, at.reference);
@@ -124,7 +123,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         let fixed = |says, change| Hypothesis::fixed("components_swapped", says, change);
         all.push(fixed("components are in another order", Change::Output(swapped)));
         if D == 3 {
-            let says = "two components have each other's names";
+            let says = "the names of two components are swapped";
             all.extend([
                 fixed(says, Change::Output(two_swapped::<D, 0, 1>)).of("x and y"),
                 fixed(says, Change::Output(two_swapped::<D, 1, 2>)).of("y and z"),

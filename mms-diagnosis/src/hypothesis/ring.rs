@@ -82,7 +82,7 @@ fn of_rings<const D: usize>(exact: &Exact<'_, D>, space: &Exact<'_, 3>) -> Vec<H
     };
     let ring = |name, says, ring| Hypothesis::fixed(name, says, Change::Ring(ring));
     let mut all = vec![
-        hoop("hoop_force_missing", "Div P without -P_tt/R: no force comes of the hoop stress", |_, tau| {
+        hoop("hoop_force_missing", "Div P without -P_tt/R: the hoop stress causes no force", |_, tau| {
             tau.iter_mut().for_each(|tau| tau[(2, 2)] = 0.0);
         }),
         hoop("hoop_strain_missing", "F_tt = 1 in the law, in place of 1 + u_R/R", |at, tau| {
@@ -103,13 +103,12 @@ fn of_rings<const D: usize>(exact: &Exact<'_, D>, space: &Exact<'_, 3>) -> Vec<H
         ),
         ring(
             "solved_as_plane",
-            "plane strain: F_tt = 1, and Div P without what is over R",
+            "plane strain: F_tt = 1, and Div P without its terms in 1/R",
             Ring::Plane,
         ),
         Hypothesis::amount(
             "ring_volume",
-            "volumes, masses and faces of rings at another radius than the middle, as of an edge; the size is by \
-             how much",
+            "volumes, masses and faces of rings at another radius than the middle, such as an edge; the size is the offset",
             vec![exact.cell_size / 2.0],
             Change::Ring(Ring::Wider),
         )

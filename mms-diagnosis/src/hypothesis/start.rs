@@ -8,7 +8,7 @@ use crate::exact::Exact;
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let mut offset = Hypothesis::amount(
         "start_half_step",
-        "the initial velocity belongs to a later time; the size is by how much",
+        "the initial velocity belongs to a later time; the size is the delay",
         vec![exact.time_step / 2.0],
         Change::Start(|at, initial| {
             if let MotionPart::Velocity(v) = initial {

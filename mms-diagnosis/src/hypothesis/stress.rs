@@ -93,7 +93,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         ),
         Hypothesis::amount(
             "viscosity",
-            "viscous stresses besides, as stiffness-proportional damping has: tau + 2 eta D; the size is eta",
+            "additional viscous stresses, as stiffness-proportional damping has: tau + 2 eta D; the size is eta",
             vec![0.01 * wave_modulus(exact) * (exact.domain.time[1] - exact.domain.time[0])],
             Change::Stress(Of::Motion, |at, tau| {
                 let pairs = tau.iter_mut().zip(rates(at));
@@ -104,7 +104,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         .choice(),
         Hypothesis::<D>::amount(
             "artificial_viscosity",
-            "a pressure c rho h c0 |div v| besides where div v < 0, of von Neumann and Richtmyer; the size is c",
+            "an additional pressure c rho h c0 |div v| where div v < 0, of von Neumann and Richtmyer; the size is c",
             vec![0.5],
             Change::Stress(Of::Motion, |at, tau| {
                 let density = at.exact.density(at.reference);
@@ -131,7 +131,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
 
 /// The mistakes in the off-diagonal components of P.
 fn of_components<const D: usize>() -> Vec<Hypothesis<D>> {
-    let says = "the components of P aside of the diagonal times a factor";
+    let says = "the off-diagonal components of P times a factor";
     let shear: OfStress<D> = |at, tau| {
         let size = at.size[0];
         of_first(at, tau, |f, p| {

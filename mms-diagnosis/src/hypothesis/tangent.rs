@@ -7,12 +7,14 @@ pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
     let tangent =
         |name, says, change: OfTangent<D>| Hypothesis::fixed(name, says, Change::Tangent(change));
     let mut all = vec![
-        tangent("tangent_volume", "without 1/J: of tau in place of sigma", |[at, _], _, rate| {
-            at.rate(rate)
-        }),
+        tangent(
+            "tangent_volume",
+            "without 1/J: the tangent of tau in place of sigma",
+            |[at, _], _, rate| at.rate(rate),
+        ),
         tangent(
             "tangent_truesdell",
-            "of Truesdell's rate in place of Jaumann's: its terms of the stress are missing",
+            "the tangent of Truesdell's rate in place of Jaumann's: its stress terms are missing",
             |[at, _], _, rate| {
                 let stress = rate * at.tau + at.tau * rate;
                 (at.rate(rate) - stress) / at.jacobian()
@@ -20,18 +22,22 @@ pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
         ),
         tangent(
             "tangent_cauchy",
-            "of the rate of sigma in place of the rate of tau over J: without sigma tr D",
+            "the tangent of the rate of sigma in place of the rate of tau over J: without sigma tr D",
             |[at, _], _, rate| (at.rate(rate) - at.tau * rate.trace()) / at.jacobian(),
         ),
-        tangent("tangent_material", "dS/dE, that was not pushed forward", |[at, _], _, strain| {
+        tangent("tangent_material", "dS/dE, which was not pushed forward", |[at, _], _, strain| {
             let back = inverse(&at.f);
             let rate = back.transpose() * strain * back;
             back * (at.rate(&rate) - rate * at.tau - at.tau * rate) * back.transpose()
         }),
-        tangent("tangent_small_strain", "of small strains, at any F", |[_, rest], _, rate| {
-            rest.tangent(rate)
+        tangent(
+            "tangent_small_strain",
+            "the tangent of small strains, at any F",
+            |[_, rest], _, rate| rest.tangent(rate),
+        ),
+        tangent("tangent_sign", "the tangent with the other sign", |[at, _], _, rate| {
+            -at.tangent(rate)
         }),
-        tangent("tangent_sign", "with the other sign", |[at, _], _, rate| -at.tangent(rate)),
     ];
     // With one component there is no shear.
     if D > 1 {

@@ -14,20 +14,20 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let fixed = |name, says, change| Hypothesis::fixed(name, says, Change::Wall(change));
     let late = Hypothesis::amount(
         "wall_late",
-        "prescribed faces move as of an earlier time; the size is by how much",
+        "prescribed faces move as at an earlier time; the size is the delay",
         vec![exact.time_step],
         Change::Wall(|at, motion| follow(at, motion, at.time - at.size[0])),
     );
     let late_acceleration = Hypothesis::amount(
         "wall_late",
-        "the acceleration of prescribed faces belongs to an earlier time; the size is by how much",
+        "the acceleration of prescribed faces belongs to an earlier time; the size is the delay",
         vec![exact.time_step],
         Change::Wall(accelerated_late),
     );
     let mut offset = Hypothesis::amount(
         "start_half_step",
         "the initial velocity belongs to a later time, also on prescribed faces, which their acceleration moves; the size \
-         is by how much",
+         is the delay",
         vec![exact.time_step / 2.0],
         Change::Wall(started_late),
     );

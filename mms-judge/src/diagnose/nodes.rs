@@ -40,7 +40,7 @@ pub fn volumes(
         }
         return by_distance(mesh.points, rounding, exact).ok_or_else(|| {
             anyhow::anyhow!(
-                "{path}: the points are not evenly apart, so that nothing tells what volume belongs to each; write \
+                "{path}: the points are not evenly spaced, so their volumes are unknown; write \
                  reference volumes in a column `volume` (`--map volume=..`), or the cells"
             )
         });

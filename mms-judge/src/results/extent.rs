@@ -65,7 +65,7 @@ pub fn of_cells(
     let facets = facets(mesh, body);
     let most = ROUNDING + 8.0 * dimension as f64 * rounding / least + facets;
     let covers = format!("the cells cover {} of the body", of(share));
-    ensure!(share <= 1.0 + most, "{path}: {covers}: some of them lie over others");
+    ensure!(share <= 1.0 + most, "{path}: {covers}: some of them overlap");
     let part = (share < 1.0 - most).then_some(covers);
     if let Some(part) = part.as_ref().filter(|_| !is_part) {
         let unknown = mesh

@@ -34,7 +34,7 @@ impl SnapshotErrors<'_> {
 
 /// The objection to results whose values are all given.
 pub fn objection() -> Objection {
-    let why = "a solver is given all these values: they are at the start, on walls whose motion is prescribed, or loads. They \
-               show nothing of what it computes: give results of later times that all meshes have, inside the body";
+    let why = "the solver was given all these values: they are at the start, on walls whose motion is prescribed, or loads. \
+               They do not test what it computes: give results of later times that all meshes have, inside the body";
     Objection { why: why.into(), is_to_all: true }
 }

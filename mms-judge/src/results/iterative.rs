@@ -70,7 +70,7 @@ pub fn raise(
     let shares =
         found.iter().map(|(quantity, norms)| format!("{} {:.1e}", quantity.symbol(), norms[1]));
     Ok(format!(
-        "iterative errors, from `{}`, root mean squares: {}; they are to be a hundred times smaller than errors",
+        "iterative errors, from `{}`, root mean squares: {}; they should be a hundred times smaller than the errors",
         shown(&tighter.name),
         shares.collect::<Vec<_>>().join(", ")
     ))

@@ -40,21 +40,21 @@ impl Sampling {
     pub fn says(self) -> &'static str {
         match self {
             Sampling::Points => {
-                "mean (l1), root mean square (l2) and maximum (linf) over points, which carry no weight"
+                "mean (l1), root mean square (l2) and maximum (linf) over points, without weights"
             }
             Sampling::Weighted => {
                 "l1, l2 and linf over points, means with the weight of `--weight`"
             }
             Sampling::Cells => {
                 "l1, l2 and linf over the body, and the seminorm of H1 where the gradient is known, by quadrature over \
-                 cells, for the mesh is known"
+                 cells, since the mesh is known"
             }
             Sampling::Faces => {
                 "mean (l1), root mean square (l2) and maximum (linf) over the points of faces, each with its normal; values \
                  there may be more accurate than elsewhere (superconvergence)"
             }
             Sampling::Middles => {
-                "l1, l2 and linf over the middles of cells, for there is one value in each; values there may be more \
+                "l1, l2 and linf over the centres of cells, since each has one value; values there may be more \
                  accurate than elsewhere (superconvergence)"
             }
         }

@@ -322,7 +322,7 @@ fn lengths(
     let says = match &of_cells {
         Some(_) => "(measure of the cells / their number)^(1/D)",
         None if covered().all(|it| it.is_even) => {
-            "the distance of neighbouring points, for there are no cells"
+            "the distance of neighbouring points, since there are no cells"
         }
         None => {
             "(measure of the body / points)^(1/D), for there are no cells; a point on a face counts half"

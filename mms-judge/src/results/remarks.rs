@@ -124,19 +124,21 @@ pub fn suspicions(levels: &[Level], is_given: bool, warnings: &mut Vec<String>) 
             exact.push(name);
         } else if all.iter().all(Errors::is_noise) && errors.iterative.is_none() {
             warnings.push(format!(
-                "no error of {name} is more than the digits of the files make ({}): write more of them",
+                "no error of {name} exceeds the rounding of the digits in the files ({}): write more of them",
                 errors.stored.name()
             ));
         }
     }
     if is_given {
         let names: Vec<_> = levels[0].errors.iter().map(|it| it.quantity.name()).collect();
-        warnings
-            .push(format!("a solver is given all values that were compared: {}", names.join(", ")));
+        warnings.push(format!(
+            "the solver was given all values that were compared: {}",
+            names.join(", ")
+        ));
     } else if !exact.is_empty() {
         warnings.push(format!(
-            "exact to round-off on every mesh: {}. Is it what the solver computed, and not the exact solution? Or does \
-             the method hold this field exactly?",
+            "exact to round-off on every mesh: {}. Are these results of the solver, and not the exact solution? Or does the \
+             method represent this field exactly?",
             exact.join(", ")
         ));
     }

@@ -215,7 +215,7 @@ fn entry(file: &str, document: &Value) -> Result<Entry, String> {
         ));
     }
     let known = KINDS.iter().find(|kind| kind.name == provenance.kind);
-    let kind = known.ok_or_else(|| format!("nothing is known of a `{}`", provenance.kind))?;
+    let kind = known.ok_or_else(|| format!("unknown kind of document `{}`", provenance.kind))?;
     let section = match method::lack(document) {
         Some(lack) => Err(lack),
         None => (kind.read)(document).map_err(|error| error.to_string()),

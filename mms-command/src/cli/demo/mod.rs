@@ -293,7 +293,7 @@ fn validate_new(folder: &Path) -> anyhow::Result<()> {
     validate_output(folder)?;
     let is_empty = |folder: &Path| folder.read_dir().is_ok_and(|mut it| it.next().is_none());
     if folder.exists() && !is_empty(folder) {
-        bail!("`--keep {}`: the folder holds something; name a new one", foreign::path(folder));
+        bail!("`--keep {}`: the folder is not empty; name a new one", foreign::path(folder));
     }
     Ok(())
 }

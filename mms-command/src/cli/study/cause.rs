@@ -125,8 +125,7 @@ impl Ended<'_> {
         let scale = 10f64.powi(digits);
         let courant = ((stable * scale).floor() / scale).to_string();
         let says = format!(
-            "the time step is above the stable one: `--courant {courant}` is below it; `--allow-unstable` runs it all \
-                            the same"
+            "the time step is above the stable one: `--courant {courant}` is below it; `--allow-unstable` runs it anyway"
         );
         vec![Cause::new(says, &[("courant", &courant)])]
     }
@@ -190,18 +189,18 @@ impl Ended<'_> {
                 "particles get as wide as cells, or cross them".to_owned()
             }
             (FormulationName::Updated, ShapeName::Cpgimp) => {
-                "particles cross cells, and their boxes follow no shear: they gap and overlap"
+                "particles cross cells, and their boxes do not shear: they leave gaps and overlap"
                     .into()
             }
             (FormulationName::Updated, ShapeName::Ugimp) => {
-                "the domains of particles keep their size: they gap and overlap as the body deforms"
+                "the domains of particles keep their size: they leave gaps and overlap as the body deforms"
                     .into()
             }
             (FormulationName::Updated, other) => {
                 format!("particles cross cells, where `{other}` loses its order")
             }
             (FormulationName::Total, ShapeName::CubicBspline) if is_box(field) => {
-                "lumped mass takes the order of cubic splines at the faces".into()
+                "the lumped mass lowers the order of cubic splines at the faces".into()
             }
             (FormulationName::Total, _) if is_box(field) => return None,
             (FormulationName::Total, _) => {
@@ -266,8 +265,8 @@ impl Ended<'_> {
         let is_timed = |u| compiled.graph.symbols(u).contains(&Symbol::Time);
         let moves = compiled.model.displacement.iter().any(|u| is_timed(*u));
         (!moves && !self.input.is_static()).then(|| {
-            let says = "nothing moves in this field, so that the study follows the vibration of its errors; a file without `time` \
-                        under [domain] is taken to its equilibrium by `--relax`";
+            let says = "nothing moves in this field, so the study measures the vibration of its errors; a file without `time` \
+                        under [domain] is brought to its equilibrium by `--relax`";
             Cause::new(says, &[])
         })
     }
@@ -323,7 +322,7 @@ impl Ended<'_> {
         }
         if self.refinement == Refinement::Time {
             let levels = (self.levels.len() + 1).to_string();
-            let says = "the levels do not tell: a finer time step would";
+            let says = "the levels are not conclusive: add a smaller time step";
             return (self.levels.len() < 8).then(|| Cause::new(says, &[("levels", &levels)]));
         }
         let mut cells: Vec<Division> =
@@ -336,7 +335,7 @@ impl Ended<'_> {
         let is_small = finer.numbers().iter().all(|it| *it <= most);
         cells.push(finer);
         let cells: Vec<_> = cells.iter().map(Division::to_string).collect();
-        let says = "the levels do not tell: a finer mesh would";
+        let says = "the levels are not conclusive: add a finer mesh";
         is_small.then(|| Cause::new(says, &[("cells", &cells.join(","))]))
     }
 }

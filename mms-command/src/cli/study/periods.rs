@@ -25,8 +25,8 @@ impl Periods {
         }
         let numbers = numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
         Some(format!(
-            "note: stopped in period {numbers} of {}; where finer grids and smaller steps do not get further, errors \
-             that grow from period to period have outgrown the motion: ask for fewer periods, or set a smaller motion",
+            "note: stopped in period {numbers} of {}; if finer grids and smaller steps stop there too, errors that grow \
+             from period to period have become larger than the motion: study fewer periods, or a smaller motion",
             self.last
         ))
     }

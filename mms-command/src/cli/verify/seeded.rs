@@ -32,7 +32,7 @@ impl Verify {
         validate(all)?;
         let rows: Vec<&MatrixRow> = rows.iter().copied().filter(|row| row.quick > 0).collect();
         if rows.is_empty() {
-            bail!("`--defects` shows defects to the quick matrix, which has none of these rows");
+            bail!("`--defects` tests defects on the quick matrix, which has none of these rows");
         }
         let defects = Defect::named(names)?;
         let (store, set_aside) = Store::open(&self.store.join(FOLDER))?;
