@@ -33,10 +33,10 @@ impl fmt::Display for NoPeriod {
         f.write_str(match self {
             NoPeriod::AtRest => "u does not depend on t",
             NoPeriod::Unsteady => {
-                "u depends on t other than through sines and cosines of w*t + .. with w free of X"
+                "u depends on t in another way than through sines and cosines of w*t + .. with w independent of X"
             }
             NoPeriod::Incommensurate => {
-                "the frequencies of u are not multiples of one, as far as formulas tell"
+                "the frequencies of u are not known to be multiples of one frequency"
             }
             NoPeriod::OutOfRange => "the period is not a positive number with these parameters",
         })

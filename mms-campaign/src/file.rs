@@ -275,7 +275,7 @@ fn solver(reader: &mut Reader, root: &Table<'_>) -> Option<Solver> {
         let example =
             "[solver] has run = \"./solver {cells} {output}\" and output = \"{output}/*.csv\"";
         let found = Diagnostic::error(root.span, "missing table [solver]");
-        reader.report(found.label("it says how the solver is run").help(example));
+        reader.report(found.label("it states how the solver is run").help(example));
         return None;
     };
     let table = reader.table(value, "solver", "a table, [solver]", ("[solver]", SOLVER))?;
@@ -326,8 +326,8 @@ fn validate_output(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
     }
     let span = table.value("output").map_or(table.span, |value| reader.span(value));
     let message = "`output`: all runs would write to the same place";
-    let help = "begin it with {output}, the folder of the run, and give that to the solver; for one that writes where it \
-                is run, directory = \"{output}\"";
+    let help = "begin it with {output}, the folder of the run, and give that to the solver; for a solver that writes to its \
+                working folder, directory = \"{output}\"";
     reader.report(Diagnostic::error(span, message).label("no {output} in it").help(help));
 }
 
@@ -506,7 +506,7 @@ fn validate_grid(reader: &mut Reader, table: &Table<'_>, study: &Study) {
     for (key, length) in lengths.into_iter().filter(|(_, length)| *length < 3) {
         let span = table.value(key).map_or(table.span, |value| reader.span(value));
         let message = format!("`grid`: `{key}` has {length} values");
-        let help = "three and more of each: fewer do not tell errors of space and of time apart";
+        let help = "three and more of each: fewer cannot separate errors of space and time";
         reader.report(Diagnostic::error(span, message).label("expected three at least").help(help));
     }
     let of_h = study.h.as_ref().map_or(study.cells.len(), Vec::len);

@@ -110,7 +110,7 @@ fn followed(mut supervisor: Child, stop: &dyn Fn() -> bool) -> io::Result<Report
         stdout.read_to_string(&mut told)?;
     }
     Ok(Report::parse(&told).unwrap_or_else(|| {
-        Report::badly(format!("its supervisor ended first: {status}; the run may go on"))
+        Report::badly(format!("its supervisor ended first: {status}; the run may continue"))
     }))
 }
 

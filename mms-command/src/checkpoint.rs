@@ -94,8 +94,7 @@ impl Found {
         let cannot = || read::cannot_read(path);
         let damaged = |what: &str| {
             format!(
-                "`{shown}` is no whole checkpoint: {what}; it is left as it is, and the run can be \
-                 started anew without `--resume`"
+                "`{shown}` is no whole checkpoint: {what}; it is unchanged, and the run can be started again without `--resume`"
             )
         };
         let mut file = read::open(path).with_context(cannot)?;
@@ -167,7 +166,7 @@ impl Keeper {
             bail!("{option}: expected a file, and it is a folder");
         }
         if is_stream(path) {
-            bail!("{option}: expected a plain file, to go on from");
+            bail!("{option}: expected a plain file to continue from");
         }
         remove_unfinished(path);
         try_to_write(path).with_context(|| format!("{option}: cannot write there"))?;

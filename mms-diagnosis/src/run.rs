@@ -76,7 +76,7 @@ impl fmt::Display for Obstacle {
                  time"
             ),
             Obstacle::SingularDeformation => {
-                write!(f, "the exact stress is not finite at a row: is det F <= 0 there?")
+                write!(f, "the exact stress is not finite in a row: is det F <= 0 there?")
             }
             Obstacle::Refused(refusal) => refusal.fmt(f),
             Obstacle::Axisymmetric(what) => write!(

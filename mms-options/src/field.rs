@@ -195,7 +195,7 @@ fn entry(field: &str) -> anyhow::Result<&'static Entry> {
     }
     if Path::new(field).extension().is_some_and(|it| it != "toml") {
         bail!(
-            "`{}` is in the place of the field, and is no field: name one first, as in bar_1d or ./mine.toml",
+            "`{}` is in the place of the field, but is not a field: name one first, as in bar_1d or ./mine.toml",
             shown(field)
         );
     }

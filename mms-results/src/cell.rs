@@ -129,7 +129,7 @@ pub(crate) fn dimension(kind: u8) -> usize {
 pub(crate) fn refused(kind: u8, points: usize) -> Option<String> {
     match kind {
         75..=81 => Some(format!(
-            "a cell of Bezier, type {kind} of VTK, is not read, for its points are control points: write it as one of \
+            "a cell of Bezier, type {kind} of VTK, is not read, since its points are control points: write it as one of \
              Lagrange, with values at its nodes"
         )),
         68..=73 if Shape::of(kind, points).is_none() => Some(format!(

@@ -432,7 +432,7 @@ impl Meaning {
         let apart = points().map(|it| (it[1] - it[2]).abs()).fold(0.0, f64::max);
         Err(Mistake::new(format!(
             "`{source}` has {}: in which order? If they are 11, 22, 33, 12, say `--map {symbol}={}`; if 11, 12, 21, 22, say \
-             `--map {symbol}={}`. As 12 and 21, two of them differ by {apart:.1e} at most",
+             `--map {symbol}={}`. As 12 and 21, two of them differ by at most {apart:.1e}",
             match self.is_one_array() {
                 true => array(snapshot, self.columns[0].1.place).described(),
                 false => format!("{} columns", self.columns.len()),

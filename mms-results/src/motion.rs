@@ -178,9 +178,11 @@ impl<'a> Known<'a> {
             }
             (None, None, Some(place), Some(u)) => self.tried(place.clone(), u, outside),
             (None, Some(present), _, None) => match back {
-                Some(back) => {
-                    self.inverse(present, back, "X of x by the inverse of the exact motion")
-                }
+                Some(back) => self.inverse(
+                    present,
+                    back,
+                    "X computed from x by the inverse of the exact motion",
+                ),
                 None => Err(Mistake::new(
                     "X is not known: give it, or x and u; name them with `--map X=..`",
                 )),
@@ -235,7 +237,7 @@ impl<'a> Known<'a> {
                 continue;
             };
             let Some(reference) = found else {
-                let how = "points taken as X: as x, some would be where no point of the body is";
+                let how = "points taken as X: as x, some would lie where the body has no point";
                 return Ok(motion(place.clone(), None, how));
             };
             let far = reference.iter().zip(x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

@@ -28,7 +28,7 @@ pub enum Refusal {
     NoBody,
     /// No particle lies along a face that needs it.
     #[error(
-        "face {face} is `{condition}`, but a Cartesian fill cuts it ragged; fill the body with \
+        "face {face} is `{condition}`, but a Cartesian fill gives it a ragged edge; fill the body with \
          particles that are fitted to it (`--fill fitted`)"
     )]
     RaggedFace {
@@ -54,8 +54,8 @@ pub enum Refusal {
     },
     /// An integrator that moves particles and deforms them by different velocities.
     #[error(
-        "integrator `{integrator}` moves particles by one velocity and deforms them by another, and each halt of a \
-         relaxation would part u from F: use `leapfrog`"
+        "integrator `{integrator}` moves particles by one velocity and deforms them by another, so u and F would differ \
+         after each halt of a relaxation: use `leapfrog`"
     )]
     PartsInRelaxation {
         /// The name of the integrator.
@@ -81,7 +81,7 @@ pub enum Refusal {
         available: u64,
     },
     /// A checkpoint of another scene, or none.
-    #[error("the state to go on from does not fit: {reason}")]
+    #[error("the saved state does not fit: {reason}")]
     NoState {
         /// The reason why the state does not fit.
         reason: String,
@@ -368,12 +368,12 @@ impl Cause {
             }
             Cause::OutOfRange { .. } => "use double precision, or units in which it is closer to 1",
             Cause::BeyondAxis { .. } => {
-                "likely an unstable run, for the field's own motion keeps rings apart from the axis: try a smaller Courant \
+                "likely an unstable run, since the field's own motion keeps rings apart from the axis: try a smaller Courant \
                  number or more cells"
             }
             Cause::Lost { .. } => {
-                "likely an unstable run, for the grid holds the field's own motion with room to \
-                 spare: try a smaller Courant number or more cells"
+                "likely an unstable run, since the grid has room for the field's own motion: try a smaller Courant number \
+                 or more cells"
             }
             Cause::LostInRelaxation { .. } => {
                 "where a curved face cuts cells, some hold few particles, and a load tears them off: claim `prescribed` on that \
@@ -384,13 +384,13 @@ impl Cause {
             }
             Cause::NoReferencePosition { .. } => {
                 "the field may not continue smoothly beyond its body: use more cells, or claim `fixed`, \
-                 `roller` or `free` on that face where it holds and is not claimed yet"
+                 `roller` or `free` on that face if it holds there and is not claimed yet"
             }
             Cause::NotRelaxed { .. } => {
-                "the equilibrium may be unstable, which `mms check` tells, or lower frequencies make the way long: try fewer cells, \
-                 another shape function or a smaller load"
+                "the equilibrium may be unstable, which `mms check` reports, or low frequencies make the relaxation long: \
+                 try fewer cells, another shape function or a smaller load"
             }
-            Cause::Stopped { .. } => "what was written before is whole",
+            Cause::Stopped { .. } => "files that were written before are complete",
         }
     }
 }

@@ -288,7 +288,7 @@ fn dimension<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spanned<u
         Some("3") => Some(3),
         Some(_) if !reader.is_damaged(entry.value) => {
             let diagnostic = Diagnostic::error(span, "`dimension` must be 1, 2 or 3");
-            reader.report(diagnostic.label("a field lives on a line, in a plane or in space"));
+            reader.report(diagnostic.label("a field is defined on a line, in a plane or in space"));
             None
         }
         _ => {

@@ -76,10 +76,10 @@ impl Solved {
                 "NOT SOLVED: the exact state is not finite at a point of the coarse mesh, or takes too long to evaluate there"
             }
             Solved::NoMesh => {
-                "NOT SOLVED: this body is a polygon, and `--solve` makes coarse meshes of boxes and of round bodies alone"
+                "NOT SOLVED: this body is a polygon, and `--solve` makes coarse meshes only of boxes and of round bodies"
             }
             Solved::Axisymmetric => {
-                "NOT SOLVED: the field is axisymmetric, and `--solve` has elements in Cartesian coordinates alone"
+                "NOT SOLVED: the field is axisymmetric, and `--solve` has elements only in Cartesian coordinates"
             }
             Solved::Moving => "the field is not static: there is nothing to solve",
         }

@@ -78,8 +78,9 @@ fn growing_face(compiled: &Compiled, surface: &Surface, modulus: &str) -> Diagno
         short(*time),
         list(direction)
     ))
-    .help("they grow the faster, the finer the mesh is, and take the order of accuracy: take a smaller amplitude, or give u on this face")
-    .help("this is no verdict: values little below 0 near a corner or for a short time may grow nothing that is seen");
+    .help("they grow faster on finer meshes, and lower the order of accuracy: take a smaller amplitude, or prescribe u on \
+           this face")
+    .help("this is only a warning: values slightly below 0, near a corner or for a short time, may cause no visible growth");
     match surface.follower {
         Some(least) if least > 0.0 => warning.help(format!(
             "the load is a pressure: if it follows the face, the least eigenvalue is {} {modulus}",
@@ -116,7 +117,8 @@ fn growing(compiled: &Compiled, growth: &Growth, is_static: bool) -> Option<Diag
         let message = "this state is an unstable equilibrium: the second variation of its energy is not positive";
         let warning = Diagnostic::warning(span, message).label(found);
         return Some(warning.help(
-            "a static solver may go elsewhere, and a dynamic one leaves it: take a smaller amplitude, or give u on more faces",
+            "a static solver may converge to another state, and a dynamic one leaves this state: take a smaller amplitude, \
+             or prescribe u on more faces",
         ));
     }
     (growth.factor > GROWTH).then(|| {
@@ -124,7 +126,8 @@ fn growing(compiled: &Compiled, growth: &Growth, is_static: bool) -> Option<Diag
         let message = format!("a disturbance of this motion grows by a factor of about {factor} over the time window");
         Diagnostic::warning(span, message)
             .label(format!("{found} at t = {}", short(growth.time)))
-            .help("errors of a right solver grow as much: take a smaller amplitude or a shorter window, or give u on more faces")
+            .help("errors of a right solver grow by the same factor: take a smaller amplitude or a shorter window, or \
+                   prescribe u on more faces")
     })
 }
 

@@ -107,7 +107,7 @@ pub fn motion(
     let mut exact = exact(field, &BTreeMap::new())?;
     let color = named(exact.input(), &[color.to_owned()])?[0];
     if color.takes_normal() {
-        return Err(Mistake::of("a traction needs a normal, and is no colour"));
+        return Err(Mistake::of("a traction needs a normal, and cannot be shown as a colour"));
     }
     let (frames, sides) = (frames.clamp(1, MOST), cells.clamp(1, MOST));
     let Mesh { points: reference, cells } = mesh(&exact.body, exact.dimension, sides);

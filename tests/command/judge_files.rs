@@ -54,7 +54,7 @@ fn moved_points_without_u_are_asked_for_and_found_by_the_inverse_motion() {
     };
     judge("").exits(2).complains("`--map X=x,y` or `--map x=x,y`");
     let run = passes(judge("--map x=x,y"));
-    run.prints("X: X of x by the inverse of the exact motion");
+    run.prints("X: X computed from x by the inverse of the exact motion");
     // x was used to find X, and is not judged.
     assert!(!run.stdout.contains("displacement\n"), "{run}");
     judge("--map x=x,y --quantity x").exits(2).complains("no position that can be judged");

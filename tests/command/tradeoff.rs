@@ -155,7 +155,7 @@ fn a_field_that_is_met_exactly_is_said_to_be() {
     folder.write("still.toml", &format!("{before}u = [\"0\"]\n{after}"));
     let search = "tradeoff still.toml --cost particle-steps --target-linf 1e-3 --store store";
     let text = folder.mms(search).exits(0);
-    text.prints("make no error: only their cost tells these apart");
+    text.prints("make no error: only their cost distinguishes them");
     for wrong in ["0.0 times", "about 0 cells", "Dominated"] {
         assert!(!text.stdout.contains(wrong), "{text}");
     }

@@ -60,12 +60,12 @@ pub const REGIMES: &[Regime] = &[
     regime("moduli_1e9", "moduli of 1e9 in their unit", Kind::Stress(1e9)),
     regime("lengths_1e-9", "lengths of 1e-9 in their unit", Kind::Length(1e-9)),
     regime("lengths_1e9", "lengths of 1e9 in their unit", Kind::Length(1e9)),
-    regime("origin_1e6", "the body 1e6 of its sizes off the origin", Kind::Shifted),
+    regime("origin_1e6", "the body 1e6 times its size away from the origin", Kind::Shifted),
     regime("time_1e6", "1e6 time windows later", Kind::At(Place::Late)),
-    regime("subnormal_inputs", "a coordinate or the time subnormal", Kind::At(Place::Subnormal)),
-    regime("largest_inputs", "a coordinate or the time the last finite number", Kind::At(Place::Largest)),
-    regime("subnormal_amplitude", "amplitude subnormal", Kind::SubnormalAmplitude),
-    regime("largest_amplitude", "amplitude the last finite number", Kind::LargestAmplitude),
+    regime("subnormal_inputs", "a coordinate or the time is subnormal", Kind::At(Place::Subnormal)),
+    regime("largest_inputs", "a coordinate or the time is the largest finite number", Kind::At(Place::Largest)),
+    regime("subnormal_amplitude", "amplitude is subnormal", Kind::SubnormalAmplitude),
+    regime("largest_amplitude", "amplitude is the largest finite number", Kind::LargestAmplitude),
 ];
 
 /// The regime of that name.

@@ -104,7 +104,7 @@ pub fn stressed_at_rest(compiled: &Compiled, stress: &[f64], witness: &Witness) 
     Diagnostic::warning(span, "stress at rest: P is not 0 at F = I")
         .label(format!("{what}{} is the largest component, at {place}", digits(largest)))
         .help("a term of W may be missing: with mu/2*(I1 - 3) goes -mu*ln(J)")
-        .help("where it is meant, the solver that you test needs the same stress in its undeformed body")
+        .help("if it is intended, the solver that you test needs the same stress in its undeformed body")
 }
 
 /// An operation leaves its branch, or is not proved to stay within it.

@@ -307,7 +307,8 @@ impl Eval {
         self.warn_of_points(input, &outside_body);
         if outside_time {
             say(format_args!(
-                "warning: `--time {}` is outside the time window, {first:?} to {last:?}: nothing is claimed or proved of `{}` then",
+                "warning: `--time {}` is outside the time window, {first:?} to {last:?}: nothing is claimed or proved of \
+                 `{}` at that time",
                 self.time.as_deref().unwrap_or_default(),
                 input.name.shown()
             ));

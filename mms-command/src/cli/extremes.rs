@@ -90,7 +90,7 @@ impl Extremes {
                 Declared { l2, cell_size, least_jacobian }
             }
             Seen::Ended { .. } => bail!(
-                "the method makes no error on `{}`, so that there is nothing to compare with: choose another one",
+                "the method makes no error on `{}`, so there is nothing to compare with: choose another one",
                 declared.input.name.shown()
             ),
             Seen::Stopped { reason, .. } | Seen::LeftOut { reason } => {

@@ -187,8 +187,8 @@ impl Run {
             && found.head.key != head.key
         {
             bail!(
-                "`--resume {}`: it is a checkpoint of another run, `{}`, and goes on with its options \
-                 only, in the same build of this program",
+                "`--resume {}`: it is a checkpoint of another run, `{}`, and continues only with its options, in the same \
+                 build of this program",
                 foreign::path(path),
                 found.head.command.shown()
             );

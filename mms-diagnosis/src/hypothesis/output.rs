@@ -137,7 +137,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         ];
         all.extend(only.into_iter().zip(QUANTITIES).map(|((which, change), quantity)| {
             let says =
-                "components of this quantity are in another order, beside others that are right";
+                "components of this quantity are in another order, beside other quantities that are right";
             Hypothesis { only: Some(quantity), is_beside: true, ..fixed(says, change).of(which) }
         }));
         let transposed = Hypothesis::fixed(

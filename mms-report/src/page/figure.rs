@@ -82,6 +82,6 @@ fn lack(entry: &Entry) -> String {
         Some(kind) if !kind.has_curves => {
             format!("a document of `mms {}` has no curves; {}", kind.name, expected())
         }
-        _ => "no error in it is a positive number, so that there is nothing to draw".into(),
+        _ => "no error in it is a positive number, so there is nothing to draw".into(),
     }
 }

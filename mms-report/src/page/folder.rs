@@ -40,8 +40,8 @@ impl Page {
         }
         if stored > 0 {
             set_aside.push(format!(
-                "{stored} results of single runs, kept by `mms verify --store` or `mms campaign`; `--output` of these writes \
-                 what they say together"
+                "{stored} results of single runs, kept by `mms verify --store` or `mms campaign`; `--output` of these \
+                 writes a summary of them"
             ));
         }
         if entries.is_empty() {

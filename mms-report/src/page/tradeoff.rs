@@ -101,7 +101,7 @@ fn advice(tradeoff: &Tradeoff) -> Markup {
                 None => { "No run that was made reaches it." }
             }
             @if tradeoff.choice.as_ref().is_some_and(|choice| choice.linf == Some(0.0)) {
-                " It makes no error: only its cost tells it from other runs that make none."
+                " It makes no error: only its cost distinguishes it from other runs without error."
             }
             @if let Some(next) = &tradeoff.predicted {
                 " The best prediction is " (next.setting) " on " (number(Some(next.cells), |it| format!("{it:.0}")))

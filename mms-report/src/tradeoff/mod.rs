@@ -248,7 +248,7 @@ impl Report<'_> {
         let errors: Vec<_> = self.trials().iter().filter_map(|it| it.error.clone().ok()).collect();
         let exact = errors.iter().filter(|error| **error == 0.0).count();
         format!(
-            "{exact} of the {} runs that ended make no error: only their cost tells these apart.",
+            "{exact} of the {} runs that ended make no error: only their cost distinguishes them.",
             errors.len()
         )
     }
@@ -272,7 +272,7 @@ impl Report<'_> {
             ),
             Goal::Cost(_) => {
                 format!(
-                    "The default, {setting}, leaves {} times that error, {:.2e}.",
+                    "The default, {setting}, has {} times that error, {:.2e}.",
                     factor(gain),
                     default.error
                 )
