@@ -197,7 +197,7 @@ fn row(judged: &Judged<'_>) -> Vec<String> {
     let deciding = judged.judgements.as_ref().and_then(|it| JudgementView(it).deciding());
     let word = match (judged.verdict(), &judged.mistake) {
         (Some(verdict), _) => verdict.to_string(),
-        (None, Some(_)) => "not judged: its results say nothing".into(),
+        (None, Some(_)) => "not judged: its results are no evidence".into(),
         (None, None) => "not judged: no results".into(),
     };
     vec![
@@ -216,7 +216,7 @@ fn failure(job: &Job, outcome: &Outcome) -> Option<String> {
     let words: String = last_words.iter().map(|line| format!("\n    {}", one_line(line))).collect();
     let words = if words.is_empty() { "\n    (it printed nothing)".to_owned() } else { words };
     Some(format!(
-        "{} failed: {}{words}\n  all of it is in {}",
+        "{} failed: {}{words}\n  its whole output is in {}",
         shown(&job.name),
         reason,
         shown(folder)

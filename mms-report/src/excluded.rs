@@ -40,7 +40,8 @@ pub fn together(of: &Together) -> String {
         let found = of.all.iter().filter(|(_, by)| by.is_some() == is_excluded);
         listed(found.map(|(name, _)| name.clone()))
     };
-    let lines = [("excluded by what passes", names(true)), ("still open", names(false))];
+    let lines =
+        [("excluded by the quantities that pass", names(true)), ("still open", names(false))];
     let lines = lines.iter().filter(|(_, names)| !names.is_empty());
     lines.map(|(head, names)| format!("{head}: {names}")).collect::<Vec<_>>().join("\n")
 }
@@ -61,7 +62,7 @@ const LINES: [Says; 4] = [
         }
         _ => None,
     }),
-    ("no error in such results", |it| {
+    ("without effect on such results", |it| {
         matches!(it.shown, Shown::Never(times) if times <= UNSEEN).then(|| it.title.clone())
     }),
 ];

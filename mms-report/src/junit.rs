@@ -60,7 +60,7 @@ fn case(judged: &Judged<'_>) -> Case {
         let Outcome::Failed { reason, last_words, folder } = outcome else { return None };
         Some(Case::Error(
             format!("{}: {reason}", job.name),
-            format!("{}\nall of it is in {folder}", last_words.join("\n")),
+            format!("{}\nits whole output is in {folder}", last_words.join("\n")),
         ))
     });
     if let Some(case) = failed {

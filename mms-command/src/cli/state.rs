@@ -142,7 +142,8 @@ impl State {
             |time: &&f64| !exact.input().is_static() && !is_between(first, last, **time);
         match self.time.iter().find(is_outside) {
             Some(time) => bail!(
-                "`--time {time}`: outside the time window of `{}`, {first:?} to {last:?}: nothing is claimed or proved then",
+                "`--time {time}`: outside the time window of `{}`, {first:?} to {last:?}: nothing is claimed or proved at \
+                 that time",
                 exact.input().name.shown()
             ),
             None => self.validate_single(),

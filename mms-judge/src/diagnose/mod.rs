@@ -113,7 +113,8 @@ pub fn find(
 pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow::Result<Evidence> {
     if let Some(alone) = reading.law {
         let snapshot = all.iter().flat_map(|it| &it.snapshots).next();
-        let snapshot = snapshot.context("expected a table of F and what a law gives there")?;
+        let snapshot =
+            snapshot.context("expected a table of F and the stress or tangent of a law")?;
         return law(snapshot, alone, reading, exact);
     }
     if let Some(state) = state(all, reading, exact)? {
@@ -321,7 +322,7 @@ fn law(
             snapshot.path
         ),
         1 => found.remove(0),
-        _ => bail!("{}: several measures of stress: leave one in the file", snapshot.path),
+        _ => bail!("{}: several measures of stress: keep only one in the file", snapshot.path),
     };
     ensure!(
         stress.numbers.len() == h.numbers.len(),

@@ -31,7 +31,7 @@ fn text(found: &Suggestion) -> String {
 }
 
 /// The message if the gallery has no field for a solver, which mostly starts at rest and undeformed.
-const NONE: &str = "# no field of the gallery is one that this solver can run; write your own (`mms new NAME`):\n\
+const NONE: &str = "# this solver can run no field of the gallery; write your own (`mms new NAME`):\n\
     # u times 1 - cos(w*t) starts at rest and undeformed, with an acceleration";
 
 /// Keeps a line to the width of a page.
@@ -64,12 +64,12 @@ fn in_time(affine: &Affine) -> String {
     let steps: Vec<_> = affine.time_steps.iter().map(|step| format!("{step:?}")).collect();
     let note = match affine.is_quadratic {
         true => {
-            "; it is quadratic in t, which an integrator of constant acceleration holds as well"
+            "; it is quadratic in t, which an integrator of constant acceleration represents exactly as well"
         }
         false => "",
     };
     format!(
-        "# time alone: linear shape functions hold this motion{note}\n[[study]]\nname = \"{name} in time\"\n\
+        "# time alone: linear shape functions represent this motion exactly{note}\n[[study]]\nname = \"{name} in time\"\n\
          field = \"{name}\"\ncells = [4]\ntime_steps = [{}]\norder = 2",
         steps.join(", "),
         name = affine.name
