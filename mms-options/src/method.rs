@@ -26,9 +26,9 @@ use crate::field::{Motion, Variant};
 /// The precision of the solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Precision {
-    /// Single.
+    /// Single precision.
     F32,
-    /// Double.
+    /// Double precision.
     #[default]
     F64,
 }
