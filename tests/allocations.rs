@@ -6,7 +6,7 @@ use allocation_counter::measure;
 use mms_exact::gallery::find;
 use mms_gallery::axis_aligned_3d;
 use mms_mechanics::Output;
-use mms_program::block::{BlockLayout, Inputs, Outputs, Plan, Prepared, ScratchPool};
+use mms_program::block::{BlockMode, Inputs, Outputs, Plan, Prepared, ScratchPool};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
 use mms_symbolic::sorted::SortedMap;
@@ -49,7 +49,7 @@ fn no_evaluation_in_blocks_allocates(points: &[[f64; 3]], rows: &mut [[f64; 3]])
     let parameters = compiled.parameters::<f64>(&SortedMap::new());
     let plan =
         Plan::new(&compiled.program, &[Output::Quantity(Quantity::BodyForce)], Output::is_quantity);
-    let mut prepared = Prepared::new(Arc::new(plan), BlockLayout::fused(), &parameters);
+    let mut prepared = Prepared::new(Arc::new(plan), BlockMode::fused(), &parameters);
     let pool = ScratchPool::default();
     let mut evaluate = |prepared: &Prepared<f64>, time: f64, count: usize| {
         let mut bring = |start: usize, inputs: &mut Inputs<'_, f64>| {

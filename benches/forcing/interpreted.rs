@@ -6,7 +6,7 @@ use std::sync::Arc;
 use mms_codegen::Compiled;
 use mms_codegen::compile;
 use mms_mechanics::Output;
-use mms_program::block::{BlockLayout, Blockwise, Inputs, Outputs, Plan, Prepared, Scratch};
+use mms_program::block::{BlockMode, Blockwise, Inputs, Outputs, Plan, Prepared, Scratch};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
 
@@ -73,7 +73,7 @@ fn contenders_in<T: Blockwise + Into<f64> + 'static>(
         Output::is_quantity,
     ));
     let numbers = |values: &[f64]| -> Vec<T> { values.iter().map(|it| T::from_f64(*it)).collect() };
-    let ways = [("batch", BlockLayout::fused()), ("portable", BlockLayout::portable())];
+    let ways = [("batch", BlockMode::fused()), ("portable", BlockMode::portable())];
     let contender = |(mode, way)| {
         let contender: Box<dyn Contender> = Box::new(Interpreted {
             mode,

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use mms_mechanics::{Output, Program};
-use mms_program::block::{BlockLayout, Blockwise, Plan, Prepared, Scratch};
+use mms_program::block::{BlockMode, Blockwise, Plan, Prepared, Scratch};
 use mms_spec::quantity::Quantity;
 
 /// The number of points that are evaluated together.
@@ -57,7 +57,7 @@ impl Evaluator {
             let plan = asked.plan.get_or_init(plan).clone();
             Ready {
                 parameters: parameters.to_vec(),
-                prepared: Prepared::new(plan, BlockLayout::portable(), parameters),
+                prepared: Prepared::new(plan, BlockMode::portable(), parameters),
                 scratch: Scratch::default(),
                 values: Vec::new(),
             }

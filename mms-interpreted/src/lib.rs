@@ -17,7 +17,7 @@ use mms_mechanics::invariant::Kind;
 use mms_mechanics::{Bound, Output};
 use mms_program::Op;
 use mms_program::block::{
-    BlockLayout, Blockwise, Component, Inputs, Outputs, Plan, Prepared, ScratchPool,
+    BlockMode, Blockwise, Component, Inputs, Outputs, Plan, Prepared, ScratchPool,
 };
 use mms_program::interpret::Interpreter;
 use mms_runtime::axisymmetric::{energy_at_own_strain, stress_at_own_strain};
@@ -48,7 +48,7 @@ struct Interpreted<T: Blockwise> {
 /// An output that a solver uses.
 struct Asked<T: Blockwise> {
     output: Output,
-    way: BlockLayout,
+    mode: BlockMode,
     /// The prepared program, made at its first use.
     prepared: OnceLock<Prepared<T>>,
     pool: ScratchPool<T>,
@@ -57,7 +57,7 @@ struct Asked<T: Blockwise> {
 /// The outputs, each with the same bits as compiled code: there the first three are loops over many points, and the others are
 /// computed point by point.
 fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
-    let (fused, portable) = (BlockLayout::fused(), BlockLayout::portable());
+    let (fused, portable) = (BlockMode::fused(), BlockMode::portable());
     [
         (Output::Quantity(Quantity::Displacement), fused),
         (Output::Quantity(Quantity::BodyForce), fused),
@@ -69,9 +69,9 @@ fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
         (Output::Response(Response::WaveSpeed), portable),
         (Output::Response(Response::StrainEnergy), portable),
     ]
-    .map(|(output, way)| Asked {
+    .map(|(output, mode)| Asked {
         output,
-        way,
+        mode,
         prepared: OnceLock::new(),
         pool: ScratchPool::default(),
     })
@@ -168,7 +168,7 @@ impl<T: Real + Blockwise> Interpreted<T> {
         let asked = asked.expect("every output that is evaluated is listed");
         let prepared = asked.prepared.get_or_init(|| {
             let plan = Plan::new(&self.compiled.program, &[output], Output::is_quantity);
-            Prepared::new(Arc::new(plan), asked.way, &self.parameters)
+            Prepared::new(Arc::new(plan), asked.mode, &self.parameters)
         });
         asked.pool.with(|scratch| prepared.run(scratch, time, count, bring, take));
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::thread;
 
 use mms_mechanics::{Output, Program};
-use mms_program::block::{BlockLayout, Plan, Prepared, Scratch};
+use mms_program::block::{BlockMode, Plan, Prepared, Scratch};
 
 /// The number of points from which on threads share them.
 const MANY: usize = 1 << 16;
@@ -18,7 +18,7 @@ impl AtPoints {
     /// Prepares the output, and computes the stages that depend on parameters alone.
     pub fn new(program: &Program, output: Output, parameters: &[f64]) -> Self {
         let plan = Plan::new(program, &[output], Output::is_quantity);
-        AtPoints { prepared: Prepared::new(Arc::new(plan), BlockLayout::portable(), parameters) }
+        AtPoints { prepared: Prepared::new(Arc::new(plan), BlockMode::portable(), parameters) }
     }
 
     /// Evaluates `components` numbers at each point X, with normals N if the output needs them; coordinates of a point are

@@ -50,7 +50,7 @@ pub trait Float: Real + Blocked + Lift<Self> + PartialOrd + Send + Sync {
     /// Eight numbers at a time on processors that multiply and add in one step.
     type FusedMachine: Simd<Self> + From<simd::Fused>;
     /// Eight numbers at a time on other processors.
-    type PlainMachine: Simd<Self> + From<simd::Plain>;
+    type PlainSimd: Simd<Self> + From<simd::Plain>;
 }
 
 macro_rules! itself {
@@ -88,7 +88,7 @@ macro_rules! float {
         impl Float for $float {
             type WideMachine = simd::$wide;
             type FusedMachine = simd::Fused;
-            type PlainMachine = simd::Plain;
+            type PlainSimd = simd::Plain;
         }
     };
 }

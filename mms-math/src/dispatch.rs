@@ -150,7 +150,7 @@ impl Instructions {
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
             IsaLevel::Avx2 | IsaLevel::Avx512 => unsafe { plain_avx2(work) },
-            _ => work.on(T::PlainMachine::from(Plain)),
+            _ => work.on(T::PlainSimd::from(Plain)),
         }
     }
 }
@@ -167,7 +167,7 @@ fn baseline<T: Float, W: Work<T>>(work: W) -> W::Output {
     if cfg!(target_arch = "aarch64") {
         work.on(T::FusedMachine::from(Fused::known()))
     } else {
-        work.on(T::PlainMachine::from(Plain))
+        work.on(T::PlainSimd::from(Plain))
     }
 }
 
@@ -190,7 +190,7 @@ pub(crate) fn avx2<T: Float, W: Work<T>>(work: W) -> W::Output {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn plain_avx2<T: Float, W: Work<T>>(work: W) -> W::Output {
-    work.on(T::PlainMachine::from(Plain))
+    work.on(T::PlainSimd::from(Plain))
 }
 
 #[cfg(test)]

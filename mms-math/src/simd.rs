@@ -209,7 +209,7 @@ mod tests {
             [-0.5, 3.0, 1e9, 0.25, 12.5, 0.75, -6.0, 4.0],
         ];
         let numbers = Everything(numbers.map(|row| row.map(T::from_f64)));
-        let (found, expected) = (best(&numbers), numbers.by(T::PlainMachine::from(Plain)));
+        let (found, expected) = (best(&numbers), numbers.by(T::PlainSimd::from(Plain)));
         // NaN is not equal to itself; its text is.
         assert_eq!(format!("{found:?}"), format!("{expected:?}"));
     }

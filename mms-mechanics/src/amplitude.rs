@@ -94,7 +94,7 @@ impl Amplitude {
     /// values. The limit at amplitude 0 is added to a remainder unless it is 0.
     pub fn rewrite(&self, graph: &mut Graph, plain: &[Expr], stable: &[Expr]) -> Vec<Expr> {
         let keeps = self.kept(graph, stable).keeps;
-        let lost = |index: &usize| keeps[stable[*index]] != DigitLoss::All;
+        let lost = |index: &usize| keeps[stable[*index]] != KeptDigits::All;
         let lost: Vec<usize> = (0..stable.len()).filter(lost).collect();
         let mut rewritten = stable.to_vec();
         if lost.is_empty() {
@@ -189,7 +189,7 @@ impl Amplitude {
     /// a function, if its operand keeps its digits.
     pub fn keeps(&self, graph: &Graph, roots: &[Expr]) -> bool {
         let keeps = self.kept(graph, roots).keeps;
-        roots.iter().all(|root| keeps[*root] != DigitLoss::None)
+        roots.iter().all(|root| keeps[*root] != KeptDigits::None)
     }
 
     fn kept(&self, graph: &Graph, roots: &[Expr]) -> Digits {
@@ -200,29 +200,29 @@ impl Amplitude {
             let of = |child: &Expr| vanishes(&values[*child]).then(|| kept.keeps[*child]);
             let node = graph.node(expr);
             let keeps = match node {
-                _ if !vanishes(at) => DigitLoss::All,
-                Node::Number(_) | Node::Pi | Node::Symbol(_) => DigitLoss::All,
+                _ if !vanishes(at) => KeptDigits::All,
+                Node::Number(_) | Node::Pi | Node::Symbol(_) => KeptDigits::All,
                 Node::Sum(constant, terms) => {
-                    let terms = terms.iter().map(|(term, _)| of(term).unwrap_or(DigitLoss::None));
-                    let least = terms.min().unwrap_or(DigitLoss::All);
-                    if constant.is_zero() { least } else { DigitLoss::None }
+                    let terms = terms.iter().map(|(term, _)| of(term).unwrap_or(KeptDigits::None));
+                    let least = terms.min().unwrap_or(KeptDigits::All);
+                    if constant.is_zero() { least } else { KeptDigits::None }
                 }
                 // The error of a factor is multiplied by the other factors.
                 Node::Product(factors) => {
                     let small = || factors.iter().filter_map(|(base, _)| of(base));
                     match small().min() {
-                        Some(DigitLoss::None) if small().max() > Some(DigitLoss::None) => {
-                            DigitLoss::First
+                        Some(KeptDigits::None) if small().max() > Some(KeptDigits::None) => {
+                            KeptDigits::First
                         }
-                        least => least.unwrap_or(DigitLoss::All),
+                        least => least.unwrap_or(KeptDigits::All),
                     }
                 }
                 Node::Call(..) | Node::Offset(_) | Node::Small(..) => {
                     let operands = node.children().filter_map(|operand| of(&operand));
-                    operands.max().unwrap_or(DigitLoss::None)
+                    operands.max().unwrap_or(KeptDigits::None)
                 }
             };
-            if keeps == DigitLoss::None && matches!(node, Node::Sum(..)) {
+            if keeps == KeptDigits::None && matches!(node, Node::Sum(..)) {
                 kept.lossy.push(expr);
             }
             kept.keeps.set(expr, keeps);
@@ -243,7 +243,7 @@ pub(super) fn rewritten(
 
 /// The digits that an expression keeps which is small with the amplitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum DigitLoss {
+enum KeptDigits {
     /// No digit is kept: the error is as large as the terms that cancel.
     None,
     /// The first order is kept: one factor of a product keeps no digit, but another factor is small, too.
@@ -254,6 +254,6 @@ enum DigitLoss {
 
 /// The digits that each sub-expression keeps, and the sums that lose them.
 struct Digits {
-    keeps: ByExpr<DigitLoss>,
+    keeps: ByExpr<KeptDigits>,
     lossy: Vec<Expr>,
 }

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 
 use crate::sampled::sampled_count;
 
-use mms_program::block::{BlockLayout, Blockwise, Plan, Prepared, Scratch, ScratchPool};
+use mms_program::block::{BlockMode, Blockwise, Plan, Prepared, Scratch, ScratchPool};
 use mms_program::interpret::{Interpreter, Point};
 use mms_program::{Instr, Op, Value};
 use mms_symbolic::expr::Stage;
@@ -205,8 +205,8 @@ fn agree<T: Blockwise>(found: &[Vec<T>], expected: &[Vec<T>], what: impl std::fm
     }
 }
 
-fn prepared<T: Blockwise>(plan: &Arc<Plan>, way: BlockLayout) -> Prepared<T> {
-    Prepared::new(plan.clone(), way, &PARAMETERS.map(T::from_f64))
+fn prepared<T: Blockwise>(plan: &Arc<Plan>, mode: BlockMode) -> Prepared<T> {
+    Prepared::new(plan.clone(), mode, &PARAMETERS.map(T::from_f64))
 }
 
 /// Compares all ways to run a program with the interpreter, and with each other.
@@ -217,11 +217,11 @@ fn hold<T: Blockwise>(program: &Program, numbers: &[f64], count: usize) {
     let expected = one_by_one(program, &outputs, &points);
     let mut scratch = Scratch::default();
     let mut run =
-        |way: BlockLayout| in_blocks(&prepared(&plan, way), &mut scratch, outputs.len(), &points);
+        |mode: BlockMode| in_blocks(&prepared(&plan, mode), &mut scratch, outputs.len(), &points);
     let mut fused: Option<(Instructions, Vec<Vec<T>>)> = None;
     for instructions in Instructions::all() {
-        agree(&run(BlockLayout::portable_with(instructions)), &expected, instructions);
-        let found = run(BlockLayout::fused_with(instructions));
+        agree(&run(BlockMode::portable_with(instructions)), &expected, instructions);
+        let found = run(BlockMode::fused_with(instructions));
         match &fused {
             // Either no products are fused, or all are.
             _ if instructions == Instructions::BASELINE && !cfg!(target_arch = "aarch64") => {
@@ -291,7 +291,7 @@ fn validate_kept<T: Blockwise>(program: &Program, numbers: &[f64], count: usize)
     for output in [quantity(), Output::Expected(0), Output::Expected(1)] {
         let plan = Arc::new(plan_of(program, &[output]));
         let (prepared, components) =
-            (prepared::<T>(&plan, BlockLayout::portable()), program.outputs[&output].len());
+            (prepared::<T>(&plan, BlockMode::portable()), program.outputs[&output].len());
         let (mut scratch, zero) = (Scratch::default(), T::from_f64(0.0));
         let kept = prepared.keep(&mut scratch, DIMENSION, &points);
         for time in [0.37, -2.0, 0.37] {
@@ -429,7 +429,7 @@ fn validate_to_one_rounding(program: &Program, plan: &Arc<Plan>) {
     let wide: Vec<_> = given::<Double>(40, &MILD);
     let expected = one_by_one(program, &[Output::Expected(0)], &wide);
     for instructions in Instructions::all().filter(|it| *it != Instructions::BASELINE) {
-        let prepared = prepared(plan, BlockLayout::fused_with(instructions));
+        let prepared = prepared(plan, BlockMode::fused_with(instructions));
         let found = in_blocks(&prepared, &mut Scratch::default(), 1, &points);
         for (found, expected) in found.iter().zip(&expected) {
             assert_eq!(found[0].to_bits(), expected[0].to_f64().to_bits());
@@ -459,7 +459,7 @@ fn other_parameters_and_times_are_those_of_a_plan_made_anew() {
     let program = in_stage_order(ops, SortedMap::from([(outputs[0], results)]));
     let plan = Arc::new(plan_of(&program, &outputs));
     let points = given::<f64>(70, &MILD);
-    let mut changed = Prepared::new(plan.clone(), BlockLayout::portable(), &[0.2, 0.4]);
+    let mut changed = Prepared::new(plan.clone(), BlockMode::portable(), &[0.2, 0.4]);
     let mut scratch = Scratch::default();
     let before = in_blocks(&changed, &mut scratch, outputs.len(), &points);
     changed.set(&PARAMETERS);
@@ -491,7 +491,7 @@ fn other_parameters_and_times_are_those_of_a_plan_made_anew() {
 fn threads_share_a_plan_and_its_parameters() {
     let program = everything();
     let outputs: Vec<Output> = program.outputs.keys().copied().collect();
-    let prepared = prepared::<f64>(&Arc::new(plan_of(&program, &outputs)), BlockLayout::fused());
+    let prepared = prepared::<f64>(&Arc::new(plan_of(&program, &outputs)), BlockMode::fused());
     let points = given::<f64>(1000, &MILD);
     let expected = in_blocks(&prepared, &mut Scratch::default(), outputs.len(), &points);
     let pool = ScratchPool::default();
@@ -522,7 +522,7 @@ fn an_output_has_the_bits_that_it_has_alone_beside_others() {
     let found = |outputs: &[Output]| {
         let plan = Arc::new(plan_of(&program, outputs));
         in_blocks(
-            &prepared(&plan, BlockLayout::fused()),
+            &prepared(&plan, BlockMode::fused()),
             &mut Scratch::default(),
             outputs.len(),
             &points,

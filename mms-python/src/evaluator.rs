@@ -6,7 +6,7 @@ use std::thread;
 
 use mms_mechanics::{Output, Program};
 use mms_program::block::{
-    BlockLayout, Blockwise, Inputs, Outputs, Plan, PointCache, Prepared, Scratch, ScratchPool,
+    BlockMode, Blockwise, Inputs, Outputs, Plan, PointCache, Prepared, Scratch, ScratchPool,
 };
 use mms_symbolic::expr::Symbol;
 use numpy::Element;
@@ -98,7 +98,7 @@ impl<T: Precision> Evaluator<T> {
     /// With the stages that parameters decide computed.
     pub fn new(program: &Program, output: Output, components: usize, parameters: &[T]) -> Self {
         let plan = Arc::new(Plan::new(program, &[output], Output::is_quantity));
-        let prepared = Prepared::new(plan, BlockLayout::portable(), parameters);
+        let prepared = Prepared::new(plan, BlockMode::portable(), parameters);
         Evaluator { prepared, pool: ScratchPool::default(), components }
     }
 

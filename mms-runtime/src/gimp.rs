@@ -130,7 +130,7 @@ fn place_wide<T: Real, const D: usize>(
     half_width: &Vectors<T, D>,
 ) -> Result<(), Cause> {
     // This function is not inlined into a loop and so cannot use the loop's better instructions.
-    let simd = T::PlainMachine::from(Plain);
+    let simd = T::PlainSimd::from(Plain);
     stencil.begin::<MOST>(lattice, Known::Regular);
     let mut fits = true;
     for a in 0..D {

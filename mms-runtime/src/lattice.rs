@@ -125,7 +125,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
 
     /// A position in cells from the first knot, within the period if there is one.
     pub fn in_cells(&self, position: &Vector<T, D>) -> Vector<T, D> {
-        let simd = T::PlainMachine::from(Plain);
+        let simd = T::PlainSimd::from(Plain);
         let along = |a: usize| self.cells_along(simd, a, simd.splat(position[a]));
         Vector::from_fn(|a, _| simd.numbers(along(a))[0])
     }

@@ -95,7 +95,7 @@ fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
     cells: &Vectors<T, D>,
 ) -> Result<(), Cause> {
     // This function is not inlined into a loop and so cannot use the loop's better instructions.
-    let simd = T::PlainMachine::from(Plain);
+    let simd = T::PlainSimd::from(Plain);
     let cells: [_; D] = components(simd, cells);
     let slack = T::of(SLACK);
     let near = lattice.ends.map(|[first, last]| [first - slack, last + slack]);
@@ -130,7 +130,7 @@ pub fn point<T: Real, const D: usize, const P: usize, const N: usize>(
     position: &Vector<T, D>,
 ) -> Result<Tensor<T, D>, Cause> {
     let mut stencil = Tensor::new();
-    let simd = T::PlainMachine::from(Plain);
+    let simd = T::PlainSimd::from(Plain);
     let position = components(simd, &Vectors::alike(position));
     place::<T, _, D, P, N>(simd, &mut stencil, lattice, &position)?;
     Ok(stencil)

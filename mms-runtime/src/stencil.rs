@@ -60,15 +60,15 @@ impl<F, const D: usize> Payload<F, D> {
 impl<T: Real, const D: usize> Payload<[T; PACK], D> {
     /// Stores the data of a pack as numbers.
     #[inline(always)]
-    fn of<M: Simd<T>>(simd: M, carried: &Payload<M::Eight, D>) -> Self {
+    fn of<M: Simd<T>>(simd: M, payload: &Payload<M::Eight, D>) -> Self {
         let mut all = Self { value: [[T::zero(); PACK]; HALF], slopes: None, moments: None };
         for k in 0..HALF {
-            all.value[k] = simd.numbers(carried.value[k]);
+            all.value[k] = simd.numbers(payload.value[k]);
         }
-        if let Some(slopes) = &carried.slopes {
+        if let Some(slopes) = &payload.slopes {
             all.slopes = Some(numbers(simd, slopes));
         }
-        if let Some(moments) = &carried.moments {
+        if let Some(moments) = &payload.moments {
             all.moments = Some(numbers(simd, moments));
         }
         all
@@ -160,7 +160,7 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
         &self,
         simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Payload<M::Eight, D>,
+        payload: &Payload<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     );

@@ -149,7 +149,7 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
             let (nodes, carried) = (&numbers(lattice.len())[..], &numbers(EACH * PACK)[..]);
             let sums = Sums { stencil: &stencil, lattice: &lattice, nodes, carried, members };
             let expected = sums.by_definition(&positions);
-            for [found, _] in [sums.on(T::PlainMachine::from(Plain)), best(&sums)] {
+            for [found, _] in [sums.on(T::PlainSimd::from(Plain)), best(&sums)] {
                 close(&found, &expected);
             }
 
@@ -164,7 +164,7 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
             let diagonal = |k: usize| (k / PACK).is_multiple_of(D + 1);
             let unit = |k: usize| if diagonal(k) { T::one() } else { T::zero() };
             let expected: Vec<T> = (0..PACK * D * D).map(unit).collect();
-            for [_, found] in [sums.on(T::PlainMachine::from(Plain)), best(&sums)] {
+            for [_, found] in [sums.on(T::PlainSimd::from(Plain)), best(&sums)] {
                 close(&found, &expected);
             }
         }

@@ -29,14 +29,14 @@ impl Witness {
     pub fn at_precise(chart: &Chart, fractions: &[Precise]) -> (Witness, ChartPoint<Precise>) {
         // The place where a search ended is reported even if its budget is spent.
         let place = || chart.points().point(&chart.place(fractions));
-        let spot = chart.work().aside(STEPS, place);
-        let value = |index: usize| (index, spot.parameters[index].to_f64());
+        let point = chart.work().aside(STEPS, place);
+        let value = |index: usize| (index, point.parameters[index].to_f64());
         let witness = Witness {
-            coordinates: spot.coordinates.iter().map(Precise::to_f64).collect(),
-            time: spot.time.to_f64(),
+            coordinates: point.coordinates.iter().map(Precise::to_f64).collect(),
+            time: point.time.to_f64(),
             parameters: chart.varying_parameters().map(value).collect(),
         };
-        (witness, spot)
+        (witness, point)
     }
 
     /// `X = 1, Y = 0, t = 0.5, amplitude = 0.3`, with these names of the coordinates and of the parameters.

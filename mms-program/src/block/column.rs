@@ -7,7 +7,7 @@ use mms_math::Double;
 use mms_math::batch::Lift;
 
 use super::plan::Plan;
-use super::{BlockLayout, steps};
+use super::{BlockMode, steps};
 use crate::interpret::Number;
 
 /// The numbers of a block in `K` pieces of `C`, in whole lines of the cache. A piece of single or double precision fills
@@ -57,7 +57,7 @@ pub trait Blockwise: Number<Wide: Copy + Send + Sync> + Lift<Self> + Send + Sync
     /// Runs the steps of a plan over the first `pieces` of a block.
     fn run(
         plan: &Plan,
-        way: BlockLayout,
+        mode: BlockMode,
         scalars: &[Self],
         columns: &mut [Self::Column],
         pieces: usize,
@@ -67,7 +67,7 @@ pub trait Blockwise: Number<Wide: Copy + Send + Sync> + Lift<Self> + Send + Sync
     /// are numbers.
     fn run_parts(
         of: (&Plan, Range<usize>),
-        way: BlockLayout,
+        mode: BlockMode,
         scalars: &[Self],
         columns: &mut [Self::Column],
         pieces: usize,
@@ -87,26 +87,26 @@ macro_rules! blockwise {
 
             fn run(
                 plan: &Plan,
-                way: BlockLayout,
+                mode: BlockMode,
                 scalars: &[Self],
                 columns: &mut [Self::Column],
                 pieces: usize,
             ) {
                 let all = 0..plan.parts.len();
-                if !Self::run_parts((plan, all), way, scalars, columns, pieces) {
+                if !Self::run_parts((plan, all), mode, scalars, columns, pieces) {
                     steps::carefully(plan, scalars, columns, pieces);
                 }
             }
 
             fn run_parts(
                 (plan, parts): (&Plan, Range<usize>),
-                way: BlockLayout,
+                mode: BlockMode,
                 scalars: &[Self],
                 columns: &mut [Self::Column],
                 pieces: usize,
             ) -> bool {
                 let is_last = parts.end == plan.parts.len();
-                steps::quickly((plan, parts), way, scalars, columns, pieces);
+                steps::quickly((plan, parts), mode, scalars, columns, pieces);
                 is_last && steps::are_numbers(plan, scalars, columns, pieces)
             }
         }
@@ -130,7 +130,7 @@ impl Blockwise for Double {
 
     fn run(
         plan: &Plan,
-        _: BlockLayout,
+        _: BlockMode,
         scalars: &[Self],
         columns: &mut [Self::Column],
         pieces: usize,
@@ -141,7 +141,7 @@ impl Blockwise for Double {
     // There are no quick functions in twice the digits.
     fn run_parts(
         _: (&Plan, Range<usize>),
-        _: BlockLayout,
+        _: BlockMode,
         _: &[Self],
         _: &mut [Self::Column],
         _: usize,

@@ -29,32 +29,32 @@ use plan::{Operand, Scalar, Source};
 
 /// The instructions that compute blocks, and whether a product is rounded before it is added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BlockLayout {
+pub struct BlockMode {
     instructions: Instructions,
     fused: bool,
 }
 
-impl BlockLayout {
+impl BlockMode {
     /// Rounds products: the results have the bits of the interpreter of one point, and of the functions of one point in
     /// compiled code, on all processors.
     pub fn portable() -> Self {
-        BlockLayout::portable_with(Instructions::best())
+        BlockMode::portable_with(Instructions::best())
     }
 
     /// Fuses products with sums if the processor has such instructions: the results have the bits of the loops over many points
     /// in compiled code.
     pub fn fused() -> Self {
-        BlockLayout::fused_with(Instructions::best())
+        BlockMode::fused_with(Instructions::best())
     }
 
     /// Computes like [`portable`](BlockLayout::portable), with these instructions.
     pub fn portable_with(instructions: Instructions) -> Self {
-        BlockLayout { instructions, fused: false }
+        BlockMode { instructions, fused: false }
     }
 
     /// Computes like [`fused`](BlockLayout::fused), with these instructions.
     pub fn fused_with(instructions: Instructions) -> Self {
-        BlockLayout { instructions, fused: true }
+        BlockMode { instructions, fused: true }
     }
 
     fn run<T: Float, W: Work<T>>(self, work: W) -> W::Output {
@@ -66,7 +66,7 @@ impl BlockLayout {
 #[derive(Clone, Debug)]
 pub struct Prepared<T: Blockwise> {
     plan: Arc<Plan>,
-    way: BlockLayout,
+    mode: BlockMode,
     /// The values of the stage Parameter.
     early: Vec<T::Wide>,
     /// The numbers that are the same at all points; numbers of the stage Time are unset here.
@@ -119,7 +119,7 @@ pub enum Component<'a, T> {
 
 impl<T: Blockwise> Prepared<T> {
     /// Runs the stage Parameter. `parameters` are in the order of the field file.
-    pub fn new(plan: Arc<Plan>, way: BlockLayout, parameters: &[T]) -> Self {
+    pub fn new(plan: Arc<Plan>, mode: BlockMode, parameters: &[T]) -> Self {
         let constant = |scalar: &Scalar| match &scalar.source {
             Source::Constant(number) => signed(scalar, T::from_rational(number)),
             Source::Pi => signed(scalar, T::pi()),
@@ -127,7 +127,7 @@ impl<T: Blockwise> Prepared<T> {
         };
         let scalars = plan.scalars.iter().map(constant).collect();
         let early = Vec::with_capacity(plan.early);
-        let mut prepared = Prepared { plan, way, early, scalars, stamp: 0 };
+        let mut prepared = Prepared { plan, mode, early, scalars, stamp: 0 };
         prepared.set(parameters);
         prepared
     }
@@ -186,7 +186,7 @@ impl<T: Blockwise> Prepared<T> {
                 let first = numbers[0];
                 numbers[count..].fill(first);
             }
-            T::run(plan, self.way, scalars, columns, pieces);
+            T::run(plan, self.mode, scalars, columns, pieces);
             take(start, &Outputs { plan, scalars, columns, count });
         }
     }
@@ -249,7 +249,7 @@ impl<T: Blockwise> Prepared<T> {
         let mut kept = Vec::with_capacity(plan.kept.len() * points.len().div_ceil(T::BLOCK));
         for points in points.chunks(T::BLOCK * dimension) {
             let pieces = self.supply(columns, dimension, points);
-            T::run_parts((plan, 0..plan.of_points), self.way, scalars, columns, pieces);
+            T::run_parts((plan, 0..plan.of_points), self.mode, scalars, columns, pieces);
             kept.extend(plan.kept.iter().map(|register| columns[*register as usize].clone()));
         }
         PointCache(kept)
@@ -278,9 +278,9 @@ impl<T: Blockwise> Prepared<T> {
             for (register, column) in plan.kept.iter().zip(kept) {
                 columns[*register as usize].clone_from(column);
             }
-            if !T::run_parts((plan, late.clone()), self.way, scalars, columns, pieces) {
+            if !T::run_parts((plan, late.clone()), self.mode, scalars, columns, pieces) {
                 self.supply(columns, dimension, points);
-                T::run(plan, self.way, scalars, columns, pieces);
+                T::run(plan, self.mode, scalars, columns, pieces);
             }
             let outputs = Outputs { plan, scalars, columns, count };
             for (index, component) in outputs.components(0).enumerate() {

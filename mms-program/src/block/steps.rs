@@ -12,7 +12,7 @@ use mms_math::batch::{Float, Lift};
 use mms_math::dispatch::Work;
 use mms_math::simd::Simd;
 
-use super::BlockLayout;
+use super::BlockMode;
 use super::column::Column;
 use super::plan::{Kind, Operand, Plan, Step};
 use crate::interpret;
@@ -271,36 +271,36 @@ macro_rules! functions {
 
         fn unary<T: Float, const C: usize>(
             (function, small): (Function, Option<Small>),
-            way: BlockLayout,
+            mode: BlockMode,
             result: &mut [[T; C]],
             argument: &[[T; C]],
         ) {
             match (function, small) {
                 (Function::Sin, Some(Small::NearZero)) => {
-                    way.run(Unary { function: SinNearZero, result, argument });
+                    mode.run(Unary { function: SinNearZero, result, argument });
                 }
                 (Function::Cos, Some(Small::NearZero)) => {
-                    way.run(Unary { function: CosNearZero, result, argument });
+                    mode.run(Unary { function: CosNearZero, result, argument });
                 }
                 (Function::Sin, Some(Small::WithinOne)) => {
-                    way.run(Unary { function: SinWithinOne, result, argument });
+                    mode.run(Unary { function: SinWithinOne, result, argument });
                 }
                 (Function::Cos, Some(Small::WithinOne)) => {
-                    way.run(Unary { function: CosWithinOne, result, argument });
+                    mode.run(Unary { function: CosWithinOne, result, argument });
                 }
-                $((Function::$one, _) => way.run(Unary { function: $one, result, argument }),)*
+                $((Function::$one, _) => mode.run(Unary { function: $one, result, argument }),)*
                 $((Function::$two, _))|* => unreachable!("a function of two arguments"),
             }
         }
 
         fn binary<T: Float, const C: usize>(
             function: Function,
-            way: BlockLayout,
+            mode: BlockMode,
             result: &mut [[T; C]],
             arguments: [&[[T; C]]; 2],
         ) {
             match function {
-                $(Function::$two => way.run(Binary { function: $two, result, arguments }),)*
+                $(Function::$two => mode.run(Binary { function: $two, result, arguments }),)*
                 _ => unreachable!("a function of one argument"),
             }
         }
@@ -312,7 +312,7 @@ mms_symbolic::for_functions!(functions);
 /// Runs some parts of a plan with the quick functions, over the first pieces of a block.
 pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
     (plan, parts): (&Plan, Range<usize>),
-    way: BlockLayout,
+    mode: BlockMode,
     scalars: &[T],
     columns: &mut [Column<T, C, K>],
     pieces: usize,
@@ -324,13 +324,13 @@ pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
         match kind {
             Kind::Unary(function, small) => {
                 let (result, [argument]) = registers.of(result, [a]);
-                unary((function, small), way, result, argument);
+                unary((function, small), mode, result, argument);
             }
             Kind::Binary(function) => {
                 let (result, arguments) = registers.of(result, [a, b]);
-                binary(function, way, result, arguments);
+                binary(function, mode, result, arguments);
             }
-            _ => way.run(Arithmetic { steps, registers: &mut registers }),
+            _ => mode.run(Arithmetic { steps, registers: &mut registers }),
         }
     }
 }

@@ -125,7 +125,7 @@ fn named<K: Key>(outputs: &SortedMap<K, Vec<Expr>>, made: Unnamed) -> Program<K>
 /// Lowers all outputs, each as `written` returns it.
 fn lowered<K: Key>(
     outputs: &SortedMap<K, Vec<Expr>>,
-    written: &dyn Fn(&[Expr]) -> Candidate,
+    written: &dyn Fn(&[Expr]) -> FlatProgram,
 ) -> Unnamed {
     let mut builder = Builder::default();
     let lower = |components: &Vec<Expr>| {
@@ -167,7 +167,7 @@ pub fn steps(graph: &Graph, components: &[Expr]) -> Steps {
 const STEPS_OF_OPERAND: u64 = 50;
 
 /// Components as operations, with the item of each.
-type Candidate = (Flat, Vec<Item>);
+type FlatProgram = (Flat, Vec<Item>);
 
 /// Writes components as n-ary operations, with the values that need X separate from those that need t too, and, if that
 /// differs, together.
@@ -176,7 +176,7 @@ fn written(
     components: &[Expr],
     scaling: Scaling,
     scopes: &[Scope],
-) -> Vec<Candidate> {
+) -> Vec<FlatProgram> {
     let reached = graph.reachable(components);
     let new = |grouping| Flat::new(graph, (&reached, components), grouping, scaling);
     let mut ways = vec![new(Grouping::Staged)];
@@ -194,13 +194,13 @@ fn written(
 }
 
 /// The cheapest of the written candidates, with its cost; of equals, the first.
-fn cheapest(graph: &Graph, written: &[Candidate], scopes: &[Scope]) -> (Cost, Candidate) {
+fn cheapest(graph: &Graph, written: &[FlatProgram], scopes: &[Scope]) -> (Cost, FlatProgram) {
     let (plain, work) = (&written[0], graph.work());
     let cost_of_plain = cost_of(plain);
     if work.is_over() {
         return (cost_of_plain, plain.clone());
     }
-    let mut best: Option<(Cost, Candidate)> = None;
+    let mut best: Option<(Cost, FlatProgram)> = None;
     let mut spent = vec![0; written.len()];
     for scope in scopes {
         for (way, spent) in written.iter().zip(&mut spent) {
@@ -225,14 +225,14 @@ fn cheapest(graph: &Graph, written: &[Candidate], scopes: &[Scope]) -> (Cost, Ca
 }
 
 /// Whether the roots need all operations.
-fn is_needed((flat, roots): &Candidate) -> bool {
+fn is_needed((flat, roots): &FlatProgram) -> bool {
     let needed = reachable(roots, Item::index, |item| flat.form(item).operands());
     needed.len() == flat.forms.len()
 }
 
 /// The cheapest candidate, with numbers multiplied into sums if that saves operations at a point. It rarely does, so it is only
 /// tried for emitted programs and close decisions, and not for all comparisons.
-fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Candidate {
+fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> FlatProgram {
     let scopes = [Scope::Made, Scope::Needed];
     let before = graph.work().left();
     let unscaled = written(graph, components, Scaling::Factors, &scopes);
@@ -252,7 +252,7 @@ fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Candidate {
     if is_worth_it { scaled } else { plain }
 }
 
-fn cost_of((flat, roots): &Candidate) -> Cost {
+fn cost_of((flat, roots): &FlatProgram) -> Cost {
     let mut builder = Builder::default();
     builder.lower(flat, roots);
     cost_in(&builder)

@@ -105,7 +105,7 @@ impl<T: Real, const D: usize> Traction<T, D> {
         if self.particle.is_empty() {
             return Ok(());
         }
-        let simd = T::PlainMachine::from(Plain);
+        let simd = T::PlainSimd::from(Plain);
         let Self { particle, reference, area, displacement_gradient, kirchhoff_stress } = self;
         field.displacement_gradient(time, reference, displacement_gradient);
         field.surface_stress(time, reference, displacement_gradient, kirchhoff_stress);
@@ -132,8 +132,8 @@ impl<T: Real, const D: usize> Traction<T, D> {
             let stencil = (point.stencil)(point.lattice, &position).map_err(fail)?;
             let traction = halves(simd, [&traction; 2], T::zero());
             let nodes = Window { start: 0, nodes: &mut *extensive };
-            let carried = Payload::value([traction; HALF]);
-            stencil.scatter(simd, point.lattice, &carried, [0, 1], nodes);
+            let payload = Payload::value([traction; HALF]);
+            stencil.scatter(simd, point.lattice, &payload, [0, 1], nodes);
         }
         Ok(())
     }

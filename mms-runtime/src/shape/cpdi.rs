@@ -130,13 +130,13 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         &self,
         simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Payload<M::Eight, D>,
+        payload: &Payload<M::Eight, D>,
         members: Members,
         mut nodes: Window<'_, T>,
     ) {
         let zero = simd.splat(T::zero());
         let share = simd.splat(T::ratio(1, 1 << D));
-        let mut moments = carried.moments;
+        let mut moments = payload.moments;
         if let Some(moments) = &mut moments {
             *moments = scaled(simd, *moments, share);
         }
@@ -146,7 +146,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
                 let direction = simd.eight(&self.direction[c][a]);
                 let apart = simd.eight(&self.apart[c][a]);
                 for i in 0..D {
-                    if let Some(slopes) = &carried.slopes {
+                    if let Some(slopes) = &payload.slopes {
                         rows[i] = simd.times_plus(direction, slopes[a][i], rows[i]);
                     }
                     if let Some(moments) = &moments {
@@ -156,11 +156,11 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
             }
             let mut value = simd.transposed(rows);
             for k in 0..HALF {
-                value[k] = simd.times_plus(share, carried.value[k], value[k]);
+                value[k] = simd.times_plus(share, payload.value[k], value[k]);
             }
-            let carried = Payload { value, slopes: None, moments };
+            let payload = Payload { value, slopes: None, moments };
             let nodes = nodes.reborrow();
-            self.hats[c].scatter_to::<M, 2>(simd, lattice, &carried, members, nodes);
+            self.hats[c].scatter_to::<M, 2>(simd, lattice, &payload, members, nodes);
         }
     }
 

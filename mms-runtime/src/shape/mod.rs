@@ -121,7 +121,7 @@ pub(crate) fn place_alone<T: Real, const D: usize, S: Shape>(
     domain: &S::Domain<T, D>,
     displacement_gradient: &Matrices<T, D>,
 ) -> Result<(), Cause> {
-    let simd = T::PlainMachine::from(Plain);
+    let simd = T::PlainSimd::from(Plain);
     let position = components(simd, position);
     S::place(simd, stencil, lattice, &position, domain, displacement_gradient)
 }

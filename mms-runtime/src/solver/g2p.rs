@@ -224,7 +224,7 @@ fn along_first<T: Real, const D: usize>(
     stencil: &Tensor<T, D>,
     nodes: &[Nodal<T>],
 ) -> [T; PACK] {
-    let simd = T::PlainMachine::from(Plain);
+    let simd = T::PlainSimd::from(Plain);
     simd.numbers(stencil.gather(simd, lattice, Wanted::Value, nodes).value[0])
 }
 

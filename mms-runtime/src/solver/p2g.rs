@@ -267,11 +267,11 @@ fn add_along_first<T: Real, const D: usize>(
     members: Members,
     nodes: Window<'_, T>,
 ) {
-    let simd = T::PlainMachine::from(Plain);
+    let simd = T::PlainSimd::from(Plain);
     let nothing = simd.splat(T::zero());
     let rows = [simd.eight(&forces), nothing, nothing, nothing];
-    let carried = Payload::value(simd.transposed(rows));
-    stencil.scatter(simd, lattice, &carried, members, nodes);
+    let payload = Payload::value(simd.transposed(rows));
+    stencil.scatter(simd, lattice, &payload, members, nodes);
 }
 
 /// The data of the particles to add, pack by pack.
@@ -342,8 +342,8 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
             _ => None,
         };
         if let Some(velocity) = alone {
-            let carried = Payload::value(simd.transposed(self.momentum(simd, velocity)));
-            stencil.scatter(simd, lattice, &carried, members, momentum.reborrow());
+            let payload = Payload::value(simd.transposed(self.momentum(simd, velocity)));
+            stencil.scatter(simd, lattice, &payload, members, momentum.reborrow());
         }
         let (share, with_momentum) = match added {
             Added::Force | Added::Stress | Added::Both => (T::one(), false),
@@ -369,8 +369,8 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
         if D == 2 && packs.hoop_stress.is_some() {
             self.add_hoop_stress(simd, share, lattice, &mut numbers, nodes.reborrow());
         }
-        let carried = Payload { value: simd.transposed(numbers), slopes, moments };
-        stencil.scatter(simd, lattice, &carried, members, nodes);
+        let payload = Payload { value: simd.transposed(numbers), slopes, moments };
+        stencil.scatter(simd, lattice, &payload, members, nodes);
     }
 
     /// m v, and m.

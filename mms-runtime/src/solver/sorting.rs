@@ -70,7 +70,7 @@ impl ParticleOrder {
     }
 
     /// Records the place of each particle, unless particles are never sorted.
-    pub fn stand(&mut self, ids: &[u32]) {
+    pub fn place_ids(&mut self, ids: &[u32]) {
         if !self.is_fixed() {
             ids.iter().zip(0..).for_each(|(&id, p)| self.place[id as usize] = p);
         }
@@ -93,7 +93,7 @@ impl ParticleOrder {
         let (reference, displacement) =
             (particles.reference_position.packs(), particles.displacement.packs());
         let cells_of = |pack: usize| {
-            let simd = T::PlainMachine::from(Plain);
+            let simd = T::PlainSimd::from(Plain);
             let position = positions(simd, &reference[pack], &displacement[pack], moves);
             let mut cells = [0; PACK];
             for a in 0..D {
@@ -159,7 +159,7 @@ impl ParticleOrder {
         }
         domains.reorder(from);
         particles.reorder(from);
-        self.stand(&particles.id);
+        self.place_ids(&particles.id);
     }
 }
 
@@ -275,10 +275,10 @@ mod tests {
                 pack(&mut order, &cell, start, &mut vec![0; cell.len()]);
                 // The places in a row, after a number of particles of another slab.
                 let others = u32::MAX - start as u32;
-                let stand: Vec<u32> =
+                let place_ids: Vec<u32> =
                     (others..).take(start).chain(order.iter().map(|p| of(*p))).collect();
                 let could: usize = counts.iter().map(|&count| wholes(count)).sum();
-                let are = of_one_cell::<HALF>(&stand) + of_one_cell::<PACK>(&stand);
+                let are = of_one_cell::<HALF>(&place_ids) + of_one_cell::<PACK>(&place_ids);
                 // The particles before the first pack break at most one pack of a cell, with its halves.
                 assert!(are + 3 >= could, "{start}, {counts:?}: {are} of {could}");
                 order.sort_unstable();

@@ -76,7 +76,7 @@ impl<T: Real, const D: usize, F: ?Sized> Solver<'_, T, D, F> {
             state.id.iter().map(|&id| self.slabs.order.place_of(id as usize) as u32).collect();
         self.domains.reorder(&mut order);
         self.particles.reorder(&mut order);
-        self.slabs.order.stand(&self.particles.id);
+        self.slabs.order.place_ids(&self.particles.id);
         self.particles.displacement = state.displacement.into_iter().collect();
         self.particles.velocity = state.velocity.into_iter().collect();
         self.particles.displacement_gradient = state.displacement_gradient.into_iter().collect();

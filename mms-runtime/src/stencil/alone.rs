@@ -12,7 +12,7 @@ use crate::real::Real;
 const AXES: usize = 3;
 
 /// The largest number of kinds of gradient weights: slopes and moments.
-const ASIDES: usize = 2;
+const GRADIENTS: usize = 2;
 
 impl<T: Real, const D: usize> Tensor<T, D> {
     fn nodes_along(&self, axis: usize) -> usize {
@@ -32,7 +32,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
     /// Adds to the nodes of the `members`, with the moments of the weights if the data have moments.
     pub(super) fn scatter_alone(
         &self,
-        carried: &Payload<[T; PACK], D>,
+        payload: &Payload<[T; PACK], D>,
         moment: Option<&Along<T, D>>,
         [from, to]: Members,
         mut nodes: Window<'_, T>,
@@ -42,10 +42,10 @@ impl<T: Real, const D: usize> Tensor<T, D> {
             let gradient_weight = |a: usize, k: usize| {
                 let mut gradient_weight = [T::zero(); HALF];
                 for c in 0..if a < D { D } else { 0 } {
-                    if let Some(slopes) = &carried.slopes {
+                    if let Some(slopes) = &payload.slopes {
                         gradient_weight[c] = self.slope[a][k][p] * slopes[a][c][p];
                     }
-                    if let (Some(moments), Some(moment)) = (&carried.moments, moment) {
+                    if let (Some(moments), Some(moment)) = (&payload.moments, moment) {
                         gradient_weight[c] += moment[a][k][p] * moments[a][c][p];
                     }
                 }
@@ -59,7 +59,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
                         let (w0, a0) = (self.weight_alone(0, k0, p), gradient_weight(0, k0));
                         let [node] = nodes.row(self.node(p, [k0, k1, k2]));
                         for c in 0..HALF {
-                            let plane = w2 * carried.value[p % HALF][p / HALF * HALF + c] + a2[c];
+                            let plane = w2 * payload.value[p % HALF][p / HALF * HALF + c] + a2[c];
                             let row = w1 * plane + w2 * a1[c];
                             node.0[c] += w0 * row + w1 * (w2 * a0[c]);
                         }
@@ -85,9 +85,10 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         &self,
         gradient_weights: &[&Along<T, D>],
         nodes: &[Nodal<T>],
-    ) -> Summed<[T; PACK], D, ASIDES> {
+    ) -> Summed<[T; PACK], D, GRADIENTS> {
         let nothing = [T::zero(); PACK];
-        let mut all = Summed { value: [nothing; D], gradient_weights: [[[nothing; D]; D]; ASIDES] };
+        let mut all =
+            Summed { value: [nothing; D], gradient_weights: [[[nothing; D]; D]; GRADIENTS] };
         for p in 0..PACK {
             let accumulate = |axis: usize, k: usize, before: &Sum<T>, sums: &mut Sum<T>| {
                 let weight = self.weight_alone(axis, k, p);
@@ -133,12 +134,12 @@ impl<T: Real, const D: usize> Tensor<T, D> {
 #[derive(Clone, Copy)]
 struct Sum<T> {
     value: T,
-    gradient_weights: [[T; AXES]; ASIDES],
+    gradient_weights: [[T; AXES]; GRADIENTS],
 }
 
 impl<T: Real> Sum<T> {
     /// The initial value is -0: -0 + x is x for every x, so the compiler drops the first addition.
     fn nothing() -> Self {
-        Self { value: -T::zero(), gradient_weights: [[-T::zero(); AXES]; ASIDES] }
+        Self { value: -T::zero(), gradient_weights: [[-T::zero(); AXES]; GRADIENTS] }
     }
 }

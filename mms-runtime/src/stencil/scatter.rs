@@ -1,7 +1,7 @@
 //! The sums of a pack onto its nodes (P2G, scatter).
 //!
 //! A node receives w0 w1 w2 q + A0 w1 w2 + w0 A1 w2 + w0 w1 A2. The gradient weight A_a of a node replaces the weight along
-//! axis a (`gradient_weights`; `ASIDES` says whether there are any). It is the sum of two terms: Q_a times the slope of the
+//! axis a (`gradient_weights`; `GRADIENTS` says whether there are any). It is the sum of two terms: Q_a times the slope of the
 //! weight, for forces, and M_a times the moment of the weight, for APIC. So one sum serves both.
 //!
 //! Along an axis with three nodes one cell apart, weights sum to 1 and gradient weights to 0, and the middle node has the
@@ -15,11 +15,11 @@ use super::{ALL, HALF, Members, Payload};
 use crate::nodal::Window;
 use crate::real::Real;
 
-/// The data to add to the nodes, with gradient weights (`ASIDES`) or without.
-pub(super) struct Scatter<'a, M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> {
+/// The data to add to the nodes, with gradient weights (`GRADIENTS`) or without.
+pub(super) struct Scatter<'a, M: Simd<T>, T: Real, const D: usize, const GRADIENTS: bool> {
     pub simd: M,
     pub stencil: &'a Tensor<T, D>,
-    pub carried: &'a Payload<M::Eight, D>,
+    pub payload: &'a Payload<M::Eight, D>,
     /// Moments of the weights, if the data have moments.
     pub moment: Option<&'a Along<T, D>>,
     pub members: Members,
@@ -35,9 +35,9 @@ enum Targets {
 }
 
 /// For every axis, and `W` nodes along it, the gradient weights of each particle of both halves.
-type Asides<F, const D: usize, const W: usize> = [[[F; HALF]; W]; D];
+type GradientWeights<F, const D: usize, const W: usize> = [[[F; HALF]; W]; D];
 
-impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, D, ASIDES> {
+impl<M: Simd<T>, T: Real, const D: usize, const GRADIENTS: bool> Scatter<'_, M, T, D, GRADIENTS> {
     /// Adds to `W` nodes along every axis: for the particles of each half together if they share their nodes, otherwise for one
     /// particle of each half after the other.
     #[inline(always)]
@@ -46,16 +46,16 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
         let regular = self.stencil.is_regular();
         let sharing = self.stencil.sharing();
         if sharing != Sharing::Apart && self.members == ALL && (W != 3 || regular) {
-            let goal = match sharing {
+            let targets = match sharing {
                 Sharing::All => Targets::Together(first[0]),
                 _ => Targets::Apart([Some(first[0]), Some(first[HALF])]),
             };
             if W == 3 {
                 let gradient_weights = self.gradient_weights::<W, true>();
-                self.of::<W, HALF, true>(0, goal, &gradient_weights, nodes);
+                self.of::<W, HALF, true>(0, targets, &gradient_weights, nodes);
             } else {
                 let gradient_weights = self.gradient_weights::<W, false>();
-                self.of::<W, HALF, false>(0, goal, &gradient_weights, nodes);
+                self.of::<W, HALF, false>(0, targets, &gradient_weights, nodes);
             }
             return;
         }
@@ -77,9 +77,11 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
 
     /// The gradient weights of all nodes; with `REST`, the middle node, which receives the rest, has none.
     #[inline(always)]
-    fn gradient_weights<const W: usize, const REST: bool>(&self) -> Asides<M::Eight, D, W> {
+    fn gradient_weights<const W: usize, const REST: bool>(
+        &self,
+    ) -> GradientWeights<M::Eight, D, W> {
         // Tested once, not for every node.
-        match (ASIDES, self.moment) {
+        match (GRADIENTS, self.moment) {
             (true, Some(_)) => self.asides_with::<W, REST, true>(),
             (true, None) => self.asides_with::<W, REST, false>(),
             (false, _) => [[[self.simd.splat(T::zero()); HALF]; W]; D],
@@ -90,7 +92,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
     #[inline(always)]
     fn asides_with<const W: usize, const REST: bool, const MOMENTS: bool>(
         &self,
-    ) -> Asides<M::Eight, D, W> {
+    ) -> GradientWeights<M::Eight, D, W> {
         let simd = self.simd;
         let nothing = simd.splat(T::zero());
         let mut gradient_weights = [[[nothing; HALF]; W]; D];
@@ -116,7 +118,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
     #[inline(always)]
     fn gradient_weight<const MOMENTS: bool>(&self, axis: usize, k: usize) -> [M::Eight; HALF] {
         let Self { simd, stencil, moment, .. } = *self;
-        let Payload { slopes, moments, .. } = self.carried;
+        let Payload { slopes, moments, .. } = self.payload;
         let mut rows = [simd.splat(T::zero()); HALF];
         if let Some(slopes) = slopes {
             let slope = simd.eight(&stencil.slope[axis][k]);
@@ -139,8 +141,8 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
     fn of<const W: usize, const P: usize, const REST: bool>(
         &self,
         from: usize,
-        goal: Targets,
-        gradient_weights: &Asides<M::Eight, D, W>,
+        targets: Targets,
+        gradient_weights: &GradientWeights<M::Eight, D, W>,
         mut nodes: Window<'_, T>,
     ) {
         let Self { simd, stencil: Tensor { stride, .. }, .. } = self;
@@ -154,24 +156,24 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
             let apart = if D > 2 { k2 as u32 * stride[2 % D] } else { 0 };
             if D == 1 {
                 let sums = self.sums::<W, P, REST>(&along, &plane, None);
-                self.put(&mut nodes, goal, apart, &sums);
+                self.put(&mut nodes, targets, apart, &sums);
             } else if REST {
                 let mut rest = self.sums::<W, P, REST>(&along, &plane, None);
                 let before =
                     self.sums::<W, P, REST>(&along, &plane, Some((0, self.weights(from, 1, 0))));
-                self.put(&mut nodes, goal, apart, &before);
+                self.put(&mut nodes, targets, apart, &before);
                 let after =
                     self.sums::<W, P, REST>(&along, &plane, Some((2, self.weights(from, 1, 2))));
-                self.put(&mut nodes, goal, apart + 2 * stride[1 % D], &after);
+                self.put(&mut nodes, targets, apart + 2 * stride[1 % D], &after);
                 for k0 in 0..W {
                     rest[k0] = simd.minus(simd.minus(rest[k0], before[k0]), after[k0]);
                 }
-                self.put(&mut nodes, goal, apart + stride[1 % D], &rest);
+                self.put(&mut nodes, targets, apart + stride[1 % D], &rest);
             } else {
                 for k1 in 0..W {
                     let row = Some((k1, self.weights(from, 1, k1)));
                     let sums = self.sums::<W, P, REST>(&along, &plane, row);
-                    self.put(&mut nodes, goal, apart + k1 as u32 * stride[1 % D], &sums);
+                    self.put(&mut nodes, targets, apart + k1 as u32 * stride[1 % D], &sums);
                 }
             }
         }
@@ -200,15 +202,15 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
         &self,
         from: usize,
         k2: usize,
-        gradient_weights: &Asides<M::Eight, D, W>,
+        gradient_weights: &GradientWeights<M::Eight, D, W>,
     ) -> Plane<M::Eight, W, P> {
-        let Self { simd, carried, .. } = *self;
+        let Self { simd, payload, .. } = *self;
         let zero = simd.splat(T::zero());
         let mut plane = Plane { value: [zero; P], gradient_weights: [[[zero; P]; W]; 2] };
         let weights = if D > 2 { self.weights::<P>(from, 2, k2) } else { [zero; P] };
         for p in 0..P {
-            let (value, weight) = (carried.value[from + p], weights[p]);
-            plane.value[p] = match (D > 2, ASIDES) {
+            let (value, weight) = (payload.value[from + p], weights[p]);
+            plane.value[p] = match (D > 2, GRADIENTS) {
                 (false, _) => value,
                 (true, false) => simd.times(weight, value),
                 (true, true) => {
@@ -239,7 +241,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
         let mut sums = [simd.splat(-T::zero()); W];
         for p in 0..P {
             let value = match row {
-                Some((k1, weights)) if ASIDES => {
+                Some((k1, weights)) if GRADIENTS => {
                     simd.times_plus(weights[p], plane.value[p], plane.gradient_weights[1][k1][p])
                 }
                 Some((_, weights)) => simd.times(weights[p], plane.value[p]),
@@ -250,7 +252,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
                     sums[1] = simd.plus(sums[1], value);
                 } else {
                     sums[k0] = simd.times_plus(along[k0][p], value, sums[k0]);
-                    if ASIDES {
+                    if GRADIENTS {
                         let gradient_weight = plane.gradient_weights[0][k0][p];
                         sums[k0] = match row {
                             Some((_, weights)) => {
@@ -273,12 +275,12 @@ impl<M: Simd<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, 
     fn put<const W: usize>(
         &self,
         nodes: &mut Window<'_, T>,
-        goal: Targets,
+        targets: Targets,
         apart: u32,
         sums: &[M::Eight; W],
     ) {
         let simd = self.simd;
-        match goal {
+        match targets {
             Targets::Together(first) => {
                 let row = nodes.row::<W>(first.wrapping_add(apart));
                 for k0 in 0..W {

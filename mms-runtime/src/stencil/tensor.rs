@@ -259,60 +259,60 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         &self,
         simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Payload<M::Eight, D>,
+        payload: &Payload<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
         if M::ALONE {
-            let moment = carried.moments.map(|_| self.moments::<M, W>(simd, lattice).0);
-            let carried = Payload::of(simd, carried);
-            return self.scatter_alone(&carried, moment.as_ref(), members, nodes);
+            let moment = payload.moments.map(|_| self.moments::<M, W>(simd, lattice).0);
+            let payload = Payload::of(simd, payload);
+            return self.scatter_alone(&payload, moment.as_ref(), members, nodes);
         }
-        if carried.slopes.is_some() || carried.moments.is_some() {
-            self.onto::<M, W, true>(simd, lattice, carried, members, nodes);
+        if payload.slopes.is_some() || payload.moments.is_some() {
+            self.onto::<M, W, true>(simd, lattice, payload, members, nodes);
         } else {
-            self.onto::<M, W, false>(simd, lattice, carried, members, nodes);
+            self.onto::<M, W, false>(simd, lattice, payload, members, nodes);
         }
     }
 
-    /// Adds to the nodes, with gradient weights (`ASIDES`) or without. Sums of hat functions are inlined, since they take less
+    /// Adds to the nodes, with gradient weights (`GRADIENTS`) or without. Sums of hat functions are inlined, since they take less
     /// time than a call.
     #[inline(always)]
-    fn onto<M: Simd<T>, const W: usize, const ASIDES: bool>(
+    fn onto<M: Simd<T>, const W: usize, const GRADIENTS: bool>(
         &self,
         simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Payload<M::Eight, D>,
+        payload: &Payload<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
         let stencil = self;
         if W == 2 {
-            return stencil.add::<M, W, ASIDES>(simd, lattice, carried, members, nodes);
+            return stencil.add::<M, W, GRADIENTS>(simd, lattice, payload, members, nodes);
         }
-        let carried = Payload::of(simd, carried);
-        simd.apart(Onto::<_, D, W, ASIDES> { stencil, lattice, carried, members, nodes });
+        let payload = Payload::of(simd, payload);
+        simd.apart(Onto::<_, D, W, GRADIENTS> { stencil, lattice, payload, members, nodes });
     }
 
     /// Adds to `W` nodes along every axis.
     #[inline(always)]
-    fn add<M: Simd<T>, const W: usize, const ASIDES: bool>(
+    fn add<M: Simd<T>, const W: usize, const GRADIENTS: bool>(
         &self,
         simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Payload<M::Eight, D>,
+        payload: &Payload<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
         let (stencil, own);
         stencil = self;
-        let moment = if ASIDES && carried.moments.is_some() {
+        let moment = if GRADIENTS && payload.moments.is_some() {
             (own, _) = self.moments::<M, W>(simd, lattice);
             Some(&own)
         } else {
             None
         };
-        let sums = Scatter::<M, T, D, ASIDES> { simd, stencil, carried, moment, members };
+        let sums = Scatter::<M, T, D, GRADIENTS> { simd, stencil, payload, moment, members };
         sums.add::<W>(nodes);
     }
 
@@ -355,24 +355,24 @@ impl<T: Real, const D: usize> Tensor<T, D> {
 }
 
 /// The sums onto `W` nodes along every axis, in a function that is not inlined, so that they are compiled once.
-struct Onto<'a, T: Real, const D: usize, const W: usize, const ASIDES: bool> {
+struct Onto<'a, T: Real, const D: usize, const W: usize, const GRADIENTS: bool> {
     stencil: &'a Tensor<T, D>,
     lattice: &'a Lattice<T, D>,
-    carried: Payload<[T; PACK], D>,
+    payload: Payload<[T; PACK], D>,
     members: Members,
     nodes: Window<'a, T>,
 }
 
-impl<T: Real, const D: usize, const W: usize, const ASIDES: bool> Work<T>
-    for Onto<'_, T, D, W, ASIDES>
+impl<T: Real, const D: usize, const W: usize, const GRADIENTS: bool> Work<T>
+    for Onto<'_, T, D, W, GRADIENTS>
 {
     type Output = ();
 
     #[inline(always)]
     fn on<M: Simd<T>>(self, simd: M) {
         let Self { stencil, lattice, members, nodes, .. } = self;
-        let carried = &self.carried.eights(simd);
-        stencil.add::<M, W, ASIDES>(simd, lattice, carried, members, nodes);
+        let payload = &self.payload.eights(simd);
+        stencil.add::<M, W, GRADIENTS>(simd, lattice, payload, members, nodes);
     }
 }
 
@@ -421,14 +421,14 @@ impl<T: Real, const D: usize> Stencil<T, D> for Tensor<T, D> {
         &self,
         simd: M,
         lattice: &Lattice<T, D>,
-        carried: &Payload<M::Eight, D>,
+        payload: &Payload<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
         match self.width {
-            2 => self.scatter_to::<M, 2>(simd, lattice, carried, members, nodes),
-            3 => self.scatter_to::<M, 3>(simd, lattice, carried, members, nodes),
-            _ => self.scatter_to::<M, MOST>(simd, lattice, carried, members, nodes),
+            2 => self.scatter_to::<M, 2>(simd, lattice, payload, members, nodes),
+            3 => self.scatter_to::<M, 3>(simd, lattice, payload, members, nodes),
+            _ => self.scatter_to::<M, MOST>(simd, lattice, payload, members, nodes),
         }
     }
 

@@ -37,9 +37,10 @@ fn relaxed<T: Real, const D: usize>(
 ) -> Result<Ended, Failure> {
     let ramp = solver.steps();
     let most = ramp.saturating_mul(MOST);
-    let mut course = RunRecord::begin(watch, &solver.present(), most, None, stopwatch, observer)?;
+    let mut run_record =
+        RunRecord::begin(watch, &solver.present(), most, None, stopwatch, observer)?;
     let mut energy = 0.0;
-    advance(solver, ramp, &mut energy, &mut course)?;
+    advance(solver, ramp, &mut energy, &mut run_record)?;
     // All faces have arrived.
     solver.halt();
     let mut residual = solver.out_of_balance()?;
@@ -48,11 +49,11 @@ fn relaxed<T: Real, const D: usize>(
             let Residual { relative: residual, tolerance } = residual;
             return Err(solver.present().failed(Cause::NotRelaxed { residual, tolerance }));
         }
-        advance(solver, BETWEEN, &mut energy, &mut course)?;
+        advance(solver, BETWEEN, &mut energy, &mut run_record)?;
         residual = solver.out_of_balance()?;
     }
     solver.halt();
-    let (details, snapshots) = course.finish(&solver.present(), residual)?;
+    let (details, snapshots) = run_record.finish(&solver.present(), residual)?;
     Ok((details, solver.seconds(), snapshots))
 }
 
@@ -61,12 +62,12 @@ fn advance<T: Real, const D: usize>(
     solver: &mut dyn AnySolver<'_, T, D>,
     steps: usize,
     energy: &mut f64,
-    course: &mut RunRecord<'_, T, D>,
+    run_record: &mut RunRecord<'_, T, D>,
 ) -> Result<(), Failure> {
     for _ in 0..steps {
         solver.step()?;
-        course.pass(&solver.present());
-        course.keep(&solver.present(), &|| solver.state())?;
+        run_record.pass(&solver.present());
+        run_record.keep(&solver.present(), &|| solver.state())?;
         let now = solver.kinetic_energy();
         *energy = if now < *energy { 0.0 } else { now };
         if *energy == 0.0 {

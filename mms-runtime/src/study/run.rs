@@ -168,10 +168,10 @@ fn run<T: Solve<D>, const D: usize>(
         Some(_) if relaxes => {
             return Err(Refusal::NoState { reason: "a relaxation begins at its beginning".into() });
         }
-        Some(Saved { state, course }) => {
+        Some(Saved { state, run_record }) => {
             solver.restore(state)?;
-            stopwatch.before = course.elapsed;
-            Some(course)
+            stopwatch.before = run_record.elapsed;
+            Some(run_record)
         }
     };
     let level = Level {
@@ -228,13 +228,14 @@ fn take_steps<T: Real, const D: usize>(
     observer: &mut dyn Observer,
 ) -> Result<Ended, Failure> {
     let (steps, behind) = (solver.steps(), solver.lag() > 0.0);
-    let mut course = RunRecord::begin(watch, &solver.present(), steps, saved, stopwatch, observer)?;
+    let mut run_record =
+        RunRecord::begin(watch, &solver.present(), steps, saved, stopwatch, observer)?;
     while solver.present().step < steps {
-        course.before_step(&solver.present(), behind);
+        run_record.before_step(&solver.present(), behind);
         solver.step()?;
-        course.after_step(&solver.present(), behind)?;
-        course.keep(&solver.present(), &|| solver.state())?;
+        run_record.after_step(&solver.present(), behind)?;
+        run_record.keep(&solver.present(), &|| solver.state())?;
     }
-    let (details, snapshots) = course.close(&solver.present());
+    let (details, snapshots) = run_record.close(&solver.present());
     Ok((details, solver.seconds(), snapshots))
 }

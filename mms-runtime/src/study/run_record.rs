@@ -19,7 +19,7 @@ use crate::solver::{Residual, State, StateView};
 #[serde(bound = "T: Real")]
 pub(super) struct Saved<'a, T: Real, const D: usize> {
     pub state: State<'a, T, D>,
-    pub course: SavedRecord<'a>,
+    pub run_record: SavedRecord<'a>,
 }
 
 /// The measurements so far that do not follow from the state.
@@ -74,7 +74,7 @@ impl<T: Real, const D: usize> Saved<'_, T, D> {
 
 impl<T: Real, const D: usize> Checkpoint for Saved<'_, T, D> {
     fn step(&self) -> usize {
-        self.course.step
+        self.run_record.step
     }
 
     fn write(&self, to: &mut dyn Write) -> io::Result<()> {
@@ -143,7 +143,7 @@ impl<'a, T: Real, const D: usize> RunRecord<'a, T, D> {
         let last = watcher.measure(present)?;
         let watches_all = watch != Watch::Displacement;
         let records = observer.records();
-        let mut course = Self {
+        let mut run_record = Self {
             watch,
             watcher,
             account: None,
@@ -157,16 +157,16 @@ impl<'a, T: Real, const D: usize> RunRecord<'a, T, D> {
         };
         let mut tally = None;
         match saved {
-            None => course.show(present)?,
+            None => run_record.show(present)?,
             Some(saved) => {
-                course.largest = saved.largest;
-                course.watcher.resume(saved.size);
-                course.snapshots = saved.snapshots.into_owned();
+                run_record.largest = saved.largest;
+                run_record.watcher.resume(saved.size);
+                run_record.snapshots = saved.snapshots.into_owned();
                 tally = saved.tally.map(Cow::into_owned);
             }
         }
-        course.account = watches_all.then(|| Account::new(present, tally));
-        Ok(course)
+        run_record.account = watches_all.then(|| Account::new(present, tally));
+        Ok(run_record)
     }
 
     /// To be called before each step; `behind` is true if velocities will lag behind positions.
@@ -261,7 +261,7 @@ impl<'a, T: Real, const D: usize> RunRecord<'a, T, D> {
         if !self.observer.keeps(present.step, self.steps) {
             return Ok(());
         }
-        let course = SavedRecord {
+        let run_record = SavedRecord {
             step: present.step,
             largest: self.largest,
             size: self.watcher.size(),
@@ -269,7 +269,7 @@ impl<'a, T: Real, const D: usize> RunRecord<'a, T, D> {
             snapshots: Cow::Borrowed(&self.snapshots),
             elapsed: self.stopwatch.seconds(),
         };
-        let saved = Saved { state: state(), course };
+        let saved = Saved { state: state(), run_record };
         self.observer.keep(&saved).map_err(|reason| present.stopped(reason))
     }
 

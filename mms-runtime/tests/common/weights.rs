@@ -94,7 +94,7 @@ impl<const D: usize> Particle<D> {
         lattice: &Lattice<T, D>,
         apart: [f64; PACK],
     ) -> Result<Placed<T, D, S>, Cause> {
-        let simd = T::PlainMachine::from(Plain);
+        let simd = T::PlainSimd::from(Plain);
         let here = self.position(lattice);
         let positions = apart.map(|cells| here + lattice.cell_size * T::of(cells));
         let domains = Pack::alike(&S::domain(&self.lengths(lattice)));
