@@ -173,7 +173,7 @@ impl Exact {
     /// A quantity with the components that the field has, at points X.
     ///
     /// # Errors
-    /// As of [`values`](Self::values).
+    /// The errors of [`values`](Self::values).
     pub fn own(
         &mut self,
         quantity: Quantity,
@@ -210,7 +210,7 @@ impl Exact {
     /// rho0 at points X.
     ///
     /// # Errors
-    /// As of [`values`](Self::values).
+    /// The errors of [`values`](Self::values).
     pub fn densities(&mut self, points: &[f64]) -> anyhow::Result<Vec<f64>> {
         let time = self.window[0];
         self.output(Output::Response(Response::Density), 1, time, [points, &[]])
@@ -219,7 +219,7 @@ impl Exact {
     /// A quantity that takes a normal, on a face at points X of it.
     ///
     /// # Errors
-    /// As of [`values`](Self::values).
+    /// The errors of [`values`](Self::values).
     pub fn on_face(
         &mut self,
         quantity: Quantity,
@@ -234,7 +234,7 @@ impl Exact {
     /// Whether nothing has happened yet at some times: they are the first one, and not all times are alike.
     ///
     /// # Errors
-    /// As of [`values`](Self::values).
+    /// The errors of [`values`](Self::values).
     pub fn is_start(&mut self, times: &[f64]) -> anyhow::Result<bool> {
         let [first, last] = self.window;
         if times.iter().any(|time| (time - first).abs() > SAME * (last - first)) {
@@ -256,7 +256,7 @@ impl Exact {
     /// A quantity that takes a normal at points X, by the unit normals there.
     ///
     /// # Errors
-    /// As of [`values`](Self::values).
+    /// The errors of [`values`](Self::values).
     pub fn by_normals(
         &mut self,
         quantity: Quantity,

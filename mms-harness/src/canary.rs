@@ -14,7 +14,7 @@ use crate::plan::{Plan, Planned, templates};
 /// Plans the runs of a file with -b in the data of each run. Leaves out studies of fields without a body force.
 ///
 /// # Errors
-/// Those of [`Plan::new`]; a solver that does not get b from the campaign.
+/// The errors of [`Plan::new`]; a solver that does not get b from the campaign.
 pub fn plan(
     path: &Path,
     campaign: Campaign,

@@ -172,7 +172,7 @@ pub fn find(field: &str, variant: &Variant) -> anyhow::Result<Input> {
 /// Opens a field and compiles it without proofs, to be interpreted.
 ///
 /// # Errors
-/// As of [`find`].
+/// The errors of [`find`].
 pub fn interpreted(field: &str, variant: &Variant) -> anyhow::Result<Input> {
     Input::interpreted(open(field)?, &variant.options(Selection::default()))
 }
@@ -180,7 +180,7 @@ pub fn interpreted(field: &str, variant: &Variant) -> anyhow::Result<Input> {
 /// Opens a field and compiles some quantities of it, which takes less time than all: their values are the same.
 ///
 /// # Errors
-/// As of [`find`].
+/// The errors of [`find`].
 pub fn find_some(field: &str, variant: &Variant, quantities: &[Quantity]) -> anyhow::Result<Input> {
     let compiled = quantities.iter().filter(|quantity| !quantity.is_on_request());
     let selection =

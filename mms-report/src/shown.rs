@@ -97,7 +97,7 @@ pub trait Shown {
     /// The result in a format other than JSON.
     ///
     /// # Errors
-    /// As of [`csv`](Self::csv) and [`junit`](Self::junit).
+    /// The errors of [`csv`](Self::csv) and [`junit`](Self::junit).
     fn in_format(&self, format: Format) -> anyhow::Result<String> {
         Ok(match format {
             Format::Text | Format::Json => self.text(),

@@ -95,7 +95,7 @@ pub enum Alone {
 /// Reads a named file, as far as diagnosis uses it, with `memory` MB of memory or all that is free.
 ///
 /// # Errors
-/// Those of [`Results::find`].
+/// The errors of [`Results::find`].
 pub fn find(
     given: &str,
     names: &Names,
@@ -151,7 +151,7 @@ pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow
 /// The names under which results contain the gradient of u: H, F, or both.
 ///
 /// # Errors
-/// Those of [`read`].
+/// The errors of [`read`].
 pub fn gradients(
     all: &[Results],
     reading: &Reading<'_>,

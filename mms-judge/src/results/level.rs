@@ -237,7 +237,7 @@ impl Reading<'_> {
     /// Reads the needed content of a named file.
     ///
     /// # Errors
-    /// Those of [`Results::find`].
+    /// The errors of [`Results::find`].
     pub fn find(&self, given: &str, exact: &Exact) -> anyhow::Result<Results> {
         let (room, advice) = room(self.memory, self.files);
         let wants = |role: Role| self.wants(role, exact);

@@ -53,7 +53,7 @@ impl Lowered {
     /// Finds the lowered orders from the option for the start, the field, and the meshes with their h.
     ///
     /// # Errors
-    /// Those of [`Exact::values`].
+    /// The errors of [`Exact::values`].
     pub fn new(
         orders: &Orders,
         (levels, sizes): (&[Level], &[f64]),
