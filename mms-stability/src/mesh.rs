@@ -32,6 +32,8 @@ pub struct Node<const D: usize> {
     pub basis: SMatrix<f64, D, D>,
     /// The components that the field prescribes.
     pub is_held: [bool; D],
+    /// Whether no element has this node: in the middle of a disc, the elements share one of the nodes that coincide.
+    pub is_unused: bool,
 }
 
 /// A point at which integrals are evaluated.
@@ -123,9 +125,8 @@ impl<const D: usize> Lattice<'_, D> {
     fn node(&self, compiled: &Compiled, number: usize) -> Node<D> {
         let positions = self.positions(number);
         let fractions = self.fractions(positions);
-        // All other nodes in the middle of a disc coincide with one of them, and have no element.
-        let is_alone = self.number(positions) != number;
-        let mut is_held = [is_alone; D];
+        let is_unused = self.number(positions) != number;
+        let mut is_held = [is_unused; D];
         for (face, claim) in claims(compiled) {
             let (axis, is_upper) = fixed_coordinate(face);
             let end = if is_upper { 2 * self.elements[axis] } else { 0 };
@@ -139,7 +140,7 @@ impl<const D: usize> Lattice<'_, D> {
             }
         }
         let basis = self.chart.basis(&fractions);
-        Node { place: self.chart.place(&fractions), basis, is_held }
+        Node { place: self.chart.place(&fractions), basis, is_held, is_unused }
     }
 
     fn quadrature(&self, cell: usize) -> Vec<Quadrature<D>> {

@@ -163,7 +163,8 @@ impl<'a, const D: usize> Modes<'a, D> {
         let mut components = Vec::new();
         for ((node, numbers), moved) in self.mesh.nodes.iter().zip(&self.numbers).zip(motion) {
             let local = node.basis.transpose() * moved;
-            let kept = (0..D).filter(|axis| numbers[*axis].is_none() == is_held);
+            // A node without elements constrains nothing.
+            let kept = (0..D).filter(|axis| numbers[*axis].is_none() == is_held && !node.is_unused);
             components.extend(kept.map(|axis| local[axis]));
         }
         DVector::from_vec(components)

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::support::{plane, zero};
+use crate::support::{field, plane, zero};
 use mms_stability::growth::Growth;
 use mms_stability::judge;
 use mms_stability::solve::{Solved, solve};
@@ -74,4 +74,21 @@ fn newton_comes_to_stable_states() {
     assert_eq!(solve(&unheld), Solved::Comes);
     let moving = plane(["0.05*t*X", "0"], MODULI, [1.0, 1.0], "");
     assert_eq!(solve(&moving), Solved::Moving);
+}
+
+/// A disc with a uniform traction all around. Its translations and its rotation are free, and are no modes of the stability: the
+/// least mode is elastic, with w^2 of order mu/(rho0 R^2). With as many displacements constrained, Newton's method converges.
+#[test]
+fn a_disc_with_tractions_all_around_is_free_to_move() {
+    for stretch in [1.0, 1.05, 0.98] {
+        let change = stretch - 1.0;
+        let disc = field(&format!(
+            "[field]\ntitle = 'disc'\ndimension = 2\n[displacement]\nu = ['{change:.3}*X', '{change:.3}*Y']\n\
+             [material]\nmodel = 'neo_hookean'\nlambda = 1.5\nmu = 1\ndensity = 1\n\
+             [domain]\nshape = 'disk'\nouter = 1\ntime = [0, 1]\n[boundary]\nouter = 'traction'\n"
+        ));
+        let growth = judge(&disc).growth.expect("all is free");
+        assert!((0.5..20.0).contains(&growth.least), "{stretch}: {growth:?}");
+        assert_eq!(solve(&disc), Solved::Comes, "{stretch}");
+    }
 }
