@@ -41,6 +41,7 @@ mod state;
 pub(crate) mod study;
 mod tradeoff;
 mod verify;
+mod warned;
 
 use std::ffi::OsString;
 use std::io::{self, Write as _};

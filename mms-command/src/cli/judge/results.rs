@@ -28,6 +28,7 @@ use mms_spec::quantity::Quantity;
 
 use super::super::naming::Naming;
 use super::super::next::typed;
+use super::super::warned::warned;
 use super::super::{Outcome, say, this_command};
 use super::{Judge, outcome};
 
@@ -151,6 +152,10 @@ impl Judge {
             provenance,
             &Unfollowed,
         )?;
+        if !report.verdict().is_good() {
+            let found = warned(exact.input(), &options.set, &options.variant)?;
+            report.notes.extend(found.map(|it| it.says));
+        }
         let meshes = options.meshes(field, &self.files);
         let is_chosen = !options.quantity.is_empty();
         report.next = next::after_judgement(&report, Some(&meshes), is_chosen);

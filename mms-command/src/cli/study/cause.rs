@@ -1,10 +1,8 @@
 //! The likely causes of a study that does not pass, each with the option that avoids it.
 
-use mms_codegen::selection::{Freeze, Selection};
 use mms_convergence::{Expected, Verdict};
-use mms_exact::{Input, settings};
+use mms_exact::Input;
 use mms_judge::next::{Words, command};
-use mms_mechanics::amplitude::Amplitude;
 use mms_options::field::Variant;
 use mms_report::Refused;
 use mms_runtime::Transfer;
@@ -12,11 +10,10 @@ use mms_runtime::failure::Cause as Stop;
 use mms_runtime::integrator::{Integrator, IntegratorVisitor};
 use mms_runtime::study::Refinement;
 use mms_runtime::{Division, Failure, FormulationName, IntegratorName, Method, Run, ShapeName};
-use mms_stability::judge;
-use mms_stability::warnings::warnings;
 use mms_symbolic::expr::Symbol;
 
 use super::super::next::changed;
+use super::super::warned::{Warned, warned};
 use super::usual::is_box;
 
 /// A study that has ended.
@@ -210,53 +207,13 @@ impl Ended<'_> {
         Some(Cause::new(format!("{what}; `{words}` avoids it"), best))
     }
 
-    /// The warnings of `mms check` about the motion, with a smaller amplitude.
-    fn of_field(&self) -> anyhow::Result<Vec<Cause>> {
-        let set = settings(self.set)?;
-        let compiled = match set.is_empty() {
-            true => self.input.compiled.clone(),
-            false => {
-                let freeze = Freeze::Only(set.iter().map(|(name, _)| name.clone()).collect());
-                let selection = Selection { set, freeze, ..Selection::default() };
-                let options = self.variant.options(selection);
-                let Ok(compiled) = self.input.varied(&options) else {
-                    return Ok(Vec::new());
-                };
-                compiled.into()
-            }
-        };
-        let stability = judge(&compiled);
-        let amplitude = self.half_of_the_amplitude()?;
-        let cause = |message: String| {
-            let says = format!("`mms check` warns: {message}");
-            match &amplitude {
-                None => Cause::new(says, &[]),
-                Some(half) => Cause {
-                    says: format!("{says}; `--set {half}` makes the motion smaller"),
-                    options: vec![("set", half.clone())],
-                },
-            }
-        };
-        let mut all = warnings(&compiled, &stability, None).into_iter();
-        let Some(first) = all.next() else { return Ok(Vec::new()) };
-        let more = match all.count() {
-            0 => String::new(),
-            count => format!(" ({count} more)"),
-        };
-        Ok(vec![cause(first.message + &more)])
-    }
-
-    /// Half of the parameter with which the motion vanishes, if its range allows that.
-    fn half_of_the_amplitude(&self) -> anyhow::Result<Option<String>> {
-        let compiled = &self.input.compiled;
-        let Some(amplitude) = Amplitude::find(&compiled.graph, &compiled.model) else {
-            return Ok(None);
-        };
-        let index = amplitude.index();
-        let values = compiled.parameters::<f64>(&self.input.settings(self.set)?);
-        let half = format!("{}={}", compiled.model.parameters[index].name, values[index] / 2.0);
-        let is_allowed = self.input.hold(std::slice::from_ref(&half)).is_ok();
-        Ok(is_allowed.then_some(half))
+    /// The warning of `mms check` about the motion, with a smaller amplitude.
+    fn of_field(&self) -> anyhow::Result<Option<Cause>> {
+        let found = warned(self.input, self.set, &self.variant)?;
+        Ok(found.map(|Warned { says, half }| {
+            let options = half.into_iter().map(|half| ("set", half)).collect();
+            Cause { says, options }
+        }))
     }
 
     /// A field that does not move, in a study that follows its motion.
