@@ -164,7 +164,7 @@ fn states_of_rings_are_judged_as_exact() {
         judged.complains(
             "exact to round-off on every mesh: displacement, velocity, deformation_gradient",
         );
-        judged.complains("traction. Is it");
+        judged.complains("traction. Are these results");
     }
     let header = folder.read("shaft.csv").lines().next().map(str::to_owned).unwrap_or_default();
     for names in ["R,Z,", "u_r,u_z,u_t", "F_tr,F_tz,F_tt", "traction_r_max_r,traction_r_max_z"] {

@@ -322,7 +322,7 @@ fn another_unit_and_the_exact_solution_are_suspected() {
     let same = folder.mms("judge bar_1d b.csv --time 0.005").exits(0);
     same.prints("exact to round-off: no observed order");
     same.complains(
-        "exact to round-off on every mesh: displacement. Is it what the solver computed",
+        "exact to round-off on every mesh: displacement. Are these results of the solver",
     );
 }
 
