@@ -47,12 +47,12 @@ impl BlockMode {
         BlockMode::fused_with(Instructions::best())
     }
 
-    /// Computes like [`portable`](BlockLayout::portable), with these instructions.
+    /// Computes like [`portable`](BlockMode::portable), with these instructions.
     pub fn portable_with(instructions: Instructions) -> Self {
         BlockMode { instructions, fused: false }
     }
 
-    /// Computes like [`fused`](BlockLayout::fused), with these instructions.
+    /// Computes like [`fused`](BlockMode::fused), with these instructions.
     pub fn fused_with(instructions: Instructions) -> Self {
         BlockMode { instructions, fused: true }
     }
