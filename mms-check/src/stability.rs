@@ -7,6 +7,7 @@ use mms_documents::check;
 use mms_documents::show as documents;
 use mms_spec::Space;
 use mms_spec::diagnostic::Diagnostic;
+use mms_spec::number::short;
 use mms_stability::Stability;
 use mms_stability::corners::Corner;
 use mms_stability::faces::Surface;
@@ -14,7 +15,7 @@ use mms_stability::fibres::TransverseModuli;
 use mms_stability::growth::Growth;
 use mms_stability::resting::Material;
 use mms_stability::solve::Solved;
-use mms_stability::warnings::{list, short};
+use mms_stability::warnings::list;
 use mms_stability::waves::Waves;
 
 /// Lines for the values below 0 and the least of the others; for all values if `is_full`. `name` is the name of the line.

@@ -159,19 +159,12 @@ struct Table {
     rows: Vec<Vec<Cell>>,
 }
 
-/// Reads a table from the text of a file, and lists the columns that are no errors.
+/// Reads a table from the text of a file, and lists the columns that are no errors. Of a table with a column of methods, reads
+/// the rows of one method.
 ///
 /// # Errors
-/// A text that is no such table, with the place.
-pub fn read(path: &Path, text: &str, orders: &Orders) -> anyhow::Result<(Measured, Vec<String>)> {
-    read_one(path, text, orders, None)
-}
-
-/// Reads the rows of one method of a table, if the table has a column of methods.
-///
-/// # Errors
-/// The errors of [`read`]; several methods without a choice; a method that the table lacks.
-pub fn read_one(
+/// A text that is no such table, with the place; several methods without a choice; a method that the table lacks.
+pub fn read(
     path: &Path,
     text: &str,
     orders: &Orders,
@@ -214,8 +207,12 @@ impl Table {
         if method.is_none() && self.rows.iter().all(is_number) {
             return Ok(());
         }
-        let mut names: Vec<&str> = self.rows.iter().map(|row| row[at].text.as_str()).collect();
-        names.dedup();
+        let mut names: Vec<&str> = Vec::new();
+        for name in self.rows.iter().map(|row| row[at].text.as_str()) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
         let chosen = match (method, names.as_slice()) {
             (None, [only]) => *only,
             (Some(method), all) if all.contains(&method) => method,

@@ -1,7 +1,7 @@
 //! Texts from outside: names and titles of fields and materials, references, sources of closed forms, descriptions, names of
 //! extremes, paths, and formats and commands in checkpoints.
 //!
-//! Such a text may steer a terminal, or look like a line of the program's own. A `Foreign` therefore has no `Display`: the
+//! A text from outside may steer a terminal, or look like a line of the program's own. A `Foreign` therefore has no `Display`: the
 //! caller chooses how to print it. For a terminal, `shown()` escapes every invisible character, as Rust does, and returns one
 //! line of at most a thousand characters. For emitted code, `in_a_comment()` replaces them by blanks. `raw()` is for code that
 //! escapes by itself, and for comparisons. `path` shows a path, and `markup` removes characters that HTML and XML forbid.

@@ -29,6 +29,7 @@ pub mod language;
 mod material;
 pub mod moduli;
 pub mod names;
+pub mod number;
 pub mod own;
 pub mod quantity;
 mod rigid;

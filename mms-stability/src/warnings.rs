@@ -5,6 +5,7 @@ use mms_codegen::certify::softening::Softening;
 use mms_codegen::compile::Compiled;
 use mms_spec::Claim;
 use mms_spec::diagnostic::Diagnostic;
+use mms_spec::number::short;
 
 use crate::corners::Corner;
 use crate::faces::Surface;
@@ -135,11 +136,4 @@ fn growing(compiled: &Compiled, growth: &Growth, is_static: bool) -> Option<Diag
 pub fn list(numbers: &[f64]) -> String {
     let numbers: Vec<_> = numbers.iter().map(|number| short(*number)).collect();
     format!("[{}]", numbers.join(", "))
-}
-
-/// A number in four digits.
-pub fn short(number: f64) -> String {
-    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
-    let is_plain = rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs());
-    if is_plain { rounded.to_string() } else { format!("{rounded:e}") }
 }

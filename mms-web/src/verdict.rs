@@ -93,7 +93,7 @@ pub fn judge(
 fn of_table(files: &[(&str, &[u8])], orders: &Orders) -> anyhow::Result<Judgements> {
     let [(name, bytes)] = files else { bail!("expected one table of errors") };
     let text = str::from_utf8(bytes).with_context(|| format!("`{}` is no text", shown(name)))?;
-    let (measured, notes) = table::read(Path::new(name), text, orders)?;
+    let (measured, notes) = table::read(Path::new(name), text, orders, None)?;
     let mut sources = Sources::default();
     sources.add(*name, text);
     let hash = sources.hash();

@@ -28,7 +28,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms-spec",
         knows: &[],
         layers: &[
-            "brackets foreign interned language own quantity space suggest",
+            "brackets foreign interned language number own quantity space suggest",
             "source",
             "diagnostic formula",
             "document form syntax",

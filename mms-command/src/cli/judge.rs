@@ -107,8 +107,7 @@ impl Judge {
 
     fn errors(&self, table: &Path) -> anyhow::Result<Outcome> {
         let text = read::text(table, FileKind::Errors)?;
-        let (measured, notes) =
-            table::read_one(table, &text, &self.orders(), self.method.as_deref())?;
+        let (measured, notes) = table::read(table, &text, &self.orders(), self.method.as_deref())?;
         let source = foreign::path(table);
         let input =
             Input { field: None, rigid: None, window: None, set: Vec::new(), hash: digest([text]) };

@@ -1,6 +1,7 @@
 //! The place of the largest error, in words.
 
 use mms_exact::Exact;
+use mms_spec::number::short;
 use mms_spec::quantity::Quantity;
 
 use super::Level;
@@ -37,24 +38,19 @@ fn words(point: &[f64], rounding: f64, h: f64, exact: &Exact) -> String {
         ([face], ..) => format!("on the face {face}"),
         ([], [_, _, ..], _) => format!("less than h from the faces {}", near.join(" and ")),
         ([], _, Some((face, distance))) => {
-            format!("inside, {} h from the face {}", short(distance / h, 1.0), face.name())
+            format!("inside, {} h from the face {}", beside(distance / h, 1.0), face.name())
         }
         ([], _, None) => "inside".into(),
     };
     let size = point.iter().fold(h, |most: f64, it| most.max(it.abs()));
-    let numbers: Vec<_> = point.iter().map(|it| short(*it, size)).collect();
+    let numbers: Vec<_> = point.iter().map(|it| beside(*it, size)).collect();
     match numbers.as_slice() {
         [only] => format!("at X = {only}, {place}"),
         _ => format!("at X = ({}), {place}", numbers.join(", ")),
     }
 }
 
-/// A number with four digits; 0, if it is small beside this size.
-fn short(number: f64, size: f64) -> String {
-    let number = if number.abs() < 1e-9 * size { 0.0 } else { number };
-    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
-    match rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs()) {
-        true => rounded.to_string(),
-        false => format!("{rounded:e}"),
-    }
+/// A number in four digits; 0 if it is small beside this size.
+fn beside(number: f64, size: f64) -> String {
+    short(if number.abs() < 1e-9 * size { 0.0 } else { number })
 }
