@@ -284,6 +284,17 @@ fn a_table_of_several_methods_is_judged_one_by_one() {
     folder.write("errors.csv", "h,l2\n0.25,1.6e-2\n0.125,4.0e-3\n");
     let without = folder.mms("judge --errors errors.csv --method cpdi").exits(2);
     without.complains("`errors.csv` has no column `method`");
+    // The rows of a method need not be together.
+    folder.write(
+        "mixed.csv",
+        "method,h,l2\nb,0.2,4.000e-3\na,0.2,2.000e-2\nb,0.1,1.000e-3\na,0.1,1.000e-2\n",
+    );
+    let judge = "judge --errors mixed.csv";
+    folder
+        .mms(judge)
+        .exits(2)
+        .complains("a table of 2 methods: choose one with `--method NAME`: `b`, `a`");
+    folder.mms(&format!("{judge} --method b")).exits(0);
 }
 
 /// A bound that rounds to nothing has the digits that tell it from 0.
