@@ -33,7 +33,7 @@ pub struct Judge {
     pub quantities: Vec<JudgedQuantity>,
     /// The worst verdict: `no evidence`, `exact to round-off`, `pass`, `not asymptotic` or `fail`.
     pub verdict: String,
-    /// The version of the [rule](../guide/judging.md#the-rule) that decided.
+    /// The version of the [rule](../guide/rule.md#the-rule) that decided.
     pub rule: u32,
     /// Notes on the reading of the files: arrays that were recognised or left out, and why.
     pub notes: Vec<String>,

@@ -51,7 +51,7 @@ pub struct StudyOfMethod {
     pub norm: Option<String>,
     /// The finding of each norm.
     pub norms: Vec<JudgedNorm>,
-    /// The version of the [rule](../guide/judging.md#the-rule) that decided.
+    /// The version of the [rule](../guide/rule.md#the-rule) that decided.
     pub rule: u32,
     /// The constant C of `l2` = C h^p.
     pub error_constant: Option<f64>,

@@ -59,7 +59,7 @@ impl View<'_> {
             parts.push(lines.join("\n"));
             parts.push(self.0.sentences(quantity, judged, is_full).join("\n"));
         }
-        let mut end = vec![format!("by rule {RULE} of docs/guide/judging.md")];
+        let mut end = vec![format!("by rule {RULE} of docs/guide/rule.md")];
         end.extend(self.0.exclusions.as_ref().map(|it| match is_full {
             true => excluded::text(it),
             false => excluded::counts(it),

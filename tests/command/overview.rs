@@ -136,7 +136,7 @@ fn words_of_the_output_are_explained() {
     folder.mms("explain dead load").exits(0).prints("dead load: A traction per reference area");
     folder.mms("explain usl musl").exits(0).prints("USL: Update stress last.").prints("MUSL: ");
     folder.mms("explain").exits(0).prints("APIC, asymptotic, body force");
-    folder.mms("explain verdict").exits(0).prints("Judging (docs/guide/judging.md) has the rule.");
+    folder.mms("explain verdict").exits(0).prints("Judging (docs/guide/judging.md) explains them.");
     folder.mms("explain flipp").exits(2).complains("did you mean `flip`?");
 }
 
