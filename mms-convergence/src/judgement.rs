@@ -1,6 +1,6 @@
 //! The norms of one quantity together.
 
-use crate::finding::{Expected, Finding};
+use crate::finding::{Expected, Finding, Reason};
 use crate::grid::Fit;
 use crate::sequence::Sequence;
 use crate::verdict::Verdict;
@@ -9,7 +9,8 @@ use crate::verdict::Verdict;
 ///
 /// The worst norm decides. If there is an `l2`, `l1` and `linf` count only if they fail by more than the tolerance: they reveal
 /// a lower order at a few points, and otherwise the maximum of errors at particles, which come nearer to a face with every
-/// level, is not a pure power of h. `h1` counts only if it fails: its terms of higher order vanish later.
+/// level, is not a pure power of h. On two levels they fail only if the order is too low by more than half an order; if it is too
+/// low by less, the levels do not decide. `h1` counts only if it fails: its terms of higher order vanish later.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
     /// The findings, at least one, in the order in which the norms were given.
@@ -38,18 +39,37 @@ impl Judged {
             && self.finding.estimate.is_some_and(|it| is_more(it.order))
     }
 
-    /// Whether a norm beside l2 has a lower order by more than the tolerance, or has no order because a run stopped. Two levels
-    /// have no interval: for them it is twice the tolerance.
-    fn fails_by_far(&self) -> bool {
+    /// Whether a norm beside l2 counts: its order is lower by more than the tolerance, or it has no order because a run stopped.
+    /// Two levels have no interval: for them it is twice the tolerance.
+    fn is_far(&self) -> bool {
         let Expected { order, tolerance, .. } = self.expected;
         let is_far = self.finding.estimate.is_none_or(|it| match it.interval {
             Some([_, high]) => high < order - tolerance,
             None => it.order < order - 2.0 * tolerance,
         });
-        self.finding.verdict == Verdict::Fail && is_far
+        (self.finding.verdict == Verdict::Fail || self.is_open()) && is_far
+    }
+
+    /// Whether two levels leave it open whether the order of a norm beside l2 is too low.
+    fn is_open(&self) -> bool {
+        self.finding.reason == Reason::TwoLevels
+            && self.finding.verdict == Verdict::NotAsymptotic
+            && self.finding.estimate.is_some_and(|it| it.order < self.expected.order)
+    }
+
+    /// A norm beside l2. A single pair of levels shows only an order that is too low by more than [`HALF`].
+    fn beside_l2(mut self) -> Self {
+        let Finding { verdict, reason, estimate, .. } = &mut self.finding;
+        let is_near = estimate.is_some_and(|it| it.order >= self.expected.order - HALF);
+        if *reason == Reason::TwoLevels && *verdict == Verdict::Fail && is_near {
+            *verdict = Verdict::NotAsymptotic;
+        }
+        self
     }
 }
 
+/// The part of an order by which the maximum over two levels may miss the expected order by chance.
+const HALF: f64 = 0.5;
 /// The tolerance of the orders of a layer.
 const NEAR: f64 = 0.15;
 
@@ -85,8 +105,11 @@ impl Judgement {
 
     fn worst(norms: Vec<Judged>) -> Option<Self> {
         let has_l2 = norms.iter().any(|it| it.norm == "l2");
+        let is_beside = |it: &Judged| has_l2 && matches!(it.norm.as_str(), "l1" | "linf");
+        let norms: Vec<Judged> =
+            norms.into_iter().map(|it| if is_beside(&it) { it.beside_l2() } else { it }).collect();
         let decides = |it: &Judged| match it.norm.as_str() {
-            "l1" | "linf" if has_l2 => it.fails_by_far(),
+            "l1" | "linf" if has_l2 => it.is_far(),
             "h1" if has_l2 => it.finding.verdict != Verdict::NotAsymptotic,
             _ => true,
         };

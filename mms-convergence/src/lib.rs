@@ -20,7 +20,7 @@
 //! A share s of the term h^(p-1) lowers the order on the finest level by s. It is known to within u, three quarters of its
 //! standard deviation. The scatter behind u includes the scatter about the fit, a further level with a deviation of 2.5 %, and
 //! printed digits. If errors follow a power law to 0.1 %, its order is judged instead of p - s. For two levels, their order is
-//! judged.
+//! judged; beside an l2, their l1 and linf fail only if the order is too low by more than half an order.
 //!
 //! * `pass`: s + u is at most the tolerance, and the order is not above.
 //! * `fail`: s - u is more than the tolerance, and the order of the finest pair is low too. Also if errors level off:

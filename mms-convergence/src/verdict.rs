@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// The version of the rule of verdicts: a changed rule has another number.
-pub const RULE: u32 = 3;
+pub const RULE: u32 = 4;
 
 /// The default tolerance of the observed order.
 pub const TOLERANCE: f64 = 0.15;

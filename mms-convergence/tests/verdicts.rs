@@ -267,6 +267,21 @@ fn two_levels_have_an_order_alone_and_say_so() {
     assert_eq!(finding(0, |x| x).verdict, Verdict::NotAsymptotic);
 }
 
+/// Two points lie at other distances from a face, so the order of their maximum varies.
+#[test]
+fn two_levels_leave_a_maximum_of_slightly_low_order_open() {
+    let of = |order: f64| {
+        let (l2, linf) = (levels(2, |x| x * x), levels(2, |x| x.powf(order)));
+        let norms = [("l2", &l2, SECOND), ("linf", &linf, SECOND)];
+        let judgement = Judgement::of(norms).expect("norms");
+        (judgement.verdict(), judgement.deciding().norm.clone())
+    };
+    assert_eq!(of(1.75), (Verdict::Pass, "l2".into()));
+    assert_eq!(of(1.68), (Verdict::NotAsymptotic, "linf".into()));
+    assert_eq!(of(1.51), (Verdict::NotAsymptotic, "linf".into()));
+    assert_eq!(of(1.49), (Verdict::Fail, "linf".into()));
+}
+
 /// Three errors of two digits: half a unit is 5 % of 1.0 and 1 % of 5.0.
 #[test]
 fn printed_digits_count() {

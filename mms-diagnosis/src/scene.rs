@@ -5,7 +5,7 @@ use mms_runtime::scene::Scene;
 use mms_runtime::study::Solve;
 use mms_runtime::{ManufacturedField, Matrix, Method, Vector};
 
-use crate::answer::{Diagnosis, Finding, Ranked, Rung};
+use crate::answer::{Diagnosis, Ranked, Rung};
 use crate::closed_form::{self, ClosedForm, Values};
 use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use crate::exact::{Exact, Parameters, Quantity, vectors};
@@ -324,9 +324,7 @@ where
     let found = ordinary::diagnose(exact, &frame, &thinned, hypotheses, solver)?;
     let smooth = found.place.as_ref().map_or(1.0, |it| it.smooth);
     let found = Diagnosis { place: place::of(exact, meshes, smooth), ..found };
-    let is_named = found.finding == Finding::Named;
-    let permutation = if is_named { None } else { patterns::permutation(exact, &snapshots) };
-    Ok(permutation.unwrap_or(found))
+    Ok(patterns::or_permutation(exact, &snapshots, found))
 }
 
 /// The points of meshes that are compared.

@@ -41,6 +41,9 @@ pub struct Diagnose {
     pub units: Option<Names<String>>,
     /// The errors of results at points.
     pub fields: Option<ErrorFields>,
+    /// A question about a parameter of the field; missing if no other value of one fits the results much better.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub question: Option<String>,
     /// The next step to take.
     pub next: String,
     /// The words of the command to type next, `mms` first; missing if the finding is `nothing`.

@@ -64,6 +64,32 @@ impl Exact {
         &self.set
     }
 
+    /// The values of all parameters, in the order of the file.
+    pub fn parameters(&self) -> &[f64] {
+        &self.parameters
+    }
+
+    /// The field with another value of the parameter at a position, over the same body and time window; `None` if the value is
+    /// not finite.
+    pub fn with_parameter(&self, at: usize, value: f64) -> Option<Exact> {
+        let mut set = self.set.clone();
+        set.insert(at, RBig::try_from(value).ok()?);
+        let parameters = self.input.compiled.parameters::<f64>(&set);
+        Some(Exact { set, parameters, ..self.unprepared() })
+    }
+
+    /// The field, with nothing prepared.
+    pub fn unprepared(&self) -> Exact {
+        Exact {
+            input: self.input.clone(),
+            set: self.set.clone(),
+            parameters: self.parameters.clone(),
+            body: self.body.clone(),
+            prepared: BTreeMap::new(),
+            ..*self
+        }
+    }
+
     /// The field for the solver.
     ///
     /// # Errors

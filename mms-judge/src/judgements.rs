@@ -33,11 +33,16 @@ pub struct Judgements {
     is_of_campaign: bool,
     /// The place of the largest error of each quantity on the finest mesh, in words; empty for a table.
     largest: Vec<String>,
+    /// A question about a time or a parameter of the field, if displacements do not pass.
+    question: Option<String>,
     /// The keys of results of files.
     results: Results,
     /// The provenance of the document.
     pub provenance: Provenance,
 }
+
+/// The quantity whose errors raise a question about the field.
+const DISPLACEMENT: &str = "displacement";
 
 /// The norms of levels in the document of a study.
 const NORMS: [&str; 3] = ["l1", "l2", "linf"];
@@ -69,6 +74,7 @@ impl Judgements {
             next: None,
             is_of_campaign: false,
             largest: Vec::new(),
+            question: None,
             results: Results::default(),
             provenance,
         })
@@ -107,9 +113,11 @@ impl Judgements {
         provenance: Provenance,
     ) -> anyhow::Result<Self> {
         let results = Results::new(exact.input(), files, &measurement);
-        let Measurement { measured, notes, objection, part, largest, .. } = measurement;
+        let Measurement { measured, notes, objection, part, largest, sample, .. } = measurement;
         let report = Self::objected(exact.title(), measured, objection.as_ref(), provenance)?;
-        Ok(Self { notes, part, largest, results, ..report })
+        let sample = sample.filter(|_| !report.verdict().is_good());
+        let question = sample.map_or(Ok(None), |it| it.question(exact))?;
+        Ok(Self { notes, part, largest, question, results, ..report })
     }
 
     /// Names the key of a campaign file in place of the option.
@@ -191,6 +199,8 @@ impl Judgements {
             )
         }));
         lines.extend(self.largest(quantity, judged));
+        let is_asked = quantity.name.raw() == DISPLACEMENT && !judgement.verdict().is_good();
+        lines.extend(self.question.clone().filter(|_| is_asked));
         lines.extend(fits);
         lines.extend(judged.objection.as_ref().map(|it| it.why.clone()));
         lines.extend(

@@ -11,7 +11,9 @@ use mms_exact::evaluated;
 use mms_files::machine::{processor, processors};
 use mms_files::results::Disk;
 use mms_judge::Judgements;
-use mms_judge::diagnose::{Alone, Factors, Reading as Looking, falls, find, left_out, read};
+use mms_judge::diagnose::{
+    Alone, Factors, Reading as Looking, falls, find, left_out, question, read,
+};
 use mms_judge::results::{Comparison, Over, Reading, Results, Start, axes, measure, own_roles};
 use mms_judge::table::Orders;
 use mms_report::page::Section as _;
@@ -249,8 +251,9 @@ fn diagnose(
         let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material, follower)?;
         let provenance = provenance("diagnose", opened);
         let input = &opened.input;
+        let question = question(diagnosis.finding, &evidence, &exact)?;
         let (diagnosis, next) = (&diagnosis, None);
-        let report = Diagnosed { input, files: &files, diagnosis, next, provenance };
+        let report = Diagnosed { input, files: &files, diagnosis, question, next, provenance };
         Ok((Views::of(&report, None)?, notes.iter().map(|it| in_keywords(it)).collect()))
     })
 }

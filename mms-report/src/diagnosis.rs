@@ -26,6 +26,8 @@ pub struct Diagnosed<'a> {
     pub files: &'a [String],
     /// The diagnosis.
     pub diagnosis: &'a Diagnosis,
+    /// A question about a parameter of the field, if results fit another value much better.
+    pub question: Option<String>,
     /// The words of the command to type next, if something is wrong.
     pub next: Option<Vec<String>>,
     /// The provenance.
@@ -45,11 +47,14 @@ impl Diagnosed<'_> {
     /// The text.
     fn all(&self, is_full: bool) -> String {
         let it = self.diagnosis;
-        let mut parts = vec![
-            format!("{}: {}", self.input.name.shown(), it.rung.says()),
-            self.finding(),
-            format!("the error is {:.2e} of the solution; {}", it.error, ordinary(it.expected)),
-        ];
+        let mut parts =
+            vec![format!("{}: {}", self.input.name.shown(), it.rung.says()), self.finding()];
+        parts.extend(self.question.clone());
+        parts.push(format!(
+            "the error is {:.2e} of the solution; {}",
+            it.error,
+            ordinary(it.expected)
+        ));
         parts.extend(it.falls.as_ref().map(|falls| order(falls, it.of_order.as_ref())));
         if it.finding != Finding::Nothing {
             parts.push(self.table().to_string());
@@ -142,6 +147,7 @@ impl Shown for Diagnosed<'_> {
             place: it.place.as_ref().map(place_document),
             units: it.fields.as_ref().and_then(|it| units(&self.input.compiled, [it.quantity])),
             fields: it.fields.as_ref().map(fields),
+            question: self.question.clone(),
             next: it.rung.next(it.finding).to_string(),
             next_command: self.next.clone(),
             provenance: self.provenance.clone(),
@@ -154,7 +160,9 @@ fn ordinary([least, most]: [f64; 2]) -> String {
     match least == most {
         true => format!("a right solver would be at about {most:.1e}"),
         false => {
-            format!("a right method on such a grid makes {least:.1e} to {most:.1e}")
+            format!(
+                "right methods make {least:.1e} or more on such a grid, and up to {most:.1e} counts as right"
+            )
         }
     }
 }

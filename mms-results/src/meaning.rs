@@ -206,6 +206,9 @@ impl Meaning {
             .map_err(|mistake| mistake.of(&snapshot.path))?;
         let stored = columns.iter().flatten().map(|it| of(it).stored).reduce(Stored::coarser);
         let stored = stored.unwrap_or(Stored::Double).at_first(&numbers);
+        let is_place = matches!(self.role, Role::Reference | Role::Place);
+        let is_of_grid = is_place && stored.is_of_grid(&numbers, columns.len());
+        let stored = if is_of_grid { Stored::Whole } else { stored };
         Ok(Values {
             components: columns.len(),
             rounding: stored.rounding(largest),

@@ -13,7 +13,7 @@ pub enum Stored {
     Single,
     /// Double precision, or text with as many digits.
     Double,
-    /// Integers, which are exact.
+    /// Integers, or coordinates of a grid whose spacing has few digits: they are exact.
     Whole,
     /// Text, with this many digits after the point.
     Fixed(u32),
@@ -23,6 +23,13 @@ pub enum Stored {
 
 /// The last bits of a number in single precision, which are 0 for binary fractions with few digits.
 const LAST_BITS: u32 = 0b11_1111;
+
+/// The most digits of coordinates that are tested for a grid.
+const SHORT: u32 = 9;
+/// The least spacing of a grid whose points may be missing, in units of the last digit.
+const SPARSE: f64 = 20.0;
+/// The largest distance of a coordinate from a grid, over half its spacing.
+const GRID: f64 = 1e-6;
 
 impl Stored {
     /// Half a unit in the last place of a number of this magnitude.
@@ -49,6 +56,28 @@ impl Stored {
             true => Stored::Single,
             false => self,
         }
+    }
+
+    /// Whether coordinates of points are those of a grid, typed with all their digits, such as 0, 0.25 and 0.5: multiples of half
+    /// their spacing along each axis. A spacing of a few units of the last digit says nothing, unless it is the same everywhere.
+    pub(crate) fn is_of_grid(self, coordinates: &[f64], dimension: usize) -> bool {
+        let digits = match self {
+            Stored::Fixed(digits) | Stored::Digits(digits) => digits,
+            Stored::Single | Stored::Double | Stored::Whole => return false,
+        };
+        let unit = 2.0 * self.rounding(largest(coordinates));
+        let is_axis_of_grid = |axis: usize| {
+            let mut all: Vec<f64> =
+                coordinates.iter().skip(axis).step_by(dimension).copied().collect();
+            all.sort_by(f64::total_cmp);
+            all.dedup();
+            let gaps = || all.windows(2).map(|pair| pair[1] - pair[0]);
+            let least = gaps().fold(f64::INFINITY, f64::min);
+            let near = |number: f64| (number - number.round()).abs() < GRID;
+            let is_even = || gaps().all(|gap| near(gap / least) && gap < 1.5 * least);
+            all.iter().all(|it| near(2.0 * it / least)) && (least >= SPARSE * unit || is_even())
+        };
+        digits <= SHORT && (0..dimension).all(is_axis_of_grid)
     }
 
     /// The name in messages.
@@ -455,5 +484,28 @@ impl Cells {
             start = end;
         }
         self.points.extend(points);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Stored;
+
+    #[test]
+    fn coordinates_of_a_grid_are_known_by_their_spacing() {
+        let is_grid =
+            |digits, coordinates: &[f64]| Stored::Digits(digits).is_of_grid(coordinates, 1);
+        assert!(is_grid(1, &[0.0, 0.5, 1.0]));
+        assert!(is_grid(2, &[0.25, 0.75]));
+        assert!(is_grid(1, &[0.1, 0.2, 0.3, 0.4]));
+        // A point is missing.
+        assert!(is_grid(3, &[0.0, 0.125, 0.375, 0.5]));
+        assert!(!is_grid(1, &[0.1, 0.2, 0.4]));
+        // Sixths and thirds.
+        assert!(!is_grid(2, &[0.17, 0.5, 0.83]));
+        assert!(!is_grid(2, &[0.0, 0.33, 0.67, 1.0]));
+        assert!(!is_grid(2, &[0.13, 0.58, 0.71, 0.99]));
+        // With full precision nothing has to be guessed.
+        assert!(!is_grid(17, &[0.0, 0.5, 1.0]));
     }
 }

@@ -268,6 +268,59 @@ fn a_time_that_was_rounded_is_named() {
     folder.write("a.csv", &table("0.0123"));
     let run = folder.mms(&format!("{WAVE} a.csv")).exits(1);
     assert!(!run.stdout.contains("its floor"), "{run}");
+    run.prints("is t = 0.0123 rounded? At t = 1.23457e-2 the error of u is ");
+    run.prints("give the exact time with `--time`");
+    let run = folder.mms(&format!("{WAVE} a.csv --time 0.01234567"));
+    run.prints("at t = 0.01234567").prints("(6 significant digits); it is left out");
+}
+
+/// Times of three digits, whose last digit has another place value at later times.
+#[test]
+fn evenly_spaced_times_show_that_they_were_rounded() {
+    let folder = Folder::new();
+    folder.write("points.csv", &grid(4, |_, _| true));
+    let mut text = String::from("time,X,Y,u_x,u_y\n");
+    for k in 1..=4 {
+        let time = f64::from(k) * 0.0039473;
+        let options = format!("--time {time} --quantity u");
+        state(&folder, "travelling_wave_2d", "points.csv", "exact.csv", &options);
+        for row in folder.read("exact.csv").lines().skip(1) {
+            let (_, values) = row.split_once(',').expect("columns");
+            text += &format!("{time:.2e},{values}\n");
+        }
+    }
+    folder.write("a.csv", &text);
+    folder.mms(&format!("{WAVE} a.csv")).prints("and of its time t = ").prints("at its floor");
+}
+
+#[test]
+fn results_of_another_value_of_a_parameter_raise_a_question() {
+    let folder = Folder::new();
+    for n in [4, 8, 16] {
+        folder.write("points.csv", &grid(n, |_, _| true));
+        let options = "--time 0.0125 --quantity u --set amplitude=0.03";
+        state(&folder, "axis_aligned_2d", "points.csv", &format!("{n}.csv"), options);
+    }
+    let run = folder.mms("judge axis_aligned_2d 4.csv 8.csv 16.csv").exits(1);
+    run.prints("did your solver use another amplitude than 0.05? With `--set amplitude=0.03` the ");
+    let run = folder.mms("judge axis_aligned_2d 4.csv 8.csv 16.csv --set amplitude=0.03");
+    assert!(!run.stdout.contains("did your solver use"), "{run}");
+}
+
+/// Corners, and middles of edges: no coordinate is rounded, although they have one digit.
+#[test]
+fn coordinates_of_a_grid_are_exact() {
+    let folder = Folder::new();
+    let points = "X,Y,Z\n0,0,0.5\n1,0,0.5\n0.5,0.5,0\n0.5,1,1\n0.5,0.5,0.5\n";
+    folder.write("points.csv", points);
+    let run = folder.mms("state axis_aligned_3d --points points.csv --time 0.01 -o exact.csv");
+    let head = run.exits(0).stdout;
+    let text = folder.read("exact.csv");
+    let columns: Vec<&str> = text.lines().next().expect("a head").split(',').collect();
+    let at = columns.iter().position(|it| it.starts_with("traction_x_max")).expect("tractions");
+    let on_face = |line: &str| line.split(',').nth(at).is_some_and(|it| it != "0" && it != "0.0");
+    let rows: Vec<bool> = text.lines().skip(1).map(on_face).collect();
+    assert_eq!(rows, [false, true, false, false, false], "{head}\n{text}");
 }
 
 #[test]

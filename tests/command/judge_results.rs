@@ -117,7 +117,7 @@ fn floors_of_files_are_found() {
         folder.mms("judge bar_1d a.csv b.csv c.csv --time 0.005 --h 4,2,1 --expected-order 4");
     let run = run.exits(0);
     run.prints(
-        "`c.csv`: the error of displacement is at its floor of 1.2e-6, which rounding of the file",
+        "`c.csv`: the error of displacement is at its floor of 5.0e-7, which rounding of the file",
     );
     run.prints("u = x - X").prints("observed order 3.97 (l2; 2 levels, h 4.000e0 to h 2.000e0)");
 }

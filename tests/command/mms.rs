@@ -8,6 +8,8 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
+use super::sampled::is_tried;
+
 /// The text of the gallery's bar.
 pub const BAR: &str = include_str!("../../fields/bar_1d.toml");
 
@@ -73,8 +75,11 @@ impl Folder {
     }
 
     /// Types the next command that a run prints, in a copy of the folder: a shell has to read it, and the program to understand
-    /// it.
+    /// it. Most of these commands are diagnoses, which take seconds, so a part of them is tried.
     fn follow(&self, run: &Run) {
+        if !is_tried(&run.command, 8) {
+            return;
+        }
         let document: Option<Value> = serde_json::from_str(&run.stdout).ok();
         let words = document.as_ref().and_then(|it| it["next_command"].as_array());
         let of_document = words.map(|words| {

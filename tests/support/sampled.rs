@@ -64,6 +64,12 @@ pub fn sampled_count(cases: usize, share: usize) -> usize {
     if all_is_tried() { cases } else { cases.div_ceil(share) }
 }
 
+/// Whether a case of this name is tried: one in `share`, or all.
+pub fn is_tried(case: &str, share: u64) -> bool {
+    let text = std::env::var(VARIABLE).unwrap_or_default();
+    all_is_tried() || hash(&format!("{text} {case}")).is_multiple_of(share)
+}
+
 /// The hash FNV-1a of 64 bits, mixed once more: texts that differ in their last digit differ in all bits.
 fn hash(text: &str) -> u64 {
     let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);

@@ -19,7 +19,9 @@ use mms_diagnosis::solver::Solver;
 use mms_exact::Exact;
 use mms_exact::{Input, evaluated};
 use mms_files::results::Disk;
-use mms_judge::diagnose::{Alone, Factors, Reading, falls, find, gradients, left_out, read};
+use mms_judge::diagnose::{
+    Alone, Factors, Reading, falls, find, gradients, left_out, question, read,
+};
 use mms_judge::next::{self, Meshes};
 use mms_judge::results::Results;
 use mms_judge::table::{Order, Orders};
@@ -266,11 +268,12 @@ impl Diagnose {
         let times = |parameter, factor| factors.times(parameter, factor);
         let material = Material { names: factors.names(), times: &times };
         let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material, &Unfollowed)?;
+        let question = question(diagnosis.finding, &evidence, &exact)?;
         let input = exact.input();
         let meshes = self.meshes(reading.rest);
         let next = next::after_diagnosis(&diagnosis, &meshes, &typed());
-        let report =
-            Diagnosed { input, files: &self.files, diagnosis: &diagnosis, next, provenance };
+        let (files, diagnosis) = (&self.files, &diagnosis);
+        let report = Diagnosed { input, files, diagnosis, question, next, provenance };
         self.printing.print_in(self.detail, &report)?;
         if let Some(folder) = &self.output {
             replaced::tell(folder, "diagnosis", &report.provenance);

@@ -515,10 +515,7 @@ fn said(meshes: &[Mesh]) -> Diagnosis {
         Frame::new(&exact, &snapshots, Smooth::new(&exact.domain.body, 576, DEGREE).unwrap());
     let found =
         ordinary::diagnose(&exact, &frame, meshes, &all(&exact), &Solver::default()).unwrap();
-    match found.finding {
-        Finding::Named => found,
-        _ => patterns::permutation(&exact, &snapshots).unwrap_or(found),
-    }
+    patterns::or_permutation(&exact, &snapshots, found)
 }
 
 /// u as a function of t and X.
@@ -572,6 +569,48 @@ fn what_is_written_wrongly_is_named() {
     let across = of_results(|t, x| u(t, x) + bump(0.4)(x)).place.unwrap();
     let (axis, at) = across.plane.unwrap();
     assert!(across.face.is_none() && axis == 0 && (at - 0.4).abs() < 0.01, "{across:?}");
+}
+
+/// The exact displacements of a grid, written in another order than the positions, with an error of some percent.
+#[test]
+fn values_in_another_order_are_named() {
+    let grid = |[a, b]: [usize; 2]| -> Vec<Point> {
+        let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
+        (0..a * b).map(|k| Point::new(middle(k % a, a), middle(k / a, b))).collect()
+    };
+    let of = |edges: [usize; 2], order: &dyn Fn(usize) -> usize| {
+        let points = grid(edges);
+        let time = 0.03;
+        let right: Vec<Point> = points.iter().map(|x| field::displacement(time, x)).collect();
+        let error = |x: &Point| 1e-4 * (7.0 * x[0] + 3.0 * x[1]).sin();
+        let u = (0..points.len()).flat_map(|k| {
+            let (u, error) = (right[order(k)], error(&points[k]));
+            [u[0] + error, u[1] - error]
+        });
+        let snapshot = Snapshot {
+            time,
+            reference: points.iter().flat_map(|x| x.as_slice().to_vec()).collect(),
+            values: vec![(Quantity::Displacement, u.collect())],
+            ..Snapshot::default()
+        };
+        let found =
+            said(&[Mesh { cell_size: 1.0 / 12.0, time_step: None, snapshots: vec![snapshot] }]);
+        let which = found.ranked[0].which.clone().unwrap_or_default();
+        (name(&found), which.into_owned())
+    };
+    let named = |which: &str| ("points_permuted", which.to_owned());
+    let (wide, count) = ([32, 18], 32 * 18);
+    assert_eq!(of(wide, &|k| k), ("nothing", String::new()));
+    assert_eq!(of(wide, &|k| count - 1 - k), named("reversed"));
+    assert_eq!(of(wide, &|k| (k + 1) % count), named("shifted by 1 point back"));
+    assert_eq!(
+        of(wide, &|k| k % 18 * 32 + k / 18),
+        named("axes of a grid of 32 x 18 points swapped")
+    );
+    // No rule: the order of the bits of a scrambled number.
+    let mut shuffled: Vec<usize> = (0..count).collect();
+    shuffled.sort_by_key(|k| (*k as u32).wrapping_mul(2_654_435_769));
+    assert_eq!(of(wide, &|k| shuffled[k]), named(""));
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod nodes;
 mod parameters;
 
 use anyhow::{Context as _, bail, ensure};
+use mms_diagnosis::answer::Finding;
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::{Mesh as Level, Snapshot as Instant};
 use mms_diagnosis::exact::Quantity;
@@ -21,7 +22,7 @@ pub use self::judged::falls;
 pub use self::parameters::Factors;
 
 use self::nodes::{Nodes, volumes};
-use crate::results::{Results, motion, placed, room};
+use crate::results::{Results, Sample, motion, placed, room};
 use mms_exact::Exact;
 
 /// The options for reading results.
@@ -146,6 +147,26 @@ pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow
     }
     levels.sort_by(|a, b| b.cell_size.total_cmp(&a.cell_size));
     Ok(Evidence::Results(levels))
+}
+
+/// Asks about a parameter of the field, if results with an error fit another value of it much better; `None` for evidence other
+/// than displacements.
+///
+/// # Errors
+/// A quantity that is too large to derive.
+pub fn question(
+    found: Finding,
+    evidence: &Evidence,
+    exact: &Exact,
+) -> anyhow::Result<Option<String>> {
+    let Evidence::Results(meshes) = evidence else { return Ok(None) };
+    if found == Finding::Nothing {
+        return Ok(None);
+    }
+    let Some(last) = meshes.last().and_then(|it| it.snapshots.last()) else { return Ok(None) };
+    let u = last.values.iter().find(|(quantity, _)| *quantity == Quantity::Displacement);
+    let sample = u.map(|(_, u)| Sample::of_points(last.time, &last.reference, u, exact));
+    sample.map_or(Ok(None), |it| it.question(exact))
 }
 
 /// The names under which results contain the gradient of u: H, F, or both.

@@ -14,6 +14,7 @@ use mms_spec::{FieldSpec, Space};
 
 use super::extent::{self, Covered};
 use super::files::{Results, placed, room};
+use super::refit::Sample;
 use super::snapshot_errors::SnapshotErrors;
 use super::units;
 
@@ -165,6 +166,8 @@ pub struct Found {
     pub unknown: Option<u8>,
     /// The source of X.
     pub how: String,
+    /// u of some points.
+    pub sample: Option<Sample>,
     /// Quantities that cannot be judged, and arrays that contain something else than their name says.
     pub passed_over: Vec<String>,
 }
@@ -348,12 +351,13 @@ impl Reading<'_> {
         };
         let degree = mesh.degree();
         let how = motion.how.clone();
+        let sample = Sample::of(&motion, time, rounding, exact);
         let is_rate =
             |it: &Errors| matches!(it.quantity, Quantity::Velocity | Quantity::Acceleration);
         let is_asked = degree.is_some() && dimension > 1 && errors.iter().any(is_rate);
         let is_inner = |point: &[f64]| !exact.is_on_face(point, rounding_of_places);
         let imbalance = if is_asked { mesh.imbalance(&is_inner) } else { None };
-        Ok(Found { errors, sizes, degree, imbalance, covered, unknown, how, passed_over })
+        Ok(Found { errors, sizes, degree, imbalance, covered, unknown, how, sample, passed_over })
     }
 
     /// All judged quantities of a snapshot, except tractions.

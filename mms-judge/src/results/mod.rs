@@ -16,6 +16,7 @@ mod given;
 mod iterative;
 mod largest;
 mod level;
+mod refit;
 mod remarks;
 mod repeated;
 mod snapshot_errors;
@@ -35,6 +36,7 @@ pub use explained::Explained;
 pub use extent::{distances, motion};
 pub use files::{Results, placed, room};
 pub use level::{Over, Reading, Sampling, axes, own_roles, weight, without_positions};
+pub use refit::Sample;
 pub use repeated::{Same, same};
 pub use start::Start;
 pub use units::known as unit;
@@ -61,6 +63,8 @@ pub struct Measurement {
     pub part: Option<String>,
     /// The place of the largest error of each quantity on the finest mesh, in words.
     pub largest: Vec<String>,
+    /// Displacements of the finest mesh, for a verdict that is no pass.
+    pub sample: Option<Sample>,
     /// The number of points of the mesh with the fewest points.
     pub points: usize,
     /// Notes on how errors were measured, and why.
@@ -174,8 +178,10 @@ pub fn measure(
         .collect();
     let points = levels.iter().map(|level| level.found.covered.points).min().unwrap_or_default();
     let names: Vec<_> = quantities.iter().map(|(it, _)| *it).collect();
+    let finest = levels.iter().zip(&sizes).min_by(|a, b| a.1.total_cmp(b.1));
     Ok(Measurement {
         measured,
+        sample: finest.and_then(|(it, _)| it.found.sample.clone()),
         largest: largest::places(&names, (&levels, &sizes), exact),
         points,
         samplings: quantities.iter().map(|(_, sampling)| *sampling).collect(),
@@ -213,6 +219,7 @@ fn level(
                 level.errors.iter_mut().zip(found.errors).for_each(|(most, one)| most.raise(one));
                 let part = &mut level.found.covered.part;
                 *part = part.take().or(found.covered.part);
+                level.found.sample = found.sample.or(level.found.sample.take());
             }
         }
     }

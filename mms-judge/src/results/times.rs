@@ -140,7 +140,13 @@ fn validate_ends(all: &[Results], [first, last]: [f64; 2]) -> anyhow::Result<()>
 fn say(results: &mut Results, wanted: &[f64]) {
     for &value in wanted {
         let times = results.snapshots.iter_mut().filter_map(|it| it.time.as_mut());
-        let printed = times.filter(|it| (it.value - value).abs() <= it.rounding);
+        let is_printed = |time: &Time| {
+            let (count, decimals) = digits(time.value);
+            let is_shorter = count < digits(value).0;
+            let rounding = if is_shorter { half_unit(decimals) } else { 0.0 };
+            (time.value - value).abs() <= rounding.max(time.rounding)
+        };
+        let printed = times.filter(|it| is_printed(it));
         let distance = |time: &&mut Time| (time.value - value).abs();
         let nearest = printed.min_by(|a, b| distance(a).total_cmp(&distance(b)));
         nearest.into_iter().for_each(|it| *it = Time { value, rounding: 0.0 });
@@ -158,36 +164,50 @@ fn validate_roundings(results: &mut Results) {
         Stored::Fixed(all) => decimals >= all as i32,
         Stored::Single | Stored::Double | Stored::Whole => false,
     };
-    let is_shown = is_uneven(&times, decimals)
-        || results.snapshots.iter().any(|it| {
-            let points = it.points.iter().chain(&it.of_points);
-            points.chain(&it.of_cells).any(is_short)
-        });
+    let fixed = |_: f64| half_unit(decimals);
+    let scientific = |time: f64| half_unit(digits - 1 - exponent(time));
+    let is_any_short = results.snapshots.iter().any(|it| {
+        let points = it.points.iter().chain(&it.of_points);
+        points.chain(&it.of_cells).any(is_short)
+    });
+    let roundings: [&dyn Fn(f64) -> f64; 2] = [&fixed, &scientific];
+    let shown = roundings.into_iter().find(|rounding| is_uneven(&times, rounding));
     for time in results.snapshots.iter_mut().filter_map(|it| it.time.as_mut()) {
         let is_single = Stored::Double.at_first(&[time.value]) == Stored::Single;
-        if !is_shown && !is_single {
-            time.rounding = 0.0;
-        }
+        time.rounding = match shown {
+            Some(rounding) => time.rounding.max(rounding(time.value)),
+            None if is_any_short || is_single => time.rounding,
+            None => 0.0,
+        };
     }
 }
 
+/// The power of ten of the first digit of a number.
+fn exponent(value: f64) -> i32 {
+    value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32
+}
+
+/// Half a unit of this digit after the point.
+pub fn half_unit(decimals: i32) -> f64 {
+    0.5 * 0.1_f64.powi(decimals)
+}
+
 /// The numbers of digits of a number: all of them, and those after the point.
-fn digits(value: f64) -> (i32, i32) {
+pub fn digits(value: f64) -> (i32, i32) {
     let text = format!("{value:e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     let digits = mantissa.bytes().filter(u8::is_ascii_digit).count() as i32;
     (digits, (digits - 1 - exponent.parse::<i32>().unwrap_or(0)).max(0))
 }
 
-/// Whether steps between times differ only in the last digit of the times.
-fn is_uneven(times: &[f64], decimals: i32) -> bool {
-    let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let unit = 0.1_f64.powi(decimals);
-    let range = |pick: fn(f64, f64) -> f64| steps.iter().copied().reduce(pick);
-    range(f64::max).zip(range(f64::min)).is_some_and(|(most, least)| {
-        let (apart, least) = ((most - least) / unit, least / unit);
-        steps.len() > 2 && least > 20.0 && apart > 0.5 && apart < 2.5
-    })
+/// Whether times are evenly spaced but for their last digit, half a unit of which is the rounding of each time.
+fn is_uneven(times: &[f64], rounding: &dyn Fn(f64) -> f64) -> bool {
+    let [first, .., last] = times else { return false };
+    let (step, coarse) = ((last - first) / (times.len() - 1) as f64, rounding(*last));
+    let away = |(at, time): (usize, &f64)| (time - (first + at as f64 * step)).abs();
+    let farthest = times.iter().enumerate().map(away).fold(0.0, f64::max);
+    let is_rounding = 0.4 * coarse < farthest && farthest < 2.1 * coarse;
+    times.len() > 3 && step > 40.0 * coarse && is_rounding
 }
 
 fn validate_times(results: &Results, [first, last]: [f64; 2]) -> anyhow::Result<()> {
