@@ -428,7 +428,9 @@ fn one<const D: usize>(
         // A size that is right within the margin has no name of its own.
         if let Some(known) = known.filter(|it| (it.size - right[0]).abs() > explained.margin) {
             is_known = true;
-            (name, says) = (known.name, format!("{found:.3} = {:.3}: {}", known.size, known.says));
+            name = known.name;
+            let own = known.size;
+            says = format!("{}: its size is {own:.3}; the fitted size is {found:.3}", known.says);
         }
     }
     Ranked {

@@ -79,7 +79,7 @@ impl View<'_> {
             }
             (_, 0) => None,
             (_, counted) => Some(format!(
-                "canary: with -b in place of b {fails} of {counted} studies fail, as all must"
+                "canary: {fails} of {counted} studies fail with -b in place of b, as all must"
             )),
         };
         let left_out = open.into_iter().map(|name| {

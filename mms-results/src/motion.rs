@@ -224,7 +224,7 @@ impl<'a> Known<'a> {
         back: Back<'_>,
     ) -> Result<Motion<'a>, Mistake> {
         if stray(place, outside).is_some() {
-            let how = "points taken as x, X by the inverse of the exact motion: as X, some would lie outside the body";
+            let how = "points taken as x, X by the inverse of the exact motion, since some would lie outside the body if they were X";
             return self.inverse(place, back, how);
         }
         let points = place.numbers.chunks_exact(place.components);
@@ -237,7 +237,7 @@ impl<'a> Known<'a> {
                 continue;
             };
             let Some(reference) = found else {
-                let how = "points taken as X: as x, some would lie where the body has no point";
+                let how = "points taken as X, since some would lie where the body has no point if they were x";
                 return Ok(motion(place.clone(), None, how));
             };
             let far = reference.iter().zip(x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -280,12 +280,12 @@ impl<'a> Known<'a> {
             (None, Some(_)) => Ok(motion(
                 place,
                 Some(u),
-                "points taken as X: as x, some would lie outside the body",
+                "points taken as X, since some would lie outside the body if they were x",
             )),
             (Some(_), None) => Ok(motion(
                 back,
                 Some(u),
-                "points taken as x, X = x - u: as X, some would lie outside the body",
+                "points taken as x, X = x - u, since some would lie outside the body if they were X",
             )),
             (None, None) if u.numbers.iter().all(|it| *it == 0.0) => {
                 Ok(motion(place, Some(u), "points taken as X: u is 0"))
@@ -293,12 +293,12 @@ impl<'a> Known<'a> {
             (None, None) => {
                 match ([&place, &back].map(|it| outside.is_filled(&it.numbers)), &self.reading) {
                     ([true, false], _) => {
-                        let how = "points taken as X: as x, they would not fill the body";
+                        let how =
+                            "points taken as X, since they would not fill the body if they were x";
                         Ok(motion(place, Some(u), how))
                     }
                     ([false, true], _) => {
-                        let how =
-                            "points taken as x, X = x - u: as X, they would not fill the body";
+                        let how = "points taken as x, X = x - u, since they would not fill the body if they were X";
                         Ok(motion(back, Some(u), how))
                     }
                     (_, Some((Role::Reference, name))) => {

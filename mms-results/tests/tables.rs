@@ -254,7 +254,7 @@ fn x_without_u_is_x_by_the_inverse_motion_or_asked() {
     // No point of the body is at x = 0.75.
     let fixed = snapshot("x,y,vx,vy\n0.25,0.125,0,0\n0.75,0.25,0,0\n");
     let motion = found(&fixed, &[], Some(&mut back)).unwrap();
-    assert!(motion.how.starts_with("points taken as X: as x"), "{}", motion.how);
+    assert!(motion.how.starts_with("points taken as X, since some"), "{}", motion.how);
     let said = found(&fixed, &["x=x,y"], Some(&mut back)).unwrap_err().to_string();
     assert!(said.starts_with("file:3: x = [0.75, 0.25]: no point of the body is there"), "{said}");
 }

@@ -28,7 +28,7 @@ fn a_study_fails_with_a_wrong_force_or_measures_nothing() {
     let folder = Folder::new();
     campaign(&folder, "2 {force_factor}", "", "--canary")
         .exits(0)
-        .prints("canary: with -b in place of b 1 of 1 studies fail, as all must");
+        .prints("canary: 1 of 1 studies fail with -b in place of b, as all must");
     // Nothing is run twice, and a campaign without canaries finds its own runs.
     let again = campaign(&folder, "2 {force_factor}", "", "--canary --json").exits(0);
     assert_eq!(again.stderr.matches("was done before").count(), 6, "{again}");
@@ -69,7 +69,7 @@ with open(sys.argv[3], "w") as out:
     folder
         .mms("campaign c.toml --canary")
         .exits(0)
-        .prints("canary: with -b in place of b 1 of 1 studies fail, as all must");
+        .prints("canary: 1 of 1 studies fail with -b in place of b, as all must");
 }
 
 #[test]

@@ -320,7 +320,8 @@ fn points_that_fill_the_body_in_one_reading_are_not_asked_about() {
     let data = format!("POINT_DATA 9\nSCALARS u double 1\nLOOKUP_TABLE default\n{u}");
     folder.write("bar.vtk", &vtk(&points, &cells, &[3; 8], &data));
     let judge = "judge bar_1d bar.vtk --time 0.01 --explain";
-    folder.mms(judge).exits(0).prints("points taken as X: as x, they would not fill the body");
+    let how = "points taken as X, since they would not fill the body if they were x";
+    folder.mms(judge).exits(0).prints(how);
     folder
         .mms(&format!("{judge} --part"))
         .exits(2)
