@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! source = "the public description that this file follows"
-//! points = "X"                          # or "x": decides where both lie in the body
+//! points = "X"                          # or "x"; used if the points lie in the body both as X and as x
 //! orders = ["11,22,33,12,23,13"]        # of symmetric tensors whose components have no names
 //!
 //! [quantities]                          # names of arrays, the usual one first
