@@ -243,8 +243,8 @@ Each row tests one mode of the built-in solver, with the field that isolates it.
 If only the time step is refined, the order is the order in time. Observed orders compare l2 of neighbouring
 levels, from coarse to fine. The constant is l2 over h^order or dt^order at the finest level of `mms verify --quick`, in the
 units of the field. It may differ by 1 % from the constant in `matrix.toml`. The formal order `none` means that the error must
-not shrink, or that the run stops; `exact` means that rounding is the only error. A slide is from the
-[source of the bar](verified.md#a-wrong-sign-in-a-published-formula).
+not shrink, or that the run stops; `exact` means that rounding is the only error. The slides in
+the last column are from the [source of the bar](verified.md#a-wrong-sign-in-a-published-formula).
 ";
 
 /// The cells of a line of the page that follow from the row alone.

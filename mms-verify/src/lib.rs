@@ -5,7 +5,7 @@
 //!
 //! | step | from -> to | where |
 //! |---|---|---|
-//! | read | `matrix.toml` -> rows, refused where they mean nothing | [`matrix`] |
+//! | read | `matrix.toml` -> rows; a row that has no meaning is an error | [`matrix`] |
 //! | plan | rows -> runs, each once; the longest comes first, so that no thread runs it alone at the end | [`plan`] |
 //! | run | runs -> outcomes, one thread each, from the store where it has them | [`work`] |
 //! | judge | outcomes of a row -> its verdict | [`verdict`] |

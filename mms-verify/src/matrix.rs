@@ -42,7 +42,7 @@ pub struct MatrixRow {
     pub constant: Option<f64>,
     /// The reason, and its source.
     pub theory: String,
-    /// The deliberate mistakes that `--defects` shows this row.
+    /// The deliberate mistakes that this row must catch; `--defects` runs the row with each of them.
     #[serde(default)]
     pub catches: Vec<String>,
     /// A property that no other row tests.

@@ -1,14 +1,15 @@
 //! The verdict of a row of the matrix, from its levels.
 //!
-//! If only time is refined (`halvings`), the field must have no error in space, or the order would be spoilt by it: a body
-//! without strain that b(t) moves is such a field. The verdict is the first that holds:
+//! If only time is refined (`halvings`), the field must have no error in space, which would spoil the order. An example is a
+//! body without strain that b(t) moves. The verdict is the first that holds:
 //!
 //! 1. `fail`: a level was not started; or the row expects an exact solution, and an error exceeds 5e-12.
 //! 2. `does not converge`: a level stopped, or the order of `l2` on the finest pair is below 1/2. Some rows expect
 //!    this.
-//! 3. `fail`: `l2` or `linf` is below the order expected of it by more than the tolerance, or the error constant
-//!    is not within one percent of the one in the row.
-//! 4. `not asymptotic`: as in a study.
+//! 3. `fail`: the order of `l2` or `linf` is below its expected order by more than the tolerance, or the error constant differs
+//!    by more than one percent from the constant of the row.
+//! 4. `not asymptotic`: the order of `l2` is above the expected order by more than the tolerance, or differs by more than the
+//!    tolerance from the order of the pair before.
 //! 5. `pass`.
 //!
 //! The constant is l2 over h^order, at the finest level of `--quick`, so that both matrices compare it with the same
@@ -54,7 +55,8 @@ impl fmt::Display for Verdict {
 /// A row's outcome, and its basis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
-    /// The orders of l1, l2 and linf between each level and the one before; the first has none, nor has rounding.
+    /// The orders of l1, l2 and linf between each level and the one before; `None` for the first level, and if the row expects
+    /// an exact solution.
     pub orders: Vec<[Option<f64>; 3]>,
     /// l2 over h^order or dt^order.
     pub constant: Option<f64>,
@@ -82,8 +84,9 @@ impl Judgement {
 ///
 /// * `fail`: a level was not started; or, if the row expects an exact solution, an error exceeds rounding.
 /// * `does not converge`: a level stopped, or the order of l2 between the two finest levels is below 1/2.
-/// * `fail`: l2 or linf is below its expected order by more than the tolerance there; or the constant differs from the row's.
-/// * `not asymptotic`: l2 is above its expected order by more than the tolerance; or its order differs by more than the
+/// * `fail`: the order of l2 or linf there is below its expected order by more than the tolerance; or the error constant
+///   differs by more than 1 % from the row's.
+/// * `not asymptotic`: the order of l2 is above its expected order by more than the tolerance; or it differs by more than the
 ///   tolerance from the order of the pair before, if there is one.
 /// * `pass`.
 pub fn judge(row: &MatrixRow, levels: &[Outcome]) -> Judgement {

@@ -1,11 +1,11 @@
 //! Deliberate mistakes (fault injection), and the rows that must catch them.
 //!
-//! A suite that does not fail for a seeded defect is no verification suite. Each defect is switched on for the whole process
-//! and shown to the quick levels of the rows that list it under `catches`; to all rows, if none does, or with `--all-rows`.
-//! First the same rows are run without a defect: an unexpected verdict ends the command. Then each row must catch every defect
-//! that it lists. If all rows were shown all defects, each row must also catch a defect that at most six rows catch, or have a
-//! `witness`: a property that no other row tests. Results are kept in a folder of their own in the store. Beside the verdicts,
-//! plausibility checks inspect each run as people do ([`pictures`](mms_lab::pictures)).
+//! A suite that does not fail for a seeded defect is no verification suite. Each defect is switched on for the whole process,
+//! and the quick levels of the rows that list it under `catches` are run; all rows are run if none lists it, or with
+//! `--all-rows`. First the same rows are run without a defect: an unexpected verdict ends the command. Then each row must catch
+//! every defect that it lists. If all rows were run with all defects, each row must also catch a defect that at most six rows
+//! catch, or have a `witness`: a property that no other row tests. Results are kept in a folder of their own in the store.
+//! Beside the verdicts, plausibility checks inspect each run as people do ([`pictures`](mms_lab::pictures)).
 
 mod visual;
 
@@ -96,7 +96,7 @@ pub fn validate(rows: &[MatrixRow]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The process makes a mistake until this is dropped.
+/// A guard: the process makes a mistake until it is dropped.
 struct Made;
 
 impl Made {
@@ -117,7 +117,7 @@ impl Drop for Made {
     }
 }
 
-/// A row under a defect, or without one.
+/// The results of a row, with a defect or without one.
 pub struct Shown<'a> {
     /// The row.
     pub row: &'a MatrixRow,
