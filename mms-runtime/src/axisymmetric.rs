@@ -115,7 +115,7 @@ impl Station {
 pub struct Rings<'a> {
     /// The places of the particles.
     pub station: Station,
-    /// The volume of a ring over the area of its box, by the radius of its middle: see [`Axisymmetric::weight`].
+    /// The volume of a ring divided by the area of its box, by the radius of its middle: see [`Axisymmetric::weight`].
     pub weight: &'a dyn Fn(f64) -> f64,
 }
 

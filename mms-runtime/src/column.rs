@@ -192,7 +192,7 @@ impl<B: Pack> Packs<B> {
         self.len
     }
 
-    /// Whether there is none.
+    /// Whether there is no entry.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }

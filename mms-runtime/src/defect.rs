@@ -12,7 +12,7 @@ mms_math::defects! {
     StartUndeformed, "start_undeformed", "F(0) = I in place of the field's";
     MassOfPresentVolume, "mass_of_present_volume", "m = rho0 J V0: the reference density with the present volume";
     MassCutOff, "mass_cut_off", "nodes with less than 1 % of a particle's mass count as empty";
-    FullFirstKick, "full_first_kick", "leapfrog without its half first step: v(0) taken for v(-dt/2)";
+    FullFirstKick, "full_first_kick", "leapfrog whose first kick is a whole step: v(0) taken for v(-dt/2)";
     StaleNodalVelocity, "stale_nodal_velocity", "particles move with v_i before dt a_i is added";
     OwnVelocity, "own_velocity", "particles move with their own velocity, not with the grid's";
     ReferenceGradient, "reference_gradient", "dF/dt = L in place of L F";

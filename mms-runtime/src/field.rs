@@ -108,7 +108,7 @@ pub enum Body<T, const D: usize> {
         /// The names of the edges, in the order of the vertices that they start from.
         names: Vec<&'static str>,
     },
-    /// No body: the field is numbers without claims, and no solver can run it.
+    /// No body: the field is only evaluated, and no solver can run it.
     Nothing,
 }
 

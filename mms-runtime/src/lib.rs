@@ -5,7 +5,8 @@
 //!   particles and are object-safe.
 //! * [`Solver`] advances a body of particles through a background grid. It is written once for one to three
 //!   dimensions and for `f32` and `f64`.
-//! * [`AnySolver`] is a solver for the names of a [`Method`] ([`Solve::solver`]), compiled here.
+//! * [`AnySolver`] is a solver as a trait object. [`Solve::solver`] makes one for the shape function, integrator and
+//!   formulation that a [`Method`] names; all combinations are compiled in this crate.
 //! * [`study`] runs a method over levels of refinement, measures the errors against the field, and judges the
 //!   observed orders.
 //!

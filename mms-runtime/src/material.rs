@@ -95,8 +95,8 @@ pub trait Axisymmetric<T: Real, const D: usize>: Send + Sync {
         stresses: (&mut [Matrices<T, D>], &mut [[T; PACK]]),
     );
 
-    /// The volume per radian of a ring over the area of its box in the meridian, whose middle has this radius: that radius
-    /// (Pappus). A solver that weights rings otherwise has an error.
+    /// The volume per radian of a ring divided by the area of its box in the meridian, whose middle has this radius: this
+    /// radius (Pappus). A solver that weights rings otherwise has an error.
     fn weight(&self, middle: f64) -> f64 {
         middle
     }

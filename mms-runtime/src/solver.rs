@@ -37,9 +37,10 @@
 //!
 //! Particles are sorted by the nodes that they reach, in slabs along the last axis (`slabs`). Sums have one order for any
 //! number of threads: results are the same bits. A particle may drift by a cell or more; when one has nodes outside its slab's
-//! window, all are sorted, slabs are cut anew and the sums begin again. Every 16 steps the solver counts how many packs and
-//! halves are of one cell, and how many could be: it sorts the particles if 5 % are missing. That depends on the state alone,
-//! so that a resumed run does the same. Small bodies, and stencils without a bound (`cpdi`), have one slab.
+//! window, all are sorted, slabs are cut anew and the sums begin again. Every 16 steps the solver compares the number of packs
+//! and halves whose particles are all in one cell with the largest possible number, and sorts the particles if more than 5 %
+//! are missing. This depends on the state alone, so that a resumed run sorts at the same steps. Small bodies, and stencils
+//! without a bound (`cpdi`), have one slab.
 //!
 //! # Failures
 //!
@@ -101,11 +102,11 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized> {
     boundary: Boundary<T, D>,
     transfer: Transfer,
     slabs: Slabs,
-    /// The displacements and gradients at the beginning of the step, if the integrator uses weights again after they have
-    /// changed.
+    /// The displacements and gradients at the beginning of the step, if the integrator needs the old weights after the
+    /// displacements have changed.
     kept: Vec<CachedDomains<T, D>>,
     keeps_weights: bool,
-    /// XPIC: the sum of the residual velocity at the nodes, and that sum over their mass.
+    /// XPIC: the sum of the residual velocity at the nodes, and that sum divided by their mass.
     residual: [Vec<Nodal<T>>; 2],
     /// The time that the body force was last evaluated at.
     time_of_force: T,

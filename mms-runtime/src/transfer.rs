@@ -48,7 +48,7 @@ impl Transfer {
     /// FLIP with the fraction 1, the default.
     pub const FLIP: Self = Transfer::Flip { fraction: 1.0 };
 
-    /// The nodal data that particles read beside v_i after its kick.
+    /// The nodal data that particles read in addition to v_i after its kick.
     #[inline(always)]
     pub(crate) fn reads(self) -> Reads {
         match self {
@@ -77,7 +77,7 @@ impl Transfer {
         &["flip", "pic", "apic", "xpic2", "xpic3", "xpic4", "xpic5"];
 }
 
-/// The nodal data that particles read beside v_i after its kick.
+/// The nodal data that particles read in addition to v_i after its kick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reads {
     Nothing,

@@ -50,7 +50,7 @@ fn figures_of_an_independent_prototype() {
     }
 }
 
-/// Without the half first kick velocities are half a step early or late: an error of dt a/2.
+/// If the first kick is not half a step, velocities are half a step early or late: an error of dt a/2.
 #[test]
 fn integrators_without_the_half_step_are_of_first_order() {
     for integrator in [IntegratorName::Usl, IntegratorName::Usf, IntegratorName::Musl] {

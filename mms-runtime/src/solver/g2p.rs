@@ -37,7 +37,7 @@ pub(super) struct Advance<'a, 'p, T: Real, const D: usize> {
     pub acceleration: &'a [Nodal<T>],
 }
 
-/// Whether all new numbers are finite and J > 0. May be false for sound numbers.
+/// True only if all new numbers are finite and J > 0. May be false although they are.
 pub(super) type Sound = bool;
 
 impl<T: Real, const D: usize> Advance<'_, '_, T, D> {

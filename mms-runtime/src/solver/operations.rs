@@ -139,7 +139,7 @@ impl<T: Real, const D: usize, F> Solver<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
 {
-    /// Keeps displacements and gradients, if the integrator uses weights again after they have changed.
+    /// Copies displacements and gradients, if the integrator needs the old weights after the displacements have changed.
     fn keep(&mut self) {
         let Self { particles, kept, seconds, .. } = self;
         kept.clear();
@@ -211,8 +211,8 @@ where
         Ok(())
     }
 
-    /// Computes v_i after a kick if nothing reads it before: with a_i if that is read, otherwise with momentum and force as one
-    /// sum.
+    /// Computes v_i after the kick, for steps that do not read v_i before it. If the transfer reads a_i, sums momentum and
+    /// force separately; otherwise sums them together.
     fn map_kicked(
         &mut self,
         mass: bool,
@@ -265,7 +265,7 @@ where
         Ok(())
     }
 
-    /// r = v - S v_i, or r -= S S+ r.
+    /// r = v - S v_i, or r -= S S+ r, where S interpolates from nodes to particles and S+ maps particles to nodes.
     fn find_residual(&mut self, source: Source) -> Result<(), Failure> {
         let Self { grid, particles, domains, kept, transfer, residual, seconds, .. } = self;
         let (reference_position, columns) = particles.columns();
@@ -313,7 +313,8 @@ where
         Ok(())
     }
 
-    /// Adds the tractions at `time` to the forces, or times a kick to momentum.
+    /// Adds the tractions at `time` to the forces or, if `kick` is given, their impulse over the time step `kick` to the
+    /// momentum.
     fn add_tractions(&mut self, time: T, kick: Option<T>) -> Result<(), Failure> {
         let Self { grid, particles, kind, slabs, field, boundary, seconds, .. } = self;
         let place = |id: usize, reference: &Vector<T, D>| {

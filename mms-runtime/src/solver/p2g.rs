@@ -36,7 +36,7 @@ const TIMED: usize = 8;
 /// The quantity that is added to the nodes.
 #[derive(Clone, Copy)]
 pub(super) enum Added<T> {
-    /// m, and m v with the linear velocity on each particle.
+    /// m, and m v, where v includes the linear velocity of each particle (APIC).
     Momentum,
     /// m, and m r with the residual velocity r.
     Residual,
@@ -323,7 +323,8 @@ struct Carrier<'a, T: Real, const D: usize, St> {
 }
 
 impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
-    /// Adds to momentum and force of the nodes, and adds zero times the stress to `rest`.
+    /// Adds to momentum and force of the nodes. Adds zero times the stress to `rest`, which stays zero only if all stresses are
+    /// finite.
     #[inline(always)]
     fn add<M: Simd<T>>(
         self,

@@ -25,9 +25,9 @@
 //!
 //! # The end
 //!
-//! The residual is the norm of the forces out of balance at the nodes over the norm of the forces of the stress. Constrained
-//! components have none: their reactions balance them. The run ends below [`SMALL`], far below the error of a grid; or when
-//! only the rounding of H, and in the updated formulation of x, is out of balance.
+//! The residual is the norm of the forces out of balance at the nodes divided by the norm of the forces of the stress.
+//! Constrained components have none: their reactions balance them. The run ends below [`SMALL`], far below the error of a grid;
+//! or when only the rounding of H, and in the updated formulation of x, is out of balance.
 
 use super::Solver;
 use super::operations::Forces;
@@ -216,7 +216,7 @@ impl<T: Real, const D: usize> ManufacturedField<T, D> for Ramp<'_, T, D> {
 /// The distance of a body from equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
-    /// The norm of the forces out of balance over the norm of the forces of the stress.
+    /// The norm of the forces out of balance divided by the norm of the forces of the stress.
     pub relative: f64,
     /// The residual at which a run ends.
     pub tolerance: f64,

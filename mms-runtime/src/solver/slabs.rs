@@ -23,7 +23,7 @@ use crate::threads::both;
 /// Layers of nodes before and after a layer of cells that a particle in it may reach, for any origin of cells.
 const REACH: [usize; 2] = [2, 3];
 
-/// The least number of layers that a particle may drift before all are sorted.
+/// The number of layers that a particle may drift before all particles are sorted.
 const DRIFT: usize = 1;
 
 /// The least number of whole layers of an inner slab.
@@ -166,8 +166,8 @@ impl Slabs {
         }
     }
 
-    /// Cuts the particles into an even number of slabs with equal numbers of particles, up to one cell; into three slabs if the
-    /// layers are too few, and into one if there are hardly any.
+    /// Cuts the particles into an even number of slabs with equal numbers of particles, to within the particles of one cell;
+    /// into three slabs if the layers are too few, and into one if there are hardly any.
     fn cut_evenly(&mut self) {
         let Self { cuts, order, layer: nodes, .. } = self;
         let cell = order.cells();

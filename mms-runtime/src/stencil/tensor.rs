@@ -40,7 +40,7 @@ pub enum Known {
     Splines,
     /// Nodes are one cell apart, and weights sum to 1.
     Regular,
-    /// None.
+    /// The weights have none of these properties.
     Nothing,
 }
 
@@ -67,7 +67,7 @@ pub struct Tensor<T, const D: usize> {
     known: Known,
     /// On a meridian, the particles' distances from the axis, for the weights w/r of the strain around it.
     radius: [T; PACK],
-    /// On a meridian, the w of the weights w/r along the first axis, if they differ from [`weight`](Self::weight).
+    /// On a meridian, the factors w of the hoop weights w/r along the first axis, if they differ from [`weight`](Self::weight).
     around: Option<[[T; PACK]; MOST]>,
 }
 

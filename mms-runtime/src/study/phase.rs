@@ -8,7 +8,7 @@ use super::{Checkpoint, Frame, Observer};
 /// period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Phase {
-    /// The computed amplitude over the exact one, minus 1.
+    /// The computed amplitude divided by the exact amplitude, minus 1.
     pub amplitude_error: f64,
     /// The angle by which the computed motion is behind, in radians, from -pi to pi.
     pub phase_lag: f64,

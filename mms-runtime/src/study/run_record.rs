@@ -169,7 +169,7 @@ impl<'a, T: Real, const D: usize> RunRecord<'a, T, D> {
         Ok(run_record)
     }
 
-    /// To be called before each step; `behind` is true if velocities will lag behind positions.
+    /// Measures the state before each step, if velocities lag behind positions (`behind`).
     pub fn before_step<F>(&mut self, present: &StateView<'_, T, D, F>, behind: bool)
     where
         F: ManufacturedField<T, D> + ?Sized,
