@@ -18,8 +18,9 @@ $ cargo run --release --example scene > docs/scene.md
 ```
 
 * Operations are additions, subtractions, multiplications, divisions and calls of functions, from
-  parameters, time and position to the result. Each quantity is a separate call: of the operations that two
-  quantities share, only those without X run once. [operation-counts.md](operation-counts.md) has the stages.
+  parameters, time and position to the result. Each quantity is a separate call. If two quantities share
+  operations, the shared operations with X run in both calls, the others once.
+  [operation-counts.md](operation-counts.md) has the stages.
 * Bytes count the instructions in an object file (COMPILER, ARCHITECTURE) with `prepare`,
   `at_time`, a function for each quantity, and the functions that these need: for one point, or for many,
   with loops for AVX-512, for AVX2 and for everything else. Constants and functions compiled with

@@ -115,10 +115,11 @@ functions that nothing calls take no time anyway.",
         pairs: &[frozen(BAR), frozen(VORTEX), frozen(SHEAR)],
         conclusion: "\
 The compiler folds terms that depend only on parameters, and emits no code for them: that is most of the
-saving. A loop over many points computes these terms before it starts in either case, and gains little or
-nothing. But the angle of `generalized_vortex` is then proved to be less than a quarter turn, and needs no
-reduction. Freezing may also add operations: in `twisted_column`, `sheared_block_2d`, `self_weight_column` and
-`quiet_boundary_2d` folded numbers hide common factors, and a few more operations depend on X.",
+saving. A loop over many points computes these terms once, before it starts, whether they are frozen or not;
+so freezing saves little or no time there. But the angle of a frozen `generalized_vortex` is proved to be less
+than a quarter turn, and needs no reduction. Freezing may also add operations: in `twisted_column`,
+`sheared_block_2d`, `self_weight_column` and `quiet_boundary_2d` folded numbers hide common factors, and a few
+more operations depend on X.",
     },
     Table {
         title: "One dimension, or the same motion in three",
@@ -126,9 +127,9 @@ reduction. Freezing may also add operations: in `twisted_column`, `sheared_block
 u = f(X, t) in a bar, compared with u = (f(X, t), 0, 0) in a cube; b alone.",
         pairs: &[ALONG_ONE_AXIS],
         conclusion: "\
-Zeros fold: a motion along one axis takes the same operations in three dimensions, and about the same code
-for a point. The difference is in a batch, which reads three columns and writes three. So a scene of one
-dimension needs no field of three, and loses little with it.",
+The compiler removes terms that are 0: a motion along one axis takes the same operations in three dimensions,
+and about the same code for a point. Only a batch differs: it reads three columns and writes three. So a scene
+of one dimension needs no field of three, and loses little with it.",
     },
     Table {
         title: "At rest, or in motion",
@@ -136,8 +137,8 @@ dimension needs no field of three, and loses little with it.",
 The displacement of a standing wave at t = 0, compared with the wave; b alone.",
         pairs: &[[forcing(DYNAMIC), forcing(STATIC)]],
         conclusion: "\
-Without t there are no velocity, no acceleration and no work at a new time, and one loop in place of two.
-The divergence of P, which is most of b, remains; the next table shows how to save it.",
+A field without t has no velocity, no acceleration and no work at a new time, and one loop replaces two. The
+divergence of P, which is most of b, remains; the next table shows how to save it.",
     },
     Table {
         title: "Values of X alone, kept or computed again",
@@ -149,9 +150,9 @@ include `at_point` and `at_points`, which run once per point; operations and tim
 Keep the values that depend on X alone if they are sines, roots and exponentials; at rest they are all of b.
 If they are five sums and products, as in the bar, reading takes as long as computing. The loops over kept
 points are code too: up to a third more, in the bar twice as much. The 4096 points of this table are in the
-cache. The compiler chooses columns for points in memory, with few bytes: a number that up to three sums and
-products compute from others is no column. That may take longer for points in the cache, and takes less time
-for columns in memory.",
+cache. The compiler chooses the stored values (columns) for points in main memory, so that few bytes are read:
+it does not store a number that at most three sums and products compute from others. That saves time if the
+columns are in main memory, and may cost time if they are in the cache.",
     },
     Table {
         title: "Single precision, or double",
