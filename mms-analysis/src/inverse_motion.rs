@@ -305,7 +305,7 @@ impl Tile {
 }
 
 impl Contraction {
-    /// The contraction of a tile; `None` if I - Y F is none.
+    /// The contraction of a tile; `None` if I - Y F is no contraction.
     fn new(slope: &[f64], gradient: &[Interval], dimension: usize) -> Option<Self> {
         let inverse = inverse(slope, dimension)?;
         let entry = |row: usize, column: usize| {

@@ -5,9 +5,8 @@
 //! bits. If 1536 bits change a value by more than 2^-136 of its quantity, it has 1536, and then 4096; a quantity that needs
 //! more is left out.
 //!
-//! A component that is infinite or NaN is counted, separately from components whose true value is beyond the range, and is in
-//! no error; likewise a component without a real value. Magnitudes below the least normal number count as the least normal
-//! number.
+//! Infinite and NaN components are counted, separately from components whose true value is beyond the range, and enter no
+//! error; so are components without a real value. Magnitudes below the least normal number count as the least normal number.
 
 mod errors;
 mod points;
@@ -49,7 +48,7 @@ const SEARCHED: usize = 1000;
 /// The number of points at which the digits of the reference are checked.
 const CHECKED: usize = 4;
 
-/// The number of bits of the largest value of a quantity to which two references must agree.
+/// The number of bits, relative to the largest value of a quantity, to which two references must agree.
 const SETTLED: i32 = 136;
 
 /// The reason for a quantity that is not measured.
@@ -132,7 +131,8 @@ pub struct Varied {
     pub values: SortedMap<usize, Rational>,
 }
 
-/// Puts a field in a regime; the error is the reason why it cannot be. A body that is elsewhere has its own box.
+/// Puts a field in a regime; the error is the reason why that is impossible. If the body is shifted, the box in which it is
+/// declared is shifted too (`Variation::Moved`).
 pub fn vary(compile: Compile<'_>, options: &Options, regime: &Regime) -> Result<Varied, String> {
     let subject = Variants::new(compile, options, &[]).map_err(|failure| first_line(&failure))?;
     let case = regime.case(&subject, Search::Everywhere)?;
@@ -430,8 +430,8 @@ fn precise_input<T: Digits, const BITS: usize>(input: &Input<T>) -> Input<Binary
     }
 }
 
-/// The difference of two references of a quantity, over all checked points: one component alone may be 0, and only round-off in
-/// both.
+/// The largest difference of two references of a quantity, over all checked points and components, since one component alone
+/// may be 0, and consist of round-off in both.
 struct Agreement<const BITS: usize> {
     difference: Binary<BITS>,
     largest: Binary<BITS>,

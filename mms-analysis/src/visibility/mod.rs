@@ -2,8 +2,8 @@
 //!
 //! A solver may be wrong in a term that vanishes in a field, and still agree with the field. A term is called absent if its
 //! expressions are 0 (for all parameters), or if they are below 1e-60 of their natural size at 32 points with 77 digits, for
-//! the defaults; the result tells which, and the latter is no proof. The gallery as a whole tests all terms except those that a
-//! test lists.
+//! the defaults; the result states which of the two; small values are no proof. The gallery as a whole tests all terms except
+//! those that a test lists.
 
 mod scale;
 mod term;

@@ -9,7 +9,7 @@
 //! | transposed stress | Div P - Div P^T |
 //! | unequal moduli | lambda - mu at F = I |
 //! | graded moduli, density | dP_iJ/dX_J at fixed H, drho0/dX |
-//! | parameter p of the material | p d(Div P)/dp, of a second derivation with p exp(s) for p |
+//! | parameter p of the material | p d(Div P)/dp, from a second derivation in which p exp(s) replaces p |
 //! | traction on a face | P N, with X replaced by its projection to the face |
 
 use super::term::Term;
@@ -267,8 +267,8 @@ impl Stress {
     }
 }
 
-/// d(Div P)/ds at s = 0, if the parameter of the material is p exp(s): p d(Div P)/dp, which is 0 if p is. A parameter that the
-/// density uses as a number only, such as an exponent, has none.
+/// d(Div P)/ds at s = 0, if the parameter of the material is p exp(s): p d(Div P)/dp, which is 0 if p is 0. A parameter that
+/// the density uses only as a number, such as an exponent, has no such term.
 fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     let (field, material, model) = (&compiled.field, &compiled.material, &compiled.model);
     let mut varied = model.arguments.clone();
