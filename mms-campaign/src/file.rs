@@ -32,7 +32,7 @@ pub struct Campaign {
     pub sources: Sources,
     /// The command of the solver, and its surroundings.
     pub solver: Solver,
-    /// The studies to run, with unique names. A study with stepped parameters has one entry per step.
+    /// The studies to run, with unique names. A study with lists in `set` has one entry for each of their steps.
     pub studies: Vec<Study>,
 }
 
@@ -66,9 +66,9 @@ pub struct Solver {
 /// A field, and the meshes on which a solver runs it.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// The name; for a step, with the stepped parameters.
+    /// The name; if a list of `set` made this study, followed by the values of its parameters.
     pub name: String,
-    /// The name of the study in the file, shared by its steps.
+    /// The name of the study in the file, shared by all studies that its lists of `set` make.
     pub family: String,
     /// A gallery name, or the path of a field file.
     pub field: Spanned<String>,
@@ -518,7 +518,7 @@ fn validate_grid(reader: &mut Reader, table: &Table<'_>, study: &Study) {
     }
 }
 
-/// Requires as many of each as there are levels; or one mesh for all time steps.
+/// Requires one entry per level in `cells`, `time_steps` and `h`; `cells` may have a single entry for all time steps.
 fn validate_levels(reader: &mut Reader, table: &Table<'_>, study: &Study) {
     if study.grid {
         return validate_grid(reader, table, study);

@@ -1,6 +1,7 @@
-//! The parameters of a study, some of which may be stepped: `set = { load = [0.25, 0.5, 1], nu = 0.3 }`.
+//! The parameters of a study, of which some may be lists: `set = { load = [0.25, 0.5, 1], nu = 0.3 }`.
 //!
-//! Lists are stepped together, the first number of each, then the second of each; numbers stay as they are.
+//! A step is one set of values: the first step has the first number of each list, the second step the second. A parameter with
+//! a single number has it in all steps.
 
 use mms_spec::diagnostic::{Diagnostic, quoted};
 use mms_spec::source::Span;

@@ -239,7 +239,8 @@ fn end(child: &mut Child) -> io::Result<Vec<Process>> {
     if staying.is_empty() { Ok(staying) } else { left(child, KILLED, true) }
 }
 
-/// The processes of a run that remain after a while, or none as soon as all have ended. Kills them meanwhile if `kill`.
+/// Waits until all processes of a run have ended, for at most `patience`, and returns those that remain. Kills them while it
+/// waits if `kill`.
 fn left(child: &mut Child, patience: Duration, kill: bool) -> io::Result<Vec<Process>> {
     let (started, mut pause) = (Instant::now(), PAUSES[0]);
     loop {
