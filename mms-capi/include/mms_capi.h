@@ -202,8 +202,8 @@ mms_code mms_field_set_parameter(struct mms_field *field,
                                  char *message,
                                  size_t capacity);
 
-// Sets `count` parameters at once, if a single change would not be allowed, as in a body that moves away. An evaluation on
-// another thread uses all new values or none.
+// Sets `count` parameters at once. This is needed if one change alone would not be allowed, such as a lower end above the old
+// upper end of a body. An evaluation on another thread uses all new values or none.
 //
 // Codes: MMS_CODE_UNKNOWN_NAME, MMS_CODE_INVALID_PARAMETER. On failure nothing changes.
 mms_code mms_field_set_parameters(struct mms_field *field,

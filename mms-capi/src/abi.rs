@@ -270,8 +270,8 @@ pub unsafe extern "C" fn mms_field_set_parameter(
     }
 }
 
-/// Sets `count` parameters at once, if a single change would not be allowed, as in a body that moves away. An evaluation on
-/// another thread uses all new values or none.
+/// Sets `count` parameters at once. This is needed if one change alone would not be allowed, such as a lower end above the old
+/// upper end of a body. An evaluation on another thread uses all new values or none.
 ///
 /// Codes: MMS_CODE_UNKNOWN_NAME, MMS_CODE_INVALID_PARAMETER. On failure nothing changes.
 #[unsafe(no_mangle)]

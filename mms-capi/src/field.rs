@@ -32,7 +32,7 @@ pub struct Field {
     compiled: Compiled,
     settings: Settings<SortedMap<usize, Rational>>,
     evaluator: Evaluator,
-    /// The bounds of values that are certainly allowed, once any are set.
+    /// The bounds within which every value is allowed; computed when a parameter is first set.
     quick: OnceLock<Option<FastParameterCheck>>,
     /// The name for C programs, with a NUL at the end.
     pub name: CString,
