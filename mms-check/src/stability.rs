@@ -171,7 +171,7 @@ fn edge(corner: &Corner, modulus: &str) -> String {
     )
 }
 
-/// The stability of a static field's equilibrium, as of a motion that stays there.
+/// The line about the equilibrium of a static field, which is judged as a motion at rest.
 fn equilibrium(growth: &Growth) -> String {
     let elements: Vec<_> = growth.elements.iter().map(usize::to_string).collect();
     let is = if growth.factor > 1.0 { "UNSTABLE" } else { "stable" };
