@@ -4,7 +4,7 @@
 //! A displacement field u(X, t) and a strain-energy density W go in; everything that follows from them (v, a, F, P, Div P, b,
 //! ...) comes out as a [`Program`](mms_mechanics::Program), which the interpreter evaluates and the emitters print.
 //! [`compile`](mod@compile) reads, resolves, derives and schedules; [`certify`] proves what the file claims, over the
-//! [`bounds`] of formulas; [`rust`] prints the module that `field!` is.
+//! [`bounds`] of formulas; [`rust`] prints the module to which `field!` expands.
 //!
 //! # Bounds on the input
 //!

@@ -66,7 +66,8 @@ pub enum Entry {
     Frozen,
 }
 
-/// The quantity with a name or alias that a field with these quantities of its own is compiled with.
+/// Finds a compiled quantity by name or alias, and refuses quantities that are derived on request. `own` are the quantities
+/// that the field file defines.
 ///
 /// # Errors
 ///
@@ -82,7 +83,8 @@ pub fn quantity(own: &[Own], name: &str) -> Result<Quantity, String> {
     }
 }
 
-/// The quantity with a name or alias; includes quantities on request.
+/// Finds any quantity by name or alias, including quantities that are derived on request. `own` are the quantities that the
+/// field file defines.
 ///
 /// # Errors
 ///
@@ -117,7 +119,7 @@ impl Selection {
         self.quantities.as_ref().is_none_or(|wanted| wanted.contains(&quantity))
     }
 
-    /// Whether an output is part of the program. The domain always is: it defines where the field is defined.
+    /// Whether an output is part of the program. Bounds of the domain and closed forms always are.
     pub(crate) fn schedules(&self, output: Output, field: &FieldSpec) -> bool {
         match output {
             Output::Quantity(quantity) => self.wants(quantity),

@@ -31,7 +31,7 @@ pub enum Variation {
     /// The body lies elsewhere: u(X - s, t), and its material likewise. The new last parameter s = 0 is the same along each
     /// axis; an axisymmetric field moves along Z alone.
     Shifted,
-    /// The field is shifted as by `Shifted`, and the body of a box with it.
+    /// The field is shifted as by `Shifted`, and its body, a box, with it.
     Moved,
     /// The affine part of the motion about the middle c of the body: u(c, t) + H(c, t) (X - c). Faces at rest then become
     /// prescribed, and free ones get their traction; closed forms are omitted.
@@ -195,7 +195,7 @@ fn set_factors(sources: &mut Sources, field: &mut FieldSpec) {
     }
 }
 
-/// Replaces claims of faces that are not true of the affine part by its data.
+/// Replaces claims about faces that the affine part does not satisfy by its data.
 fn give_data(field: &mut FieldSpec) {
     for boundary in &mut field.boundary {
         let claim = &mut boundary.claim.value;

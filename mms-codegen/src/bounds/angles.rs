@@ -23,8 +23,9 @@ use mms_symbolic::sorted::{SortedMap, SortedSet};
 /// themselves (`mms_math::WITHIN_ONE` and `mms_math::NEAR_ZERO`), since a computed angle has errors.
 const LIMITS: [(f64, Small); 2] = [(1.0 + 1.0 / 32.0, Small::WithinOne), (1.5, Small::NearZero)];
 
-/// The cells and operations that one proof may use.
+/// The cells that one proof may use.
 const CELLS: usize = 128;
+/// The operations that one proof may use.
 const OPERATIONS: usize = 50_000;
 
 /// Marks the angles of sines and cosines that are proved to be small.

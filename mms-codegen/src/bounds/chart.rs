@@ -25,7 +25,7 @@ use mms_symbolic::pass::substitute::{rebuild, substitute};
 use mms_symbolic::sorted::SortedMap;
 use mms_symbolic::work::Work;
 
-/// The variables of a field on its body or on a face, and the expressions of everything that they replace.
+/// The variables of a field on its body or on a face, and the expressions in them that replace the other symbols.
 #[derive(Clone, Debug)]
 pub struct Chart {
     /// The symbols that vary: parameters, the time, coordinates.
@@ -357,7 +357,7 @@ pub struct Run<'a, T: Number, K> {
     ready: Option<Interpreter<'a, T, K>>,
     /// The instructions that each requested list of outputs needs.
     plans: Vec<(Vec<K>, Vec<bool>)>,
-    /// The number of times that an operation is charged to the budget.
+    /// The factor by which the cost of each operation is multiplied in the budget.
     times: u64,
 }
 
@@ -392,7 +392,7 @@ impl<T: Number> Run<'_, T, ChartOutput> {
 }
 
 impl<T: Number, K: Key> Run<'_, T, K> {
-    /// Charges every operation `times` times.
+    /// Charges every operation `times` its steps.
     pub fn charge(&mut self, times: u64) {
         self.times = times;
         self.ready.iter_mut().for_each(|ready| ready.charge(times));
@@ -471,8 +471,9 @@ fn across(graph: &mut Graph, places: &SortedMap<Symbol, Expr>) -> Option<Expr> {
     Some(graph.mul(radius, sine))
 }
 
-/// The names of sqrt(X^2 + Y^2) and of sqrt(X^2 + Y^2 + Z^2) until they are replaced.
+/// The name of sqrt(X^2 + Y^2) until it is replaced.
 const ACROSS: Symbol = Symbol::Local(0);
+/// The name of sqrt(X^2 + Y^2 + Z^2) until it is replaced.
 const WHOLE: Symbol = Symbol::Local(1);
 
 /// Replaces these two roots in formulas by their names, in any power.

@@ -40,7 +40,7 @@ const HALVINGS: usize = 60;
 /// The evaluations per cell: its bounds, the bounds at its middle, and its corners.
 const OF_A_CELL: usize = 4;
 
-/// An operation that ends within the domain.
+/// An operation that is not proved to stay within one analytic branch over the domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exit {
     /// The place of the operation.
@@ -94,7 +94,8 @@ pub fn exits(
         }
     }
     if graph.is_exhausted() {
-        // Nothing in it means anything: limits that were found may be none, and others are missing.
+        // Results from a full graph are meaningless: some limits that it reports do not exist, and others are missing. So
+        // report one unproved operation.
         let witness = Witness::at(chart, &Cell::whole(chart.variables().len()).centre()).0;
         let formula = field.formulas.iter().map(|(_, span)| *span).next();
         let unknown = |span| Exit { span, must: Must::NotVanish, witness, is_certain: false };

@@ -49,8 +49,9 @@ const OPERATIONS_OF_BRANCHES: usize = 4_000_000;
 /// The largest number of operations of a proof about a program in one precision.
 const OPERATIONS_AS_COMPUTED: usize = 8_000_000;
 
-/// The largest numbers of operations and of cells of a compilation's search for J <= 0.
+/// The largest number of operations of a compilation's search for J <= 0.
 const QUICK_OPERATIONS: usize = 100_000;
+/// The largest number of cells of a compilation's search for J <= 0.
 const QUICK_CELLS: usize = 128;
 
 /// The largest number of nodes of a field that a compilation searches: it leaves larger fields to [`certify`].
@@ -95,7 +96,8 @@ pub fn certify(compiled: &Compiled) -> Certificate {
     let motion = ChartMotion::new(&mut graph, &chart, compiled);
     let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
     budget.end(&graph, "the formulas of J and the strain");
-    // The contradictions of a compilation are sought first, so that both report the same.
+    // First search the points with J <= 0 that a compilation would report, so that `mms check` and the compiler report the same
+    // one.
     let (jacobian, mut boxes) = budget.part(&mut graph, VOLUME, "J > 0", |graph| {
         match inversion(graph, &chart, compiled) {
             Some((witness, value)) => (Sign::Refuted(witness, value), 0),
@@ -286,7 +288,7 @@ impl Certificate {
             Finite::Undefined(quantity, _)
                 if *quantity > Quantity::Jacobian && matches!(self.jacobian, Sign::Refuted(..)) => {
             }
-            // A quantity without a value where a function ends is no mistake of its own: the exit is reported.
+            // If a quantity has no value where a function reaches the end of its domain, only the function is reported.
             Finite::Undefined(_, witness)
                 if self.exits.iter().any(|it| it.is_certain && it.witness == *witness) => {}
             Finite::Undefined(quantity, witness) => {
@@ -351,7 +353,8 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
     }
     let (exits, _) =
         branches::exits(&mut graph, &chart, compiled, None, [QUICK_CELLS, QUICK_OPERATIONS]);
-    // Where a function ends, its values or its derivatives are not finite, and their evaluation reports that.
+    // At the end of the domain of a function, its values or derivatives are usually not finite, and their evaluation reports
+    // that. Report a jump of values here, since it leaves all derivatives finite.
     let certain: Vec<_> = exits.iter().filter(|exit| exit.is_certain).collect();
     if certain.iter().any(|exit| exit.must.is_blind()) {
         found.extend(certain.iter().map(|exit| message::leaves_branch(compiled, exit)));

@@ -99,8 +99,8 @@ struct OnFace<'a> {
     compiled: &'a Compiled,
     face: Face,
     chart: Chart,
-    /// Whether the coordinate that is constant on the face is left open, on the face and in its normal: a proof for all its
-    /// values is a proof for one, and a sine of a symbol is shorter than a sine of a number.
+    /// Whether the coordinate that is constant on the face stays a symbol, in the formulas and in the normal. A proof for all
+    /// its values includes its value on the face, and the sine of a symbol is shorter than the sine of a number.
     is_open: bool,
 }
 
@@ -247,7 +247,7 @@ impl<'a> OnFace<'a> {
                 let relations = Relations::find(graph, components);
                 let thorough = relations.thorough().unwrap_or(relations);
                 let reduced = reduce(graph, components, &thorough);
-                // Lower powers may show that terms cancel.
+                // Terms may cancel in a second reduction, because the first one lowered their powers.
                 let relations = Relations::find(graph, &reduced);
                 let reduced = reduce(graph, &reduced, &relations);
                 reduced.iter().all(|component| graph.is_zero(*component))
@@ -260,7 +260,8 @@ impl<'a> OnFace<'a> {
         zero(graph, &declared)
     }
 
-    /// Whether a claim on a face where an angle is constant holds for any angle in its place, and for any normal at it.
+    /// Whether a claim on a face where an angle is constant holds for every value of this angle, with the normal that belongs
+    /// to it.
     fn vanishes_openly(&self, graph: &mut Graph, claim: Claim) -> bool {
         let Region::Block(block) = &self.compiled.model.domain.body else { return false };
         if !block.system.is_angle(face::fixed_coordinate(self.face).0) {

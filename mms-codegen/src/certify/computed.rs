@@ -6,7 +6,8 @@
 //! number. The exact part is made sharper by formulas: each operand of a division, a root or a logarithm is written once more
 //! as a formula in the variables of the box, as a multiple of J or bounded by its mean-value form. A divisor, a root or a
 //! logarithm must be of the right sign with the error included. An overflow has no value, and neither has the sine, in twice
-//! the digits, of an angle above 2^50. Numbers that vary have this precision; the first two stages have the wider one.
+//! the digits, of an angle above 2^50. Values of the last two stages have the precision that is proved; values of the first two
+//! stages have twice its digits.
 //!
 //! `f64` is part of the verdict that everything is finite. `f32` has a line of its own, and is an error of `mms run` and `mms
 //! study` only if it fails at a corner or in the middle.
@@ -34,13 +35,14 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Function, Graph, Symbol};
 use mms_symbolic::sorted::SortedSet;
 
-/// The number of right digits after the point that tells an angle from its neighbours.
+/// The number of correct digits after the point from which an angle counts as accurate.
 pub const ENOUGH_DIGITS: f64 = 6.0;
 
-/// The steps of one operation on bounds and errors, unless it takes more; and the steps of one operation in 77 digits, a
-/// function or not.
+/// The steps that are charged for an operation on bounds and errors.
 const STEPS: u64 = 20;
+/// An operation that takes more steps than this is charged all of them in place of `STEPS`.
 const SLOW: u64 = 10_000;
+/// The steps that are charged for an operation in 77 digits, a function or not.
 const STEPS_OF_DIGITS: u64 = 2_000;
 
 /// The verdict about a program in one precision.
@@ -52,7 +54,7 @@ pub enum Finding {
     Fails(Quantity, Witness, String),
     /// Nothing is refuted, but near here this quantity is not proved to be computed.
     Unproved(Quantity, Witness),
-    /// Nothing can be computed: not everything has a value, or J > 0 is not proved.
+    /// The program was not examined: some quantity has no value, or J > 0 is not proved.
     NotAsked,
 }
 
@@ -69,7 +71,7 @@ pub struct AsComputed {
 }
 
 impl AsComputed {
-    /// The result if there is nothing to compute.
+    /// The result if the program was not examined.
     pub const NOT_ASKED: AsComputed =
         AsComputed { finding: Finding::NotAsked, angles: None, cells: 0 };
 }
@@ -134,7 +136,7 @@ struct QuantityProgram<'a> {
     angles: Vec<(usize, f64)>,
 }
 
-/// The values of a program: rounded, and with the digits of the first two stages.
+/// The values of a program: in the precision that is proved, and in the wider precision of the first two stages.
 struct Values<T: Number> {
     narrow: Vec<T>,
     wide: Vec<T::Wide>,

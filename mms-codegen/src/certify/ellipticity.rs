@@ -23,13 +23,14 @@ use crate::bounds::enclosure::{Enclosures, Formulas};
 use crate::bounds::search::{Measure, SearchResult, largest};
 use crate::compile::Compiled;
 
-/// The largest number of boxes of states, by dimension (a box in space takes about ten times as long as others), and of boxes
-/// of places and times.
+/// The largest number of boxes of states, by dimension: a box in three dimensions takes about ten times as long as others.
 const CELLS: [usize; 3] = [1000, 1000, 460];
+/// The largest number of boxes of places and times.
 const CELLS_OF_FIELD: usize = 100;
 
-/// The number of steps of the search for multiples of minors, and the part of the largest possible bound that ends it.
+/// The number of steps of the search for multiples of minors.
 const STEPS: usize = 24;
+/// The part of the largest possible bound at which that search ends.
 const GOOD: f64 = 0.9;
 
 /// The verdict about the acoustic tensors.
@@ -108,7 +109,7 @@ impl<'a> States<'a> {
     }
 
     /// H, J and the place at fractions of the variables; `None` where J is out of bounds, or the stretches do not ascend: the
-    /// order of the axes matters to no isotropic matter.
+    /// order of the axes has no effect on isotropic matter.
     fn at(&self, sides: &[Interval]) -> Option<(Vec<Interval>, Interval, Vec<Interval>)> {
         let one = Interval::from_f64(1.0);
         let (own, rest) = sides.split_at(self.dimension);
@@ -308,7 +309,7 @@ impl<'a> Shifts<'a> {
         Shifts { tensor, dimension: order.isqrt(), step, most }
     }
 
-    /// The multiples that separate the shears of two axes, plus `part` of the largest component (not 0 in two dimensions only).
+    /// The multiples that separate the shears of two axes, each plus `part` times `step`. `part` is 0 except in two dimensions.
     fn multiples(&self, part: f64) -> Vec<Multiple> {
         let size = self.dimension;
         let pairs = || (0..size).flat_map(|a| (a + 1..size).map(move |b| [a, b]));
@@ -343,7 +344,7 @@ impl<'a> Shifts<'a> {
 
     /// The largest change of a least eigenvalue when each entry of the tensor changes by at most these radii.
     fn reach(&self, radii: &[f64]) -> f64 {
-        // A multiple that is an entry of the tensor changes the others as much as itself.
+        // The multiples are entries of the tensor, so their radii are added to the radii of the entries that they shift.
         let multiples = Shifts { tensor: radii, step: 0.0, ..*self }.multiples(0.0);
         let mut sum = radii.to_vec();
         let order = sum.len().isqrt();

@@ -8,7 +8,7 @@
 //!
 //! The wave speed follows from the acoustic tensor on a grid of directions, whose gaps are bounded, and from the least rho0;
 //! for isotropic materials in principal axes. In the deformed body F_pJ F_qL A_iJkL replaces A_iJkL. The stable time step is
-//! the cell size over the larger of the two wave speeds; the speed of particles does not enter.
+//! the cell size divided by the larger of the two wave speeds; the speed of particles does not enter.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -72,7 +72,7 @@ pub(super) fn bound(
     let rates = Rates {
         principal_stretch,
         strain_rate: rate.bound,
-        // A stretch by at most this factor carries a wave no farther.
+        // In the deformed body a wave moves at most `principal_stretch` times as far as in the reference configuration.
         wave_speed: deformed.bound.min(reference.bound * principal_stretch),
         reference_wave_speed: reference.bound,
     };
@@ -224,8 +224,9 @@ impl<'a> Searches<'a> {
     }
 }
 
-/// Bounds a measure of formulas: in a cell from bounds of the formulas, and at its centre from their values there. `measure`
-/// gets the bound that is sharp enough; cells are split where the steering formulas change most.
+/// Bounds the maximum of a measure of formulas. `measure` computes it from bounds of the formulas in a cell, or from their
+/// values at its centre; a bound at most its third argument is sharp enough. A cell is split along the variable that changes
+/// the formulas in `steering` most.
 fn search(
     chart: &Chart,
     bounds: &mut Enclosures<'_>,

@@ -13,8 +13,9 @@ use crate::bounds::enclosure::Formulas;
 use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
 
-/// The number of alternations between a search of m for an N and of N for an m, and the number of steps of each search.
+/// The number of alternations between a search of m for an N and of N for an m.
 const TURNS: usize = 12;
+/// The number of steps of each search.
 const STEPS: usize = 24;
 
 /// A wave that grows without a bound, at any wavelength.

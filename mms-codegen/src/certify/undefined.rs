@@ -19,11 +19,13 @@ use mms_symbolic::sorted::SortedMap;
 /// The number of points of the domain where u is evaluated.
 pub const POINTS: usize = 32;
 
-/// The budget of all points together, in the steps of [`mms_symbolic::work`], and the steps of an operation, of a power and of
-/// a function.
+/// The budget of all points together, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 50_000_000;
+/// The steps of an operation.
 const STEPS_OF_OPERATION: u64 = 60;
+/// The steps of a power.
 const STEPS_OF_POWER: u64 = 3_000;
+/// The steps of a function.
 const STEPS_OF_FUNCTION: u64 = 10_000;
 
 /// The largest integer exponent for repeated multiplication; the power function computes greater ones.

@@ -297,7 +297,7 @@ pub(super) fn normal(components: usize) -> Vec<Ident> {
     (0..components).map(|axis| input(Symbol::Normal(axis))).collect()
 }
 
-/// A number of things.
+/// A count as a literal without a suffix.
 pub(super) fn count(number: usize) -> Literal {
     Literal::usize_unsuffixed(number)
 }
