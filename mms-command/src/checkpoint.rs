@@ -29,7 +29,7 @@ const FORMAT: &str = "mms checkpoint 2";
 /// Bytes of the checksum.
 const SUM: u64 = 4;
 
-/// The first line has at most as many bytes: a state that was written for ParaView takes some tens of them.
+/// The largest number of bytes of the first line: a state that was written for ParaView takes some tens of them.
 const MOST_OF_HEAD: u64 = 64 << 20;
 
 /// The head of a checkpoint: the run and the step that it belongs to.
@@ -85,7 +85,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// Opens a file, and reads all of it once, unless it has more than so many bytes.
+    /// Opens a file, and reads all of it once, unless it has more than `most` bytes.
     ///
     /// # Errors
     /// A file that cannot be read, or is no whole checkpoint.
@@ -173,9 +173,9 @@ impl Keeper {
         Ok(Self { path: path.to_owned(), every, head })
     }
 
-    /// The command that goes on from the last one.
+    /// The command that resumes from the last checkpoint.
     pub fn resuming(&self) -> String {
-        // It was put together of quoted words.
+        // The words of the command are quoted already.
         let command = self.head.command.raw();
         format!("{command} --resume {}", quoted(&self.path.to_string_lossy()))
     }
@@ -201,7 +201,7 @@ impl Keeper {
     }
 }
 
-/// Sums what it passes on.
+/// A writer that computes the checksum of the bytes that it passes on.
 struct Summed<W> {
     to: W,
     sum: Hasher,

@@ -40,13 +40,12 @@ impl History {
     /// A file that cannot be written.
     pub fn new(path: &Path, dimension: usize) -> anyhow::Result<Self> {
         let history = Self { path: path.to_owned(), text: line(&names(dimension)) };
-        // Said before any work is done.
+        // Fails before any work is done.
         history.keep().with_context(|| option(path))?;
         Ok(history)
     }
 
-    /// The history of a run that goes on from a step: the rows of the file up to it, if they are what was written
-    /// before.
+    /// The history of a run that resumes after a step: the rows of the file up to it, if they are the rows that the run wrote.
     ///
     /// # Errors
     /// A file that lacks such rows, or where they were changed.
@@ -99,7 +98,7 @@ impl History {
         Mark { bytes: self.text.len() as u64, checksum: crc32fast::hash(self.text.as_bytes()) }
     }
 
-    /// Writes the rows so far, unless what was written could not be replaced.
+    /// Writes the rows so far, unless the file is a stream, which cannot be replaced.
     ///
     /// # Errors
     /// A file that cannot be written.

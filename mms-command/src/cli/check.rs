@@ -89,7 +89,7 @@ impl Check {
         Ok(worst)
     }
 
-    /// All of the field, with what is set as constants.
+    /// The selection of the whole field, in which the parameters that are set are constants.
     fn selection(&self) -> anyhow::Result<Selection> {
         let set = settings(&self.set)?;
         let freeze = match set.is_empty() {

@@ -67,12 +67,12 @@ pub struct Emit {
     json: bool,
 }
 
-/// The words of the compiler's list.
+/// Parses the names of the compiler's list of targets.
 fn targets() -> impl TypedValueParser<Value = &'static Target> {
     Targets
 }
 
-/// Reads the name of a target, and knows which one people mean by another word.
+/// Parses the name of a target. The error for another word names the target that people mean by it.
 #[derive(Clone)]
 struct Targets;
 
@@ -192,7 +192,8 @@ impl Emit {
         Ok(outcome)
     }
 
-    /// The folder for the files of a field. Below one that was named, a link leads to what nobody named.
+    /// The folder for the files of a field. Refuses a link below the named folder, since it leads to a place that the user did
+    /// not name.
     fn folder(&self, named: &Path, field: &str) -> anyhow::Result<PathBuf> {
         if !self.all {
             return Ok(named.to_owned());

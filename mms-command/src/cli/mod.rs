@@ -213,7 +213,7 @@ fn refused(arguments: &[OsString], error: &clap::Error) -> anyhow::Result<Outcom
         printed_to_the_end(printed)?;
         return Ok(Outcome::AsExpected);
     }
-    // It quotes words: what they hold is shown.
+    // The message quotes words of the command line, so they are escaped first.
     let shown: Vec<_> =
         words(arguments.iter().cloned()).iter().map(|it| foreign::shown(it).into()).collect();
     let of_shown = parse(&shown).err().filter(clap::Error::use_stderr);

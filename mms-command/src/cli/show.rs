@@ -117,7 +117,7 @@ impl Show {
             )
         };
         let mut document = Document::new(&input.compiled, &quantities).map_err(too_large)?;
-        // The whole page ends with what the field as a whole is good for.
+        // The page of all quantities ends with the terms of the equations that the field sees.
         if self.quantity.is_empty() && !self.fragment {
             document.visibility = Some(Visibility::of(&input.compiled).map_err(too_large)?);
         }

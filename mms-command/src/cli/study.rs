@@ -109,7 +109,7 @@ pub struct Study {
     printing: Printing,
 }
 
-/// The quantities whose errors a study has.
+/// The quantities whose errors a study computes.
 const COMPARED: [&str; 4] =
     ["displacement", "velocity", "deformation_gradient", "first_piola_kirchhoff"];
 
@@ -146,13 +146,14 @@ impl Case {
     }
 }
 
-/// Runs `mms` without arguments: the slides' bar with contiguous-particle GIMP.
+/// Runs `mms` without arguments: the study of `bar_1d`, the bar of Wallstedt and Guilkey's slides, with contiguous-particle
+/// GIMP.
 pub(super) fn main_job() -> anyhow::Result<Outcome> {
     Alone::parse_from(["mms", "bar_1d"]).study.run(&["mms".to_owned()])
 }
 
-/// The studies of a command line, `study` first, of a field that `open` opens; nothing is printed or written. `search` follows the
-/// search for excluded mistakes.
+/// Runs the studies of a command line whose first word is `study`, on a field that `open` opens; prints and writes nothing.
+/// `search` follows the search for excluded mistakes.
 ///
 /// # Errors
 /// Options or a field that cannot be studied.
@@ -201,7 +202,8 @@ impl Study {
         Ok(if report.is_passed() { Outcome::AsExpected } else { Outcome::Refuted })
     }
 
-    /// The study of a command line, `study` first, as any machine makes it; nothing, if no level could be started.
+    /// The study of a command line whose first word is `study`, without the machine in its provenance; `None` if no level could
+    /// be started.
     pub fn anywhere(words: &[String]) -> anyhow::Result<Option<Report>> {
         let mut report = studies(words, &open, &Progress::new(), &Unfollowed)?;
         report.studies.iter_mut().for_each(|it| it.provenance.machine = None);
@@ -229,7 +231,7 @@ impl Study {
             let options = filled(options, self.methods.given(), &input.compiled.field);
             let (method, note) = match options.method_for(&input, &self.set) {
                 Ok(found) => found,
-                // One of several, whose words make no sense together.
+                // One combination of several, whose options exclude each other.
                 Err(error) if self.methods.each().len() > 1 && error.is::<Refusal>() => {
                     impossible.push((options, error));
                     continue;
@@ -342,7 +344,7 @@ impl Study {
         wanted
     }
 
-    /// Lets a method run to the end of the last period that is wanted, in as many steps in each.
+    /// Extends a method to the end of the last wanted period, with the same number of steps in each period.
     fn through_periods(
         &self,
         input: &Input,
@@ -417,12 +419,12 @@ impl Study {
             run.map(|run| (run, phases)).map_err(|reason| Refused { cells, reason })
         };
         let planned = self.planned(scene, method);
-        // How many steps lead to an equilibrium is not known before.
+        // The number of steps to an equilibrium is not known in advance.
         if !method.setup.relax {
             let estimated =
                 estimate(planned.len(), self.refine == Refinement::Space, |run, trial| {
                     let (method, cells, watch) = &planned[run];
-                    // It ends before the run does, or is not started, which the run says.
+                    // The trial ends early; if it cannot be started, the run itself reports the reason.
                     let _ = scene.run(method, cells, *watch, trial);
                 });
             estimated.iter().for_each(|it| progress.say(it));

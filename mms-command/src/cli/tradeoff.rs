@@ -253,8 +253,8 @@ impl Bench<'_> {
     }
 }
 
-/// About how many particle-steps a run takes on one cell as long as the `longest` edge of the body, with one particle in it
-/// and a Courant number of 1: the part of the cell that is the body's, times how often a wave crosses it.
+/// Estimates the particle-steps of a run on one cell as long as the `longest` edge of the body, with one particle in it and a
+/// Courant number of 1: the part of the cell that the body fills, times the number of times that a wave crosses the cell.
 fn unit_work(compiled: &Compiled, set: &SortedMap<usize, Rational>, longest: f64) -> f64 {
     let (extent, [start, end]) = domain(&compiled.program, &compiled.parameters::<f64>(set));
     let [_, speed] = sound(compiled, set);
@@ -263,8 +263,8 @@ fn unit_work(compiled: &Compiled, set: &SortedMap<usize, Rational>, longest: f64
     part * speed * (end - start) / longest
 }
 
-/// Which numbers of cells along the longest edge divide all edges into whole numbers of cells: multiples of this, as
-/// far as it is small.
+/// The least number of cells along the longest edge that divides all edges into whole numbers of cells, as its multiples do; 1
+/// if that number would be above 64.
 fn grain(edges: &[f64]) -> usize {
     const MOST: usize = 64;
     let longest = edges.iter().fold(0.0, |longest: f64, edge| longest.max(*edge));

@@ -25,7 +25,7 @@ pub fn table(keys: &[Key]) -> Value {
     })
 }
 
-/// An array of exactly so many values.
+/// An array of exactly `components` values.
 pub fn count(components: usize) -> Value {
     json!({ "minItems": components, "maxItems": components })
 }

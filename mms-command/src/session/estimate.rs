@@ -7,8 +7,9 @@ use mms_runtime::study::{Frame, Observer};
 /// The least number of particles times steps, over all runs, for a trial: fewer end sooner than a trial.
 const WORTH_A_TRIAL: f64 = 5e6;
 
-/// The least number of particles of a trial, if a run has as many; and the number of its timed steps, after the first one.
+/// The least number of particles of a trial, if a run has as many.
 const PARTICLES: usize = 4000;
+/// The number of timed steps of a trial, after the first step.
 const STEPS: usize = 6;
 
 /// The duration above which a warning is printed.

@@ -15,7 +15,7 @@ fn law(f: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
     [[p(0, 0), p(0, 1)], [p(1, 0), p(1, 1)]]
 }
 
-/// X and u of all nodes at the time `end`, on a mesh of so many cells along each side.
+/// X and u of all nodes at the time `end`, on a mesh of `cells` cells along each side.
 pub fn solve(problem: &impl Problem, cells: usize, end: f64) -> Vec<[[f64; 2]; 2]> {
     let (h, row) = (1.0 / cells as f64, cells + 1);
     let steps = (end * (2.0 * (LAMBDA + 2.0 * MU) / DENSITY).sqrt() / (0.5 * h)).ceil() as usize;

@@ -228,7 +228,8 @@ impl Ended<'_> {
         })
     }
 
-    /// Runs that stopped: fewer and larger steps help where finer meshes get further, and not else.
+    /// Runs that stopped for a reason other than an unstable time step. If finer meshes stop sooner, smaller steps and more
+    /// cells do not help.
     fn of_stops(&self) -> Option<Cause> {
         let is_unstable = |it: &&Failure| matches!(it.cause, Stop::UnstableStep { .. });
         let stops: Vec<&Failure> = self.failures().filter(|it| !is_unstable(it)).collect();
@@ -272,7 +273,7 @@ impl Ended<'_> {
         })
     }
 
-    /// Levels that do not tell: one more, of twice the cells.
+    /// Levels that are not conclusive: proposes one more level, with twice the cells or a smaller time step.
     fn of_few_levels(&self) -> Option<Cause> {
         if self.verdict != Verdict::NotAsymptotic {
             return None;

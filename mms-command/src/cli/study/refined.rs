@@ -2,10 +2,10 @@
 
 use mms_runtime::Method;
 
-/// At the ends of so many equal parts of the time window, runs of a study in time are compared.
+/// The number of equal parts of the time window at whose ends the runs of a study in time are compared.
 pub const PARTS: usize = 16;
 
-/// A method with half the time step, so many times.
+/// A method whose time step is halved `times` times.
 pub fn halved(method: &Method, times: u32) -> Method {
     let mut method = method.clone();
     let factor = 2f64.powi(times as i32);
