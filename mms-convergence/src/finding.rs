@@ -117,13 +117,14 @@ pub struct Finding {
     pub lengths: Vec<f64>,
 }
 
-/// The scatter of logarithms about a straight line up to which levels follow a power law, whose order then decides.
+/// The largest scatter of ln e about a straight line in ln h for which errors count as a pure power law; the order of this law
+/// then decides.
 const PURE: f64 = 1e-3;
 
 impl Finding {
-    /// Judges one norm. For a range of orders, the highest order is tried first. The levels before the first that may be at
-    /// round-off decide. If they do not decide, coarse levels are dropped while more than three remain and the term of order p
-    /// + 1 dominates on the coarsest.
+    /// Judges one norm, by the levels that precede the first level that may be at round-off. While the verdict is `not
+    /// asymptotic` and the term of order p + 1 dominates on the coarsest of more than three levels, drops that level and judges
+    /// again. For a range of orders, tries the highest order first.
     pub fn of(sequence: &Sequence, expected: Expected) -> Self {
         if sequence.is_exact() {
             return Self::exact(sequence.levels());
@@ -188,7 +189,7 @@ impl Finding {
         self.term.filter(|it| is_seen(it) && expected.distance(it.order) != 0.0)
     }
 
-    /// The limit, if it is significantly different from 0, changes the order by a visible amount, and is no other term.
+    /// The limit, if it is significantly different from 0, changes the order visibly, and no second term was found.
     pub fn inconsistency(&self, expected: Expected) -> Option<Limit> {
         let is_seen = |it: &Limit| it.share * it.order >= expected.resolution();
         self.limit.filter(|it| self.term.is_none() && !it.is_consistent() && is_seen(it))
