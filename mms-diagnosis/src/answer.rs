@@ -61,7 +61,7 @@ pub struct Ranked {
     pub is_sized: bool,
     /// Whether the size is a known one.
     pub is_known: bool,
-    /// The mistakes that are the same formula for such results of any field.
+    /// The mistakes that have the same effect on such results of every field.
     pub equivalent_always: Vec<String>,
     /// The mistakes that explain this error as well.
     pub equivalent_here: Vec<String>,
@@ -157,7 +157,7 @@ pub struct Like {
     pub method: String,
     /// The user's error, as a multiple of the method's error.
     pub factor: f64,
-    /// The distance between both errors, over the user's error.
+    /// The size of the difference of both errors, divided by the user's error.
     pub apart: f64,
 }
 
@@ -214,7 +214,7 @@ pub struct Diagnosis {
     pub ranked: Vec<Ranked>,
     /// Mistakes that such results of this field cannot show.
     pub cannot_be_seen: Vec<String>,
-    /// The size of the error over the size of the exact solution.
+    /// The size of the error divided by the size of the exact solution.
     pub error: f64,
     /// The least error of a right solver, and the largest error that counts as one of a right solver.
     pub expected: [f64; 2],
@@ -256,7 +256,8 @@ impl Explained {
     }
 }
 
-/// Mistakes that are one formula for any field, inside a body and with b per mass; with the equivalent size of each.
+/// Groups of mistakes that have the same effect in every field, inside the body and with b per mass; each mistake with its
+/// equivalent size.
 const SAME: [&[(&str, Option<f64>)]; 2] = [
     &[("force_sign", None), ("moduli_factor", Some(3.0)), ("density_factor", Some(1.0 / 3.0))],
     &[("moduli_factor", None), ("density_factor", None)],
@@ -270,7 +271,8 @@ const ALIKE: usize = 5;
 const SCALED: f64 = 0.03;
 const MOST_SCALED: f64 = 0.08;
 const SCALED_BY_LEFT: f64 = 0.5;
-/// The part of an error that may be left in addition, divided by `excess`, the error over the method's error.
+/// The constant c of the further part c/`excess` of the error that may be left, in addition to `Limits::left`. `excess` is the
+/// error divided by the error of the method.
 const LEFT_BY_METHOD: f64 = 0.1;
 /// The part of the error that a mistake with several free numbers may leave at most: such mistakes explain much by chance.
 const OF_VECTOR: f64 = 0.12;
@@ -282,8 +284,8 @@ const UNSEEN: f64 = 0.004;
 const SAME_PART: f64 = 0.6;
 /// A hypothesis that leaves at most this part of the error is named even if hypotheses of an impossible size leave less.
 const CLEAR: f64 = 0.06;
-/// A fitted size counts as a known size if both differ by at most the margin of the fit, but no more than `SURE` times the
-/// distance of the fitted size from the right size; or by at most `KNOWN` times the known size or that distance.
+/// A fitted size f counts as the known size k if |f - k| <= min(margin of the fit, SURE |f - r|), where r is the right size, or
+/// if |f - k| <= KNOWN max(|k|, |f - r|).
 const KNOWN: f64 = 0.03;
 const SURE: f64 = 0.1;
 
@@ -306,19 +308,19 @@ fn is_plausible<const D: usize>(
 /// The limits within which a mistake is named.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// The least error over the methods' error: first for a mistake without a fitted size or with a known one, then for a
-    /// mistake of any size.
+    /// The least ratio of the error to the methods' error: first for a mistake without a fitted size or with a known one, then
+    /// for a mistake of any size.
     pub excess: [f64; 2],
     /// The largest part of the error that may be left if methods cause almost none of it: first for a mistake without a
     /// size, then for one whose size was fitted.
     pub left: [f64; 2],
-    /// The largest part that may be left, over the part that a hypothesis of an impossible size leaves. If that hypothesis fits
-    /// much better, something similar to it is the cause.
+    /// The largest ratio of the part that may be left to the part that a hypothesis of an impossible size leaves. If that
+    /// hypothesis fits much better, something similar to it is the cause.
     pub nearer: [f64; 2],
 }
 
 impl Limits {
-    /// Finds the outcome from ranked hypotheses and from `excess`, the error over the methods' error.
+    /// Finds the outcome from ranked hypotheses and from `excess`, the error divided by the methods' error.
     pub fn finding(&self, ranked: &[Ranked], excess: f64) -> Finding {
         let others = ranked.iter().filter(|it| !it.is_plausible && !it.acts_as_first);
         let nearest = others.map(|it| left(it.explained)).fold(f64::INFINITY, f64::min);

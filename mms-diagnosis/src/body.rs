@@ -46,7 +46,7 @@ pub fn bounds<const D: usize>(body: &Body<f64, D>) -> [Vector<f64, D>; 2] {
     bounding_box(body).unwrap_or_else(|_| [Vector::zeros(); 2])
 }
 
-/// The distance of X from a face, over the size of the body.
+/// The distance of X from a face, relative to the size of the body.
 pub fn away<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>) -> f64 {
     match (body, face) {
         (Body::Box { lower, upper }, Face::Min(axis)) => {

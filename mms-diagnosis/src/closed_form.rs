@@ -24,10 +24,11 @@ pub enum ClosedForm {
 /// The values of a closed form at a time and at X, point by point.
 pub type Values<'a> = dyn Fn(f64, &[f64]) -> Vec<f64> + 'a;
 
-/// The times, as parts of the time window, and the numbers of points along an axis at which a closed form is evaluated.
+/// The times at which a closed form is evaluated, as parts of the time window.
 const TIMES: [f64; 3] = [0.23, 0.57, 0.91];
+/// The numbers of points along an axis at which a closed form is evaluated, in one to three dimensions.
 const POINTS: [f64; 3] = [16.0, 5.0, 3.0];
-/// The step of differences, over the size of the body.
+/// The step of differences, relative to the size of the body.
 const STEP: f64 = 1e-3;
 
 /// A closed form at points and at some times.
@@ -174,7 +175,7 @@ struct Beside<const D: usize> {
 /// Steps and weights of the first derivative by differences of fourth order.
 const SLOPE: [(f64, f64); 4] =
     [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
-/// The accepted error of b by differences, over the error that differences make in the right b.
+/// The largest accepted ratio of the error of b by differences to the error that differences make in the right b.
 const MARGIN: f64 = 10.0;
 
 fn over(values: &[f64], scale: f64) -> Vec<f64> {

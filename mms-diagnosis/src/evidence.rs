@@ -67,7 +67,8 @@ pub const DEGREE: [usize; 3] = [9, 8, 4];
 /// The most times that are compared.
 const TIMES: usize = 4;
 
-/// The compared results: quantities at times, as coefficients of smooth functions, each over the size of the exact one.
+/// The compared results: quantities at times, as coefficients of smooth functions, each divided by the size of the exact
+/// quantity.
 #[derive(Clone, Debug)]
 pub struct Frame<const D: usize> {
     /// The times.
@@ -87,7 +88,7 @@ pub struct Seen {
 }
 
 impl<const D: usize> Frame<D> {
-    /// For results with these points, at some of these times.
+    /// The frame for results with these points, at some of their times.
     pub fn new(exact: &Exact<'_, D>, snapshots: &[&Snapshot], smooth: Smooth<D>) -> Self {
         let (start, is_at_rest) = (exact.domain.time[0], exact.is_at_rest());
         let last = snapshots.len().saturating_sub(1);

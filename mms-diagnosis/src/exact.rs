@@ -92,11 +92,11 @@ fn trials<const D: usize>() -> [Matrix<f64, D>; 4] {
 
 /// The strain at which a law is taken as linear.
 const SMALL: f64 = 1e-6;
-/// The largest relative difference between a law and its own stresses, for rounding.
+/// The largest relative difference of values that counts as rounding.
 const SAME: f64 = 1e-9;
 /// Parts of the time window at which a field is tested for motion.
 const TRIED: [f64; 4] = [0.0, 0.31, 0.67, 1.0];
-/// The step of differences in time, over the time window.
+/// The step of differences in time, relative to the time window.
 const STEP: f64 = 1e-5;
 /// The largest relative difference between a law taken as linear and its stresses.
 const LINEAR: f64 = 1e-4;

@@ -73,10 +73,10 @@ impl Excluded {
     }
 }
 
-/// The least error of a mistake that is noticed, over the error of the results. A larger error moves the order of the sum away
-/// from the order of a right solver, even if it cancels a part of the right error. A factor of 1.65 is enough if the error does
-/// not fall with h, the right error has order 2, and meshes are refined by 2. The rest of the factor covers the uncertainty of
-/// a run on another mesh.
+/// The least ratio of the error of a mistake that is noticed to the error of the results. A larger error moves the order of the
+/// sum away from the order of a right solver, even if it cancels a part of the right error. A factor of 1.65 is enough if the
+/// error does not fall with h, the right error has order 2, and meshes are refined by 2. The rest of the factor covers the
+/// uncertainty of a run on another mesh.
 pub const NOTICED: f64 = 2.0;
 
 /// The most steps times particles of one run: a fraction of a second, for about a hundred runs.
@@ -245,7 +245,8 @@ where
         last
     }
 
-    /// The error of a mistake over the error of the results, in the quantity that shows it best; `None` if it stops the solver.
+    /// The error of a mistake divided by the error of the results, in the quantity that shows it best; `None` if it stops the
+    /// solver.
     fn times(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<f64> {
         let own = match written(self.exact, self.frame, self.mesh, hypothesis, size) {
             Some(errors) => errors,

@@ -83,7 +83,7 @@ impl<'a, const D: usize> Levels<'a, D> {
     /// Compares results of meshes, from coarse to fine, and optionally a method that the solver may use.
     ///
     /// # Errors
-    /// Values that are not finite; runs that would take too long; a body at rest that nothing holds.
+    /// Values that are not finite; runs that would take too long; a body at rest that can move rigidly.
     pub fn new(
         exact: &'a Exact<'a, D>,
         frame: &'a Frame<D>,
@@ -165,7 +165,7 @@ impl<'a, const D: usize> Levels<'a, D> {
         Some(steady.chain(falling).collect())
     }
 
-    /// The error that a hypothesis makes on a mesh by a method, less a right solver's error. `size` is for the finest mesh.
+    /// The error that a hypothesis makes on a mesh with a method, less a right solver's error. `size` is for the finest mesh.
     pub fn wrong(
         &self,
         level: &Level<'a, D>,
@@ -181,7 +181,7 @@ impl<'a, const D: usize> Levels<'a, D> {
         self.beyond(level, method, &level.solvers.wrong(method, hypothesis, &size)?)
     }
 
-    /// The error that a hypothesis makes by the first method, linearised; `None` if that takes as long as
+    /// The error that a hypothesis makes with the first method, linearised; `None` if that takes as long as
     /// [`wrong`](Self::wrong).
     pub fn roughly(
         &self,

@@ -11,21 +11,22 @@
 //!
 //! Errors are compared as coefficients of [smooth] functions, or as sums with them, never point by point, because methods
 //! differ in the error between points and agree in its smooth part. The errors of our own runs are interpolated at the user's
-//! points ([`sample`]), because the other part differs from one set of points to another. [`rank`] finds the size with
-//! which a hypothesis comes nearest to an error, allowing for the error of the method. That error falls from one of the user's
-//! meshes to the next, and is about the error of one of several right methods of our own. [`answer`] says whether the rest is
-//! no more than that error, and which hypotheses explain as much. If none does, [`pair`] searches two, and [`place`] says where
-//! the error is.
+//! points ([`sample`]), because the part that is not smooth depends on the points. [`rank`] finds the size with which a
+//! hypothesis comes nearest to an error, allowing for the error of the method. The error of the method is assumed to fall from
+//! mesh to mesh of the user, and to be about as large as the error of one of our right methods. [`answer`] states whether the
+//! rest is at most this error, and which hypotheses explain as much. If none does, [`pair`] searches two, and [`place`] says
+//! where the error is.
 //!
 //! If the order between meshes is wrong ([`falls`]), the finding is `named` or `unexplained`, however small the error is. If an
 //! error is no larger than a method's, the same runs show which mistakes it [excludes](excluded). [`follow`] shows the progress
 //! of the runs, and ends them on request.
 //!
-//! A hypothesis is named only if three conditions hold: it leaves little of the error; its effect need not be scaled, or its
-//! size is possible; and, if that size was fitted, the error is larger than the methods' errors ([`answer::Limits`]).
+//! A hypothesis is named only if three conditions hold ([`answer::Limits`]). It leaves little of the error unexplained. Its
+//! fitted size is possible or, for a hypothesis without a size, its effect fits unscaled. If the size was fitted, the error is
+//! larger than the methods' errors.
 //!
-//! A size that is no factor of the effect (a time, a density) is found by iteration: the response is computed again at the size
-//! that the last response suggests.
+//! If the effect is not proportional to the size (a time, a density), the size is found by iteration: the response is computed
+//! again at the size that the last response suggests.
 
 pub mod answer;
 mod body;

@@ -21,13 +21,14 @@ use crate::solver::Solver;
 
 /// Points along an axis at which errors are shown, in one to three dimensions.
 const SHOWN: [f64; 3] = [64.0, 16.0, 6.0];
-/// The largest difference that storage makes in results of one solver, over the solution.
+/// The largest difference that storage makes in results of one solver, relative to the solution.
 const ROUNDING: f64 = 1e-6;
-/// The least error of a method over the solution is this times (h/length)^2. On some fields our methods make no error.
+/// The error of a method counts as at least this times (h/length)^2, relative to the solution, since our methods make no error
+/// on some fields.
 const LEAST: f64 = 2.0;
 /// An error is like a method's error if they differ by no more than this part of it.
 const NEAR: f64 = 0.25;
-/// The least share that may be a large mistake.
+/// The least share of the error that a linearised response must explain for the nonlinear response to be computed.
 const LIKELY: f64 = 0.5;
 /// The least share with which an error is explained, so that large mistakes are not searched.
 const EXPLAINED: f64 = 0.9;
@@ -120,7 +121,7 @@ where
         Some(OfOrder { method: self.levels.fine.solvers.described(method)?, order })
     }
 
-    /// The error that a hypothesis of this size makes by a method, less the error of a right solver.
+    /// The error that a hypothesis of this size makes with a method, less the error of a right solver.
     fn by(&self, method: usize, hypothesis: &Hypothesis<D>, at: &[f64]) -> Option<Vec<f64>> {
         self.levels.together(|level| self.levels.wrong(level, method, hypothesis, at))
     }
@@ -180,7 +181,7 @@ where
                 on_all_processors(self.hypotheses.len(), (says, self.exact.follow), one)
             };
         let mut all = each("mistake", &|index, it| explain(index, it, &self.error, self))?;
-        // Output of some offset or factor explains much by chance.
+        // A mistake of output with a fitted offset or factor may explain much by chance, so it does not end the search.
         let is_output =
             |it: &Explained| matches!(self.hypotheses[it.hypothesis].change, Change::Output(_));
         let explains = |it: &Explained| it.share >= EXPLAINED && !is_output(it);
@@ -277,10 +278,11 @@ const OF_TWO: Limits = Limits { excess: [0.05, 0.4], left: [0.35, 0.15], nearer:
 /// If the order is wrong, there is a mistake, and the ratio of its error to the methods' error does not matter.
 const OF_WRONG_ORDER: Limits =
     Limits { excess: [0.05, 0.05], left: [0.35, 0.25], nearer: [1.3, 0.95] };
-/// The largest errors that count as errors of a right method, over the errors of our right methods: on one mesh, on two, and
-/// for an error that falls with the expected order.
+/// The largest ratio of an error that counts as the error of a right method to the errors of our right methods, on one mesh.
 const TIMES_OF_ONE: f64 = 4.0;
+/// The largest such ratio on two meshes.
 const TIMES_OF_TWO: f64 = 3.0;
+/// The largest such ratio for an error that falls with the expected order.
 const TIMES_FALLING: f64 = 10.0;
 /// The least order with which an error on two meshes is almost only the error of the method.
 const VANISHES: f64 = 1.5;

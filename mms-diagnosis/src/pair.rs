@@ -6,8 +6,9 @@ use crate::rank::Error;
 
 /// One member of a pair is among this many hypotheses that explain most alone.
 const LIKELY: usize = 5;
-/// The part of the error that a pair may leave, and the largest |scale - 1| of a mistake that has no size.
+/// The part of the error that a pair may leave.
 const LEFT: f64 = 0.15;
+/// The largest |scale - 1| of a mistake without a size.
 const SCALED: f64 = 0.15;
 
 /// The pair that explains most, with sizes that both may have, if it leaves little.

@@ -10,8 +10,9 @@ use crate::exact::{Exact, vectors};
 
 /// The width of a layer, in cells.
 const CELLS: f64 = 2.0;
-/// The least part of the squared error in a layer, and the least multiple of the layer's part of the points.
+/// The least part of the squared error in a layer where an error is concentrated.
 const MOST: f64 = 0.5;
+/// The least ratio of this part to the layer's part of the points.
 const CROWDED: f64 = 3.0;
 
 /// A point with its squared error.

@@ -37,7 +37,7 @@ impl Error {
         error
     }
 
-    /// The size of the error that methods do not explain, over the additional error that they may make.
+    /// The size of the error that methods do not explain, divided by the additional error that they may make.
     pub fn excess(&self) -> f64 {
         let beyond = size(&self.beyond);
         if self.floor > 0.0 {

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use mms_runtime::Vector;
 use mms_runtime::nalgebra::{DMatrix, DVector};
 
-/// The radius around a point within which values count, over the spacing of the cloud.
+/// The radius around a point within which values count, divided by the spacing of the cloud.
 const RADIUS: f64 = 3.2;
 
 /// The map from values of a cloud to values at points: for each point, weights of some values.

@@ -40,12 +40,13 @@ pub struct Response {
 
 /// The part of the error that a named mistake may leave.
 const LEFT: f64 = 0.2;
-/// The largest error left, over the error that an impossible size leaves. At one state several mistakes are one formula.
+/// The largest ratio of the error left to the error that an impossible size leaves. At one state several mistakes have the same
+/// effect.
 const NEARER: f64 = 1.3;
-/// The additional error that right methods may make, over the size of the terms of elements of degree 1: for residuals, and for
-/// accelerations, which depend on their neighbours if the mass is consistent.
+/// The additional error that right methods may make, divided by the size of the terms of elements of degree 1: for residuals,
+/// and for accelerations, which depend on their neighbours if the mass is consistent.
 const METHOD: [f64; 2] = [0.75, 1.25];
-/// The part of the sums that rounding may leave, over the largest sum.
+/// The rounding that the sums may contain, relative to the largest sum.
 const ARITHMETIC: f64 = 1e-10;
 
 impl Response {

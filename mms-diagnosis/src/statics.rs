@@ -23,11 +23,13 @@ use crate::run::Responses;
 use crate::smooth;
 use crate::weak::{Weak, add, first};
 
-/// The degree of functions, and the points of quadrature along an axis, in one to three dimensions.
+/// The degree of functions, in one to three dimensions.
 const DEGREE: [usize; 3] = [12, 9, 5];
+/// The points of quadrature along an axis, in one to three dimensions.
 const POINTS: [usize; 3] = [24, 16, 10];
-/// The most iterations for d, and the number of earlier steps that the acceleration uses.
+/// The largest number of iterations for d.
 const ROUNDS: usize = 30;
+/// The number of earlier steps that the acceleration uses.
 const DEPTH: usize = 6;
 /// The iteration ends if d changes by at most this part.
 const FOUND: f64 = 1e-6;
@@ -78,7 +80,7 @@ struct OnFace<const D: usize> {
 }
 
 impl<'a, const D: usize> System<'a, D> {
-    /// Sets up equilibrium of a field at a time, under these conditions; `None` if the body is not held, or is unstable.
+    /// Sets up equilibrium of a field at a time, under these conditions; `None` if the body can move rigidly, or is unstable.
     fn new(exact: &'a Exact<'a, D>, time: f64, domain: &Domain<f64, D>) -> Option<Self> {
         let weak = Weak::with(exact, time, domain, DEGREE, POINTS[D - 1]).ok()?;
         let x = &weak.quadrature.points;
@@ -312,7 +314,7 @@ pub struct Equilibrium<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Equilibrium<'a, D> {
-    /// Sets up equilibrium at the last time that is compared; `None` if the body is not held, or is unstable.
+    /// Sets up equilibrium at the last time that is compared; `None` if the body can move rigidly, or is unstable.
     ///
     /// # Errors
     /// A body without extent.
@@ -422,7 +424,7 @@ impl<'a, const D: usize> Statics<'a, D> {
 enum AtPoints<const D: usize> {
     /// The functions, point by point.
     Displacement(Vec<f64>),
-    /// The number of points; nothing moves at them.
+    /// The number of points, whose velocities are 0.
     Velocity(usize),
     /// The gradients of the functions, point by point.
     DisplacementGradient(Vec<Vector<f64, D>>),

@@ -57,12 +57,13 @@ pub struct Table<const D: usize> {
     pub rounding_of_gradient: f64,
 }
 
-/// The error of a right law from rounding, over the largest stress.
+/// The error of a right law from rounding, relative to the largest stress.
 pub const ARITHMETIC: f64 = 1e-11;
 /// The least part of the squared error that a named mistake explains: it fits to round-off.
 const EXPLAINED: f64 = 1.0 - 1e-6;
 
-/// The largest error left, over the error that an impossible size leaves. In a table several mistakes may be one formula.
+/// The largest ratio of the error left to the error that an impossible size leaves. In a table several mistakes may have the
+/// same effect.
 const NEARER: f64 = 1.3;
 
 /// Diagnoses a law. `None` where an exact stress is not finite.

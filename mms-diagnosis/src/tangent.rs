@@ -25,8 +25,8 @@ pub struct Table<const D: usize> {
     pub rounding: f64,
 }
 
-/// The largest error of a right tangent, over its largest number: the error of differences of stresses in double precision,
-/// which many laws use. The exact tangents here have errors of 1e-10.
+/// The largest error of a right tangent, relative to its largest number: the error of differences of stresses in double
+/// precision, which many laws use. The exact tangents here have errors of 1e-10.
 const DIFFERENCES: f64 = 1e-6;
 
 /// The components of Abaqus' vectors, in their order.

@@ -20,9 +20,9 @@ use crate::smooth::{Smooth, less, size};
 const DEGREE: [usize; 3] = [7, 5, 3];
 /// Points of quadrature along an axis, in one to three dimensions. The first rule that agrees with the one before is used.
 const RULES: [&[usize]; 3] = [&[12, 24, 48, 96, 192], &[9, 12, 18, 27, 40], &[6, 9, 12, 18]];
-/// The largest difference between rules that agree, over the largest sum.
+/// The largest difference between rules that agree, relative to the largest sum.
 const AGREED: f64 = 1e-9;
-/// The step of differences over the size of the body.
+/// The step of difference quotients, relative to the size of the body.
 const STEP: f64 = 1e-4;
 
 /// Smooth functions that vanish where the motion is given, and a quadrature.
@@ -92,7 +92,7 @@ pub struct Right<'a, const D: usize> {
     pub weak: Weak<'a, D>,
     /// The sums.
     pub sums: Sums,
-    /// The error of the sums, over the largest sum.
+    /// The error of the sums, relative to the largest sum.
     pub off: f64,
 }
 
@@ -336,10 +336,10 @@ pub struct OfElements {
 
 impl<const D: usize> Weak<'_, D> {
     /// Finds the errors of elements by their terms. The interpolant of a function between nodes exceeds it, as a mean over
-    /// cells, by h^2/12 times the second derivatives along the axes, where h is the longest edge. This applies to w in all that
-    /// acts, to u in the stress, and to a in the inertia of a consistent mass. A lumped mass interpolates a.w as one function,
-    /// which differs by h^2/6 int rho0 grad a:grad w. Accelerations are compared with the exact ones at nodes, so that what
-    /// acts is interpolated in both.
+    /// cells, by h^2/12 times the second derivatives along the axes, where h is the longest edge. This affects w in all force
+    /// terms, u in the stress, and a in the inertia of a consistent mass. A lumped mass interpolates a.w as one function, which
+    /// differs by h^2/6 int rho0 grad a:grad w. Accelerations are compared with the exact ones at nodes: both sides interpolate
+    /// w inside the body, so that its error cancels there.
     pub fn of_elements(&self, computed: Computed, without: &Without) -> OfElements {
         let factor = self.exact.cell_size.powi(2) / 12.0;
         let axes: Axes<D> =
@@ -399,8 +399,8 @@ impl<const D: usize> Weak<'_, D> {
         sum
     }
 
-    /// The error from interpolating w: for forces at nodes, in what acts on the body and in the inertia; otherwise in what acts
-    /// on faces alone.
+    /// The error from interpolating w: for residuals at nodes, in the stress, the body force and the inertia; for every
+    /// computed quantity, in the terms on faces.
     fn of_functions(&self, computed: Computed, without: &Without, axes: &Axes<D>) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         if computed == Computed::NodalResidual {
@@ -411,8 +411,8 @@ impl<const D: usize> Weak<'_, D> {
             }
         }
         let sign = if computed == Computed::Acceleration { 1.0 } else { -1.0 };
-        // Faces have nodes, so w is interpolated only along them. A body without its stress has the tractions alone, and a body
-        // without tractions the stress alone.
+        // The nodes of a face lie on it, so w is interpolated only along the face. There the stress and the tractions cancel:
+        // if one of them is omitted, only the other contributes.
         let factor = sign * (f64::from(without.stress) - f64::from(without.traction));
         let right = Changed::right(self.exact, Without::default());
         for (piece, load) in self.loads(&right) {

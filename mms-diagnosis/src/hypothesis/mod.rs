@@ -74,9 +74,10 @@ pub type OfTangent<const D: usize> = fn([&Slopes<D>; 2], &[f64], &Matrix<f64, D>
 pub enum Of {
     /// The law: both its stress and its tangent show it.
     Law,
-    /// The stress alone: its tangent is the tangent of another mistake, or there is none, because the law is not objective.
+    /// The stress alone: the mistake has no tangent of its own, because another mistake has the same tangent, or because the
+    /// law is not objective.
     Stress,
-    /// The measure: this stress replaces P, and in a table the declared measure.
+    /// The measure: another stress replaces P or, in a table of a law, the declared measure.
     Measure,
     /// The motion besides F: a law alone does not show it.
     Motion,
@@ -110,7 +111,8 @@ pub enum Change<const D: usize> {
     Ring(Ring),
     /// The tangent of the law, which no explicit solver has.
     Tangent(OfTangent<D>),
-    /// The order of components: the shear components 12, 13, 23 of the result are these components of the right one.
+    /// The order of components: the k-th number is the place, in the right order 12, 13, 23, of the shear component that the
+    /// wrong result has in place k.
     Order([usize; 3]),
 }
 
@@ -179,7 +181,7 @@ const FACTORS: [f64; 5] = [-1.0, 0.0, 0.5, 2.0 / 3.0, 2.0];
 /// The sizes that a hypothesis may have.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Size {
-    /// No size: the mistake is as it is.
+    /// No size: the mistake is made or not.
     Fixed,
     /// A size; the response is first computed at `first`.
     Any {
@@ -260,7 +262,8 @@ impl<const D: usize> Hypothesis<D> {
         Hypothesis { size, ..Self::fixed(name, says, change) }
     }
 
-    /// A mistake that uses a value of an earlier time, by a few steps at most; the second name is for a later time.
+    /// A mistake that uses a value of another time, at most a few steps away: `late` names it for an earlier time, `early` for
+    /// a later one.
     fn delay(
         exact: &Exact<'_, D>,
         [late, early]: [&'static str; 2],
@@ -309,8 +312,8 @@ impl<const D: usize> Hypothesis<D> {
         Hypothesis { face: Some(face), ..self }
     }
 
-    /// The size whose effect is the effect of `size`, scaled: as if the effect grew with the distance from the right size, or,
-    /// for a density or mass, with the distance of its inverse.
+    /// The size whose effect is `scale` times the effect of `size`, if effects are proportional to the distance from the right
+    /// size or, for a density or mass, to the distance of the inverses.
     pub fn rescaled(&self, right: f64, size: f64, scale: f64) -> f64 {
         match self.change {
             Change::Density | Change::Mass => {
@@ -351,7 +354,8 @@ impl<const D: usize> Hypothesis<D> {
         all
     }
 
-    /// The largest searched difference from the right size; for an unlimited factor, of a missing or doubled term.
+    /// The largest searched difference from the right size; for an unlimited factor, the difference of a missing or doubled
+    /// term.
     pub fn farthest(&self) -> f64 {
         let Size::Any { right, range: [least, most], .. } = &self.size else { return 0.0 };
         match right.as_slice() {
