@@ -21,15 +21,15 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Rational, Symbol};
 use mms_symbolic::sorted::SortedMap;
 
-/// The largest error of a function that a check program accepts, in eps of the largest magnitude
-/// of its values over the points of one set of parameters. It is what the stable form promises.
+/// The largest error of a function that a check program accepts, in eps of the largest magnitude of its values over the points
+/// of one set of parameters. The stable form guarantees it.
 pub const TOLERANCE: u32 = 64;
 
-/// If the formulas themselves lose more than half of that in double precision, as fast forms do, a port may lose this many
-/// times as much.
+/// If the program itself has more than half of `TOLERANCE` as error in double precision, as fast forms do, a port may have this
+/// many times the error of the program.
 const MARGIN: f64 = 4.0;
 
-/// The number of points of the inner body at which each set of parameters is evaluated.
+/// The number of points inside the body at which each set of parameters is evaluated.
 const POINTS: usize = 16;
 
 /// The number of parameters among which an amplitude is searched.
