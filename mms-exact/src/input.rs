@@ -144,8 +144,8 @@ impl Input {
         provenance_of(self.source.given(), &self.options.selection, settings, &self.compiled)
     }
 
-    /// The compiled field, where this program has it, and the interpreted one otherwise; with the parameters
-    /// of `name=value` settings. `build` takes the code of the precision.
+    /// The compiled field if this program contains it, otherwise the interpreted field, with the parameters of `name=value`
+    /// settings. `build` selects the function of the compiled code for the precision `T`.
     pub fn scene<T: Interpretable>(
         &self,
         settings: &[String],
@@ -215,8 +215,7 @@ impl Input {
         Ok(set)
     }
 
-    /// Refuses settings with which the field contradicts itself, as with J <= 0 somewhere, as far as a compilation with
-    /// them sees that.
+    /// Refuses settings with which a compilation finds a contradiction in the field, such as J <= 0 somewhere.
     ///
     /// # Errors
     /// Settings that contradict the field, or that it does not have.
@@ -351,7 +350,7 @@ pub fn validate_body(compiled: &Compiled, why: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Refuses numbers of an option for other axes than there are.
+/// Refuses an option with more or fewer numbers than the field has axes.
 pub fn validate_division(option: &str, numbers: &Division, dimension: usize) -> anyhow::Result<()> {
     match *numbers {
         Division::PerAxis(each, given) if given != dimension => bail!(

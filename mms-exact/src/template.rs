@@ -69,7 +69,7 @@ impl Body {
         }
     }
 
-    /// The shape of a name.
+    /// The shape with this name.
     pub fn of(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|it| it.name() == name)
     }
