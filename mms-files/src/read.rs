@@ -2,9 +2,10 @@
 //!
 //! All files of the command are read here. A `FileKind` sets the limit: 1 MiB for a field, a material or a study, 16 MiB for a
 //! document, a result in a store or a list of states, 256 MiB for a state. At most one byte more than the limit is read. The
-//! limit of a checkpoint is the free memory, of its first line 64 MiB; of a history as much is read as its checkpoint says. A
-//! FIFO, a device, a socket or a folder is not opened: it is named in the error, and skipped where other files are read as well
-//! (`mms report`, stores). A pipe without a name is allowed, as `/dev/stdin`. `mms-macros` applies the same rules for `field!`.
+//! limit of a checkpoint is the free memory, and the limit of its first line is 64 MiB. A history is read up to the length that
+//! its checkpoint states. A FIFO, a device, a socket or a folder is not opened: it is named in the error, and skipped where
+//! other files are read as well (`mms report`, stores). A pipe without a name is allowed, as `/dev/stdin`. `mms-macros` applies
+//! the same rules for `field!`.
 
 use std::fmt;
 use std::fs::{self, File, FileType, Metadata};

@@ -6,9 +6,9 @@
 //! key, with the key and a checksum in it. A file appears whole or not at all, and is trusted only if its checksum, its key and
 //! its name agree. Opening a store checks every file in it. A file that is cut off, changed, of another format, or not the one
 //! that its name says is renamed to `.aside1` and so on, reported, and neither read again nor deleted. Processes may share a
-//! folder: each locks a file beside a result while it computes it. Locks end with their process, however it ends. Other
-//! processes compute the remaining results and then wait. The next process that opens the store removes the files of such
-//! locks.
+//! folder: each locks a file beside a result while it computes this result. A lock ends with its process, however it ends.
+//! Other processes compute the remaining results, and then wait for the lock. The next process that opens the store removes the
+//! lock files that ended processes left.
 
 use std::fs::{self, File};
 use std::io;
@@ -54,7 +54,7 @@ pub struct Claim {
 }
 
 impl Drop for Claim {
-    /// A process that waits for the lock of a removed file finds the result first.
+    /// Removes the lock file. A process that waits for its lock then makes a new one, and finds the result in the store.
     fn drop(&mut self) {
         let _ = fs::remove_file(&self.path);
     }
@@ -234,8 +234,8 @@ fn set_aside(path: &Path, reason: &str) -> anyhow::Result<String> {
     Ok(format!("`{shown}` is not trusted: {reason}; it is now `{}`", foreign::path(&aside)))
 }
 
-/// Computes jobs on several threads, and returns their results in the order of the jobs. Calls `one` first without waiting,
-/// where it returns `None` for a job that another process has claimed, then once more for these jobs with waiting.
+/// Computes jobs on several threads, and returns their results in the order of the jobs. First calls `one` for each job without
+/// waiting; `None` means that another process has claimed the job. Then calls `one` again for these jobs, waiting.
 ///
 /// # Errors
 /// The first error of `one`.
