@@ -1,7 +1,7 @@
-//! The shipped fields, compiled: one module for each file of the folder `fields/`, which is the list.
+//! The shipped fields as compiled code: one module for each file of the folder `fields/`.
 //!
-//! With the feature `linked` this crate compiles all of them with the traits of a solver, for a program that has them all.
-//! Without it, only fields that a program uses are compiled with these traits: the tests of formulas use none.
+//! With the feature `linked`, this crate compiles the traits of a solver for all fields, for a program that can run each of
+//! them. Without it, a program compiles the traits only of the fields that it runs; the tests of formulas run none.
 
 use mms_runtime::scene::Code;
 
