@@ -42,8 +42,8 @@ impl Dependency {
 pub struct Dependencies {
     /// The files, by their names.
     pub files: BTreeMap<String, Dependency>,
-    /// Whether all started programs have digests, and one of them is a file of the campaign. Otherwise the command may start
-    /// something that no word names, such as a module of an interpreter.
+    /// Whether every program and module that the command starts was found and has a digest, and the command names at least one
+    /// file by its path. Otherwise the command may start something that no word names, such as a module of an interpreter.
     pub is_complete: bool,
 }
 

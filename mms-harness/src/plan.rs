@@ -50,7 +50,7 @@ pub struct Planned {
     pub study: Study,
     /// The field.
     pub input: Input,
-    /// The field that its runs get, if it is another one.
+    /// The field that its runs get in place of `input`, for a canary.
     pub wrong: Option<Input>,
     /// The first and the last time.
     pub window: [f64; 2],
@@ -396,7 +396,7 @@ struct Place<'a> {
     input: &'a Input,
     window: [f64; 2],
     per_cell: Division,
-    /// The greatest c0.
+    /// The speed c0 of the fastest wave at F = I, at its greatest over the body.
     speed: f64,
 }
 

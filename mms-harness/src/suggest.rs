@@ -25,7 +25,7 @@ pub struct Suggestion {
     pub fields: Vec<Proposed>,
     /// A motion without an error in space, to test time alone.
     pub affine: Option<Affine>,
-    /// Terms that no field shows that the solver can run.
+    /// Terms that are absent from all fields that the solver can run.
     pub unseen: Vec<Unseen>,
 }
 

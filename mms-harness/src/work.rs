@@ -298,7 +298,8 @@ impl<'a> Work<'a> {
         Ok(folder.run(&order, &|| self.watcher.is_interrupted())?)
     }
 
-    /// The folder for the folders of a run. A part of its key distinguishes it from earlier versions of the same level.
+    /// The folder that contains one folder for each attempt of a run. Its name includes a part of the digest of the run's key,
+    /// so that runs of the same level with other inputs have other folders.
     fn parent(&self, planned: &Planned, job: &Job) -> anyhow::Result<PathBuf> {
         let digest = digest([serde_json::to_string(&job.key)?]);
         let own = format!("{}-{}", job.level, &digest[..8]);
