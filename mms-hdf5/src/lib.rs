@@ -1,8 +1,8 @@
 //! Arrays, words and attributes of HDF5 and netCDF files, over bytes.
 //!
 //! A [`Store`] is one file in either format: HDF5, which netCDF-4 uses as well, or the classic format of netCDF. A [`Set`] is
-//! one array in it, with its shape and the [`Type`] of its numbers; its bytes are read unchanged, in either order. This crate
-//! opens no file, starts no thread, and does not interpret arrays.
+//! one array in it, with its shape and the [`Type`] of its numbers; its bytes are returned as stored, big-endian or
+//! little-endian. This crate opens no file, starts no thread, and does not interpret arrays.
 
 mod classic;
 mod lzf;
@@ -19,7 +19,7 @@ const CLASSIC: &[u8] = b"CDF";
 /// The largest number of bytes that deflate makes from one byte.
 const RATIO: u64 = 1032;
 
-/// The number of bytes that any file may contain, however short it is.
+/// The number of decoded bytes that every file may contain in addition to `RATIO` times its length.
 const LEAST: u64 = 1 << 20;
 
 /// The largest number of words that are read of one array.
@@ -123,7 +123,7 @@ pub struct Store {
     source: Source,
     /// The number of bytes of the file.
     length: u64,
-    /// The number of bytes that may still be decoded: at most what the file can contain without being forged.
+    /// The number of bytes that may still be decoded. A valid file cannot exceed the initial number.
     left: Cell<u64>,
 }
 
