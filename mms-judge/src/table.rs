@@ -73,7 +73,7 @@ impl Orders {
         Orders { usual, degree: None, is_given, named, tolerance, start: None }
     }
 
-    /// The orders for cells of a degree: the usual one is one more, unless it was given.
+    /// The orders for cells of a degree: the usual order is one more than the degree, unless the user gave another one.
     pub fn of_degree(self, degree: Option<u32>) -> Self {
         let own = degree.filter(|_| !self.is_given).map(|degree| f64::from(degree + 1));
         Self { usual: own.unwrap_or(self.usual), degree, ..self }

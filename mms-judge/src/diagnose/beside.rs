@@ -7,7 +7,7 @@ use mms_exact::Exact;
 use mms_spec::foreign::shown;
 use mms_spec::quantity;
 
-/// The largest distance of points that count as the same, over the largest coordinate: single precision.
+/// The largest distance of points that count as the same, relative to the largest coordinate: single precision.
 const SAME: f64 = 1e-6;
 
 /// Replaces values by the exact ones plus their differences from a right run.

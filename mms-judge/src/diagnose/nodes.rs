@@ -19,9 +19,9 @@ pub struct Nodes {
     pub volumes: Option<Vec<f64>>,
 }
 
-/// The largest distance of points that are one point, over the distance of neighbours.
+/// The largest distance of points that are one point, divided by the distance of neighbours.
 const ONE: f64 = 1e-6;
-/// The largest difference between values of points that are one point, over the largest value.
+/// The largest difference between values of points that are one point, relative to the largest value.
 const SAME: f64 = 1e-6;
 
 /// Finds the reference volumes of points: from a column of reference or present volumes, from cells, or from even distances.

@@ -7,8 +7,9 @@ use super::Level;
 use super::level::{Errors, Sampling};
 use crate::table::Orders;
 
-/// The orders at points of a quadratic solution, and the orders over cells of its linear interpolation.
+/// The orders at points of a quadratic solution.
 const AT_POINTS: [f64; 2] = [2.6, 3.4];
+/// The orders over cells of the linear interpolation of a quadratic solution.
 const OVER_CELLS: [f64; 2] = [1.5, 2.4];
 
 /// Refuses linear cells with two possible readings: errors over them have order 2, and errors at points the order of a

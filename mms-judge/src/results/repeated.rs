@@ -25,7 +25,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// The largest difference over the largest number; 0 if both are 0.
+    /// The largest difference divided by the largest number; 0 if both are 0.
     pub fn relative(&self) -> f64 {
         if self.largest == 0.0 { 0.0 } else { self.largest / self.magnitude }
     }

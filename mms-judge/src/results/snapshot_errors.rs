@@ -50,7 +50,7 @@ pub struct AgainstExact<'a> {
 /// The number of points whose exact values are computed at once: enough for all threads, and small enough for the cache.
 const BLOCK: usize = 1 << 16;
 
-/// The largest difference of densities that count as equal, over the largest.
+/// The largest difference of densities that count as equal, relative to the largest density.
 const NEAR: f64 = 1e-6;
 
 /// The least round-off of a computation, in units of double precision.
@@ -195,7 +195,7 @@ impl SnapshotErrors<'_> {
         let value = found.value;
         let mut norms = vec![("l1", value.l1), ("l2", value.l2), ("linf", value.linf)];
         norms.extend(gradient.map(|_| ("h1", found.h1)));
-        // Rounding of a value causes an error in a gradient of this rounding over the size of a cell.
+        // If values are rounded by r, a gradient in a cell of size h has an error of about r/h.
         let size = self.mesh.sizes().map_or(1.0, |[shortest, _]| shortest);
         let of_norm =
             |name: &str| if name == "h1" { 2.0 * dimension as f64 * floor / size } else { floor };

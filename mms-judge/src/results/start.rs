@@ -46,7 +46,7 @@ const BALANCED: f64 = 0.01;
 /// The least power of h by which imbalance falls, if cells are the image of regular ones under a smooth map.
 const SMOOTH: f64 = 0.5;
 
-/// The largest curvature that rounding alone makes in an affine function, over the largest value.
+/// The largest curvature that rounding alone makes in an affine function, relative to the largest value.
 const ROUNDING: f64 = 1e-9;
 
 impl Lowered {

@@ -46,7 +46,7 @@ impl SnapshotErrors<'_> {
     /// or at the points that lie on one face alone.
     ///
     /// # Errors
-    /// A face that the body does not have, or without points; normals that are none.
+    /// A face that the body does not have, or without points; normals that are not unit vectors.
     pub fn tractions(&mut self, meanings: &[Meaning]) -> anyhow::Result<Option<Errors>> {
         let mut loaded = Loaded::default();
         for meaning in meanings.iter().filter(|it| it.role == Role::Traction) {
