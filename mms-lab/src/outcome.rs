@@ -33,7 +33,7 @@ pub enum Quantity {
     DeformationGradient,
     /// P.
     FirstPiolaKirchhoff,
-    /// Momentum over mass at the end, with its exact value.
+    /// Momentum divided by mass at the end, with its exact value.
     MeanVelocity(Vec<f64>),
 }
 
@@ -63,7 +63,7 @@ pub enum Outcome {
         run: Size,
         /// The errors of the measured quantity.
         errors: Norms,
-        /// The momentum over the mass, at the end.
+        /// The momentum divided by the mass, at the end.
         mean_velocity: Vec<f64>,
     },
     /// The run stopped.

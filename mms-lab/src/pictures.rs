@@ -110,12 +110,13 @@ pub struct Seen {
     extent: f64,
     /// The root mean square of all displacements.
     motion: f64,
-    /// The root mean square of the errors of all displacements, over the root mean square of the field's; 0 where the field
-    /// rests.
+    /// The root mean square of the errors of all displacements, divided by the root mean square of the field's displacements; 0
+    /// where the field rests.
     misfit: f64,
-    /// The largest difference of displacements from their mirror images, over the field's largest, if the field has a symmetry.
+    /// The largest difference of displacements from their mirror images, divided by the field's largest displacement, if the
+    /// field has a symmetry.
     asymmetry: Option<f64>,
-    /// The energy minus the work of b, over the energy.
+    /// The energy minus the work of b, divided by the energy.
     energy: Option<f64>,
 }
 
@@ -169,8 +170,8 @@ fn bounds(frame: &Frame) -> Vec<[f64; 2]> {
     (0..frame.dimension).map(both).collect()
 }
 
-/// The largest difference of displacements from their images in the middle planes of the body, over the size of the field's;
-/// `None`, if the field or the particles are not their own images.
+/// The largest difference of displacements from their images in the middle planes of the body, divided by the size of the
+/// field's displacements; `None`, if the field or the particles are not their own images.
 fn asymmetry(frame: &Frame, size: f64) -> Option<f64> {
     let (dimension, bounds) = (frame.dimension, bounds(frame));
     let (reference, exact) = (reference(frame), field(frame));

@@ -9,7 +9,7 @@
 //! |---|---|---|
 //! | read | `rows.toml` -> rows | [`rows`] |
 //! | make | a field and a row -> the field at that extreme, and the method | [`subject`] |
-//! | run | these -> errors over the size of the motion, or the reason for missing ones | [`subject`] |
+//! | run | these -> errors relative to the size of the motion, or the reason for missing ones | [`subject`] |
 //! | judge | the result of a row -> its verdict | [`verdict`] |
 //! | analyse | a method on an endless grid -> its largest stable Courant number | [`theory`] |
 //! | bisect | a method on a body -> its largest stable Courant number, measured | [`stable`] |

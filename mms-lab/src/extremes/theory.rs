@@ -7,7 +7,7 @@
 //!
 //! | transfer | r |
 //! |---|---|
-//! | FLIP, of it a fraction f | f + (1 - f) s |
+//! | a fraction f of FLIP, the rest PIC | f + (1 - f) s |
 //! | PIC | s |
 //! | XPIC of order m | 1 - (1 - s)^m |
 //! | APIC, weights of degree 1 | s, where s includes the linear part of the velocity |
@@ -140,7 +140,7 @@ fn along(weights: &[Weight], wave: f64) -> Along {
     })
 }
 
-/// A mode: the factors r after maps to the particles and back, without its linear part and with it, and omega^2.
+/// A mode: its factors s after maps to the particles and back, without and with the linear part of the velocity, and omega^2.
 struct Mode {
     kept: f64,
     kept_linear: f64,
@@ -224,7 +224,7 @@ pub fn courant(method: &Method, elasticity: &Elasticity) -> Option<f64> {
             "usf" | "musl" => 2.0 * (1.0 + r) / s,
             _ => return None,
         };
-        // A mode without forces has no limit, nor has one that no particle sees.
+        // A mode without elastic forces, such as a mode that vanishes at all particles, has no limit.
         let limit = (most / squared).sqrt();
         if squared > 1e-9 && limit.is_finite() {
             least = least.min(limit);
@@ -254,7 +254,7 @@ mod tests {
         assert!((found / expected - 1.0).abs() < 1e-9, "{found} is not {expected}");
     }
 
-    /// A wave of k = pi, which particles at 1/4 and 3/4 see at half its amplitude: s = 1/4, omega = 2.
+    /// A wave of k = pi, which has half its amplitude at particles at 1/4 and 3/4: s = 1/4, omega = 2.
     #[test]
     fn limits_of_two_particles_per_cell_are_those_on_paper() {
         let flip = || Setup::default();
@@ -264,7 +264,7 @@ mod tests {
         close(limit(ShapeName::Linear, 2, flip(), Leapfrog), (4.0 / 1.75_f64).sqrt() / 2.0);
         close(limit(ShapeName::Linear, 2, flip(), Usl), (4.0 / 1.75_f64).sqrt() / 2.0);
         close(limit(ShapeName::Linear, 2, pic(), Leapfrog), 2.5_f64.sqrt() / 2.0);
-        // The linear part restores all of the mode that the value loses but a part: s = 1.
+        // The linear part restores a part of the mode that the value loses: s is at most 1, and so is the limit.
         assert!(limit(ShapeName::Linear, 2, apic(), Leapfrog) <= 1.0 + 1e-9);
         for integrator in [Usf, Musl] {
             let found = limit(ShapeName::Linear, 2, flip(), integrator);

@@ -1,10 +1,10 @@
 //! The verdict of a row: its result, and whether it is expected.
 //!
-//! A bound is a factor on l2 of the declared field, both over the largest displacement, times h^2 if the grid is coarser, plus
-//! five times the predicted round-off. The command searches for runs that end beyond their bound, or stop for a reason that the
-//! row does not name. If J is small, a cell of a grid in space holds 1/J times the material, like a cell of h/J with J = 1. If
-//! the bound times (1/J)^2 exceeds the motion itself, it bounds nothing: a run beyond it is `unresolved`. The total formulation
-//! follows the same motion in second order, in a stable step.
+//! A bound is l2 of the declared field times the factor of the row, times the square of the ratio of cell sizes if the grid is
+//! coarser, plus five times the predicted round-off. Errors are relative to the largest displacement. The command searches for
+//! runs that end beyond their bound, or stop for a reason that the row does not name. If J is small, a cell of a grid in space
+//! holds 1/J times the material, like a cell of h/J with J = 1. If the bound times (1/J)^2 exceeds the motion itself, it bounds
+//! nothing: a run beyond it is `unresolved`. The total formulation follows the same motion in second order, in a stable step.
 
 use mms_runtime::{Cause, Refusal};
 use serde::Deserialize;
@@ -77,7 +77,7 @@ impl Diagnosis {
     }
 }
 
-/// The result of a run. Errors are over the largest displacement of the field.
+/// The result of a run. Errors are relative to the largest displacement of the field.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Seen {
     /// The run ended.
@@ -86,7 +86,7 @@ pub enum Seen {
         l2: f64,
         /// The predicted part of round-off in the error.
         round_off: f64,
-        /// h over the body's longest edge.
+        /// h divided by the body's longest edge.
         cell_size: f64,
         /// The least J of the field, if the grid is in space; 1, if it moves with the material.
         least_jacobian: f64,
@@ -108,9 +108,9 @@ pub enum Seen {
 /// The field as declared, to which rows are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Declared {
-    /// The l2 of the error over the largest displacement.
+    /// The l2 of the error, relative to the largest displacement.
     pub l2: f64,
-    /// h over the body's longest edge.
+    /// h divided by the body's longest edge.
     pub cell_size: f64,
     /// The least J of the field, as for a run.
     pub least_jacobian: f64,
@@ -159,7 +159,7 @@ impl Verdict {
 /// Noise of rounding is within this factor of its prediction.
 const NOISE: f64 = 5.0;
 
-/// The largest l2 that a row allows, over the largest displacement, on a grid and with round-off.
+/// The largest l2 that a row allows on a grid and with round-off, relative to the largest displacement.
 pub fn bound(
     row: &ExtremeSetting,
     declared: Declared,

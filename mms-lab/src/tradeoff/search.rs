@@ -167,7 +167,8 @@ pub struct Prediction {
 /// Observed orders below the first count as none, and orders above the second are not believed on coarse grids.
 const ORDERS: [f64; 2] = [0.5, 2.2];
 
-/// The order that is assumed for a setting with a single run, because coarser ones stopped: the methods are made for it.
+/// The order that is assumed for a setting with a single run, because coarser ones stopped: the methods are designed for this
+/// order.
 const ASSUMED: f64 = 2.0;
 
 /// The factor by which another setting has to be better to be preferred: times are not known more accurately.
@@ -176,8 +177,8 @@ const GAIN: f64 = 0.9;
 /// The largest number of settings that are tuned, and the factor by which their predictions may be worse than the best.
 const TUNED: (usize, f64) = (3, 4.0);
 
-/// Runs with at least the particle-steps of the longest run over this count as long. The fastest of them determines the time of
-/// a particle-step, since other programs may use the processor.
+/// A run is long if it has at least 1/`LONG` of the particle-steps of the longest run. The fastest long run determines the time
+/// of a particle-step, since other programs may slow down the rest.
 const LONG: f64 = 8.0;
 
 /// The number of runs of a setting to meet the goal.
@@ -202,7 +203,7 @@ impl Line {
                 let coarsest = plan.grain as f64 / self.cells;
                 (self.error / target).powf(1.0 / order).max(coarsest)
             }
-            // An error that does not shrink on finer grids does not grow on coarser ones: they are not searched.
+            // Without an order, every grid is predicted to have the same error, so coarser grids are not searched.
             (Goal::Error(target), None) => (self.error <= target).then_some(1.0)?,
             (Goal::Cost(budget), _) => (budget / self.cost).powf(1.0 / growth),
         };
@@ -338,7 +339,7 @@ impl<'a> Search<'a> {
                 match (old, new) {
                     (None, Some(_)) => best = setting,
                     (Some(old), Some(new)) if new < GAIN * old => best = setting,
-                    // A step of a ladder may gain too little by itself.
+                    // One step along the axis may change too little: go on unless the loss grows by more than 1/`GAIN`.
                     (Some(old), Some(new)) if new < old / GAIN => {}
                     _ => break,
                 }
@@ -347,7 +348,8 @@ impl<'a> Search<'a> {
         Ok(best)
     }
 
-    /// The setting's power law through its run on a grid, with the order of its kind.
+    /// The setting's power law through its run on a grid, with its own order or, if that is not known, the order of the default
+    /// setting with its formulation and shape function.
     fn line_on(&self, setting: &Setting, cells: usize) -> Option<Line> {
         let same = |trial: &&Trial| trial.setting == *setting && trial.cells == cells;
         let trial = self.trials.iter().find(same)?;
@@ -432,7 +434,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// While nothing meets the goal: runs the setting of all tried ones that is predicted to meet it.
+    /// While no run meets the goal, runs the setting, among all that were tried, that is predicted to meet it.
     fn reach_others(&mut self) -> anyhow::Result<()> {
         while self.choice().is_none() {
             let Some((setting, _)) = self.best_prediction() else { break };
@@ -561,7 +563,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The cost of one of some runs.
+/// The cost of `trial`, one of `trials`.
 pub fn cost(trials: &[Trial], trial: &Trial, cost: Cost) -> f64 {
     match cost {
         Cost::Memory => trial.memory,

@@ -65,7 +65,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// All of them.
+    /// All axes.
     pub const ALL: [Axis; 7] = [
         Axis::Kind,
         Axis::Transfer,
