@@ -7,9 +7,9 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | `quick` | elementary functions without branches, for both formats; bounds in the tests |
+//! | `quick` | elementary functions without branches, for `f32` and `f64`; the tests bound their errors |
 //! | `lane` | the scalar of a loop: a number, and whether products are fused with sums |
-//! | `float` | `f32` and `f64`: branch-free functions, with the standard library's where these return NaN |
+//! | `float` | `f32` and `f64`: branch-free functions; if one returns NaN, the function of the standard library is called |
 //! | `double` | twice the digits of `f64` (double-double), without the standard library |
 //! | `coordinates` | systems of coordinates: positions, directions, volumes between bounds |
 //! | `polygon` | whether edges cross, triangles, distances |
@@ -160,13 +160,13 @@ pub trait Scalar:
     fn cos_pi(self) -> Self {
         (Self::pi() * self).cos()
     }
-    /// An angle in radians that differs from this one by whole turns: of [`FEW_RADIANS`] at most, if the type subtracts turns
-    /// with all its digits; otherwise this angle.
+    /// An angle in radians that differs from this one by whole turns: at most [`FEW_RADIANS`], if the type subtracts turns with
+    /// all its digits; otherwise this angle.
     fn within_turns(self) -> Self {
         self
     }
-    /// An angle in half turns that differs from this one by whole turns, of [`FEW_HALF_TURNS`] at most: turns are subtracted
-    /// without error.
+    /// An angle in half turns that differs from this one by whole turns, and is at most [`FEW_HALF_TURNS`]: turns are
+    /// subtracted without error.
     fn within_turns_pi(self) -> Self {
         self
     }
