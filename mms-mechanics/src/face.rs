@@ -114,8 +114,8 @@ fn radius(graph: &mut Graph, count: usize) -> Expr {
     graph.power(square, HALF)
 }
 
-/// The formulas of X, Y and Z in the coordinates in which the body is a block. A box replaces nothing. Another body replaces X,
-/// Y and Z by the coordinates of its system. On an edge of a polygon the fraction along the edge gives X and Y, and replaces X.
+/// Substitutions for X, Y and Z: their formulas in the coordinates in which the body is a block. The map is empty for a box. On
+/// an edge of a polygon the only coordinate is the fraction along the edge, under the symbol of X.
 pub fn places(graph: &mut Graph, body: &Body, face: Option<Face>) -> SortedMap<Symbol, Expr> {
     let symbols = coordinates(graph);
     let place = match (body, face) {

@@ -51,8 +51,8 @@ pub enum Route<'a> {
     Settled(Option<&'a Amplitude>),
 }
 
-/// The relations of half the rotation angles of a displacement, in whose sine H is small: the angles whose cosine less 1 occurs
-/// in it.
+/// The relations of half the angles by which a displacement rotates. These are the angles a for which cos a - 1 occurs in H: H
+/// is as small as sin(a/2).
 pub(super) fn half_angles(
     graph: &mut Graph,
     displacement: &[Expr],

@@ -2,7 +2,7 @@
 //!
 //! Kinematics are differentiated symbolically. Stress and its divergence are computed by the tensor algebra of hyperelasticity,
 //! so that expressions grow with the field and not with the material. Everything is written in the displacement gradient H =
-//! F - I, because strains formed from F lose eps/strain:
+//! F - I, because a strain computed from F has a relative rounding error of eps/strain:
 //!
 //! ```text
 //! C - I = H + H^T + H^T H          i1 = tr (C - I)          i2 = 2 i1 + (i1^2 - tr (C - I)^2)/2
@@ -15,8 +15,8 @@
 //! The solver needs the material without the field. The same `Law` is therefore evaluated a second time at a gradient H that
 //! the caller supplies: W(H), P(H), tau(H), with rho0(X) and the fastest wave speed at F = I, sqrt(dP_11/dF_11 / rho0); with
 //! fibres it is the greater of two speeds, along them and across. These are the `Response`s. The tangent dP/dF is a separate
-//! program (`Compiled::tangent`), made only on request. The forcing and the solver's stress follow from one W: they cannot
-//! disagree, and neither verifies the other. Independent routes in the tests do.
+//! program (`Compiled::tangent`), made only on request. The forcing and the solver's stress follow from one W, so neither can
+//! verify the other; the tests verify both by independent routes.
 //!
 //! | module | contents |
 //! |---|---|

@@ -75,7 +75,7 @@ impl Scope {
         self.names.contains_key(name) || self.failed.contains(name) || self.later.contains_key(name)
     }
 
-    /// Marks names of the language that a file would define as failed.
+    /// Marks as failed the reserved names that the file tries to define.
     pub fn refuse(&mut self, names: &[String]) {
         self.failed.extend(names.iter().cloned());
     }
@@ -135,7 +135,7 @@ impl Scope {
         }
         let root = values.pop().flatten().map(|root| root.finish(graph));
         if graph.is_exhausted() {
-            // Reports about a full graph are meaningless, and a second report would be, too.
+            // Reports from a full graph are meaningless, so one report replaces them.
             diagnostics.truncate(reported);
             diagnostics.extend(ast.nodes.last().map(|formula| {
                 let diagnostic = Diagnostic::error(formula.span, "the formula is too large");

@@ -10,8 +10,9 @@ use crate::model::Model;
 use mms_program::interpret::{Number as _, binary, unary};
 use mms_symbolic::expr::{ByExpr, Expr, Graph, Node, Rational, Symbol};
 
-/// The number of places, anywhere, where an identity is tested, and how many of them must have a value.
+/// The number of places, anywhere, where an identity is tested.
 const ANYWHERE: usize = 24;
+/// The least number of these places at which the values must be finite.
 const ENOUGH: usize = 6;
 
 /// The steps of evaluating a node.

@@ -10,23 +10,22 @@
 //! # Cost
 //!
 //! Operations that depend on X count first, then all. Div P and b, which a solver computes in every step, are also written with
-//! the part that X determines separate from the part that t determines (`separate`). That candidate is chosen if it
-//! needs fewer operations, where an operation that needs t counts twice, and at most a sixteenth more at a point. For these
-//! two quantities a second cost counts additions of products as free, as in loops over points on processors with fused
-//! multiply-add: one number may then replace two that differ by a constant (`shift`), and constants are added up
-//! (`reassociate`), if that takes fewer steps and no more steps that need t. Except for Div P and b, no chosen program costs
-//! more than the plain one; these two may take at most a sixteenth more operations at a point, and some more that are done
-//! once.
+//! the part that X determines separate from the part that t determines (`separate`). That candidate is chosen if it needs fewer
+//! operations, where an operation that needs t counts twice, and at most a sixteenth more at a point. For these two quantities
+//! a second cost counts additions of products as free, as in loops over points on processors with fused multiply-add: one
+//! number may then replace two that differ by a constant (`shift`), and constants are added up (`reassociate`), if that takes
+//! fewer steps and no more steps that need t. Except for Div P and b, no chosen program costs more than the plain one; these
+//! two may take at most a sixteenth more operations at a point, and a few more operations that run once per call.
 //!
 //! # Accuracy
 //!
-//! The `Form` determines the open candidates. The fast form chooses the cheapest of all, and loses eps/e at a small strain e,
-//! in W eps/e^2. The responses of the material are the same in both forms.
+//! The `Form` determines the open candidates. The fast form chooses the cheapest of all, whose relative error is eps/e at a
+//! small strain e, and eps/e^2 in W. The responses of the material are the same in both forms.
 //!
 //! In the stable form, the default, every quantity is within 64 eps of its largest magnitude over the declared body and time
 //! window, at any amplitude down to 1e-12 of the size (`tests/stable/`). Quantities that vanish with the strain (u, H, E, W,
-//! stress) are computed from H after cancellation rewriting (`avoid_cancellation`), and from C - I and J - 1 that are reduced
-//! in half of the angles that the field turns by: cos a = 1 - 2 h^2 with h = sin(a/2), so that a normal form is a polynomial in
+//! stress) are computed from H after cancellation rewriting (`avoid_cancellation`). Their C - I and J - 1 are reduced in terms
+//! of half the angles by which the field turns: cos a = 1 - 2 h^2 with h = sin(a/2). Then a normal form is a polynomial in
 //! terms that are small with the angle, and a rotation of order one cancels. All other quantities are of the size of 1, of X or
 //! of a second derivative; errors of eps do not matter there, and they may be computed from F = I + H, with ln J of a product.
 //! If moduli depend on X, a part of Div P is as small as the stress: then Div P and b too are computed from the rewritten H.
