@@ -45,7 +45,7 @@ impl Default for Motion {
 }
 
 impl Motion {
-    /// The arguments that select it.
+    /// The arguments of the command line that select the motion.
     pub fn arguments(&self) -> Vec<String> {
         let mut arguments = Vec::new();
         if self.max_nodes != Motion::default().max_nodes {
@@ -62,7 +62,7 @@ impl Motion {
         arguments
     }
 
-    /// Everything of the field, or a part of it.
+    /// The options that compile this variant of a field, or the selected part of it.
     pub fn options(&self, selection: Selection) -> Options {
         let twin = match self.rigid.as_deref() {
             None => Twin::Nothing,
@@ -92,7 +92,7 @@ impl Variant {
         Variant { motion, form }
     }
 
-    /// The arguments that select it.
+    /// The arguments of the command line that select the variant.
     pub fn arguments(&self) -> Vec<String> {
         let mut arguments = self.motion.arguments();
         if self.form != Form::default() {
@@ -106,13 +106,14 @@ impl Variant {
         self.form
     }
 
-    /// Everything of the field, or a part of it.
+    /// The options that compile this variant of a field, or the selected part of it.
     pub fn options(&self, selection: Selection) -> Options {
         Options { form: self.form, ..self.motion.options(selection) }
     }
 }
 
-/// Checks the keys of a rigid motion roughly: an option that may have no value would read the name of a field as one.
+/// Checks that a text may be a rigid motion. `--rigid` may have no value, and would otherwise read the field's name after it as
+/// its value.
 fn motion(text: &str) -> Result<String, String> {
     if text.is_empty() || text.contains('=') {
         return Ok(text.to_string());
@@ -206,7 +207,7 @@ fn entry(field: &str) -> anyhow::Result<&'static Entry> {
     bail!("no field `{}` in the gallery; {advice}", shown(field))
 }
 
-/// Reads one of all precisions; a solver has two of them, of its own.
+/// Reads the name of any precision. The option of the solver accepts only two, and has a type of its own.
 pub fn precision() -> impl TypedValueParser<Value = Precision> {
     let names = PossibleValuesParser::new(Precision::ALL.map(Precision::name));
     names.try_map(|name| Precision::from_name(&name).ok_or("no precision"))
