@@ -93,7 +93,7 @@ pub struct Computed<F> {
 }
 
 impl<F: Format> Computed<F> {
-    /// The nearest numbers of the format for the numbers of an interval, or numbers between them.
+    /// Bounds of an input from this interval, before or after it is rounded to the format.
     pub fn input(exact: Interval) -> Self {
         if !exact.is_defined() {
             return Self::of(exact, f64::INFINITY);

@@ -35,7 +35,7 @@ pub trait Number: Scalar {
     /// The numbers of double precision around this one, up to a rounding of the type's own.
     fn bounds(&self) -> [f64; 2];
 
-    /// A number that may be either one; a type of single numbers returns this one.
+    /// A number that may be `self` or `other`, such as an interval around both; a type of single numbers returns `self`.
     fn or(self, _other: Self) -> Self {
         self
     }
@@ -127,7 +127,7 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         Self::prepared(program, parameters, Some(work), 1)
     }
 
-    /// Prepares like [`Interpreter::within`], for a scalar whose operations are charged `times` times.
+    /// Prepares like [`Interpreter::within`], for a scalar whose operations are charged `times` their steps.
     pub fn as_many(work: &'a Work, program: &'a Program<K>, parameters: &[T], times: u64) -> Self {
         Self::prepared(program, parameters, Some(work), times)
     }
@@ -141,7 +141,7 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         Interpreter { program, run: Run::new(&program.instrs, parameters, work, times) }
     }
 
-    /// Charges every further operation `times` times.
+    /// Charges every further operation `times` its steps.
     pub fn charge(&mut self, times: u64) {
         self.run.times = times;
     }
@@ -184,7 +184,7 @@ struct Run<'a, T: Number> {
     once: Vec<T::Wide>,
     /// The budget, if there is one: once it is spent, values are not numbers.
     work: Option<&'a Work>,
-    /// The number of times that the steps of an operation are charged.
+    /// The factor by which the charged steps of an operation are multiplied.
     times: u64,
 }
 

@@ -12,7 +12,7 @@
 //! |---|---|---|
 //! | `Parameter` | parameters | `prepare(&parameters)`, once |
 //! | `Time` | and t | `.at_time(t)`, once per step |
-//! | `Point` | parameters and X | with the next, in each function of a point |
+//! | `Point` | parameters and X | computed together with `PointTime`, in each function of a point |
 //! | `PointTime` | X and t, or inputs that a caller supplies at a point | `.body_force(x)`, ... |
 //!
 //! Values of the first two stages are stored in structs, computed in `Scalar::Wide`, which has twice the digits, and rounded at

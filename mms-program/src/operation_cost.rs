@@ -2,20 +2,25 @@
 
 use mms_symbolic::expr::{Function, Rational, steps_of_length};
 
-/// The steps of an operation on intervals, and of a function at both bounds: by sums of doubles, and in arbitrary precision,
-/// where some functions take several times as much.
+/// The steps of an operation on intervals.
 const OF_INTERVALS: u64 = 4;
+/// The steps of a function at both bounds of an interval, by sums of doubles.
 const QUICK: u64 = 150;
+/// The steps of a function at both bounds of an interval, in arbitrary precision.
 const SLOW: u64 = 15_000;
+/// The steps in arbitrary precision of functions that take several times as much.
 const SLOWER: u64 = 40_000;
 
-/// The largest angle that is reduced quickly, and the further steps per bit of an angle that is reduced in arbitrary precision.
+/// The largest angle that is reduced quickly.
 const LARGEST_QUICK_ANGLE: f64 = 1e5;
+/// The further steps per bit of an angle that is reduced in arbitrary precision.
 const FOR_EACH_BIT: f64 = 80.0;
 
-/// The steps of an operation in 256 bits, and of a function: by a short series, and by a long one or several.
+/// The steps of an operation in 256 bits.
 const OF_DIGITS: u64 = 40;
+/// The steps of a function in 256 bits by a short series.
 const SHORT: u64 = 6_000;
+/// The steps of a function in 256 bits by a long series, or by several.
 const LONG: u64 = 12_000;
 
 /// The steps of rounding a number.

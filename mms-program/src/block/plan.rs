@@ -3,8 +3,8 @@
 //! A step is an operation, the register of its result, and operands that are registers or scalars. A register is a column of a
 //! block, 512 bytes in the first cache, and is reused once its value is no longer read: liveness by a linear scan in the order
 //! of the program. Inputs of points keep their registers, since a block may be computed again. Scalars are the numbers that are
-//! the same at all points, constants and the stages Parameter and Time, and are broadcast from one number. So there are steps
-//! for a b + c with every mixture of both, and signs of scalars are changed in advance.
+//! the same at all points, constants and the stages Parameter and Time, and are broadcast from one number. So a b + c has one
+//! step for each choice of columns and scalars as operands, and signs are applied to scalars in advance.
 //!
 //! `fusion` and `loops` decide which products are fused, which stages are loops of their own, and which values both loops
 //! compute. Emission uses the same decisions: hence the same bits.
@@ -144,7 +144,7 @@ pub(super) enum Operand {
 pub struct Plan {
     /// The instructions of the stages Parameter and Time.
     pub(super) once: Vec<Instr>,
-    /// The number of these that belong to the stage Parameter.
+    /// The number of instructions in `once` that belong to the stage Parameter.
     pub(super) early: usize,
     pub(super) scalars: Vec<Scalar>,
     /// The inputs of a point, each in the register of its position.
@@ -165,8 +165,9 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Plans some outputs, each with the bits that it has alone in compiled code, which computes some of them `in_two_loops`:
-    /// of X, and of t. An output that the program does not have gets no component.
+    /// Plans some outputs, each with the bits that compiled code gives when it computes that output alone. `in_two_loops`
+    /// states for which outputs compiled code may have two loops: one for values of X, one for values that also need t. An
+    /// output that the program does not have gets no component.
     pub fn new<K: Key>(
         program: &Program<K>,
         outputs: &[K],
@@ -215,7 +216,7 @@ struct Lowering<'a, K> {
     columns: u32,
     /// The number of steps before the first one that needs the time.
     border: Option<usize>,
-    /// The places of the values at points that have been lowered for an output.
+    /// The operand of each value at points that has been lowered for the present output.
     found: Vec<Option<Operand>>,
 }
 

@@ -176,8 +176,8 @@ struct Table {
     ratios: Ratios,
     /// The occurrences of each pair. The order of this map has no effect.
     places: FxHashMap<Pair, Places>,
-    /// Pairs that occur more than once, each with a frequency that is at least the true one. The most frequent is first; of
-    /// equals, the first in order, except for ratios.
+    /// Pairs that occur more than once, ranked by an upper bound of their frequency; of equals, the first in order. The order
+    /// ignores the values of ratios, which `best` compares.
     ranked: BinaryHeap<(u64, Reverse<Pair>)>,
     /// The pairs of one operation, while they are counted.
     pairs: Vec<(Pair, u64)>,

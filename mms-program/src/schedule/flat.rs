@@ -20,7 +20,7 @@ use mms_symbolic::expr::{
 /// their length and not with its square.
 const MAX_OPERANDS: usize = 32;
 
-/// The largest number of sums within each other that a coefficient is multiplied into.
+/// The largest depth of nested sums into which a coefficient is multiplied.
 const SCALED_SUMS: usize = 4;
 
 /// The greatest exponent of a product; the power function computes greater ones.
@@ -254,8 +254,8 @@ impl Maker {
         }
     }
 
-    /// A product or a sum times a number, if that needs no operation that depends on X. `sums` is the largest number of sums
-    /// within each other that the number may be multiplied into.
+    /// A product or a sum times a number, if that needs no operation that depends on X. `sums` is the largest depth of nested
+    /// sums into which the number may be multiplied.
     fn times(&mut self, item: Item, number: &Rational, sums: usize) -> Option<Item> {
         let Operation::Product(factors) = self.flat.form(item) else {
             return self.sum_times(item, number, sums);

@@ -83,7 +83,7 @@ impl Steps {
 /// common with others.
 const WORTH_APART: usize = 2;
 
-/// The number of operations that depend on X for which one more still counts as about as much.
+/// One more operation for each of this many operations that depend on X still counts as about as much.
 const ROOM: usize = 16;
 
 /// The program of `outputs`, with only the instructions that they need.
