@@ -21,7 +21,7 @@ const SHARE: usize = 1 << 10;
 pub trait Precision: Blockwise + Element {
     /// The nearest number.
     fn near(number: f64) -> Self;
-    /// Whether it is one.
+    /// Whether the number is finite.
     fn is_finite(self) -> bool;
 }
 
@@ -45,22 +45,22 @@ precisions!(f32 f64);
 pub struct Evaluator<T: Blockwise> {
     prepared: Prepared<T>,
     pool: ScratchPool<T>,
-    /// The numbers of a result.
+    /// The number of components of a result.
     components: usize,
 }
 
-/// Points, one after the other: coordinates X, and what the output takes beside them.
+/// Points, one after the other: coordinates X, and the further inputs of the output.
 #[derive(Clone, Copy)]
 pub struct Places<'a, T> {
     /// The number of points.
     pub count: usize,
     /// The coordinates of a point.
     pub dimension: usize,
-    /// X; empty where none is taken.
+    /// X; empty if the output does not need it.
     pub points: &'a [T],
-    /// Unit normals N; empty where none is taken.
+    /// Unit normals N; empty if the output does not need them.
     pub normals: &'a [T],
-    /// Displacement gradients H, rows first; empty where none is taken.
+    /// Displacement gradients H, row by row; empty if the output does not need them.
     pub gradients: &'a [T],
     /// The rows of H.
     pub rows: usize,
@@ -85,29 +85,29 @@ impl<'a, T> Places<'a, T> {
     }
 }
 
-/// A number that is none.
+/// A number that is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Odd {
     /// The position of its point.
     pub index: usize,
-    /// Whether it was given, and not found.
+    /// Whether the number is an input, and not a result.
     pub is_given: bool,
 }
 
 impl<T: Precision> Evaluator<T> {
-    /// With the stages that parameters decide computed.
+    /// Creates an evaluator, and computes the stage Parameter.
     pub fn new(program: &Program, output: Output, components: usize, parameters: &[T]) -> Self {
         let plan = Arc::new(Plan::new(program, &[output], Output::is_quantity));
         let prepared = Prepared::new(plan, BlockMode::portable(), parameters);
         Evaluator { prepared, pool: ScratchPool::default(), components }
     }
 
-    /// The numbers of a result.
+    /// The number of components of a result.
     pub fn components(&self) -> usize {
         self.components
     }
 
-    /// Fills `values`; says where a number is none.
+    /// Fills `values`; the error is the place of a number that is not finite.
     pub fn fill(&self, time: T, places: Places<'_, T>, values: &mut [T]) -> Result<(), Odd> {
         let count = places.count;
         if count < MANY {
@@ -193,7 +193,8 @@ impl<T: Precision> Evaluator<T> {
 pub struct KeptPoints<T: Blockwise>(Vec<PointCache<T>>);
 
 impl<T: Precision> Evaluator<T> {
-    /// Keeps what X determines at points, for [`fill_kept`](Self::fill_kept); says where a coordinate is no number.
+    /// Stores the values that X determines at points, for [`fill_kept`](Self::fill_kept); the error is the place of a
+    /// coordinate that is not finite.
     pub fn keep(&self, dimension: usize, points: &[T]) -> Result<KeptPoints<T>, Odd> {
         if let Some(at) = first_odd(points) {
             return Err(Odd { index: at / dimension, is_given: true });
@@ -205,7 +206,8 @@ impl<T: Precision> Evaluator<T> {
         Ok(KeptPoints(self.pool.with(keep)))
     }
 
-    /// Fills `values` at the points from that one on, which is the first of a share; says where a number is none.
+    /// Fills `values` at the points from `first` on, which is the first of a share; the error is the place of a number that is
+    /// not finite.
     pub fn fill_kept(
         &self,
         time: T,
@@ -249,7 +251,7 @@ impl<T: Precision> Evaluator<T> {
     }
 }
 
-/// The position of the first number that is none; all are looked at without a branch for each.
+/// The position of the first number that is not finite. Tests all numbers first, without a branch for each.
 fn first_odd<T: Precision>(numbers: &[T]) -> Option<usize> {
     match numbers.iter().fold(true, |all, number| all & number.is_finite()) {
         true => None,

@@ -88,7 +88,7 @@ impl Field {
         self.opened.compiled().sources.texts().next().unwrap_or_default()
     }
 
-    /// Writes the field file, and beside it the file of a material that is none of the library's.
+    /// Writes the field file and, if its material does not ship with the library, the material file beside it.
     ///
     /// Raises MmsError where parameters are set, since files hold defaults, and OSError where it cannot be written.
     fn save(&self, path: PathBuf) -> PyResult<()> {
@@ -271,8 +271,8 @@ impl Field {
         self.opened.named(py, Quantity::Traction.name(), &points, t, Some(face))
     }
 
-    /// The derivation of some quantities as `mms show` prints it: `print(field.show("b"))`; without names of the displacement and the
-    /// body force. `format` is "text", "latex" or "html".
+    /// The derivation of some quantities as `mms show` prints it: `print(field.show("b"))`; by default of the displacement and
+    /// the body force. `format` is "text", "latex" or "html".
     #[pyo3(signature = (*quantities, format="text"))]
     fn show(&self, py: Python<'_>, quantities: Vec<String>, format: &str) -> PyResult<String> {
         py.detach(|| show(&self.opened, &quantities, format))

@@ -1,8 +1,7 @@
 //! The Python library `manufactured`: fields, their quantities over NumPy arrays, verdicts.
 //!
-//! `python/manufactured/` is the package, and this crate its module `_native`. A field is compiled and interpreted, to the bits
-//! of `mms eval`, in blocks of points, without a copy of an array that lies in memory as it is read, and without the lock of
-//! the interpreter.
+//! `python/manufactured/` is the package, and this crate its module `_native`. A field is compiled and interpreted in blocks of
+//! points, with the bits of `mms eval`. Contiguous arrays are not copied, and the GIL is released.
 //!
 //! | file | does |
 //! |---|---|

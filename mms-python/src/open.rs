@@ -58,7 +58,7 @@ pub fn text(name: &str, text: &str, material: Option<String>) -> Source {
     })
 }
 
-/// Compiles a field. The gallery's are held to their claims by its tests; a file is held to its own here.
+/// Compiles a field. Tests of the gallery check the claims of its fields, so only the claims of a file are checked here.
 pub fn compile(py: Python<'_>, source: Source, is_shipped: bool) -> PyResult<Input> {
     let options = Options::default();
     let stop = options.stop.clone();

@@ -24,7 +24,7 @@ use crate::array::{Layout, Numbers, STRETCH, scratch, stretch};
 use crate::evaluator::{Evaluator, Odd, Places, Precision};
 use crate::mistake::{failure, mistake};
 
-/// Fewer points than this are evaluated with the lock of the interpreter.
+/// Fewer points than this are evaluated while the GIL is held.
 const FEW: usize = 32;
 
 /// A field with numbers for its parameters.
@@ -79,7 +79,7 @@ impl<'py> Points<'py> {
         Ok(Points { numbers, layout })
     }
 
-    /// A copy that lies in memory as it is read.
+    /// A contiguous copy, in row-major order.
     pub fn copied(&self) -> PyResult<Py<PyAny>> {
         match &self.numbers {
             Numbers::Single(array) => copy(array),
@@ -104,7 +104,7 @@ pub struct Asked<'a> {
 struct At<'a, 'py, T: Precision> {
     layout: &'a Layout,
     x: Option<&'a PyReadonlyArrayDyn<'py, T>>,
-    /// The face whose normals are taken.
+    /// The face whose normals are used.
     face: Option<Face>,
     gradients: Option<&'a PyReadonlyArrayDyn<'py, T>>,
 }
@@ -258,8 +258,8 @@ impl Opened {
         work(&Asked { output, name: quantity.name(), own: &own, time })
     }
 
-    /// The first Piola-Kirchhoff stress of the material at displacement gradients; of one that depends on X or t, there and
-    /// then.
+    /// The first Piola-Kirchhoff stress of the material at displacement gradients and, if the material depends on X or t, at
+    /// these.
     pub fn stress<'py>(
         &self,
         py: Python<'py>,
@@ -341,7 +341,7 @@ impl Opened {
                 }
                 evaluator.fill(time, Places { normals: &normals, ..places }, own)
             };
-            // To give the lock away and take it again costs as much as a few points.
+            // Releasing and acquiring the GIL takes as long as a few points.
             let filled = if count < FEW { fill() } else { py.detach(fill) };
             filled
                 .map_err(|odd| self.odd(asked, layout, Odd { index: start + odd.index, ..odd }))?;
@@ -353,7 +353,7 @@ impl Opened {
         Ok(result.into_any())
     }
 
-    /// The exception of a number that is none.
+    /// The exception for an input or a result that is not finite.
     pub fn odd(&self, asked: &Asked<'_>, layout: &Layout, odd: Odd) -> PyErr {
         let place = layout.place(odd.index);
         mistake(match odd.is_given {
@@ -371,7 +371,7 @@ impl Opened {
     }
 }
 
-/// Refuses to leave out what a response of the material depends on.
+/// Refuses a call without X or t if the output depends on it.
 fn ensure_given(
     opened: &Opened,
     output: Output,
@@ -430,7 +430,7 @@ impl<'a, 'py, T: Precision> At<'a, 'py, T> {
     }
 }
 
-/// A copy that lies in memory as it is read.
+/// A contiguous copy, in row-major order.
 fn copy<T: Evaluated>(array: &PyReadonlyArrayDyn<'_, T>) -> PyResult<Py<PyAny>> {
     let copy = scratch::<T>(array.py(), array.shape().to_vec());
     array.copy_to(&copy)?;

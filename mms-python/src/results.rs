@@ -173,7 +173,7 @@ const KINDS: [(&str, u8); 15] = [
     ("hexahedron27", 29),
 ];
 
-/// Cells of so many points.
+/// The cells of a mesh with this number of points.
 fn mesh(given: &[(Kind, Bound<'_, PyAny>)], points: usize) -> PyResult<Cells> {
     let mut cells = Cells::default();
     for (kind, connectivity) in given {
