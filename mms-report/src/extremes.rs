@@ -86,7 +86,7 @@ impl Stability {
 }
 
 impl Judged {
-    /// The largest allowed l2, if it is known: a run that stops has no round-off.
+    /// The largest allowed l2; `None` for a run that stopped, since the bound needs the round-off of the run.
     fn bound(&self, declared: Declared) -> Option<f64> {
         match self.seen {
             Seen::Ended { round_off, cell_size, .. } => {

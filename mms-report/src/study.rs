@@ -43,11 +43,11 @@ pub struct Study {
     pub levels: Vec<Result<Run, Refused>>,
     /// The difference of each level from the next, in a study in time.
     pub differences: Option<Series>,
-    /// The order of theory, and the largest width of its interval.
+    /// The expected order and its tolerance.
     pub expected: Expected,
     /// The judgement of the errors.
     pub judgement: Judgement,
-    /// The outcome: `fail` also where a level was not started, or the error constant is another one.
+    /// The outcome: `fail` also if a level was not started, or if the error constant is not the expected one.
     pub verdict: Verdict,
     /// The change that Richardson's extrapolation makes to the order of the finest pair.
     pub uncertainty: Option<f64>,
@@ -152,10 +152,10 @@ fn orders(point: &Point, before: Option<Point>) -> Orders {
 const IN_TIME: &str = "differences between runs show that the runs converge, but not to which solution: for that, study \
                        errors against the exact solution, without `--refine time`";
 
-/// The errors of a level, if it ended, and the orders that led to them.
+/// The errors of a level, if it ended, and the orders from the level before.
 type Judged = (Option<Errors>, Orders);
 
-/// Norms, and the orders that led to them.
+/// Norms, and the orders from the level before.
 pub(super) fn norms(errors: Option<Errors>, observed: Orders) -> LevelErrors {
     LevelErrors {
         l1: errors.map(|errors| errors.l1),
@@ -265,7 +265,7 @@ impl Study {
         self.levels[..judged].iter().map(name).collect()
     }
 
-    /// l2 of each of these, or the reason why there is none.
+    /// l2 of each judged level, or the reason why there is none.
     pub(super) fn errors_of_levels(&self) -> Vec<String> {
         let mut points = self.points().into_iter();
         let judged = self.levels.iter().take(self.names_of_levels().len());
@@ -459,7 +459,7 @@ impl Study {
         lines.join("\n")
     }
 
-    /// The errors of F and P that grow from level to level, at which the stress does not converge.
+    /// Sentences about errors of F and P that grow between the two finest levels: these quantities do not converge.
     fn growth(&self) -> Vec<String> {
         let mut lines = Vec::new();
         let [_, _, gradient, stress] = self.quantities();

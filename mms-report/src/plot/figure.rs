@@ -10,8 +10,9 @@ use super::{Area, Entry, Plot, pdf, svg};
 /// Pixels in a millimetre, as CSS defines them.
 pub const PER_MM: f64 = 96.0 / 25.4;
 
-/// The height of a line of a legend, and in a column.
+/// The height of a line of a legend.
 const LEGEND_LINE: f64 = 16.0;
+/// The height of a line of a legend in a column.
 const SMALL_LINE: f64 = 13.5;
 
 /// The room between a legend and the curves, and around a panel.
@@ -20,7 +21,7 @@ const GAP: f64 = 14.0;
 /// The least width of curves beside a legend.
 const LEAST: f64 = 280.0;
 
-/// The height of the curves over their width.
+/// The ratio of the height of the curves to their width.
 const SHAPE: f64 = 0.66;
 
 /// The width of a figure in print.
@@ -70,7 +71,7 @@ pub enum FileFormat {
 }
 
 impl FileFormat {
-    /// The format that the ending of a name says.
+    /// The format that the ending of a file name determines.
     ///
     /// # Errors
     /// Another ending.

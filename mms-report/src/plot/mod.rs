@@ -19,7 +19,7 @@ pub use figure::{Figure, FileFormat, Width};
 use axis::{Ticks, apart, labels, span, ticks, unit};
 use drawing::{Anchor, Item, Role, TEXT, Text, Words, cross, mark};
 
-/// A round-off floor further below all errors than this factor would press them together.
+/// The ratio of the least error to the round-off floor above which the floor is not drawn: it would compress the curves.
 const FAR: f64 = 1e3;
 
 /// The number of colours, each with its mark and its dashes.
