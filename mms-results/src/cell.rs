@@ -21,9 +21,10 @@ use rows::{HEX, ROWS, Row};
 /// Reference coordinates; 0 beyond the dimension.
 pub type Local = [f64; 3];
 
-/// The least number of Gauss points along an axis, and how many more there are than the degree. This is exact for the square of
-/// a polynomial two degrees above the degree of a cell, and one degree less for a triangle.
+/// The least number of Gauss points along an axis.
 const ALONG: u32 = 5;
+/// The number of Gauss points along an axis less the degree of the cell. For a cell of degree d, the rule integrates the square
+/// of a polynomial of degree d + 2 exactly, or of degree d + 1 on a triangle.
 const BEYOND: u32 = 3;
 
 /// The most corners of a polygon.

@@ -103,8 +103,8 @@ impl<'a> Mesh<'a> {
     }
 
     /// The imbalance of the cells around inner edges: the distance from the middle of an edge to the mean of the middles of its
-    /// cells, over its length, as a root mean square. It is 0 if cells are copies and half turns of each other. `is_inner`
-    /// returns whether the middle of an edge lies within the body. `None` without such an edge.
+    /// cells, divided by the length of the edge, as a root mean square. It is 0 if cells are copies and half turns of each
+    /// other. `is_inner` returns whether the middle of an edge lies within the body. `None` without such an edge.
     pub fn imbalance(&self, is_inner: &dyn Fn(&[f64]) -> bool) -> Option<f64> {
         let dimension = self.dimension;
         let middles = self.middles();

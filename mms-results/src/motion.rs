@@ -96,7 +96,7 @@ struct Known<'a> {
     place_name: String,
     /// Whether they are called x, and so are not X if X is given.
     is_called_x: bool,
-    /// The position for which both readings lie in the body, and the profile that states it.
+    /// Whether the points are X or x, as a profile states it for points that could be both, and the name of the profile.
     reading: Option<(Role, String)>,
     reference: Option<Values<'a>>,
     position: Option<Values<'a>>,
@@ -104,10 +104,11 @@ struct Known<'a> {
     displacement: Option<Values<'a>>,
 }
 
-/// The largest difference of x and X + u, over the sum of their roundings: digits may be cut off instead of rounded.
+/// The largest accepted difference of x and X + u, relative to the sum of their roundings: digits may be cut off instead of
+/// rounded.
 const ROUNDINGS: f64 = 4.0;
 
-/// The additional accepted difference of both, over x: a solver may add both in single precision.
+/// The additional accepted difference, relative to x: a solver may add X and u in single precision.
 const STEPS: f64 = 1e-6;
 
 /// The number of points at which the inverse is tried.
@@ -232,7 +233,7 @@ impl<'a> Known<'a> {
         let mut has_moved = false;
         for x in points.step_by(step) {
             let Ok(found) = back(x, place.rounding) else {
-                // Undecided points may exist, and have moved.
+                // If X is undecided, a point may be at x, and may have moved.
                 has_moved = true;
                 continue;
             };
@@ -411,7 +412,7 @@ fn suspects(reference: &Values<'_>) -> Vec<usize> {
     let mut twice: Vec<u32> = pairs.map(|pair| pair[0]).collect();
     drop(sorted);
     twice.dedup();
-    // The first bits distinguish most digests from these.
+    // Most other digests differ from these in their first bits, so a table of these bits excludes them without a search.
     let mut starts = vec![0_u64; 1 << (START - 6)];
     let bit = |digest: u32| {
         let start = digest >> (32 - START);

@@ -300,7 +300,7 @@ fn validate_clear(
 fn understand(names: &Names, place: Place, array: &Array) -> Option<Understood> {
     let name = array.name.as_str();
     match (place, name) {
-        // Results of this project's own solver call x so.
+        // The solver of this project writes x under this name.
         (Place::Grid, "position") => return Some(Understood::new(Role::Position, None, name)),
         (Place::Grid, "reference_position") => {
             return Some(Understood::new(Role::Reference, None, name));

@@ -21,8 +21,8 @@ use interpolation::Interpolation;
 pub enum Asked {
     /// The values of the quantity, point by point.
     Values,
-    /// The derivatives of the quantity by X, row by row: as many times more numbers as there are dimensions. On a meridian, the
-    /// derivatives of the displacement in space: three rows of three, R, Z and theta.
+    /// The derivatives of the quantity by X, row by row: for each component, as many numbers as there are dimensions. On a
+    /// meridian, the nine entries of the displacement gradient in R, Z and theta.
     Gradients,
 }
 
@@ -54,21 +54,24 @@ pub struct OverCells {
 /// The number of quadrature points in a batch.
 const BATCH: usize = 8192;
 
-/// The number of parts of an axis with two Gauss points each for l1, by the dimension. Cells of a degree above 2 have several
-/// times as many, because their errors have more waves.
+/// The number of parts into which an axis is divided to integrate l1, by dimension; each part has two Gauss points. Cells of a
+/// degree above 2 have several times as many parts, because their errors have more waves.
 const PARTS: [usize; 3] = [64, 8, 6];
-/// The number of parts of an axis whose ends are searched for the maximum.
+/// The number of parts into which an axis is divided to search the maximum, by dimension; the error is computed at their ends.
 const STEPS: [usize; 3] = [64, 12, 6];
 
 /// The largest ratio of the error anywhere in a cell to the error at its quadrature points.
 const BETWEEN: f64 = 1.5;
-/// The least error over a cell's largest one beside which the maximum may lie.
+/// A point of the grid over a cell is a peak, from which the maximum is searched, if its error is at least this fraction of the
+/// largest on the grid.
 const HIGH: f64 = 0.9;
-/// The least error over the largest one from which on polynomials are compared by the exact solution.
+/// Peaks above this fraction of the largest peak are evaluated with the exact solution.
 const NEAR: f64 = 0.97;
-/// The most places that are compared so, and the number of rounds, each with a smaller step than the one before.
+/// The largest number of peaks that are evaluated with the exact solution.
 const COMPARED: usize = 512;
+/// The number of rounds in which a peak is improved.
 const ROUNDS: usize = 10;
+/// The ratio of the step of a round to the step of the round before.
 const SHRINKS: f64 = 0.7;
 
 /// A square matrix of one to three rows, completed by the unit matrix to three.
@@ -77,7 +80,7 @@ type Matrix = [[f64; 3]; 3];
 /// The functions of a kind of cell at a quadrature point.
 struct Point {
     weight: f64,
-    /// The part of the cube's volume around the point, over its weight.
+    /// The ratio of a volume in the reference cell to the volume in the unit cube, at the point.
     factor: f64,
     functions: Vec<f64>,
     /// The derivatives along the axes of the cell.
@@ -146,7 +149,7 @@ struct Batch {
     cells: Vec<(usize, usize)>,
     places: Vec<f64>,
     weights: Vec<f64>,
-    /// The volume around a point, over its weight in the cube.
+    /// The volume around a point divided by its weight in the cube.
     densities: Vec<f64>,
     values: Vec<f64>,
     gradients: Vec<f64>,
@@ -160,9 +163,9 @@ struct Peak {
     error: f64,
     cell: usize,
     table: usize,
-    /// The place in the cube.
+    /// The place in the cube from which the next round searches.
     at: Local,
-    /// The place in the cube that has the error.
+    /// The place in the cube at which `error` was computed.
     highest: Local,
 }
 
@@ -480,7 +483,8 @@ impl Found {
             self.largest = (largest, cell);
         }
         let along = |error: &[f64]| mean.iter().zip(error).map(|(a, b)| a * b).sum::<f64>();
-        // If all errors point to the side of their mean, none of them is 0 between. A line is cheap anyway.
+        // If the product of each error vector with their mean is positive, the error does not vanish inside the cell, and the
+        // Gauss rule integrates its length well. In one dimension the fine rule is cheap, and always used.
         let is_smooth = of.shape.dimension > 1
             && errors.chunks_exact(components).all(|error| along(error) >= 0.0);
         self.first += if is_smooth { first } else { self.integral(of, errors, densities) };
@@ -504,7 +508,7 @@ impl Found {
         of.fine.places[0].1.powi(dimension as i32) * sum
     }
 
-    /// Searches the maximum of a polynomial: at the ends of parts, and from the largest there by a parabola along each axis.
+    /// Searches the maximum of a polynomial: at the ends of parts, and, where it is large there, by a parabola along each axis.
     fn search(
         &mut self,
         (cell, table): (usize, usize),
@@ -530,7 +534,7 @@ impl Found {
                 }
                 let (before, after) = (squares[at - stride], squares[at + stride]);
                 let bend = 2.0 * own - before - after;
-                // Otherwise a neighbour is larger, and is a peak itself.
+                // Otherwise a neighbour is larger and becomes a peak itself, or the values do not curve downwards.
                 if bend > 0.0 && before.max(after) <= own {
                     place[axis] += (after - before) / (2.0 * bend) / steps as f64;
                     most += (after - before).powi(2) / (8.0 * bend);

@@ -25,7 +25,7 @@ const CELLS: u64 = 1 | 8 | 32;
 /// Bits of `vtkGhostType` for points that do not count: a duplicate, a hidden one.
 const POINTS: u64 = 1 | 2;
 
-/// The largest accepted difference of values of two ranks, over the largest number.
+/// The largest accepted difference of values of two ranks, relative to the largest number.
 const SAME: f64 = 1e-6;
 
 /// Removes ghosts and duplicate cells.

@@ -29,8 +29,9 @@ const ELEMENTS: [(u8, &[usize]); 12] = [
     (21, &[0, 1, 2]),
 ];
 
-/// The columns of a number, and the numbers on a line.
+/// The columns of a number.
 const WIDTH: usize = 12;
+/// The numbers on a line.
 const ON_LINE: usize = 6;
 
 /// The number of elements for which memory is reserved at a time.

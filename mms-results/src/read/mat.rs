@@ -14,13 +14,16 @@ pub const MAGIC: &[u8] = b"MATLAB 5.0 MAT-file";
 /// The bytes of a file before its first variable.
 const HEADER: usize = 128;
 
-/// Kinds of elements: a variable, and a packed variable.
+/// The kind of an element that is a variable.
 const MATRIX: u32 = 14;
+/// The kind of an element that is a packed variable.
 const PACKED: u32 = 15;
 
-/// Classes of variables: structures, and the first and the last numeric class.
+/// The class of structures.
 const STRUCTURE: u32 = 2;
+/// The classes of numbers.
 const NUMBERS: std::ops::RangeInclusive<u32> = 6..=15;
+/// The names of the classes from 1 on, which contain no numbers.
 const CLASSES: [&str; 5] = ["cell", "struct", "object", "char", "sparse"];
 
 /// The flag of complex numbers.

@@ -115,8 +115,9 @@ impl Numbers {
     }
 }
 
-/// The least digits with which a text contains all of a number in single and in double precision, except its last bits.
+/// The least number of digits with which a text contains all of a number in single precision, except its last bits.
 const ALL_OF_SINGLE: u32 = 8;
+/// The least number of digits with which a text contains all of a number in double precision, except its last bits.
 const ALL_OF_DOUBLE: u32 = 16;
 
 /// Gives arrays the significant digits of the one with most: a program writes all in one way, and the numbers of an array may
