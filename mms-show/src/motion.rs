@@ -61,7 +61,7 @@ impl Formulas {
     fn given(&mut self, name: &str, symbol: Symbol, reading: &mut Reading) {
         let leaf = reading.graph.symbol(symbol);
         self.define(name, leaf);
-        // The field compiled: what had to be positive was shown to be.
+        // The field has been compiled, so each parameter that must be positive is positive.
         self.typed.assume_positive(symbol);
         self.expanded.assume_positive(symbol);
     }
@@ -208,7 +208,7 @@ impl Quantities {
         self.show(reading, Quantity::DeformationGradient, &shown);
     }
 
-    /// Adds a quantity. Where the derivation found a component to be a number, it is one.
+    /// Adds a quantity. A component that the derivation found to be a number is entered as that number.
     pub fn add(
         &mut self,
         reading: &mut Reading,
