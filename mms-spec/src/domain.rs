@@ -27,7 +27,7 @@ pub enum Body {
     Round(Box<Round>),
     /// A polygon in the plane.
     Polygon(Polygon),
-    /// No body: numbers without claims.
+    /// No body: the field is only evaluated, and makes no claims about faces.
     Nothing,
 }
 
@@ -49,7 +49,7 @@ pub struct Round {
 }
 
 impl Round {
-    /// The pairs of bounds of the body, beside the radii.
+    /// The pairs of bounds of the body besides the radii.
     pub fn pairs(&self) -> impl Iterator<Item = &[Formula; 2]> {
         [&self.theta, &self.z, &self.phi].into_iter().flatten()
     }

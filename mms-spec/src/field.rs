@@ -61,7 +61,7 @@ pub struct FieldSpec {
     /// Formulas that lost their place because of a reported mistake, such as an excess component. They have no effect, but
     /// their syntax is checked.
     pub stray: Vec<Formula>,
-    /// Names of the language that the file would define: a use may mean either one.
+    /// Reserved names that the file tries to define: a use may mean the reserved name or the definition.
     pub refused: Vec<String>,
     /// Whether part of the file could not be read: an unknown name may be a consequence.
     pub incomplete: bool,
@@ -142,7 +142,7 @@ pub fn read_field(
         None => MaterialUse::reported(root.span),
     };
     let Some(space) = space else {
-        // The number of bounds of the body is unknown; that it needs them is known.
+        // Without the dimension the number of bounds is unknown, but the table is required anyway.
         reader.required_table(&root, "domain");
         return None;
     };
@@ -188,7 +188,7 @@ pub fn read_field(
     Some(spec)
 }
 
-/// The place of a strain energy in a file without [field], which makes it a material file.
+/// The place of `strain_energy`, if the text is a material file: it has this key and no `[field]`.
 fn material_file(document: &Document<'_>, sources: &Sources, id: SourceId) -> Option<Span> {
     if document.root.get("field").is_some() {
         return None;

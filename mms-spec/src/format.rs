@@ -1,9 +1,9 @@
 //! Format 1 as data: the keys of each table, the type of each value, and one sentence about it.
 //!
 //! The reader and the JSON Schema for editors are both made from this table, so they have the same keys. A schema checks form,
-//! not meaning: it refuses everything that the reader refuses, except if one place uses names that another one defines, or if
-//! numbers must increase. Only the reader checks conditions that depend on other values (the number of components, the faces),
-//! and the schema's own tests verify that.
+//! not meaning: it refuses the files that the reader refuses, except for wrong uses of names that the file itself defines, and
+//! for numbers that do not increase. This table lacks conditions that depend on other values (the number of components, the
+//! faces): the reader checks them, and `mms-command/src/schema/conditions.rs` states them for the schema. Tests compare both.
 
 use crate::boundary::{Claim, Face};
 use crate::domain::Shape;

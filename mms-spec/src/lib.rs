@@ -2,8 +2,8 @@
 //!
 //! Files are read through the TOML parser's spanned tables, key by key, so that the digits of numbers, the order of keys and
 //! the place of every value survive. The promise: every key of format 1 is read, every other key is refused, every value has
-//! its place, and one run reports every mistake of form in a file, each once. Names are checked where they are defined; `expr`
-//! resolves them where they are used, and this crate has no calculus.
+//! its place, and one run reports every mistake of form in a file, each once. This crate checks names where they are defined;
+//! `mms-mechanics/src/resolve.rs` resolves them where they are used. This crate has no calculus.
 //!
 //! A mistake never hides another: an unreadable formula is replaced by an empty one that is marked as reported
 //! ([`Formula::reported`]), so that the counts are right and later phases can continue without reporting consequences.

@@ -46,7 +46,7 @@ pub struct MaterialSpec {
     pub strain_energy: Formula,
     /// Whether W stays the same under rotations: false for the small strain, and if the file says so.
     pub frame_indifferent: bool,
-    /// The key by which the file claims that it does.
+    /// The key by which the file claims that W stays the same under rotations.
     pub claims_indifference: Option<Span>,
     /// The parameters.
     pub parameters: Vec<MaterialParameter>,
@@ -58,7 +58,7 @@ pub struct MaterialSpec {
     pub moduli: Option<Pair>,
     /// Formulas that lost their place because of a reported mistake.
     pub stray: Vec<Formula>,
-    /// Names of the language that the file would define: a use may mean either one.
+    /// Reserved names that the file tries to define: a use may mean the reserved name or the definition.
     pub refused: Vec<String>,
     /// Whether part of the file could not be read: an unknown name may be a consequence.
     pub incomplete: bool,

@@ -87,7 +87,7 @@ pub(crate) struct Reader<'a> {
     pub stray: Vec<Formula>,
     /// Whether a table of names could not be read: a name may be defined in it.
     pub lost_names: bool,
-    /// Names of the language that the file would define as well.
+    /// Reserved names that the file tries to define.
     pub refused: Vec<String>,
     damage: &'a [std::ops::Range<usize>],
     incomplete: bool,
