@@ -18,13 +18,14 @@ use crate::pencil::Pencil;
 use crate::subject::Subject;
 use crate::waves::Recent;
 
-/// The number of places along an edge of a body of three dimensions, and of times, at which the softest state is searched.
+/// The number of places along an edge of a body of three dimensions at which the softest state is searched.
 const PLACES: usize = 3;
+/// The number of times at which the softest state is searched.
 const TIMES: usize = 7;
 
-/// The number of elements along each side of the quadrant, in two and in three dimensions, and the length ratio of each to the
-/// next.
+/// The number of elements along each side of the quadrant, in two and in three dimensions.
 const ELEMENTS: [usize; 2] = [5, 4];
+/// The ratio of the length of each element to the next.
 const GRADING: f64 = 0.25;
 
 /// The result at a corner.

@@ -11,9 +11,11 @@ use crate::least::{Least, least};
 use crate::subject::{State, Subject};
 use crate::waves::Recent;
 
-/// The numbers of places along each axis of a face, of times, and of directions that are tested first.
+/// The number of places along each axis of a face that are tested first, by dimension.
 const PLACES: [usize; 3] = [1, 9, 3];
+/// The number of times that are tested first.
 const TIMES: usize = 7;
+/// The number of directions that are tested first.
 const DIRECTIONS: usize = 5;
 
 /// The fraction of a traction up to which a part that is not normal to the deformed face is ignored, so that the load is a

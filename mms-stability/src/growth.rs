@@ -10,8 +10,9 @@ use crate::mesh::Mesh;
 use crate::modes::Modes;
 use crate::subject::Subject;
 
-/// The number of times, evenly over the window, by dimension; and the factor by which there are more where something grows.
+/// The number of times, evenly over the window, by dimension.
 const TIMES: [usize; 3] = [17, 9, 5];
+/// The factor by which there are more times where something grows.
 const BETWEEN: usize = 2;
 
 /// The fraction of (c/L)^2 by which an eigenvalue may be less than 0 and still counts as 0, with the shear wave speed c and the

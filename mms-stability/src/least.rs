@@ -1,7 +1,8 @@
 //! The minimum of a function over a box: on a grid, then around the best grid point.
 
-/// The number of times that the steps around the minimum are halved, and the number of steps of each length.
+/// The number of times that the steps around the minimum are halved.
 const HALVINGS: usize = 10;
+/// The number of steps of each length.
 const MOVES: usize = 8;
 
 /// A minimum, and the fractions where it is.

@@ -14,14 +14,15 @@ use crate::subject::{Formulas, State, Subject};
 /// The number of steps in which loads and prescribed displacements grow from zero.
 const STEPS: usize = 10;
 
-/// The largest number of iterations of each step, and the fraction of the largest displacement by which the last one may
-/// change.
+/// The largest number of iterations of each step.
 const ITERATIONS: usize = 15;
+/// The largest change in the last iteration, as a fraction of the largest displacement.
 const CONVERGED: f64 = 1e-9;
 
-/// A state that differs from a solution by more than this fraction of the largest displacement is another one: SAME for two
-/// solutions on one mesh, NEAR for the exact solution, from which a coarse mesh differs by its error.
+/// Two solutions on one mesh are the same if they differ by at most this fraction of the largest displacement.
 const SAME: f64 = 1e-4;
+/// A solution is the exact one, with the error of the coarse mesh, if both differ by at most this fraction of the largest
+/// displacement.
 const NEAR: f64 = 0.3;
 
 /// The result of Newton's method.

@@ -6,9 +6,11 @@ use crate::chart::components;
 use crate::least::least;
 use crate::subject::{State, Subject};
 
-/// The numbers of places along each axis, of times, and of directions along each angle that are tested first.
+/// The number of places along each axis that are tested first, by dimension.
 const PLACES: [usize; 3] = [9, 6, 3];
+/// The number of times that are tested first.
 const TIMES: usize = 7;
+/// The number of directions along each angle that are tested first.
 const ANGLES: usize = 7;
 
 /// The least sampled eigenvalue of the acoustic tensor over body, window and directions.
