@@ -143,8 +143,9 @@ impl Node {
 /// The largest size of a graph by default: nodes and operands together. A rotating 3-D field needs a few thousand.
 pub const DEFAULT_MAX_NODES: usize = 200_000;
 
-/// The steps of making or finding a node, and further steps for each operand.
+/// The steps of making or finding a node.
 pub const STEPS_OF_NODE: u64 = 20;
+/// The further steps for each operand of the node.
 const STEPS_OF_OPERAND: u64 = 10;
 
 /// An arena of hash-consed nodes, of bounded size.
@@ -282,7 +283,7 @@ impl Graph {
         None
     }
 
-    /// Runs `work`. If it reaches the limit, restores the graph; the caller must tell that from the result.
+    /// Runs `work`. If it reaches the limit, restores the graph; the caller must recognise this from the result.
     pub fn unless_full<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
         let before = self.mark();
         let found = work(self);

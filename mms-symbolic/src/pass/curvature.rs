@@ -20,14 +20,15 @@
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Symbol};
 use crate::sorted::SortedMap;
 
-/// The largest order of a root, and the greatest exponent, that are split.
+/// The largest order of a root that is split.
 const MAX_ROOT: u32 = 12;
+/// The greatest exponent of a power that is split.
 const MAX_POWER: u32 = 64;
 
 /// An expression to second order in the symbol: its limit, its slope times the symbol, and the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
-    /// f0, the value of the expression at a symbol of 0.
+    /// f0, the value of the expression where the symbol is 0.
     pub limit: Expr,
     /// f1, the derivative there.
     pub slope: Expr,

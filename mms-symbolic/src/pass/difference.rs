@@ -1,8 +1,8 @@
-//! The zeroth-order remainder of an expression: f - f0, with f0 its value at a symbol of 0, such that nothing cancels. sin(c +
-//! q) - sin c becomes 2 cos(c + q/2) sin(q/2).
+//! The difference f - f0 of an expression f and its value f0 where a symbol is 0, written such that nothing cancels. For the
+//! symbol q, sin(c + q) - sin c becomes 2 cos(c + q/2) sin(q/2).
 //!
-//! The calculus of finite differences is exact at any size of the difference. With f - f0 for the remainder of an operand, each
-//! operation has a rule:
+//! The calculus of finite differences is exact at any size of the difference. Each operation has a rule, in terms of the
+//! differences f - f0 of its operands:
 //!
 //! ```text
 //! f g       (f - f0) g + f0 (g - g0)               exp     exp f0 exp_m1(f - f0)
@@ -19,20 +19,21 @@
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Stage, Symbol};
 use crate::sorted::SortedMap;
 
-/// The largest order of a root, and the greatest exponent, that are split.
+/// The largest order of a root that is split.
 const MAX_ROOT: u32 = 12;
+/// The greatest exponent of a power that is split.
 const MAX_POWER: u32 = 64;
 
-/// An expression as the sum of its limit, at a symbol of 0, and of the rest.
+/// An expression as the sum of its limit, its value where a symbol is 0, and of the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
-    /// The value at a symbol of 0.
+    /// The value where the symbol is 0.
     pub limit: Expr,
     /// The rest, which vanishes with the symbol.
     pub rest: Expr,
 }
 
-/// Splits each root; `None` for a root that has no value at a `symbol` of 0.
+/// Splits each root; `None` for a root that has no value where `symbol` is 0.
 pub fn difference(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Option<Parts>> {
     let mut split = Split { symbol, known: SortedMap::new() };
     for expr in graph.reachable(roots) {
@@ -220,7 +221,7 @@ fn call(graph: &mut Graph, whole: Expr, function: Function, arguments: &[Term]) 
     let wholes: Vec<Expr> = arguments.iter().map(|argument| argument.whole).collect();
     let limit = graph.call(function, &limits);
     let Term { limit: at, rest, whole: of } = arguments[0];
-    // A function that is 0 at another argument, as ln at 1, has lost digits of the rest.
+    // Only if the argument also vanishes: for ln at 1, the argument 1 + rest has already lost digits of the rest.
     if graph.is_zero(at) && graph.is_zero(limit) {
         let rest = graph.call(function, &wholes);
         return Some(Term { limit, rest, whole: rest });

@@ -44,8 +44,8 @@ pub fn latest_stage(graph: &Graph, expr: Expr) -> u8 {
 impl Relations {
     /// Finds the relations between the sub-expressions of `expressions`.
     ///
-    /// Sine and cosine of one angle both occur in a displacement that rotates. A displacement that oscillates has both only
-    /// together with its derivatives, where nothing would cancel.
+    /// Pairs of sine and cosine count only if both occur in `expressions`. A displacement that rotates contains both; one that
+    /// oscillates contains both only together with its derivatives, where no terms would cancel.
     pub fn find(graph: &mut Graph, expressions: &[Expr]) -> Self {
         let mut relations = Relations::default();
         let reachable = graph.reachable(expressions);
