@@ -14,7 +14,7 @@ pub struct FieldText {
     pub name: String,
     /// The field file.
     pub text: String,
-    /// The file of its material, where it brings its own.
+    /// The file of its material, if it has one of its own.
     #[serde(default)]
     pub material: Option<String>,
 }
