@@ -58,8 +58,8 @@ impl Stored {
         }
     }
 
-    /// Whether coordinates of points are those of a grid, typed with all their digits, such as 0, 0.25 and 0.5: multiples of half
-    /// their spacing along each axis. A spacing of a few units of the last digit says nothing, unless it is the same everywhere.
+    /// Whether coordinates are typed with all their digits and form a grid, such as 0, 0.25 and 0.5: along each axis they are
+    /// multiples of half their spacing. A spacing of a few units of the last digit says nothing, unless it is the same everywhere.
     pub(crate) fn is_of_grid(self, coordinates: &[f64], dimension: usize) -> bool {
         let digits = match self {
             Stored::Fixed(digits) | Stored::Digits(digits) => digits,

@@ -200,7 +200,7 @@ pub fn digits(value: f64) -> (i32, i32) {
     (digits, (digits - 1 - exponent.parse::<i32>().unwrap_or(0)).max(0))
 }
 
-/// Whether times are evenly spaced but for their last digit, half a unit of which is the rounding of each time.
+/// Whether times differ from even spacing by about the rounding of their last digit.
 fn is_uneven(times: &[f64], rounding: &dyn Fn(f64) -> f64) -> bool {
     let [first, .., last] = times else { return false };
     let (step, coarse) = ((last - first) / (times.len() - 1) as f64, rounding(*last));
