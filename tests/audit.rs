@@ -70,7 +70,7 @@ fn the_script_of_every_field_agrees() {
         return;
     }
     let names = mms_exact::gallery::FIELDS.iter().map(|entry| entry.name.to_string());
-    let fields = sampled(files().into_iter().chain(names), 12);
+    let fields = sampled(files().into_iter().chain(names), 18);
     fields.par_iter().for_each(|field| {
         let output = run(&script(field));
         let (printed, complaint) =
@@ -100,7 +100,7 @@ fn a_wrong_digit_is_found_in_every_quantity() {
         return;
     }
     let script = script("bar_1d");
-    sampled(mms_spec::quantity::Quantity::ALL, 4).par_iter().for_each(|quantity| {
+    sampled(mms_spec::quantity::Quantity::ALL, 8).par_iter().for_each(|quantity| {
         let output = run(&mutated(&script, quantity.name()));
         let printed = String::from_utf8_lossy(&output.stdout);
         assert_eq!(output.status.code(), Some(1), "{}:\n{printed}", quantity.name());

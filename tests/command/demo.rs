@@ -3,6 +3,7 @@
 use std::process::Command;
 
 use super::mms::Folder;
+use super::sampled::sampled;
 
 /// Lines of the kept solver, the lines that replace them, and the mistakes that result.
 const BROKEN: [(&str, &str, &str); 3] = [
@@ -48,7 +49,7 @@ fn another_broken_line_of_the_kept_solver_gets_another_name() {
         }
     };
     let files = CELLS.map(|it| format!("{it}.csv")).join(" ");
-    for (right, wrong, name) in BROKEN {
+    for (right, wrong, name) in sampled(BROKEN, 3) {
         assert_eq!(solver.matches(right).count(), 1, "{right}");
         folder.write("kept/solver.rs", &solver.replace(right, wrong));
         compute();

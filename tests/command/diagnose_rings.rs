@@ -202,7 +202,7 @@ fn mistakes_about_rings_are_named() {
         ("ring_volume", Solid { weight: |r, h| r + h / 2.0, ..RIGHT }),
         ("axis_fixed", Solid { axis_is_wall: true, ..RIGHT }),
     ];
-    for (name, solid) in sampled(mistakes, 3) {
+    for (name, solid) in sampled(mistakes, 7) {
         let found = of(solid);
         let first = &found.ranked[0];
         assert_eq!((found.finding, first.name), (Finding::Named, name), "{:?}", found.ranked);

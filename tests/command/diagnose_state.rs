@@ -6,7 +6,7 @@ use super::mms::{Folder, Run};
 use crate::sampled::sampled;
 
 /// One field in `SHARE` is tried.
-const SHARE: usize = 9;
+const SHARE: usize = 14;
 
 /// Cells along an edge of the square that is diagnosed.
 const CELLS: usize = 20;

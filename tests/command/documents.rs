@@ -348,6 +348,8 @@ fn documents_have_the_keys_of_the_page() {
         ("judge", IRREGULAR, 0),
         ("diagnose", "diagnose bar.toml states16 --like shape=linear", 0),
         ("diagnose", "diagnose bar.toml states8 states16 --expected-order 3", 1),
+        ("state", "state bar.toml --cells 8 --time 0.01 --set amplitude=0.15 -o other.csv", 0),
+        ("diagnose", "diagnose bar.toml other.csv", 1),
         ("hypotheses", "diagnose bar.toml --list", 0),
         ("diagnose-plan", "diagnose bar.toml --plan law,residual", 0),
         ("state", "state bar.toml --cells 4 --time 0.01 --without stress -o state.vtu", 0),

@@ -267,7 +267,7 @@ fn the_method_fits_the_body_unless_it_is_given() {
 }
 
 /// One field of the gallery in `SHARE` is studied.
-const SHARE: usize = 6;
+const SHARE: usize = 12;
 
 #[test]
 fn fields_pass_without_options_or_a_page_says_why_not() {

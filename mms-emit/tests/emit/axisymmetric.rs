@@ -36,7 +36,7 @@ fn axisymmetric_fields_prove_themselves_in_every_language() {
     let shafts = [true, false].map(shaft);
     for (case, shaft) in shafts.iter().enumerate() {
         let subject = Subject::new(shaft);
-        for target in in_turn(case, shafts.len()) {
+        for target in in_turn("shafts", case, shafts.len()) {
             let worst = prove(target, &subject, &format!("axisymmetric_{case}"), mostly_quick);
             assert!(worst <= WORST, "{}: {worst}", target.name);
         }

@@ -8,7 +8,7 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 use mms_emit::{Bundle, Subject, TARGETS, Target};
 
-use super::sampled::all_is_tried;
+use super::sampled::{all_is_tried, is_tried};
 
 /// The targets that come with a check program.
 pub fn ports() -> impl Iterator<Item = &'static Target> {
@@ -97,10 +97,13 @@ for path in sys.argv[1:]:
         nodes.extend(node.children if node.has_error else [])
 "#;
 
-/// The targets that case `case` of `cases` is tried in: each target has one case, or all cases if everything is tried.
-pub fn in_turn(case: usize, cases: usize) -> impl Iterator<Item = &'static Target> {
-    let is_tried = move |(place, _): &(usize, &Target)| all_is_tried() || place % cases == case;
-    let targets = ports().enumerate().filter(is_tried);
+/// The targets in which a test tries case `case` of `cases`: half of the targets, with one case each. All targets have all cases
+/// if everything is tried.
+pub fn in_turn(test: &str, case: usize, cases: usize) -> impl Iterator<Item = &'static Target> {
+    let is_chosen = move |(place, target): &(usize, &Target)| {
+        all_is_tried() || place % cases == case && is_tried(&format!("{test} {}", target.name), 2)
+    };
+    let targets = ports().enumerate().filter(is_chosen);
     targets.map(|(_, target)| target).filter(|target| can_prove(target))
 }
 

@@ -200,7 +200,7 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
     // The expected results of a program are computed once, for all of its targets.
     let tried = sampled(0..programs.len(), 2).into_iter();
     let pairs = tried.flat_map(|index| targets.iter().map(move |target| (index, target)));
-    let pairs = sampled(pairs, 3);
+    let pairs = sampled(pairs, 5);
     for (index, formulas) in programs.iter_mut().enumerate() {
         // Each component of each quantity has some formula.
         let room: usize =

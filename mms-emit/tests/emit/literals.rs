@@ -37,7 +37,7 @@ fn numbers_keep_their_digits_in_every_language() {
     for (index, u) in formulas.iter().enumerate() {
         let field = field(u, Quantity::Displacement);
         let subject = Subject::new(&field);
-        for target in in_turn(index, formulas.len()) {
+        for target in in_turn("digits", index, formulas.len()) {
             prove(target, &subject, &format!("literals/{index}"), quick);
         }
     }
