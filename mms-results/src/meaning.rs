@@ -196,7 +196,10 @@ impl Meaning {
         };
         let largest = largest.map_err(|at| {
             let (row, value) = (at / columns.len(), numbers[at]);
-            let what = format!("{} is {value}; expected a finite number", self.source);
+            let what = format!(
+                "{} is {value}; expected a finite number; if the run blew up, name the files of the other runs alone",
+                self.source
+            );
             match is_of_cells {
                 true => Mistake::new(format!("cell {row}: {what}")).of(&snapshot.path),
                 false => here(snapshot, row, what),

@@ -43,6 +43,20 @@ pub fn elsewhere(word: &str) -> Option<&'static str> {
     })
 }
 
+/// The advice on another name of a modulus or of the density, for a material with lambda and mu.
+pub fn modulus(word: &str) -> Option<&'static str> {
+    Some(match word.to_ascii_lowercase().as_str() {
+        "e" | "ym" | "youngs" | "young_modulus" | "youngs_modulus" | "elastic_modulus" => {
+            "Young's modulus is `young`, given with `nu`"
+        }
+        "poisson" | "poissons_ratio" | "poisson_ratio" | "v" => "Poisson's ratio is `nu`",
+        "g" | "shear" | "shear_modulus" => "the shear modulus is `mu`",
+        "k" | "bulk" | "bulk_modulus" => "the bulk modulus is `kappa`, given with `mu`",
+        "rho" | "rho0" | "density0" => "the reference density is `density`",
+        _ => return None,
+    })
+}
+
 /// The advice on a word of other programs for a load or condition of a face, such as `pressure`, which is no claim.
 pub fn instead_of_claim(word: &str) -> Option<&'static str> {
     Some(match word.to_ascii_lowercase().as_str() {

@@ -21,6 +21,9 @@ pub const ENGINEERING: Pair = ["young", "nu"];
 const LAME: Pair = ["lambda", "mu"];
 const BULK_AND_SHEAR: Pair = ["kappa", "mu"];
 
+/// The names of all moduli.
+pub const MODULI: [&str; 5] = ["lambda", "mu", "kappa", "young", "nu"];
+
 /// The pairs that a field may state.
 const PAIRS: [Pair; 3] = [LAME, ENGINEERING, BULK_AND_SHEAR];
 

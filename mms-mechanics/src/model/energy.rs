@@ -5,8 +5,8 @@ use crate::invariant::{INVARIANTS, Kind, VOLUME};
 use crate::resolve::Scope;
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::foreign::Foreign;
-use mms_spec::language::elsewhere;
-use mms_spec::moduli::ENGINEERING;
+use mms_spec::language::{elsewhere, modulus};
+use mms_spec::moduli::{ENGINEERING, MODULI};
 use mms_spec::source::Spanned;
 use mms_spec::suggest::advice;
 use mms_spec::syntax;
@@ -144,7 +144,9 @@ impl Reader<'_> {
                 _ => format!("its parameters are {all}"),
             })
         };
-        let help = elsewhere(&name.value).map_or_else(among, str::to_owned);
+        let has_moduli = known.is_empty() || MODULI.iter().any(|it| known.contains(it));
+        let of_modulus = modulus(&name.value).filter(|_| has_moduli);
+        let help = of_modulus.or_else(|| elsewhere(&name.value)).map_or_else(among, str::to_owned);
         self.diagnostics.push(diagnostic.help(help));
     }
 
